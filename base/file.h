@@ -1,0 +1,24 @@
+// Whole files, read and written so that a crash or a full disk never leaves half of one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace talus::base {
+
+// The whole file. Throws ConfigError that names the path when it cannot be read.
+std::string ReadFile(const std::filesystem::path& path);
+
+// Writes beside `path`, syncs, then renames: a reader sees the old file or the new one. Throws
+// Error (with the system's reason, such as a full disk) and removes the partial file when it fails.
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+// XXH3, 64 bits [xxhash]: detects damage, not malice.
+std::uint64_t Checksum(std::string_view bytes);
+
+// 16 hexadecimal digits.
+std::string Hex(std::uint64_t value);
+
+}  // namespace talus::base

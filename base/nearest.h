@@ -1,0 +1,14 @@
+// The known name that a mistyped one was probably meant to be.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace talus::base {
+
+// The name of `known` with the smallest edit distance to `name`; "" if none is near (at most a
+// third of the letters wrong, two at least).
+std::string Nearest(std::string_view name, std::span<const std::string> known);
+
+}  // namespace talus::base

@@ -1,0 +1,115 @@
+#include "base/units.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "base/error.h"
+
+namespace talus::base {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double si;  // how many SI units one of it is
+};
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+constexpr Unit kNoUnits[] = {{"%", 0.01}};
+constexpr Unit kLengths[] = {{"m", 1},     {"dm", 1e-1}, {"cm", 1e-2}, {"mm", 1e-3},
+                             {"um", 1e-6}, {"µm", 1e-6}, {"μm", 1e-6}, {"nm", 1e-9}};
+constexpr Unit kMasses[] = {{"kg", 1},    {"g", 1e-3},  {"mg", 1e-6}, {"ug", 1e-9},
+                            {"µg", 1e-9}, {"μg", 1e-9}, {"t", 1e3}};
+constexpr Unit kTimes[] = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"μs", 1e-6},
+                           {"ns", 1e-9}, {"min", 60},  {"h", 3600},  {"d", 86400}};
+constexpr Unit kVelocities[] = {{"m/s", 1},     {"cm/s", 1e-2},        {"mm/s", 1e-3},
+                                {"um/s", 1e-6}, {"mm/min", 1e-3 / 60}, {"m/min", 1.0 / 60}};
+constexpr Unit kAccelerations[] = {{"m/s^2", 1}, {"m/s²", 1}, {"cm/s^2", 1e-2}, {"g0", 9.80665}};
+constexpr Unit kAngularVelocities[] = {
+    {"rad/s", 1}, {"deg/s", kDegree}, {"°/s", kDegree}, {"rpm", 2 * std::numbers::pi / 60}};
+constexpr Unit kAngles[] = {{"rad", 1}, {"deg", kDegree}, {"°", kDegree}};
+constexpr Unit kDensities[] = {{"kg/m^3", 1},  {"kg/m³", 1},  {"g/cm^3", 1e3},
+                               {"g/cm³", 1e3}, {"g/cc", 1e3}, {"g/mL", 1e3}};
+constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3}, {"MPa", 1e6},
+                               {"GPa", 1e9}, {"N/m^2", 1}, {"bar", 1e5}};
+constexpr Unit kSurfaceEnergies[] = {{"J/m^2", 1},    {"J/m²", 1},      {"mJ/m^2", 1e-3},
+                                     {"mJ/m²", 1e-3}, {"uJ/m^2", 1e-6}, {"µJ/m²", 1e-6},
+                                     {"N/m", 1},      {"mN/m", 1e-3}};
+constexpr Unit kEnergies[] = {{"J", 1}, {"mJ", 1e-3}, {"uJ", 1e-6}, {"nJ", 1e-9}, {"zJ", 1e-21}};
+
+std::span<const Unit> UnitsOf(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::kNone:
+      return kNoUnits;
+    case Dimension::kLength:
+      return kLengths;
+    case Dimension::kMass:
+      return kMasses;
+    case Dimension::kTime:
+      return kTimes;
+    case Dimension::kVelocity:
+      return kVelocities;
+    case Dimension::kAcceleration:
+      return kAccelerations;
+    case Dimension::kAngularVelocity:
+      return kAngularVelocities;
+    case Dimension::kAngle:
+      return kAngles;
+    case Dimension::kDensity:
+      return kDensities;
+    case Dimension::kPressure:
+      return kPressures;
+    case Dimension::kSurfaceEnergy:
+      return kSurfaceEnergies;
+    case Dimension::kEnergy:
+      return kEnergies;
+  }
+  return {};
+}
+
+std::string_view Trim(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+[[noreturn]] void Refuse(std::string_view text, Dimension dimension, std::string_view why) {
+  std::string message = "\"" + std::string(text) + "\" " + std::string(why) + "; write a number";
+  if (dimension != Dimension::kNone) message += " in " + std::string(SiUnit(dimension));
+  message += " or a text such as";
+  const char* separator = " ";
+  for (const Unit& unit :
+       UnitsOf(dimension).first(std::min<std::size_t>(UnitsOf(dimension).size(), 4))) {
+    message += separator + ("\"1 " + std::string(unit.name) + "\"");
+    separator = ", ";
+  }
+  throw ConfigError(message);
+}
+
+}  // namespace
+
+std::string_view SiUnit(Dimension dimension) {
+  return dimension == Dimension::kNone ? std::string_view() : UnitsOf(dimension).front().name;
+}
+
+double ParseQuantity(std::string_view text, Dimension dimension) {
+  const std::string_view trimmed = Trim(text);
+  double value = 0;
+  const auto [end, status] =
+      std::from_chars(trimmed.data(), trimmed.data() + trimmed.size(), value);
+  if (status != std::errc() || !std::isfinite(value)) {
+    Refuse(text, dimension, "does not start with a number");
+  }
+  const std::string_view name =
+      Trim(trimmed.substr(static_cast<std::size_t>(end - trimmed.data())));
+  if (name.empty()) return value;
+  for (const Unit& unit : UnitsOf(dimension)) {
+    if (unit.name == name) return value * unit.si;
+  }
+  Refuse(text, dimension, "has the unit \"" + std::string(name) + "\", which does not fit here");
+}
+
+}  // namespace talus::base

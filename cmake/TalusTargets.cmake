@@ -1,0 +1,63 @@
+# How every target of the project is made: one library a folder, one program a test file.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo)
+endif()
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+
+add_library(talus_compile_options INTERFACE)
+add_library(talus::compile_options ALIAS talus_compile_options)
+set_target_properties(talus_compile_options PROPERTIES EXPORT_NAME compile_options)
+# -fno-math-errno lets sqrt vectorise; -ffast-math would remove the NaN checks. -ffp-contract=off
+# keeps the bits independent of where the compiler chooses to fuse.
+target_compile_options(talus_compile_options INTERFACE
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor;-fno-math-errno;-ffp-contract=off>
+  $<BUILD_INTERFACE:$<$<BOOL:${TALUS_WARNINGS_AS_ERRORS}>:-Werror>>)
+if(TALUS_SANITIZE)
+  target_compile_options(talus_compile_options INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
+  target_link_options(talus_compile_options INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+endif()
+
+# talus_add_library(name [HEADERS ...] [SOURCES ...] [PUBLIC ...] [PRIVATE ...])
+function(talus_add_library name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(talus_${name} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(talus_${name} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(talus_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(talus::${name} ALIAS talus_${name})
+  set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
+  target_sources(talus_${name} ${scope} FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
+  target_link_libraries(talus_${name} ${scope} talus::compile_options ${ARG_PUBLIC})
+  set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
+endfunction()
+
+# talus_add_test(folder/name_test libraries... [LABELS slow] [TIMEOUT seconds])
+# One program from one file; every test case of it is a CTest test. Label "slow" keeps it out of the
+# quick part of the suite.
+function(talus_add_test path)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;ARGUMENTS" ${ARGN})
+  string(REPLACE "/" "_" target ${path})
+  add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${path}.cc)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(${target} PRIVATE TALUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    TALUS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_test(NAME ${path} COMMAND ${target})
+  set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
+    ENVIRONMENT "OMP_WAIT_POLICY=passive")
+endfunction()

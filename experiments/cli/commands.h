@@ -1,0 +1,16 @@
+// The verbs of the program: each adds its subcommand, with help and options, to the command line. A
+// verb's callback throws base::ConfigError or base::Error; main turns them into exit statuses.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace talus::experiments {
+
+// "0.1.0"
+std::string Version();
+
+}  // namespace talus::experiments

@@ -1,0 +1,43 @@
+// An average heap profile: an image and the frame that ties its pixels to the plate.
+#pragma once
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "imaging/gray_image.h"
+
+namespace talus::imaging {
+
+// Pixel (column, row) has its centre at column + 0.5, row + 0.5; rows grow downwards.
+//   x [m] = (column + 0.5 - center_x) pixel_size       height [m] = (baseline - row - 0.5)
+//   pixel_size
+struct Frame {
+  int width = 640;               // [px], > 0
+  int height = 480;              // [px], > 0
+  double pixel_size = 0;         // [m], > 0
+  double center_x = 0;           // of the plate [px] from the left edge of the image
+  double baseline = 0;           // the plate's top [px] from the top edge of the image
+  double plate_diameter = 0.01;  // [m], > 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    using base::Dimension;
+    visit("width_px", self.width, {.required = true, .doc = "image width, > 0"});
+    visit("height_px", self.height, {.required = true, .doc = "image height, > 0"});
+    visit("pixel_size", self.pixel_size,
+          {.dimension = Dimension::kLength, .required = true, .doc = "edge of a pixel, > 0"});
+    visit("center_x_px", self.center_x, {.required = true, .doc = "plate centre, from the left"});
+    visit("baseline_px", self.baseline, {.required = true, .doc = "plate top, from the top"});
+    visit("plate_diameter", self.plate_diameter,
+          {.dimension = Dimension::kLength, .required = true, .doc = "plate diameter, > 0"});
+  }
+  void Validate(base::Problems& problems) const;
+  bool operator==(const Frame&) const = default;
+};
+
+// AEHP or ANHP: the mean of binary silhouettes, 0 = powder in every one, 255 = in none.
+struct Profile {
+  GrayImage image;  // width and height as in `frame`
+  Frame frame;
+};
+
+}  // namespace talus::imaging

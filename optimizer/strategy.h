@@ -1,0 +1,69 @@
+// Ask–tell: what every way of choosing the next simulations looks like to a campaign.
+//
+// A strategy works in the unit cube; what it knows is what it was told. Telling a fresh one the
+// same observations in the same order gives the same next proposal, bit for bit.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus::optimizer {
+
+enum class Origin { kDesign, kRepeat, kModel, kSearch };  // why a point was proposed
+
+struct Proposal {
+  Eigen::VectorXd point;  // unit cube, size = number of parameters
+  Origin origin = Origin::kModel;
+};
+
+// One finished evaluation.
+struct Observation {
+  Eigen::VectorXd point;     // unit cube
+  bool failed = false;       // crashed or infeasible: value and field mean nothing
+  double value = 0;          // the objective, to be minimised
+  std::vector<float> field;  // the whole image, row by row from the top, in [0, 1] with 1 = powder;
+                             // empty where an evaluation is only a number
+};
+
+// Credible range of one parameter, in the unit cube.
+struct Range {
+  double low = 0;
+  double high = 1;
+};
+
+// What the evaluations so far say.
+struct Answer {
+  Eigen::VectorXd point;              // minimiser of the posterior mean, unit cube
+  double predicted_value = 0;         // posterior mean there
+  double predicted_sd = 0;            // posterior standard deviation of that mean
+  double noise_sd = 0;                // scatter of one evaluation there; 0 when deterministic
+  std::vector<Range> credible;        // 90 %, one a parameter
+  Eigen::MatrixXd correlation;        // between parameters, of the posterior of the minimiser
+  std::vector<Eigen::VectorXd> tied;  // points that tie with `point` within the noise
+  double tied_volume = 0;             // their share of the unit cube, in [0, 1]
+  std::vector<double> sobol_first;    // first-order Sobol index, one a parameter
+  std::vector<double> sobol_total;    // total Sobol index, one a parameter
+  std::vector<std::string>
+      warnings;       // such as "mu_r lies on its upper bound", by parameter index text
+  std::string model;  // which surrogate answered and how well it predicts, in words
+};
+
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+
+  // The next `count` points (1 … 8; fewer, down to none, when the strategy has no more). `pending`
+  // are the points asked for earlier and not told yet.
+  virtual std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) = 0;
+  virtual void Tell(const Observation& observation) = 0;
+
+  // In words, when going on is not worth it ("what is left to gain is below 1 × the noise").
+  virtual std::optional<std::string> StopReason() = 0;
+  virtual Answer Recommend() = 0;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,47 @@
+#include "base/file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace talus::base {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public ::testing::Test {
+ protected:
+  FileTest() : folder_(fs::temp_directory_path() / ("talus_file_test" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~FileTest() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(FileTest, WrittenBytesAreReadBackAndReplaceTheOldOnes) {
+  const std::string bytes("a\0b\n", 4);
+  WriteFileAtomically(folder_ / "f", "old and longer");
+  WriteFileAtomically(folder_ / "f", bytes);
+  EXPECT_EQ(ReadFile(folder_ / "f"), bytes);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(FileTest, FailedWriteLeavesNothingBehind) {
+  fs::create_directories(folder_ / "target");  // rename onto a folder fails
+  EXPECT_THROW(WriteFileAtomically(folder_ / "target", "x"), Error);
+  EXPECT_THROW(WriteFileAtomically(folder_ / "absent" / "f", "x"), Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(FileTest, MissingFileAndFolderAreBadInput) {
+  EXPECT_THROW(ReadFile(folder_ / "absent"), ConfigError);
+  EXPECT_THROW(ReadFile(folder_), ConfigError);
+}
+
+// The reference value is XXH3's published one for no bytes at all with seed 0.
+TEST(Checksum, IsXxh3) { EXPECT_EQ(Hex(Checksum("")), "2d06800538d394c2"); }
+
+}  // namespace
+}  // namespace talus::base

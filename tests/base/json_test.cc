@@ -1,0 +1,121 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "base/json_reader.h"
+#include "base/json_schema.h"
+#include "base/json_writer.h"
+
+namespace talus::base {
+
+enum class Color { kRed, kBlue };
+template <>
+struct Names<Color> {
+  static constexpr std::array kList{std::pair{"red", Color::kRed}, std::pair{"blue", Color::kBlue}};
+};
+
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Inner {
+  double diameter = 1e-3;
+  int count = 2;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("diameter", self.diameter, {.dimension = Dimension::kLength, .doc = "of a grain, > 0"});
+    visit("count", self.count);
+  }
+  void Validate(Problems& problems) const {
+    problems.Require(diameter > 0, "diameter", diameter, "must be positive");
+  }
+};
+
+struct Outer {
+  Inner inner;
+  std::vector<Inner> list;
+  std::optional<double> mass;
+  Vec3 position;
+  Color color = Color::kRed;
+  std::string name;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("inner", self.inner);
+    visit("list", self.list);
+    visit("mass", self.mass, {.dimension = Dimension::kMass});
+    visit("position", self.position, {.dimension = Dimension::kLength});
+    visit("color", self.color);
+    visit("name", self.name, {.required = true});
+  }
+};
+
+Outer Load(std::string_view text) { return LoadOptions<Outer>(ParseJson(text, "spec.json")); }
+
+std::string ErrorOf(std::string_view text) {
+  try {
+    Load(text);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Json, ReadsEveryKindOfFieldWithUnitsAndComments) {
+  const Outer outer = Load(R"({
+    // a comment
+    "$schema": "x", "inner": {"diameter": "45 um"}, "list": [{"count": 7}], "mass": "1.5 g",
+    "position": [0, "1 mm", 2e-3], "color": "blue", "name": "n"})");
+  EXPECT_DOUBLE_EQ(outer.inner.diameter, 45e-6);
+  ASSERT_EQ(outer.list.size(), 1u);
+  EXPECT_EQ(outer.list[0].count, 7);
+  EXPECT_DOUBLE_EQ(outer.mass.value(), 1.5e-3);
+  EXPECT_DOUBLE_EQ(outer.position.y, 1e-3);
+  EXPECT_EQ(outer.color, Color::kBlue);
+}
+
+TEST(Json, ReportsEveryProblemWithItsPathLineAndColumn) {
+  const std::string error = ErrorOf(R"({
+  "inner": {"diametr": 1, "count": 1.5},
+  "list": [{}, {"diameter": -1}],
+  "mass": "3 m",
+  "color": "green"
+})");
+  EXPECT_THAT(error, HasSubstr("spec.json:2:24: inner.diametr: is not known here; did you mean "
+                               "\"diameter\"?"));
+  EXPECT_THAT(error, HasSubstr("inner.count: must be a whole number"));
+  EXPECT_THAT(error, HasSubstr("spec.json:3:29: list[1].diameter: is -1, must be positive"));
+  EXPECT_THAT(error, HasSubstr("spec.json:4:11: mass: \"3 m\" has the unit \"m\""));
+  EXPECT_THAT(error, HasSubstr("spec.json:5:12: color: must be one of \"red\", \"blue\""));
+  EXPECT_THAT(error, HasSubstr("name: is missing"));
+}
+
+TEST(Json, SyntaxErrorsAndDoubleKeysNameTheirPlace) {
+  EXPECT_THAT(ErrorOf("{\n \"name\": }"), HasSubstr("spec.json:2:10: is not JSON"));
+  EXPECT_THAT(ErrorOf("{\"name\": \"a\",\n \"name\": \"b\"}"), HasSubstr("name: is given twice"));
+  EXPECT_THAT(ErrorOf("[]"), HasSubstr("must be an object"));
+  EXPECT_THAT(ErrorOf(""), HasSubstr("is not JSON"));
+}
+
+TEST(Json, WriterIsReadBack) {
+  Outer outer = Load(R"({"name": "n", "list": [{"diameter": 0.1}], "color": "blue"})");
+  const Outer again = Load(ToJson(outer).dump());
+  EXPECT_EQ(again.list.at(0).diameter, 0.1);  // exact: the writer gives all digits
+  EXPECT_EQ(again.color, Color::kBlue);
+  EXPECT_FALSE(again.mass.has_value());
+}
+
+TEST(Json, SchemaHasTypesDefaultsUnitsAndRequiredKeys) {
+  const auto schema = FileSchema<Outer>("outer");
+  EXPECT_EQ(schema["required"], nlohmann::ordered_json::array({"name"}));
+  EXPECT_EQ(schema["additionalProperties"], false);
+  const auto& diameter = schema["properties"]["inner"]["properties"]["diameter"];
+  EXPECT_EQ(diameter["default"], 1e-3);
+  EXPECT_EQ(diameter["description"], "of a grain, > 0 [m]");
+  EXPECT_EQ(schema["properties"]["list"]["items"]["type"], "object");
+}
+
+}  // namespace
+}  // namespace talus::base

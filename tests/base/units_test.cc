@@ -1,0 +1,44 @@
+#include "base/units.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace talus::base {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Units, QuantitiesAsPeopleWriteThem) {
+  EXPECT_DOUBLE_EQ(ParseQuantity("45 um", Dimension::kLength), 45e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("45µm", Dimension::kLength), 45e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("10mm", Dimension::kLength), 0.01);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g", Dimension::kMass), 1.5e-3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1 cm/s", Dimension::kVelocity), 0.01);
+  EXPECT_DOUBLE_EQ(ParseQuantity("26.25 MPa", Dimension::kPressure), 26.25e6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("40e-5 J/m^2", Dimension::kSurfaceEnergy), 40e-5);
+  EXPECT_DOUBLE_EQ(ParseQuantity("4.386 g/cm^3", Dimension::kDensity), 4386);
+  EXPECT_DOUBLE_EQ(ParseQuantity(" 7 ", Dimension::kTime), 7);
+  EXPECT_DOUBLE_EQ(ParseQuantity("30 %", Dimension::kNone), 0.3);
+}
+
+std::string ErrorOf(std::string_view text, Dimension dimension) {
+  try {
+    ParseQuantity(text, dimension);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Units, WrongOnesAreNamedWithThoseThatFit) {
+  EXPECT_THAT(ErrorOf("3 kg", Dimension::kLength), HasSubstr("\"kg\", which does not fit"));
+  EXPECT_THAT(ErrorOf("3 kg", Dimension::kLength), HasSubstr("\"1 mm\""));
+  EXPECT_THAT(ErrorOf("", Dimension::kMass), HasSubstr("does not start with a number"));
+  EXPECT_THAT(ErrorOf("nan", Dimension::kMass), HasSubstr("does not start with a number"));
+  EXPECT_THAT(ErrorOf("about 3 g", Dimension::kMass), HasSubstr("does not start with a number"));
+}
+
+}  // namespace
+}  // namespace talus::base

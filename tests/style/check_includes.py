@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""check_includes.py SOURCE_DIR: includes follow the arrows between folders, and each third-party
+library stays behind its fence."""
+import pathlib
+import re
+import sys
+
+MAY_INCLUDE = {
+    "base": {"base"},
+    "engine": {"base", "engine"},
+    "imaging": {"base", "imaging"},
+    "surrogate": {"base", "surrogate"},
+    "optimizer": {"base", "surrogate", "optimizer"},
+    "experiments": {"base", "engine", "imaging", "surrogate", "optimizer", "experiments"},
+}
+FENCES = [  # (include, files that may have it)
+    (r"nlopt", r"(surrogate|optimizer)/nlopt_\w+\.cc$"),
+    (r"ceres/", r"(surrogate|imaging)/\w+\.cc$"),
+    (r"sqlite3\.h", r"experiments/journal/\w+\.cc$"),
+    (r"opencv2/", r"imaging/\w+\.cc$"),
+    (r"(hwy/|experimental/simd|immintrin)", r"engine/"),
+    (r"Eigen/", r"(surrogate|optimizer|imaging|experiments)/"),
+    (r"CLI/", r"experiments/"),
+    (r"nlohmann/", r"(base/json_\w+\.h|json_file\.(h|cc)|\w+\.cc|\w*json\w*\.h)$"),
+]
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def main() -> int:
+    root = pathlib.Path(sys.argv[1])
+    wrong = []
+    single_nlopt = set()
+    for folder, allowed in MAY_INCLUDE.items():
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix not in (".h", ".cc"):
+                continue
+            name = path.relative_to(root).as_posix()
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                if re.match(r"\s*#\s*pragma\s+omp", line) and folder != "engine":
+                    wrong.append(f"{name}:{number}: OpenMP outside the engine's kernels")
+                found = INCLUDE.match(line)
+                if not found:
+                    continue
+                target = found.group(1)
+                first = target.split("/")[0]
+                if first in MAY_INCLUDE and first not in allowed:
+                    wrong.append(f"{name}:{number}: {folder} may not include {target}")
+                for pattern, files in FENCES:
+                    if re.match(pattern, target) and not re.search(files, name):
+                        wrong.append(f"{name}:{number}: {target} outside its fence ({files})")
+                if target.startswith("nlopt"):
+                    single_nlopt.add(name)
+    if len(single_nlopt) > 1:
+        wrong.append(f"NLopt in more than one file: {sorted(single_nlopt)}")
+    print("\n".join(wrong) or "includes follow the arrows")
+    return 1 if wrong else 0
+
+
+sys.exit(main())
