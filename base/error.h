@@ -23,4 +23,10 @@ class ConfigError : public Error {
   using Error::Error;
 };
 
+// The user or the system asked the work to stop; what was done so far is kept.
+class Interrupted : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace talus::base

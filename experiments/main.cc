@@ -27,6 +27,9 @@ int main(int argc, char** argv) {
   } catch (const talus::base::ConfigError& error) {
     std::cerr << error.what() << '\n';
     return talus::base::kExitBadInput;
+  } catch (const talus::base::Interrupted& error) {
+    std::cerr << "talus: " << error.what() << '\n';
+    return talus::base::kExitInterrupted;
   } catch (const std::exception& error) {
     std::cerr << "talus: " << error.what() << '\n';
     return talus::base::kExitFailed;
