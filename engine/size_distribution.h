@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -18,17 +19,17 @@ enum class Weighting { kVolume, kNumber };
 // Which of the optional fields a kind needs stands at the field.
 struct SizeDistribution {
   SizeKind kind = SizeKind::kMono;
-  Weighting by = Weighting::kVolume;         // what the shares, and a kind's density, count
-  std::optional<double> diameter;            // [m], > 0: mono
-  std::optional<double> mean;                // [m], > 0: normal
-  std::optional<double> standard_deviation;  // [m], > 0: normal
-  std::optional<double> median;              // [m], > 0: log_normal
-  std::optional<double> sigma;               // of ln d [-], > 0: log_normal
-  std::optional<double> min;                 // [m], > 0: uniform; else cut-off
-  std::optional<double> max;                 // [m], >= min: uniform; else cut-off
-  std::vector<double> diameters;             // [m], increasing: class edges, or points of the curve
-  std::vector<double> shares;                // >= 0: of each class, or finer than each diameter
-  std::optional<std::filesystem::path> file;  // CSV of an instrument: file
+  Weighting by = Weighting::kVolume;           // what the shares, and a kind's density, count
+  std::optional<double> diameter{};            // [m], > 0: mono
+  std::optional<double> mean{};                // [m], > 0: normal
+  std::optional<double> standard_deviation{};  // [m], > 0: normal
+  std::optional<double> median{};              // [m], > 0: log_normal
+  std::optional<double> sigma{};               // of ln d [-], > 0: log_normal
+  std::optional<double> min{};                 // [m], > 0: uniform; else cut-off
+  std::optional<double> max{};                 // [m], >= min: uniform; else cut-off
+  std::vector<double> diameters{};  // [m], increasing: class edges, or points of the curve
+  std::vector<double> shares{};     // >= 0: of each class, or finer than each diameter
+  std::optional<std::filesystem::path> file{};  // CSV of an instrument: file
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

@@ -12,14 +12,14 @@ namespace talus::experiments {
 
 // Properties of a wall that differ from the powder's; what is not given is the powder's.
 struct WallMaterial {
-  std::optional<double> youngs_modulus;    // [Pa]
-  std::optional<double> poisson_ratio;     // [-]
-  std::optional<double> restitution;       // [-]
-  std::optional<double> sliding_friction;  // [-]
-  std::optional<double> rolling_friction;  // [-]
-  std::optional<double> rolling_damping;   // [-]
-  std::optional<double> surface_energy;    // [J/m²], not scaled by the coarse graining
-  std::optional<double> hamaker_constant;  // [J]
+  std::optional<double> youngs_modulus{};    // [Pa]
+  std::optional<double> poisson_ratio{};     // [-]
+  std::optional<double> restitution{};       // [-]
+  std::optional<double> sliding_friction{};  // [-]
+  std::optional<double> rolling_friction{};  // [-]
+  std::optional<double> rolling_damping{};   // [-]
+  std::optional<double> surface_energy{};    // [J/m²], not scaled by the coarse graining
+  std::optional<double> hamaker_constant{};  // [J]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -45,14 +45,14 @@ struct WallMaterial {
 enum class PlateKind { kSolidCylinder, kDisc };
 
 struct Device {
-  double tube_inner_diameter = 0.01;  // D_i [m], > 0
-  std::optional<double> tube_length;  // [m]; default: what the mass needs when loosely poured
-  double plate_diameter = 0.01;       // D_b [m], > 0
+  double tube_inner_diameter = 0.01;    // D_i [m], > 0
+  std::optional<double> tube_length{};  // [m]; default: what the mass needs when loosely poured
+  double plate_diameter = 0.01;         // D_b [m], > 0
   PlateKind plate = PlateKind::kSolidCylinder;
   double plate_height = 0.005;  // of the solid cylinder [m], > 0
   double lift_velocity = 0.01;  // v_l [m/s], > 0
-  std::optional<WallMaterial> tube_material;
-  std::optional<WallMaterial> plate_material;
+  std::optional<WallMaterial> tube_material{};
+  std::optional<WallMaterial> plate_material{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

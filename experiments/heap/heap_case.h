@@ -20,9 +20,9 @@
 namespace talus::experiments {
 
 struct HeapOutputs {
-  bool vtp = true;            // heap.vtp
-  bool csv = false;           // heap.csv
-  std::vector<double> times;  // [s], from the start: state_NNNN.vtp as well
+  bool vtp = true;              // heap.vtp
+  bool csv = false;             // heap.csv
+  std::vector<double> times{};  // [s], from the start: state_NNNN.vtp as well
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -46,10 +46,10 @@ struct HeapCase {
   double gravity = 9.81;            // [m/s²], > 0, downwards
   double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest grain [-], in (0, 0.4]
   std::uint64_t seed = 1;
-  std::optional<imaging::Frame> frame;  // of the profile; without it none is written
-  int num_views = 16;                   // of the profile over 180°, > 0
-  int threads = 1;                      // the result does not depend on it
-  double checkpoint_interval = 60;      // wall-clock [s], >= 0; 0: only when interrupted
+  std::optional<imaging::Frame> frame{};  // of the profile; without it none is written
+  int num_views = 16;                     // of the profile over 180°, > 0
+  int threads = 1;                        // the result does not depend on it
+  double checkpoint_interval = 60;        // wall-clock [s], >= 0; 0: only when interrupted
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {

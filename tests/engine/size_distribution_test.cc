@@ -1,0 +1,188 @@
+#include "engine/size_distribution.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+
+namespace talus::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+double Volume(double d) { return std::numbers::pi / 6 * d * d * d; }
+
+double Sum(const std::vector<double>& diameters) {
+  double sum = 0;
+  for (const double d : diameters) sum += Volume(d);
+  return sum;
+}
+
+SizeDistribution LogNormal() {  // sigma = ln(111/45) / (2 × 1.645): D5 = 45 µm, D95 = 111 µm
+  return {.kind = SizeKind::kLogNormal, .median = 70.7e-6, .sigma = 0.2745};
+}
+SizeDistribution Curve() {
+  return {.kind = SizeKind::kCumulative,
+          .diameters = {30e-6, 45e-6, 70e-6, 111e-6, 130e-6},
+          .shares = {0, 5, 50, 95, 100}};
+}
+
+TEST(SizeCurve, LogNormalByVolumeHasItsQuantiles) {
+  const SizeCurve curve(LogNormal());
+  // The cut at three standard deviations moves D5 and D95 inwards by 0.3 %.
+  EXPECT_NEAR(curve.VolumeQuantile(0.05), 45e-6, 0.2e-6);
+  EXPECT_NEAR(curve.VolumeQuantile(0.50), 70.7e-6, 0.01e-6);
+  EXPECT_NEAR(curve.VolumeQuantile(0.95), 111e-6, 0.4e-6);
+  // Hatch–Choate: the number median lies lower by exp(3σ²). The cut-offs, which are symmetric for
+  // the volume only, move it by about 1 %.
+  EXPECT_NEAR(curve.NumberQuantile(0.5), 70.7e-6 * std::exp(-3 * 0.2745 * 0.2745), 0.6e-6);
+}
+
+TEST(SizeCurve, UniformByNumberAndByVolumeDifferAsTheirIntegralsSay) {
+  SizeDistribution sizes{.kind = SizeKind::kUniform, .min = 1e-3, .max = 2e-3};
+  // 2e-8: the curve is straight within its cells, which are 0.5 % wide.
+  // By volume: share of the grains below x is (1 - x⁻²)/(1 - 1/4) for x in [1, 2]; half at x² =
+  // 8/5.
+  EXPECT_NEAR(SizeCurve(sizes).NumberQuantile(0.5), std::sqrt(1.6) * 1e-3, 2e-8);
+  sizes.by = Weighting::kNumber;
+  // By number: share of the volume below x is (x⁴ - 1)/15; half at x⁴ = 8.5.
+  EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), std::pow(8.5, 0.25) * 1e-3, 2e-8);
+  EXPECT_NEAR(SizeCurve(sizes).mean_volume(), Volume(1e-3) * 15.0 / 4, 1e-5 * Volume(1e-3));
+}
+
+struct Drawn {
+  const char* name;
+  SizeDistribution sizes;
+  double volume;  // [m³]
+};
+class Drawing : public ::testing::TestWithParam<Drawn> {};
+
+TEST_P(Drawing, MeetsTheVolumeToWithinOneGrainAndFollowsTheCurve) {
+  const SizeCurve curve(GetParam().sizes);
+  const std::vector<double> diameters = DrawDiameters(curve, GetParam().volume);
+  EXPECT_LT(std::abs(Sum(diameters) - GetParam().volume), curve.mean_volume());
+  ASSERT_GT(diameters.size(), 2000u);
+  for (const double q : {0.05, 0.5, 0.95}) {
+    // Quantiles of thousands of grains; the coarse end is the sparsest. Random numbers in place of
+    // stratified ones are off by several per cent.
+    EXPECT_NEAR(SampleVolumeQuantile(diameters, q) / curve.VolumeQuantile(q), 1, 0.005) << q;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Drawing,
+    ::testing::Values(
+        Drawn{"mono", {.kind = SizeKind::kMono, .diameter = 1e-3}, 4000.3 * Volume(1e-3)},
+        Drawn{"uniform",
+              {.kind = SizeKind::kUniform, .by = Weighting::kNumber, .min = 8e-4, .max = 12e-4},
+              5000 * Volume(1e-3)},
+        Drawn{"normal",
+              {.kind = SizeKind::kNormal, .mean = 1e-3, .standard_deviation = 2e-4},
+              5000 * Volume(1e-3)},
+        Drawn{"log_normal", LogNormal(), 5000 * Volume(70e-6)},
+        Drawn{"cumulative", Curve(), 5000 * Volume(70e-6)},
+        Drawn{"classes",
+              {.kind = SizeKind::kClasses,
+               .diameters = {30e-6, 60e-6, 90e-6, 120e-6},
+               .shares = {1, 0, 2}},
+              9000 * Volume(100e-6)}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(SizeCurve, CutOffsRemoveWhatLiesBeyondThem) {
+  SizeDistribution sizes = Curve();
+  sizes.min = 45e-6;
+  sizes.max = 111e-6;
+  const SizeCurve curve(sizes);
+  EXPECT_EQ(curve.smallest(), 45e-6);
+  EXPECT_EQ(curve.largest(), 111e-6);
+  EXPECT_NEAR(curve.VolumeQuantile(0.5), 70e-6, 1e-9);  // 5 % are gone on either side
+}
+
+std::string ProblemsOf(const SizeDistribution& sizes) {
+  base::Problems problems;
+  sizes.Validate(problems);
+  return problems.Text();
+}
+
+TEST(SizeDistribution, EveryProblemIsNamed) {
+  EXPECT_EQ(ProblemsOf(LogNormal()), "");
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kMono}), HasSubstr("diameter: is missing"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kMono, .diameter = -1}), HasSubstr("positive"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kMono, .diameter = std::nan("")}),
+              HasSubstr("positive"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kUniform, .min = 2, .max = 1}), HasSubstr("max"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kNormal, .mean = 1, .standard_deviation = 0.5}),
+              HasSubstr("min: "));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kClasses, .diameters = {1, 2}, .shares = {1, 1}}),
+              HasSubstr("one value less"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kCumulative, .diameters = {2, 1}, .shares = {0, 1}}),
+              HasSubstr("diameters[1]"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kCumulative, .diameters = {1, 2}, .shares = {1, 1}}),
+              HasSubstr("must not all be the same"));
+  EXPECT_THAT(ProblemsOf({.kind = SizeKind::kFile}), HasSubstr("file"));
+}
+
+SizeDistribution ReadText(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  std::ofstream(path) << text;
+  SizeDistribution sizes{.kind = SizeKind::kFile, .file = path};
+  ReadSizeFile(sizes);
+  return sizes;
+}
+
+TEST(SizeFile, CumulativeWithSemicolonsDecimalCommasAndLatinMicro) {
+  const SizeDistribution sizes = ReadText(
+      "Sample;Ti64 lot 3\r\nMeasured;12,3 g\r\n\r\nSize (\xB5m);% Volume In;% Volume Under\r\n"
+      "20,0;0,0;0,0\r\n30,0;5,5;0,0\r\n60,0;44,5;5,5\r\n90,0;50,0;50,0\r\n120,0;0,0;100,0\r\n");
+  EXPECT_EQ(sizes.kind, SizeKind::kCumulative);
+  EXPECT_FALSE(sizes.file.has_value());
+  EXPECT_EQ(sizes.diameters.size(), 4u);  // the empty class from 20 to 30 µm is dropped
+  EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), 90e-6, 1e-9);
+  EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.055), 60e-6, 1e-9);
+}
+
+TEST(SizeFile, DifferentialWithTabsLowerEdgesAndNumberWeights) {
+  const SizeDistribution sizes = ReadText(
+      "File name:\tx.ls\nChannel Diameter (Lower)\tDiff. Number\num\t%\n10\t25\n20\t75\n40\t0\n");
+  EXPECT_EQ(sizes.kind, SizeKind::kClasses);
+  EXPECT_EQ(sizes.by, Weighting::kNumber);
+  EXPECT_THAT(sizes.diameters,
+              ::testing::ElementsAre(::testing::DoubleEq(10e-6), ::testing::DoubleEq(20e-6),
+                                     ::testing::DoubleEq(40e-6)));
+  EXPECT_NEAR(SizeCurve(sizes).NumberQuantile(0.25), 20e-6, 1e-9);
+}
+
+TEST(SizeFile, CommasAndMillimetresCoarseEndFirst) {
+  const SizeDistribution sizes = ReadText("d [mm],Q3 [%]\n2.0,100\n1.0,50\n0.5,0\n");
+  EXPECT_EQ(sizes.kind, SizeKind::kCumulative);
+  EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), 1e-3, 1e-8);
+}
+
+TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
+  const auto error = [](const std::string& text) -> std::string {
+    try {
+      ReadText(text);
+    } catch (const base::ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error("size,% under\n1,0\n2,100\n"), HasSubstr("in which unit"));
+  EXPECT_THAT(error("nothing here"), HasSubstr("has no table"));
+  EXPECT_THAT(error("size (um),% over\n1,100\n2,0\n"), HasSubstr("coarser"));
+  EXPECT_THAT(error("size (um),% under\n1,50\n2,40\n3,100\n"), HasSubstr("shares[1]"));
+  EXPECT_THAT(error("\xFF\xFE"
+                    "s"),
+              HasSubstr("UTF-16"));
+  SizeDistribution missing{.kind = SizeKind::kFile, .file = "/nowhere/x.csv"};
+  EXPECT_THROW(ReadSizeFile(missing), base::ConfigError);
+}
+
+}  // namespace
+}  // namespace talus::engine
