@@ -22,11 +22,11 @@ struct Proposal {
 
 // One finished evaluation.
 struct Observation {
-  Eigen::VectorXd point;     // unit cube
-  bool failed = false;       // crashed or infeasible: value and field mean nothing
-  double value = 0;          // the objective, to be minimised
-  std::vector<float> field;  // the whole image, row by row from the top, in [0, 1] with 1 = powder;
-                             // empty where an evaluation is only a number
+  Eigen::VectorXd point;          // unit cube
+  bool failed = false;            // crashed or infeasible: value and field mean nothing
+  double value = 0;               // the objective, to be minimised
+  std::vector<float> field = {};  // the whole image, row by row from the top, in [0, 1] with 1 =
+                                  // powder; empty where an evaluation is only a number
 };
 
 // Credible range of one parameter, in the unit cube.

@@ -1,0 +1,52 @@
+// Which strategy, with which options: the one way in for everyone who runs simulations.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "optimizer/domain.h"
+#include "optimizer/field_objective.h"
+#include "optimizer/strategy.h"
+
+namespace talus::optimizer {
+
+enum class StrategyKind { kLhs, kSobol, kGrid };
+
+struct StrategyOptions {
+  StrategyKind kind = StrategyKind::kLhs;
+  int num_points = 60;           // of lhs and sobol, in [1, 10000]
+  std::vector<int> levels = {};  // of grid, one a parameter, each >= 1; empty: 8 each
+  int refine_best = 20;          // of grid: this many of the best are refined by half steps, >= 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind, {.doc = "how the next simulations are chosen"});
+    visit("num_points", self.num_points, {.doc = "lhs, sobol: size of the design, 1 to 10000"});
+    visit("levels", self.levels,
+          {.doc = "grid: values of each parameter, in their order; 8 each if not given"});
+    visit("refine_best", self.refine_best,
+          {.doc = "grid: so many of the best are refined by half steps; 0 for none"});
+  }
+  void Validate(base::Problems& problems) const;
+
+  // What only shows once the number of parameters is known.
+  void ValidateFor(int num_parameters, base::Problems& problems) const;
+};
+
+// `field` is given when evaluations bring images; the strategy copies it. Equal arguments and equal
+// observations make equal proposals.
+std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
+                                       const FieldObjective* field, std::uint64_t seed);
+
+}  // namespace talus::optimizer
+
+template <>
+struct talus::base::Names<talus::optimizer::StrategyKind> {
+  using Kind = talus::optimizer::StrategyKind;
+  static constexpr std::array kList{std::pair{"lhs", Kind::kLhs}, std::pair{"sobol", Kind::kSobol},
+                                    std::pair{"grid", Kind::kGrid}};
+};

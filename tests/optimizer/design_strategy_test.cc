@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "optimizer/make_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+using ::testing::HasSubstr;
+
+double Bowl(const Eigen::VectorXd& u) { return (u.array() - 0.4).square().sum(); }
+
+// Runs a strategy to its end in batches and returns what it asked for, in order.
+std::vector<Eigen::VectorXd> RunToTheEnd(Strategy& strategy, int batch) {
+  std::vector<Eigen::VectorXd> asked;
+  while (!strategy.StopReason()) {
+    const auto proposals = strategy.Ask(batch, {});
+    EXPECT_FALSE(proposals.empty());
+    if (proposals.empty()) break;
+    for (const Proposal& p : proposals) {
+      asked.push_back(p.point);
+      strategy.Tell({.point = p.point, .value = Bowl(p.point)});
+    }
+  }
+  return asked;
+}
+
+StrategyOptions Grid(std::vector<int> levels, int refine_best) {
+  return {.kind = StrategyKind::kGrid, .levels = std::move(levels), .refine_best = refine_best};
+}
+
+TEST(GridStrategy, SweepsThenRefinesTheBestAndSaysSo) {
+  const Domain domain{.num_parameters = 3};
+  const auto strategy = MakeStrategy(Grid({8, 8, 9}, 20), domain, nullptr, 1);
+  const auto asked = RunToTheEnd(*strategy, 7);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(SamePoint(asked[i], asked[j]));
+  }
+  EXPECT_GT(asked.size(), 576u + 26u);
+  EXPECT_LE(asked.size(), 576u + 20u * 26u);
+  EXPECT_THAT(*strategy->StopReason(),
+              HasSubstr("576 points of the grid and " + std::to_string(asked.size() - 576)));
+  // Nowhere on grid or half grid is a point nearer to the minimum than half a half step.
+  const Eigen::Vector3d quarter(1.0 / 28, 1.0 / 28, 1.0 / 32);
+  const Answer answer = strategy->Recommend();
+  EXPECT_TRUE(((answer.point.array() - 0.4).abs() <= quarter.array() + 1e-12).all());
+}
+
+TEST(GridStrategy, WaitsForTheSweepBeforeItRefines) {
+  const auto strategy = MakeStrategy(Grid({2}, 1), Domain{.num_parameters = 1}, nullptr, 1);
+  const auto first = strategy->Ask(4, {});
+  ASSERT_EQ(first.size(), 2u);
+  const std::vector<Eigen::VectorXd> pending{first[1].point};
+  strategy->Tell({.point = first[0].point, .value = 1});
+  EXPECT_TRUE(strategy->Ask(4, pending).empty());
+  EXPECT_FALSE(strategy->StopReason());
+  strategy->Tell({.point = first[1].point, .failed = true});  // a failure is not refined
+  const auto refined = strategy->Ask(4, {});
+  ASSERT_EQ(refined.size(), 1u);
+  EXPECT_EQ(refined[0].point[0], 0.5);
+}
+
+TEST(DesignStrategy, AsksForEachPointOnceAndSkipsPendingOnes) {
+  for (const StrategyKind kind : {StrategyKind::kLhs, StrategyKind::kSobol}) {
+    const StrategyOptions options{.kind = kind, .num_points = 12};
+    const Domain domain{.num_parameters = 2};
+    const auto strategy = MakeStrategy(options, domain, nullptr, 3);
+    const auto first = strategy->Ask(1, {});
+    const std::vector<Eigen::VectorXd> pending{first[0].point};
+    EXPECT_FALSE(SamePoint(strategy->Ask(1, pending)[0].point, first[0].point));
+    EXPECT_EQ(RunToTheEnd(*strategy, 5).size(), 12u);
+    EXPECT_TRUE(strategy->Ask(1, {}).empty());
+  }
+}
+
+TEST(DesignStrategy, TakesGuessesFirstAndKeepsToTheDomain) {
+  Domain domain{.num_parameters = 2, .guesses = {Eigen::Vector2d(0.1, 0.2)}};
+  domain.feasible = [](const Eigen::VectorXd& u) { return u.sum() < 0.5; };
+  const auto strategy =
+      MakeStrategy({.kind = StrategyKind::kSobol, .num_points = 20}, domain, nullptr, 3);
+  const auto asked = RunToTheEnd(*strategy, 4);
+  EXPECT_EQ(asked.front(), Eigen::Vector2d(0.1, 0.2));
+  EXPECT_EQ(asked.size(), 21u);  // the sequence goes on until 20 are inside
+  for (const auto& point : asked) EXPECT_LT(point.sum(), 0.5);
+}
+
+TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
+  const auto error_of = [](const StrategyOptions& options) -> std::string {
+    try {
+      MakeStrategy(options, Domain{.num_parameters = 6}, nullptr, 1);
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of({.kind = StrategyKind::kGrid, .levels = {3, 3}}),
+              HasSubstr("has 2 numbers for 6 parameters"));
+  EXPECT_THAT(error_of({.kind = StrategyKind::kGrid}), HasSubstr("must be at most 10000"));
+  EXPECT_THAT(error_of({.num_points = 0}), HasSubstr("num_points: is 0"));
+}
+
+}  // namespace
+}  // namespace talus::optimizer

@@ -1,0 +1,80 @@
+#include "optimizer/parameter_space.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/json_reader.h"
+
+namespace talus::optimizer {
+namespace {
+
+using ::testing::HasSubstr;
+
+ParameterSpace Load(std::string_view text) {
+  return base::LoadOptions<ParameterSpace>(base::ParseJson(text, "space.json"));
+}
+
+std::string ErrorOf(std::string_view text) {
+  try {
+    Load(text);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr const char* kSpace = R"({
+  "parameters": [{"name": "a", "low": -1, "high": 3, "guess": 0},
+                 {"name": "b", "fixed": 7},
+                 {"name": "c", "low": 1e-6, "high": 1e-2, "scale": "log"}],
+  "constraints": [{"terms": [{"parameter": "a"}, {"parameter": "c", "factor": 100}],
+                   "at_most": 2}]})";
+
+TEST(ParameterSpace, MapsLinearLogAndFixedParameters) {
+  const ParameterSpace space = Load(kSpace);
+  const std::vector<double> native = space.ToNative(Eigen::Vector2d(0.25, 0.5));
+  ASSERT_EQ(native.size(), 3u);
+  EXPECT_DOUBLE_EQ(native[0], 0);
+  EXPECT_DOUBLE_EQ(native[1], 7);
+  EXPECT_NEAR(native[2], 1e-4, 1e-18);  // middle of four decades; rounding of pow
+  // Two roundings of log and pow, far below kSamePoint.
+  EXPECT_TRUE(space.ToUnit(native).isApprox(Eigen::Vector2d(0.25, 0.5), 1e-14));
+  EXPECT_EQ(space.ToNative(Eigen::Vector2d(1, 1))[2], 1e-2);  // an end is met exactly
+}
+
+TEST(ParameterSpace, DomainHasTheGuessAndTheConstraints) {
+  const Domain domain = Load(kSpace).MakeDomain();
+  EXPECT_EQ(domain.num_parameters, 2);
+  ASSERT_EQ(domain.guesses.size(), 1u);
+  EXPECT_EQ(domain.guesses[0], Eigen::Vector2d(0.25, 0.5));
+  EXPECT_TRUE(domain.Contains(Eigen::Vector2d(0.7, 0.5)));     // 1.8 + 0.01
+  EXPECT_FALSE(domain.Contains(Eigen::Vector2d(0.7, 1)));      // 1.8 + 1
+  EXPECT_FALSE(domain.Contains(Eigen::Vector2d(-0.01, 0.5)));  // outside the cube
+}
+
+TEST(ParameterSpace, ReportsEveryMistakeWithItsPlace) {
+  const std::string error = ErrorOf(R"({"parameters": [
+    {"name": "a", "low": 1, "high": 1},
+    {"name": "b", "low": 0, "high": 1, "scale": "log"},
+    {"name": "a", "low": 0, "high": 1, "guess": 2},
+    {"name": "gamma", "low": 0}],
+    "constraints": [{"terms": [{"parameter": "gama"}], "at_most": 1}]})");
+  EXPECT_THAT(error, HasSubstr("parameters[0].high: is 1, must be above low"));
+  EXPECT_THAT(error, HasSubstr("parameters[1].low: is 0, must be positive on a log scale"));
+  EXPECT_THAT(error, HasSubstr("parameters[2].guess: is 2, must lie in [low, high]"));
+  EXPECT_THAT(error, HasSubstr("parameters[3].high"));
+  EXPECT_THAT(error, HasSubstr("\"a\" is there twice"));
+  EXPECT_THAT(error, HasSubstr("did you mean \"gamma\"?"));
+}
+
+TEST(ParameterSpace, WantsOneToSixFreeParameters) {
+  EXPECT_THAT(ErrorOf(R"({"parameters": [{"name": "a", "fixed": 1}]})"), HasSubstr("0 are free"));
+  std::string list;
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g"}) {
+    list += std::string(list.empty() ? "" : ",") + R"({"low":0,"high":1,"name":")" + name + "\"}";
+  }
+  EXPECT_THAT(ErrorOf("{\"parameters\": [" + list + "]}"), HasSubstr("7 are free"));
+}
+
+}  // namespace
+}  // namespace talus::optimizer
