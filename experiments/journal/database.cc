@@ -1,0 +1,184 @@
+#include "experiments/journal/database.h"
+
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+
+namespace talus::experiments {
+namespace {
+
+[[noreturn]] void Fail(sqlite3* database, const std::string& doing) {
+  const char* file = sqlite3_db_filename(database, "main");
+  const std::string place = file != nullptr && *file != '\0' ? std::string(file) + ": " : "";
+  throw base::Error(place + doing + ": " + sqlite3_errmsg(database));
+}
+
+// "file:" URI of a path: what has a meaning in a URI is escaped.
+std::string Uri(const std::filesystem::path& path, std::string_view query) {
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    if (c == '%' || c == '?' || c == '#') {
+      constexpr const char* kDigits = "0123456789ABCDEF";
+      const auto byte = static_cast<unsigned char>(c);
+      uri += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+    } else {
+      uri += c;
+    }
+  }
+  return uri + std::string(query);
+}
+
+// A log-mode database needs a writable folder even to be read, unless nobody can be writing it:
+// then it is opened as a file that does not change.
+bool NeedsImmutable(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  return ::access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(path.string() + "-wal");
+}
+
+}  // namespace
+
+Statement::Statement(sqlite3* database, std::string_view sql) : database_(database) {
+  if (sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement_,
+                         nullptr) != SQLITE_OK) {
+    Fail(database, "a query cannot be prepared");
+  }
+}
+
+Statement::Statement(Statement&& other) noexcept
+    : database_(other.database_), statement_(std::exchange(other.statement_, nullptr)) {}
+
+Statement::~Statement() { sqlite3_finalize(statement_); }
+
+void Statement::Check(int code) const {
+  if (code != SQLITE_OK) Fail(database_, "a value cannot be stored");
+}
+
+void Statement::BindOne(int index, std::int64_t value) {
+  Check(sqlite3_bind_int64(statement_, index, value));
+}
+
+void Statement::BindOne(int index, double value) {
+  Check(std::isfinite(value) ? sqlite3_bind_double(statement_, index, value)
+                             : sqlite3_bind_null(statement_, index));
+}
+
+void Statement::BindOne(int index, std::string_view value) {
+  Check(sqlite3_bind_text64(statement_, index, value.data() == nullptr ? "" : value.data(),
+                            value.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+}
+
+void Statement::BindOne(int index, Blob value) {
+  Check(sqlite3_bind_blob64(statement_, index, value.bytes.data(), value.bytes.size(),
+                            SQLITE_TRANSIENT));
+}
+
+bool Statement::Step() {
+  switch (sqlite3_step(statement_)) {
+    case SQLITE_ROW:
+      return true;
+    case SQLITE_DONE:
+      return false;
+    default:
+      Fail(database_, "the journal cannot be read or written");
+  }
+}
+
+void Statement::Finish() {
+  while (Step()) {
+  }
+}
+
+bool Statement::IsNull(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+
+std::int64_t Statement::Integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+
+double Statement::Real(int column) const {
+  if (IsNull(column)) return std::numeric_limits<double>::quiet_NaN();
+  return sqlite3_column_double(statement_, column);
+}
+
+std::string Statement::Text(int column) const { return Bytes(column); }
+
+std::string Statement::Bytes(int column) const {
+  const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
+  const int size = sqlite3_column_bytes(statement_, column);
+  return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
+}
+
+Database::Database(const std::filesystem::path& path, Mode mode) {
+  int flags = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
+  if (mode == Mode::kReadOnly) {
+    flags |= SQLITE_OPEN_READONLY;
+  } else {
+    flags |= SQLITE_OPEN_READWRITE | (mode == Mode::kCreate ? SQLITE_OPEN_CREATE : 0);
+  }
+  const bool immutable = mode == Mode::kReadOnly && NeedsImmutable(path);
+  const std::string uri = Uri(path, immutable ? "?immutable=1" : "");
+  if (sqlite3_open_v2(uri.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+    const std::string reason = sqlite3_errmsg(handle_);
+    sqlite3_close(std::exchange(handle_, nullptr));
+    throw base::Error(path.string() + ": cannot be opened: " + reason);
+  }
+  sqlite3_busy_timeout(handle_, 10'000);
+  try {
+    if (mode != Mode::kReadOnly) Execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
+    Execute("PRAGMA foreign_keys = ON;");
+  } catch (...) {
+    sqlite3_close(std::exchange(handle_, nullptr));
+    throw;
+  }
+}
+
+Database::Database(Database&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+
+Database& Database::operator=(Database&& other) noexcept {
+  std::swap(handle_, other.handle_);
+  return *this;
+}
+
+Database::~Database() { sqlite3_close(handle_); }
+
+void Database::Execute(const std::string& sql) {
+  if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    Fail(handle_, "the journal cannot be read or written");
+  }
+}
+
+std::string Database::Damage() {
+  try {
+    Statement check = Prepare("PRAGMA quick_check(1)");
+    const std::string answer = check.Step() ? check.Text(0) : "no answer";
+    return answer == "ok" ? "" : answer;
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+  database_.Execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  if (done_) return;
+  try {
+    database_.Execute("ROLLBACK");
+  } catch (const base::Error&) {
+    // SQLite has rolled back already, as it does when the disk is full; the first error stands.
+  }
+}
+
+void Transaction::Commit() {
+  database_.Execute("COMMIT");
+  done_ = true;
+}
+
+}  // namespace talus::experiments

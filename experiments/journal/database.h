@@ -1,0 +1,93 @@
+// SQLite, reduced to what the journal needs: statements with bound values, rows, transactions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace talus::experiments {
+
+struct Blob {
+  std::string_view bytes;
+};
+
+// A prepared statement: bind what stands for its question marks, then step through its rows.
+class Statement {
+ public:
+  Statement(sqlite3* database, std::string_view sql);
+  Statement(Statement&&) noexcept;
+  ~Statement();
+
+  // Values for ?1, ?2, …; a number that is not finite is stored as NULL.
+  template <class... Values>
+  Statement& Bind(const Values&... values) {
+    int index = 0;
+    (BindOne(++index, values), ...);
+    return *this;
+  }
+  // The next row; false after the last. Throws base::Error with SQLite's reason.
+  bool Step();
+  void Finish();  // steps to the end
+
+  bool IsNull(int column) const;
+  std::int64_t Integer(int column) const;
+  double Real(int column) const;  // NaN for NULL
+  std::string Text(int column) const;
+  std::string Bytes(int column) const;
+
+ private:
+  void BindOne(int index, std::int64_t value);
+  void BindOne(int index, int value) { BindOne(index, static_cast<std::int64_t>(value)); }
+  void BindOne(int index, double value);
+  void BindOne(int index, std::string_view value);
+  void BindOne(int index, const std::string& value) { BindOne(index, std::string_view(value)); }
+  void BindOne(int index, const char* value) { BindOne(index, std::string_view(value)); }
+  void BindOne(int index, Blob value);
+  void Check(int code) const;
+
+  sqlite3* database_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+class Database {
+ public:
+  enum class Mode { kCreate, kReadWrite, kReadOnly };
+
+  // Read-write databases keep a write-ahead log and sync every commit (WAL, synchronous FULL), so
+  // that readers never wait and a power cut loses nothing that was committed.
+  Database(const std::filesystem::path& path, Mode mode);
+  Database(Database&&) noexcept;
+  Database& operator=(Database&&) noexcept;
+  ~Database();
+
+  void Execute(const std::string& sql);  // one or more statements without values or rows
+  Statement Prepare(std::string_view sql) { return Statement(handle_, sql); }
+
+  // Empty when the file is sound, else what is wrong with it.
+  std::string Damage();
+
+ private:
+  sqlite3* handle_ = nullptr;
+};
+
+// Everything until Commit happens, or nothing does.
+class Transaction {
+ public:
+  explicit Transaction(Database& database);
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  ~Transaction();
+  void Commit();
+
+ private:
+  Database& database_;
+  bool done_ = false;
+};
+
+}  // namespace talus::experiments

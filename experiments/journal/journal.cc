@@ -1,0 +1,377 @@
+#include "experiments/journal/journal.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <unordered_map>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/journal/schema.h"
+
+namespace talus::experiments {
+namespace {
+
+template <base::NamedEnum Enum>
+Enum ValueOf(std::string_view text) {
+  for (const auto& [name, value] : base::Names<Enum>::kList) {
+    if (name == text) return value;
+  }
+  throw base::Error("the journal holds \"" + std::string(text) + "\", which is not known here");
+}
+
+std::int64_t Pragma(Database& database, const std::string& name) {
+  Statement statement = database.Prepare("PRAGMA " + name);
+  return statement.Step() ? statement.Integer(0) : 0;
+}
+
+void CheckThatItIsAJournal(Database& database, const std::filesystem::path& path) {
+  const std::int64_t version = Pragma(database, "user_version");
+  if (Pragma(database, "application_id") != kJournalApplicationId) {
+    throw base::Error(path.string() + ": is not a journal of talus, or is damaged");
+  }
+  if (version > static_cast<std::int64_t>(kSchemaSteps.size())) {
+    throw base::Error(path.string() + ": was written by a newer talus (schema " +
+                      std::to_string(version) + "); use that version");
+  }
+}
+
+void Migrate(Database& database) {
+  const auto version = static_cast<std::size_t>(Pragma(database, "user_version"));
+  if (version == kSchemaSteps.size()) return;
+  Transaction transaction(database);
+  for (std::size_t step = version; step < kSchemaSteps.size(); ++step) {
+    database.Execute(kSchemaSteps[step]);
+  }
+  database.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
+                   "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
+  transaction.Commit();
+}
+
+constexpr std::string_view kTrialColumns =
+    "id, kind, kind_index, set_index, origin, objective, seed, scale_factor, status, reason, "
+    "attempts, finish_order, started_utc, finished_utc, duration_s, cpu_s, num_steps, "
+    "num_particles, host, job";
+
+TrialRecord ReadTrial(const Statement& row) {
+  TrialRecord trial;
+  trial.id = row.Integer(0);
+  trial.kind = ValueOf<TrialKind>(row.Text(1));
+  trial.kind_index = row.Integer(2);
+  trial.set = row.Integer(3);
+  trial.origin = row.Text(4);
+  trial.objective = row.Text(5);
+  trial.seed = row.Integer(6);
+  trial.scale_factor = row.Real(7);
+  trial.status = ValueOf<TrialStatus>(row.Text(8));
+  trial.reason = row.Text(9);
+  trial.attempts = static_cast<int>(row.Integer(10));
+  trial.finish_order = row.Integer(11);
+  trial.started_utc = row.Text(12);
+  trial.finished_utc = row.Text(13);
+  trial.duration_s = row.Real(14);
+  trial.cpu_s = row.Real(15);
+  trial.num_steps = row.Integer(16);
+  trial.num_particles = row.Integer(17);
+  trial.host = row.Text(18);
+  trial.job = row.Text(19);
+  return trial;
+}
+
+// "sad" in mm² → column sad_mm2
+std::string ColumnName(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + "_" + unit;
+}
+
+// "J/m^2" → "J_per_m2": a unit as part of a column's name.
+std::string UnitInName(const std::string& unit) {
+  std::string name;
+  for (const char c : unit) {
+    if (c == '/') {
+      name += "_per_";
+    } else if (c != '^') {
+      name += c;
+    }
+  }
+  return name;
+}
+
+}  // namespace
+
+std::filesystem::path JournalPath(const std::filesystem::path& campaign) {
+  return campaign / "journal.sqlite";
+}
+
+std::string UtcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::optional<double> TrialRecord::Metric(std::string_view name) const {
+  const auto found =
+      std::find_if(metrics.begin(), metrics.end(), [&](const auto& m) { return m.name == name; });
+  if (found == metrics.end() || !std::isfinite(found->value)) return std::nullopt;
+  return found->value;
+}
+
+Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord& campaign) {
+  if (std::filesystem::exists(path)) {
+    throw base::ConfigError(path.string() +
+                            ": exists already; `talus resume` goes on with that campaign, or name "
+                            "another folder with --out");
+  }
+  Journal journal{Database(path, Database::Mode::kCreate)};
+  Transaction transaction(journal.database_);
+  for (const char* step : kSchemaSteps) journal.database_.Execute(step);
+  journal.InsertCampaign(campaign);
+  journal.CreateView(campaign);
+  journal.database_.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
+                            "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
+  transaction.Commit();
+  return journal;
+}
+
+Journal Journal::Open(const std::filesystem::path& path) {
+  Database database(path, Database::Mode::kReadWrite);
+  CheckThatItIsAJournal(database, path);
+  if (const std::string damage = database.Damage(); !damage.empty()) {
+    throw base::Error(path.string() + ": is damaged: " + damage);
+  }
+  Migrate(database);
+  return Journal(std::move(database));
+}
+
+Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) {
+    throw base::ConfigError(path.string() +
+                            ": is not there; name the folder of a campaign, as talus calibrate "
+                            "prints it");
+  }
+  Database database(path, Database::Mode::kReadOnly);
+  CheckThatItIsAJournal(database, path);
+  if (Pragma(database, "user_version") < static_cast<std::int64_t>(kSchemaSteps.size())) {
+    throw base::Error(path.string() + ": was written by an older talus; `talus resume` updates it");
+  }
+  return Journal(std::move(database));
+}
+
+void Journal::InsertCampaign(const CampaignRecord& c) {
+  database_
+      .Prepare(
+          "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, "
+          "'running', '', 0, '')")
+      .Bind(c.name, c.spec_text, c.spec_json, c.spec_hash, c.talus_version, c.created_utc,
+            c.objective, Blob{c.aehp_png}, Blob{c.aehp_sd_png}, c.frame_json, c.nebp_px,
+            c.noise_mm2.value_or(std::nan("")))
+      .Finish();
+  for (std::size_t i = 0; i < c.parameters.size(); ++i) {
+    const ParameterRecord& p = c.parameters[i];
+    database_.Prepare("INSERT INTO parameters VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
+        .Bind(static_cast<std::int64_t>(i), p.name, p.low, p.high, p.scale, p.unit)
+        .Finish();
+  }
+}
+
+// One row a trial with parameters and the usual metrics side by side: what people want to see.
+void Journal::CreateView(const CampaignRecord& campaign) {
+  std::string columns = "SELECT t.id, t.kind, t.status";
+  for (std::size_t i = 0; i < campaign.parameters.size(); ++i) {
+    const ParameterRecord& p = campaign.parameters[i];
+    columns +=
+        ",\n (SELECT value FROM points WHERE trial = t.id AND position = " + std::to_string(i) +
+        ") AS \"" + ColumnName(p.name, UnitInName(p.unit)) + '"';
+  }
+  const std::pair<const char*, const char*> metrics[] = {
+      {"sad", "mm2"}, {"rmse", ""}, {"aor1", "deg"}, {"aor2", "deg"}, {"aor3", "deg"}};
+  for (const auto& [name, unit] : metrics) {
+    columns += ",\n (SELECT value FROM metrics WHERE trial = t.id AND name = '" +
+               std::string(name) + "') AS " + ColumnName(name, unit);
+  }
+  database_.Execute("CREATE VIEW results AS " + columns +
+                    ",\n t.duration_s, t.seed, t.reason FROM trials t ORDER BY t.id");
+}
+
+CampaignRecord Journal::Campaign() {
+  Statement row = database_.Prepare(
+      "SELECT name, spec_text, spec_json, spec_hash, talus_version, created_utc, objective, "
+      "aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, experimental_noise_floor_mm2 FROM "
+      "campaign");
+  if (!row.Step()) throw base::Error("the journal holds no campaign");
+  CampaignRecord c{.name = row.Text(0),
+                   .spec_text = row.Text(1),
+                   .spec_json = row.Text(2),
+                   .spec_hash = row.Text(3),
+                   .talus_version = row.Text(4),
+                   .created_utc = row.Text(5),
+                   .objective = row.Text(6),
+                   .parameters = {},
+                   .aehp_png = row.Bytes(7),
+                   .aehp_sd_png = row.Bytes(8),
+                   .frame_json = row.Text(9),
+                   .nebp_px = row.Real(10),
+                   .noise_mm2 = std::nullopt};
+  if (!row.IsNull(11)) c.noise_mm2 = row.Real(11);
+  Statement list =
+      database_.Prepare("SELECT name, low, high, scale, unit FROM parameters ORDER BY position");
+  while (list.Step()) {
+    c.parameters.push_back({.name = list.Text(0),
+                            .low = list.Real(1),
+                            .high = list.Real(2),
+                            .scale = list.Text(3),
+                            .unit = list.Text(4)});
+  }
+  return c;
+}
+
+ProgressRecord Journal::Progress() {
+  Statement row =
+      database_.Prepare("SELECT state, stop_reason, elapsed_s, result_json FROM campaign");
+  if (!row.Step()) throw base::Error("the journal holds no campaign");
+  return {.state = row.Text(0),
+          .stop_reason = row.Text(1),
+          .elapsed_s = row.Real(2),
+          .result_json = row.Text(3)};
+}
+
+void Journal::SetProgress(const ProgressRecord& progress) {
+  database_
+      .Prepare("UPDATE campaign SET state = ?1, stop_reason = ?2, elapsed_s = ?3, result_json = ?4")
+      .Bind(progress.state, progress.stop_reason, progress.elapsed_s, progress.result_json)
+      .Finish();
+}
+
+void Journal::SetSpec(std::string_view spec_text, std::string_view spec_json) {
+  database_.Prepare("UPDATE campaign SET spec_text = ?1, spec_json = ?2")
+      .Bind(spec_text, spec_json)
+      .Finish();
+}
+
+std::int64_t Journal::CountTrials() {
+  Statement row = database_.Prepare("SELECT count(*) FROM trials");
+  row.Step();
+  return row.Integer(0);
+}
+
+std::vector<TrialRecord> Journal::Trials() {
+  std::vector<TrialRecord> trials;
+  Statement row =
+      database_.Prepare("SELECT " + std::string(kTrialColumns) + " FROM trials ORDER BY id");
+  while (row.Step()) trials.push_back(ReadTrial(row));
+  ReadPoints(trials);
+  ReadMetrics(trials);
+  return trials;
+}
+
+// Both tables are walked once, in the order of the trials.
+void Journal::ReadPoints(std::vector<TrialRecord>& trials) {
+  Statement row =
+      database_.Prepare("SELECT trial, unit_value, value FROM points ORDER BY trial, position");
+  auto trial = trials.begin();
+  while (row.Step()) {
+    while (trial != trials.end() && trial->id < row.Integer(0)) ++trial;
+    if (trial == trials.end()) break;  // started after the trials were read
+    if (trial->id != row.Integer(0)) continue;
+    trial->unit.push_back(row.Real(1));
+    trial->native.push_back(row.Real(2));
+  }
+}
+
+void Journal::ReadMetrics(std::vector<TrialRecord>& trials) {
+  Statement row = database_.Prepare(
+      "SELECT trial, name, value, unit, undefined FROM metrics ORDER BY trial, name");
+  auto trial = trials.begin();
+  while (row.Step()) {
+    while (trial != trials.end() && trial->id < row.Integer(0)) ++trial;
+    if (trial == trials.end()) break;
+    if (trial->id != row.Integer(0)) continue;
+    trial->metrics.push_back(
+        {.name = row.Text(1), .value = row.Real(2), .unit = row.Text(3), .undefined = row.Text(4)});
+  }
+}
+
+void Journal::Start(const TrialRecord& t) {
+  Transaction transaction(database_);
+  database_
+      .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
+               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', NULL, "
+               "NULL, 0, 0, '', ?11)")
+      .Bind(t.id, base::NameOf(t.kind), t.kind_index, t.set, t.origin, t.objective, t.seed,
+            t.scale_factor, t.attempts, t.started_utc, t.job)
+      .Finish();
+  for (std::size_t i = 0; i < t.unit.size(); ++i) {
+    database_.Prepare("INSERT INTO points VALUES (?1, ?2, ?3, ?4)")
+        .Bind(t.id, static_cast<std::int64_t>(i), t.unit[i], t.native[i])
+        .Finish();
+  }
+  transaction.Commit();
+}
+
+void Journal::Restart(const TrialRecord& t) {
+  database_
+      .Prepare(
+          "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5 WHERE id = "
+          "?1 AND status = 'running'")
+      .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc)
+      .Finish();
+}
+
+void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
+  Transaction transaction(database_);
+  Statement last = database_.Prepare("SELECT ifnull(max(finish_order), 0) FROM trials");
+  last.Step();
+  t.finish_order = last.Integer(0) + 1;
+  database_
+      .Prepare(
+          "UPDATE trials SET status = ?2, reason = ?3, attempts = ?4, finish_order = ?5, "
+          "finished_utc = ?6, duration_s = ?7, cpu_s = ?8, num_steps = ?9, num_particles = "
+          "?10, host = ?11 WHERE id = ?1")
+      .Bind(t.id, base::NameOf(t.status), t.reason, t.attempts, t.finish_order, t.finished_utc,
+            t.duration_s, t.cpu_s, t.num_steps, t.num_particles, t.host)
+      .Finish();
+  for (const MetricRecord& metric : t.metrics) {
+    database_.Prepare("INSERT OR REPLACE INTO metrics VALUES (?1, ?2, ?3, ?4, ?5)")
+        .Bind(t.id, metric.name, metric.value, metric.unit, metric.undefined)
+        .Finish();
+  }
+  if (!profile_png.empty()) {
+    database_.Prepare("INSERT OR REPLACE INTO profiles VALUES (?1, ?2, ?3)")
+        .Bind(t.id, Blob{profile_png}, base::Hex(base::Checksum(profile_png)))
+        .Finish();
+  }
+  transaction.Commit();
+}
+
+void Journal::Drop(std::int64_t trial) {
+  database_.Prepare("DELETE FROM trials WHERE id = ?1 AND status = 'running'").Bind(trial).Finish();
+}
+
+std::string Journal::ProfilePng(std::int64_t trial) {
+  Statement row = database_.Prepare("SELECT png, checksum_xxh3 FROM profiles WHERE trial = ?1");
+  row.Bind(trial);
+  if (!row.Step()) return {};
+  std::string png = row.Bytes(0);
+  return base::Hex(base::Checksum(png)) == row.Text(1) ? png : std::string();
+}
+
+void Journal::AddEvent(std::string_view kind, std::int64_t trial, std::string_view text) {
+  database_.Prepare("INSERT INTO events (utc, kind, trial, text) VALUES (?1, ?2, ?3, ?4)")
+      .Bind(UtcNow(), kind, trial, text)
+      .Finish();
+}
+
+std::vector<EventRecord> Journal::Events() {
+  std::vector<EventRecord> events;
+  Statement row = database_.Prepare("SELECT utc, kind, trial, text FROM events ORDER BY id");
+  while (row.Step()) {
+    events.push_back(
+        {.utc = row.Text(0), .kind = row.Text(1), .trial = row.Integer(2), .text = row.Text(3)});
+  }
+  return events;
+}
+
+}  // namespace talus::experiments

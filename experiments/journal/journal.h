@@ -1,0 +1,66 @@
+// The campaign's state: one SQLite file that a `kill -9` at any moment leaves whole, and that
+// `sqlite3` reads while the campaign runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/journal/database.h"
+#include "experiments/journal/records.h"
+
+namespace talus::experiments {
+
+// DIR/journal.sqlite
+std::filesystem::path JournalPath(const std::filesystem::path& campaign);
+
+// Now, as "2026-01-31T12:00:00Z": for people to read; nothing is computed from it.
+std::string UtcNow();
+
+class Journal {
+ public:
+  // A new one, written with the campaign in it; throws ConfigError when there is one already.
+  static Journal Create(const std::filesystem::path& path, const CampaignRecord& campaign);
+
+  // To go on; brings an older schema up to date. Throws base::Error when the file is damaged.
+  static Journal Open(const std::filesystem::path& path);
+
+  // To look at while another process may be writing.
+  static Journal OpenReadOnly(const std::filesystem::path& path);
+
+  CampaignRecord Campaign();
+  ProgressRecord Progress();
+  void SetProgress(const ProgressRecord& progress);
+  // The spec after an allowed change.
+  void SetSpec(std::string_view spec_text, std::string_view spec_json);
+
+  // By id, with their metrics, without their images.
+  std::vector<TrialRecord> Trials();
+  std::int64_t CountTrials();
+
+  void Start(const TrialRecord& trial);  // inserts it as running
+  // A running trial gets another seed, attempt or job name.
+  void Restart(const TrialRecord& trial);
+  // Status, reason, metrics, timing and image in one transaction. Sets finish_order.
+  void Finish(TrialRecord& trial, std::string_view profile_png);
+  void Drop(std::int64_t trial);  // forgets a running trial, as if it had never been asked for
+
+  // The trial's ANHP, bytes of a PNG; empty when it has none or its checksum does not match.
+  std::string ProfilePng(std::int64_t trial);
+
+  void AddEvent(std::string_view kind, std::int64_t trial, std::string_view text);
+  std::vector<EventRecord> Events();
+
+ private:
+  explicit Journal(Database database) : database_(std::move(database)) {}
+  void CreateView(const CampaignRecord& campaign);
+  void InsertCampaign(const CampaignRecord& campaign);
+  void ReadPoints(std::vector<TrialRecord>& trials);
+  void ReadMetrics(std::vector<TrialRecord>& trials);
+
+  Database database_;
+};
+
+}  // namespace talus::experiments

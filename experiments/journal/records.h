@@ -1,0 +1,117 @@
+// What a campaign's journal holds, as plain data. All quantities in SI.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+
+namespace talus::experiments {
+
+// Why a trial exists.
+enum class TrialKind {
+  kNoise,   // one of the replicates at one point that estimate the run-to-run scatter
+  kDesign,  // proposed by the optimiser before it has a model
+  kSearch,  // proposed by the optimiser
+  kConfirm  // a final candidate with a fresh seed; the optimiser is not told
+};
+
+enum class TrialStatus { kRunning, kOk, kFailed };
+
+// A calibrated parameter.
+struct ParameterRecord {
+  std::string name;  // "sliding_friction"
+  double low = 0;
+  double high = 0;
+  std::string scale;  // "linear" or "log"
+  std::string unit;   // of value, low and high; "" if none
+};
+
+// What holds for the campaign as a whole. Written once, when it starts.
+struct CampaignRecord {
+  std::string name;
+  std::string spec_text;      // as the user wrote it
+  std::string spec_json;      // as it was understood, all defaults filled in
+  std::string spec_hash;      // of what may not change
+  std::string talus_version;  // of the program that started it
+  std::string created_utc;    // 2026-01-31T12:00:00Z
+  std::string objective;      // name of the metric that is minimised, or of the angle to be met
+  std::vector<ParameterRecord> parameters;
+  std::string aehp_png;             // the experiment's profile, bytes of a PNG
+  std::string aehp_sd_png;          // its standard deviation image; empty for a map without runs
+  std::string frame_json;           // the profile's frame, as imaging::Frame is written
+  double nebp_px = 0;               // of the AEHP, equivalent black pixels
+  std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
+};
+
+// What changes while it runs.
+struct ProgressRecord {
+  std::string state = "running";  // running, interrupted, finished
+  std::string stop_reason;        // in words, when it is not running
+  double elapsed_s = 0;           // time worked on it, all sessions together
+  std::string result_json;        // result.json's text once there is one
+};
+
+// One number measured on a trial; `value` is NaN and `undefined` says why where it is not defined.
+struct MetricRecord {
+  std::string name;  // "sad", "aor2"
+  double value = 0;
+  std::string unit;       // "mm2", "deg", "" if none
+  std::string undefined;  // empty when the value is
+};
+
+struct TrialRecord {
+  std::int64_t id = 0;  // from 1; the folder is trials/0001
+  TrialKind kind = TrialKind::kSearch;
+  std::int64_t kind_index = 0;  // its number within noise, within design and search, within confirm
+  std::int64_t set = 0;         // replicates of one proposal, and of one candidate, share a number
+  std::string origin;           // of the proposal: design, repeat, model, search; "" otherwise
+  std::string objective;        // that the proposal was made for
+  std::vector<double> unit;     // unit cube, in the order of the campaign's parameters
+  std::vector<double> native;   // SI
+  std::int64_t seed = 0;
+  double scale_factor = 1;
+  TrialStatus status = TrialStatus::kRunning;
+  std::string reason;             // why it failed, or how it ended
+  int attempts = 1;               // 2 when it was tried again with a new seed
+  std::int64_t finish_order = 0;  // from 1, in which trials finished and were told; 0 while running
+  std::string started_utc;
+  std::string finished_utc;
+  double duration_s = 0;  // wall-clock
+  double cpu_s = 0;
+  std::int64_t num_steps = 0;
+  std::int64_t num_particles = 0;
+  std::string host;
+  std::string job;  // the runner's own name for it, such as a cluster's job number
+  std::vector<MetricRecord> metrics;
+
+  // The value of a metric; nothing when the trial has none or it is not defined.
+  std::optional<double> Metric(std::string_view name) const;
+};
+
+struct EventRecord {
+  std::string utc;
+  std::string kind;        // start, resume, stop, retry, failure, warning …
+  std::int64_t trial = 0;  // 0 when it concerns the campaign
+  std::string text;
+};
+
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::TrialKind> {
+  using K = talus::experiments::TrialKind;
+  static constexpr std::array kList{std::pair{"noise", K::kNoise}, std::pair{"design", K::kDesign},
+                                    std::pair{"search", K::kSearch},
+                                    std::pair{"confirm", K::kConfirm}};
+};
+template <>
+struct talus::base::Names<talus::experiments::TrialStatus> {
+  using S = talus::experiments::TrialStatus;
+  static constexpr std::array kList{std::pair{"running", S::kRunning}, std::pair{"ok", S::kOk},
+                                    std::pair{"failed", S::kFailed}};
+};

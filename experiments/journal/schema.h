@@ -1,0 +1,93 @@
+// The journal's tables, as a list of steps from one version of the schema to the next. A step that
+// has been released is never edited: a change is a new step.
+#pragma once
+
+#include <array>
+
+namespace talus::experiments {
+
+// "talu", so that `file` and we tell a journal from another SQLite file.
+inline constexpr int kJournalApplicationId = 0x74616c75;
+
+inline constexpr const char* kSchemaVersion1 = R"sql(
+CREATE TABLE campaign (
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  name TEXT NOT NULL,
+  spec_text TEXT NOT NULL,
+  spec_json TEXT NOT NULL,
+  spec_hash TEXT NOT NULL,
+  talus_version TEXT NOT NULL,
+  created_utc TEXT NOT NULL,
+  objective TEXT NOT NULL,
+  aehp_png BLOB NOT NULL,
+  aehp_sd_png BLOB NOT NULL,
+  frame_json TEXT NOT NULL,
+  aehp_nebp_px REAL,
+  experimental_noise_floor_mm2 REAL,
+  state TEXT NOT NULL,
+  stop_reason TEXT NOT NULL,
+  elapsed_s REAL NOT NULL,
+  result_json TEXT NOT NULL
+);
+CREATE TABLE parameters (
+  position INTEGER PRIMARY KEY,   -- order in the unit cube, from 0
+  name TEXT NOT NULL UNIQUE,
+  low REAL NOT NULL,
+  high REAL NOT NULL,
+  scale TEXT NOT NULL,
+  unit TEXT NOT NULL              -- SI unit of low, high and every value of it
+);
+CREATE TABLE trials (
+  id INTEGER PRIMARY KEY,         -- from 1; the folder is trials/0001
+  kind TEXT NOT NULL,             -- noise, design, search, confirm
+  kind_index INTEGER NOT NULL,
+  set_index INTEGER NOT NULL,     -- replicates of one point share it
+  origin TEXT NOT NULL,
+  objective TEXT NOT NULL,
+  seed INTEGER NOT NULL,
+  scale_factor REAL NOT NULL,
+  status TEXT NOT NULL,           -- running, ok, failed
+  reason TEXT NOT NULL,
+  attempts INTEGER NOT NULL,
+  finish_order INTEGER NOT NULL,  -- order in which trials were told to the optimiser; 0 while running
+  started_utc TEXT NOT NULL,
+  finished_utc TEXT NOT NULL,
+  duration_s REAL,
+  cpu_s REAL,
+  num_steps INTEGER NOT NULL,
+  num_particles INTEGER NOT NULL,
+  host TEXT NOT NULL,
+  job TEXT NOT NULL
+);
+CREATE TABLE points (
+  trial INTEGER NOT NULL REFERENCES trials(id) ON DELETE CASCADE,
+  position INTEGER NOT NULL REFERENCES parameters(position),
+  unit_value REAL NOT NULL,       -- in the unit cube
+  value REAL NOT NULL,            -- in the SI unit that parameters.unit names
+  PRIMARY KEY (trial, position)
+) WITHOUT ROWID;
+CREATE TABLE metrics (
+  trial INTEGER NOT NULL REFERENCES trials(id) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value REAL,                     -- NULL when not defined
+  unit TEXT NOT NULL,
+  undefined TEXT NOT NULL,        -- why it is not defined
+  PRIMARY KEY (trial, name)
+) WITHOUT ROWID;
+CREATE TABLE profiles (
+  trial INTEGER PRIMARY KEY REFERENCES trials(id) ON DELETE CASCADE,
+  png BLOB NOT NULL,
+  checksum_xxh3 TEXT NOT NULL
+);
+CREATE TABLE events (
+  id INTEGER PRIMARY KEY,
+  utc TEXT NOT NULL,
+  kind TEXT NOT NULL,
+  trial INTEGER NOT NULL,
+  text TEXT NOT NULL
+);
+)sql";
+
+inline constexpr std::array kSchemaSteps{kSchemaVersion1};
+
+}  // namespace talus::experiments

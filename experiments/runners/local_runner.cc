@@ -1,0 +1,303 @@
+#include "experiments/runners/local_runner.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr const char* kGroupFile = ".process_group";
+constexpr int kCannotRun = 127;  // exit status of the child that could not become the command
+
+std::string HostName() {
+  char name[256] = "";
+  ::gethostname(name, sizeof name - 1);
+  return name;
+}
+
+// What /proc/PID/stat says of a process: nothing when it is gone.
+struct ProcessState {
+  char state = 0;  // 'Z' once it has ended and waits for its parent to notice
+  pid_t group = 0;
+  std::string start;  // tells it from a later process that was given the same number
+};
+
+ProcessState StateOf(const std::string& pid) {
+  std::ifstream in("/proc/" + pid + "/stat");
+  std::string line;
+  std::getline(in, line);
+  const auto end_of_name = line.rfind(')');
+  if (end_of_name == std::string::npos) return {};
+  ProcessState process;
+  std::istringstream fields(line.substr(end_of_name + 1));
+  std::string skipped;
+  fields >> process.state >> skipped >> process.group;
+  constexpr int kFieldsBeforeStart = 16;  // 6 … 21
+  for (int i = 0; i < kFieldsBeforeStart; ++i) fields >> skipped;
+  fields >> process.start;
+  return process;
+}
+
+bool GroupRuns(pid_t group) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const ProcessState process = StateOf(name);
+    if (process.group == group && process.state != 'Z') return true;
+  }
+  return false;
+}
+
+// Ends the process group that an earlier, killed program has left in this folder, if it is still
+// the same one.
+void EndLeftOver(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kGroupFile);
+  pid_t group = 0;
+  std::string start;
+  if (!(in >> group >> start) || group <= 1) return;
+  const ProcessState leader = StateOf(std::to_string(group));
+  // The leader may be gone while its children live; a group's number is not used again until they
+  // are gone too.
+  if (leader.state != 0 && leader.start != start) return;
+  if (::kill(-group, SIGKILL) != 0) return;
+  while (GroupRuns(group)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+// The child's side: only what is allowed between fork and exec.
+struct Launch {
+  const char* folder;
+  std::vector<char*> arguments;
+  std::vector<char*> environment;
+  int log;
+  pid_t parent;
+};
+
+[[noreturn]] void BecomeCommand(const Launch& launch) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != launch.parent) ::_exit(kCannotRun);  // it went before prctl
+  ::signal(SIGINT, SIG_DFL);
+  ::signal(SIGTERM, SIG_DFL);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int null = ::open("/dev/null", O_RDONLY);
+  if (null < 0 || ::dup2(null, 0) < 0 || ::dup2(launch.log, 1) < 0 || ::dup2(launch.log, 2) < 0 ||
+      ::chdir(launch.folder) != 0) {
+    ::_exit(kCannotRun);
+  }
+  ::execvpe(launch.arguments[0], launch.arguments.data(), launch.environment.data());
+  constexpr char kMessage[] = "the command cannot be run: ";
+  const char* reason = ::strerror(errno);
+  (void)!::write(2, kMessage, sizeof kMessage - 1);
+  (void)!::write(2, reason, ::strlen(reason));
+  (void)!::write(2, "\n", 1);
+  ::_exit(kCannotRun);
+}
+
+std::vector<char*> Pointers(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+// Ours, with OpenMP told to keep to its share and to sleep while it waits: a spinning thread would
+// take the core of another trial.
+std::vector<std::string> Environment(int threads) {
+  std::vector<std::string> list;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    if (text.starts_with("OMP_NUM_THREADS=") || text.starts_with("OMP_WAIT_POLICY=")) continue;
+    list.emplace_back(text);
+  }
+  list.push_back("OMP_NUM_THREADS=" + std::to_string(threads));
+  list.push_back("OMP_WAIT_POLICY=passive");
+  return list;
+}
+
+std::string SignalText(int signal) {
+  return "was ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+}
+
+}  // namespace
+
+LocalRunner::LocalRunner(const LocalRunnerOptions& options)
+    : workers_(options.workers > 0
+                   ? options.workers
+                   : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      threads_per_job_(options.threads_per_job),
+      host_(HostName()) {}
+
+LocalRunner::~LocalRunner() {
+  for (auto& [id, process] : running_) {
+    ::kill(-process.pid, SIGKILL);
+    ::waitpid(process.pid, nullptr, 0);
+    ::close(process.pid_file);
+  }
+}
+
+std::vector<std::string> LocalRunner::Submit(std::span<const Job> jobs) {
+  for (const Job& job : jobs) {
+    try {
+      StartProcess(job);
+    } catch (const base::Error& error) {
+      finished_.push_back({.id = job.id,
+                           .end = JobEnd::kNotStarted,
+                           .exit_status = 0,
+                           .reason = error.what(),
+                           .duration = 0,
+                           .cpu_time = 0,
+                           .host = host_});
+    }
+  }
+  return std::vector<std::string>(jobs.size());
+}
+
+bool LocalRunner::Adopt(const Job& job, const std::string&) {
+  EndLeftOver(job.folder);
+  return false;
+}
+
+void LocalRunner::StartProcess(const Job& job) {
+  EndLeftOver(job.folder);
+  const std::string log_name = (job.folder / "log.txt").string();
+  const int log = ::open(log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (log < 0) throw base::Error(log_name + ": cannot be written: " + std::strerror(errno));
+
+  std::vector<std::string> command = job.command;
+  std::vector<std::string> environment = Environment(threads_per_job_);
+  const Launch launch{.folder = job.folder.c_str(),
+                      .arguments = Pointers(command),
+                      .environment = Pointers(environment),
+                      .log = log,
+                      .parent = ::getpid()};
+  const pid_t pid = ::fork();
+  if (pid == 0) BecomeCommand(launch);
+  const int code = errno;
+  ::close(log);
+  if (pid < 0) throw base::Error(std::string("no process can be started: ") + std::strerror(code));
+  ::setpgid(pid, pid);  // in parent and child, so that it holds before either goes on
+
+  const auto now = Clock::now();
+  const auto cap = std::chrono::duration<double>(job.time_cap > 0 ? job.time_cap : 1e9);
+  running_[job.id] = {.pid = pid,
+                      .pid_file = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
+                      .start = now,
+                      .deadline = now + std::chrono::duration_cast<Clock::duration>(cap),
+                      .stopped = JobEnd::kExit,
+                      .folder = job.folder};
+  std::ofstream(job.folder / kGroupFile)
+      << pid << ' ' << StateOf(std::to_string(pid)).start << '\n';
+}
+
+std::vector<FinishedJob> LocalRunner::Wait(double seconds) {
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(seconds));
+  CollectEnded();
+  while (finished_.empty()) {
+    const auto now = Clock::now();
+    StopOverdue(now);
+    auto until = end;
+    for (const auto& [id, process] : running_) {
+      if (process.stopped == JobEnd::kExit) until = std::min(until, process.deadline);
+    }
+    if (now >= end) break;
+    const bool interrupted = !WaitForOne(std::chrono::duration<double>(until - now).count());
+    CollectEnded();
+    if (interrupted) break;
+  }
+  return std::exchange(finished_, {});
+}
+
+// False when a signal ended the wait.
+bool LocalRunner::WaitForOne(double seconds) const {
+  std::vector<pollfd> ends;
+  for (const auto& [id, process] : running_) ends.push_back({process.pid_file, POLLIN, 0});
+  const int milliseconds = static_cast<int>(std::clamp(seconds * 1e3 + 1, 0.0, 1e6));
+  return ::poll(ends.data(), ends.size(), milliseconds) >= 0 || errno != EINTR;
+}
+
+void LocalRunner::StopOverdue(Clock::time_point now) {
+  for (auto& [id, process] : running_) {
+    if (process.stopped != JobEnd::kExit || now < process.deadline) continue;
+    process.stopped = JobEnd::kTimeCap;
+    ::kill(-process.pid, SIGKILL);
+  }
+}
+
+void LocalRunner::CollectEnded() {
+  for (auto it = running_.begin(); it != running_.end();) {
+    siginfo_t info{};
+    // Looks without reaping: its group can still be ended under its number.
+    const bool ended = ::waitid(P_PID, static_cast<id_t>(it->second.pid), &info,
+                                WEXITED | WNOHANG | WNOWAIT) == 0 &&
+                       info.si_pid == it->second.pid;
+    if (!ended) {
+      ++it;
+      continue;
+    }
+    finished_.push_back(Reap(it->first, it->second));
+    it = running_.erase(it);
+  }
+}
+
+FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
+  ::kill(-process.pid, SIGKILL);  // whatever the command has left behind
+  int status = 0;
+  rusage usage{};
+  ::wait4(process.pid, &status, 0, &usage);
+  ::close(process.pid_file);
+  std::error_code ignored;
+  std::filesystem::remove(process.folder / kGroupFile, ignored);
+
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  FinishedJob job{.id = id,
+                  .end = process.stopped,
+                  .exit_status = 0,
+                  .reason = {},
+                  .duration = std::chrono::duration<double>(Clock::now() - process.start).count(),
+                  .cpu_time = seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                  .host = host_};
+  if (process.stopped == JobEnd::kTimeCap) {
+    job.reason = "was stopped at its time cap";
+  } else if (process.stopped == JobEnd::kCancelled) {
+    job.reason = "was cancelled";
+  } else if (WIFSIGNALED(status)) {
+    job.end = JobEnd::kSignal;
+    job.reason = SignalText(WTERMSIG(status));
+  } else {
+    job.exit_status = WEXITSTATUS(status);
+    job.reason = "exit status " + std::to_string(job.exit_status);
+    if (job.exit_status == kCannotRun) job.end = JobEnd::kNotStarted;
+  }
+  return job;
+}
+
+void LocalRunner::Cancel(std::int64_t id) {
+  const auto found = running_.find(id);
+  if (found == running_.end()) return;
+  found->second.stopped = JobEnd::kCancelled;
+  ::kill(-found->second.pid, SIGKILL);
+}
+
+}  // namespace talus::experiments

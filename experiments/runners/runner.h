@@ -1,0 +1,90 @@
+// Where commands run: on this machine, or through a cluster's queue. A runner knows folders and
+// commands; what they compute it does not know.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+
+namespace talus::experiments {
+
+// A command to run once in its folder; what it prints goes to `log.txt` there.
+struct Job {
+  std::int64_t id = 0;           // the caller's, unique among its unfinished jobs
+  int attempt = 1;               // the same id again after a failure has the next number
+  std::filesystem::path folder;  // absolute; working directory of the command
+  std::vector<std::string> command;
+  double time_cap = 0;  // [s] of wall-clock from its start, 0: none
+};
+
+// How a job ended.
+enum class JobEnd {
+  kExit,         // by itself, with an exit status
+  kSignal,       // crashed or was killed
+  kTimeCap,      // was stopped after time_cap
+  kOutOfMemory,  // was stopped for its memory
+  kNodeFailure,  // the machine it ran on went away
+  kPreempted,    // was put aside for others
+  kCancelled,    // by Cancel
+  kNotStarted    // the command cannot be run, or the queue refused it
+};
+
+struct FinishedJob {
+  std::int64_t id = 0;
+  JobEnd end = JobEnd::kExit;
+  int exit_status = 0;  // for kExit
+  std::string reason;   // in words: "exit status 1", "was killed by signal 11 (SIGSEGV)"
+  double duration = 0;  // [s] wall-clock
+  double cpu_time = 0;  // [s], 0 when not known
+  std::string host;
+
+  bool ok() const { return end == JobEnd::kExit && exit_status == 0; }
+};
+
+class Runner {
+ public:
+  // Jobs that are not finished are cancelled where they would be lost with this process (local),
+  // and left where they go on without it (a queue).
+  virtual ~Runner() = default;
+
+  // Jobs that may be unfinished at the same time.
+  virtual int Capacity() const = 0;
+
+  // Takes jobs on; those given together may be submitted together. A job that cannot be started is
+  // reported by Wait, not thrown. Returns a name for each by which a later process can find it
+  // again (a cluster's job number), or "" if that is not possible.
+  virtual std::vector<std::string> Submit(std::span<const Job> jobs) = 0;
+
+  // A job that an earlier process submitted under `name`: true if it is known, waiting, running or
+  // ended; Wait then reports it as one of ours. False if it must be submitted again; nothing of it
+  // is running then.
+  virtual bool Adopt(const Job& job, const std::string& name) = 0;
+
+  // Jobs that have finished since the last call. Waits up to `seconds` for the first; returns
+  // earlier, perhaps with none, when a signal arrives.
+  virtual std::vector<FinishedJob> Wait(double seconds) = 0;
+
+  // Stops a job with everything it has started; Wait reports it as cancelled.
+  virtual void Cancel(std::int64_t id) = 0;
+};
+
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::JobEnd> {
+  using E = talus::experiments::JobEnd;
+  static constexpr std::array kList{std::pair{"exit", E::kExit},
+                                    std::pair{"signal", E::kSignal},
+                                    std::pair{"time_cap", E::kTimeCap},
+                                    std::pair{"out_of_memory", E::kOutOfMemory},
+                                    std::pair{"node_failure", E::kNodeFailure},
+                                    std::pair{"preempted", E::kPreempted},
+                                    std::pair{"cancelled", E::kCancelled},
+                                    std::pair{"not_started", E::kNotStarted}};
+};

@@ -1,0 +1,217 @@
+#include "experiments/journal/journal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace talus::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+
+class JournalTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("talus_journal_" + std::to_string(::getpid()) + "_" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static CampaignRecord Campaign() {
+    return {.name = "test",
+            .spec_text = "{}",
+            .spec_json = "{}",
+            .spec_hash = "0123",
+            .talus_version = "0.1.0",
+            .created_utc = UtcNow(),
+            .objective = "sad",
+            .parameters =
+                {{.name = "sliding_friction", .low = 0, .high = 1, .scale = "linear", .unit = ""},
+                 {.name = "surface_energy",
+                  .low = 1e-6,
+                  .high = 1e-4,
+                  .scale = "log",
+                  .unit = "J/m^2"}},
+            .aehp_png = std::string("\0PNG", 4),
+            .aehp_sd_png = "",
+            .frame_json = "{}",
+            .nebp_px = 12,
+            .noise_mm2 = 0.5};
+  }
+  static TrialRecord Trial(std::int64_t id) {
+    TrialRecord trial;
+    trial.id = id;
+    trial.unit = {0.25, 0.5};
+    trial.native = {0.25, 1e-5};
+    trial.seed = 100 + id;
+    trial.started_utc = UtcNow();
+    return trial;
+  }
+  static void FinishAsOk(Journal& journal, TrialRecord trial, double sad) {
+    trial.status = TrialStatus::kOk;
+    trial.metrics = {
+        {.name = "sad", .value = sad, .unit = "mm2", .undefined = ""},
+        {.name = "aor2", .value = std::nan(""), .unit = "deg", .undefined = "the heap overhangs"}};
+    journal.Finish(trial, "image");
+  }
+
+  std::filesystem::path folder_;
+  std::filesystem::path File() const { return JournalPath(folder_); }
+};
+
+TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
+  Journal journal = Journal::Create(File(), Campaign());
+  journal.Start(Trial(1));
+  journal.Start(Trial(2));
+  FinishAsOk(journal, Trial(2), 1.5);
+  journal.AddEvent("warning", 2, "text");
+
+  Journal reader = Journal::OpenReadOnly(File());  // `journal` is still open
+  const auto trials = reader.Trials();
+  ASSERT_EQ(trials.size(), 2u);
+  EXPECT_EQ(trials[0].status, TrialStatus::kRunning);
+  EXPECT_EQ(trials[1].status, TrialStatus::kOk);
+  EXPECT_EQ(trials[1].finish_order, 1);
+  EXPECT_EQ(trials[1].native, (std::vector<double>{0.25, 1e-5}));
+  EXPECT_EQ(trials[1].Metric("sad"), 1.5);
+  EXPECT_EQ(trials[1].Metric("aor2"), std::nullopt);
+  EXPECT_EQ(trials[1].metrics[0].undefined, "the heap overhangs");
+  EXPECT_EQ(reader.ProfilePng(2), "image");
+  EXPECT_EQ(reader.ProfilePng(1), "");
+  EXPECT_EQ(reader.Events().at(0).trial, 2);
+  const CampaignRecord campaign = reader.Campaign();
+  EXPECT_EQ(campaign.aehp_png.size(), 4u);  // a zero byte does not end it
+  EXPECT_EQ(campaign.parameters.at(1).unit, "J/m^2");
+  EXPECT_EQ(campaign.noise_mm2, 0.5);
+}
+
+TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
+  Journal journal = Journal::Create(File(), Campaign());
+  journal.Start(Trial(1));
+  FinishAsOk(journal, Trial(1), 1.5);
+  Database database(File(), Database::Mode::kReadOnly);
+  Statement row = database.Prepare(
+      "SELECT sliding_friction, surface_energy_J_per_m2, sad_mm2, aor2_deg, duration_s FROM "
+      "results");
+  ASSERT_TRUE(row.Step());
+  EXPECT_EQ(row.Real(1), 1e-5);
+  EXPECT_EQ(row.Real(2), 1.5);
+  EXPECT_TRUE(row.IsNull(3));
+}
+
+TEST_F(JournalTest, FinishedTrialsKeepTheirOrderAndDroppedOnesAreGone) {
+  {
+    Journal journal = Journal::Create(File(), Campaign());
+    for (int id = 1; id <= 3; ++id) journal.Start(Trial(id));
+    FinishAsOk(journal, Trial(3), 1);
+    FinishAsOk(journal, Trial(1), 2);
+    journal.Drop(2);
+    journal.Drop(1);  // is not running: stays
+  }
+  Journal again = Journal::Open(File());
+  const auto trials = again.Trials();
+  ASSERT_EQ(trials.size(), 2u);
+  EXPECT_EQ(trials[0].finish_order, 2);
+  EXPECT_EQ(trials[1].finish_order, 1);
+}
+
+TEST_F(JournalTest, KilledWhileWritingLosesNothingThatWasFinished) {
+  Journal::Create(File(), Campaign());
+  int told[2];
+  ASSERT_EQ(::pipe(told), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Journal journal = Journal::Open(File());
+    for (int id = 1;; ++id) {
+      journal.Start(Trial(id));
+      FinishAsOk(journal, Trial(id), id);
+      (void)!::write(told[1], &id, sizeof id);
+    }
+  }
+  int last = 0;
+  while (last < 20 && ::read(told[0], &last, sizeof last) == sizeof last) {
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(told[1]);
+  while (::read(told[0], &last, sizeof last) == sizeof last) {
+  }
+  ::close(told[0]);
+  const auto trials = Journal::Open(File()).Trials();
+  ASSERT_GE(trials.size(), static_cast<std::size_t>(last));
+  for (int i = 0; i < last; ++i)
+    EXPECT_EQ(trials[static_cast<std::size_t>(i)].Metric("sad"), i + 1);
+}
+
+TEST_F(JournalTest, DamageIsNoticed) {
+  {
+    Journal journal = Journal::Create(File(), Campaign());
+    for (int id = 1; id <= 40; ++id) {
+      journal.Start(Trial(id));
+      FinishAsOk(journal, Trial(id), 1);
+    }
+  }
+  std::filesystem::resize_file(File(), std::filesystem::file_size(File()) / 2);
+  EXPECT_THROW(Journal::Open(File()), base::Error);
+  std::ofstream(folder_ / "text")
+      << "not a database, but longer than the header of one is, so that "
+         "nothing but its content tells it from a journal........";
+  EXPECT_THROW(Journal::Open(folder_ / "text"), base::Error);
+}
+
+TEST_F(JournalTest, AnImageThatDoesNotMatchItsChecksumIsNotReturned) {
+  Journal journal = Journal::Create(File(), Campaign());
+  journal.Start(Trial(1));
+  FinishAsOk(journal, Trial(1), 1);
+  Database(File(), Database::Mode::kReadWrite)
+      .Execute("UPDATE profiles SET png = x'00' WHERE trial = 1");
+  EXPECT_EQ(journal.ProfilePng(1), "");
+}
+
+TEST_F(JournalTest, IsNotMadeTwiceAndNotReadByAnOlderProgram) {
+  { Journal::Create(File(), Campaign()); }
+  EXPECT_THROW(Journal::Create(File(), Campaign()), base::ConfigError);
+  EXPECT_THROW(Journal::OpenReadOnly(folder_ / "absent"), base::ConfigError);
+  Database(File(), Database::Mode::kReadWrite).Execute("PRAGMA user_version = 99");
+  try {
+    Journal::Open(File());
+    FAIL() << "a newer schema was opened";
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("newer talus"));
+  }
+}
+
+TEST_F(JournalTest, TenThousandTrialsAreReadInASecond) {
+  Journal journal = Journal::Create(File(), Campaign());
+  {
+    Database database(File(), Database::Mode::kReadWrite);
+    database.Execute(
+        "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 10000) "
+        "INSERT INTO trials SELECT i, 'search', i, i, 'model', 'sad', i, 1, 'ok', '', 1, i, '', "
+        "'', 1, 1, 1, 1, '', '' FROM n;"
+        "INSERT INTO points SELECT t.id, p.position, 0.5, 0.5 FROM trials t, parameters p;"
+        "INSERT INTO metrics SELECT id, m.column1, 1, '', '' FROM trials, (VALUES ('sad'), "
+        "('rmse'), ('aor1'), ('aor2'), ('aor3')) m;"
+        "INSERT INTO profiles SELECT id, zeroblob(8000), '' FROM trials;");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto trials = Journal::OpenReadOnly(File()).Trials();
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(trials.size(), 10000u);
+  EXPECT_EQ(trials.back().metrics.size(), 5u);
+  // Takes 0.1 s on a quiet core; one query a trial, or images read along, takes several.
+  EXPECT_LT(taken.count(), 1.5);
+}
+
+}  // namespace
+}  // namespace talus::experiments

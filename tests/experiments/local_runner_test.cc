@@ -1,0 +1,194 @@
+#include "experiments/runners/local_runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "base/file.h"
+
+namespace talus::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class LocalRunnerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = std::filesystem::temp_directory_path() /
+            ("talus_runner_" + std::to_string(::getpid()) + "_" +
+             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(root_);
+  }
+  void TearDown() override { std::filesystem::remove_all(root_); }
+
+  Job Shell(std::int64_t id, const std::string& script, double time_cap = 0) {
+    const std::filesystem::path folder = root_ / std::to_string(id);
+    std::filesystem::create_directories(folder);
+    return {.id = id,
+            .attempt = 1,
+            .folder = folder,
+            .command = {"sh", "-c", script},
+            .time_cap = time_cap};
+  }
+  FinishedJob RunOne(const Job& job) {
+    LocalRunner runner({.workers = 1});
+    runner.Submit(std::span(&job, 1));
+    const auto finished = runner.Wait(20);
+    return finished.empty() ? FinishedJob{} : finished.front();
+  }
+
+  std::filesystem::path root_;
+};
+
+// "state parent group" of a process, "" when it is gone. Ended ones may stay as Z for long, as
+// their new parent pleases.
+std::string Stat(const std::string& pid) {
+  std::ifstream in("/proc/" + pid + "/stat");
+  std::string line;
+  std::getline(in, line);
+  const auto name_end = line.rfind(')');
+  return name_end == std::string::npos ? "" : line.substr(name_end + 2);
+}
+
+bool Lives(pid_t pid) {
+  const std::string stat = Stat(std::to_string(pid));
+  return !stat.empty() && stat[0] != 'Z';
+}
+
+// True while any process of the group lives.
+bool GroupLives(pid_t group) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::istringstream stat(Stat(entry.path().filename()));
+    std::string state;
+    pid_t parent = 0;
+    pid_t its_group = 0;
+    if (stat >> state >> parent >> its_group && its_group == group && state != "Z") return true;
+  }
+  return false;
+}
+
+bool Eventually(const auto& condition) {
+  const auto start = Clock::now();
+  while (!condition()) {
+    if (Since(start) > 10) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+TEST_F(LocalRunnerTest, RunsInTheFolderWithALogAndOneSleepingThread) {
+  const Job job = Shell(7, "echo out; echo err >&2; pwd; echo $OMP_NUM_THREADS$OMP_WAIT_POLICY");
+  const FinishedJob done = RunOne(job);
+  EXPECT_TRUE(done.ok()) << done.reason;
+  EXPECT_EQ(done.id, 7);
+  EXPECT_EQ(base::ReadFile(job.folder / "log.txt"),
+            "out\nerr\n" + job.folder.string() + "\n1passive\n");
+}
+
+TEST_F(LocalRunnerTest, EveryWayToFailHasItsReason) {
+  const FinishedJob status = RunOne(Shell(1, "exit 3"));
+  EXPECT_EQ(status.end, JobEnd::kExit);
+  EXPECT_EQ(status.exit_status, 3);
+  EXPECT_EQ(status.reason, "exit status 3");
+
+  const FinishedJob crash = RunOne(Shell(2, "kill -SEGV $$"));
+  EXPECT_EQ(crash.end, JobEnd::kSignal);
+  EXPECT_THAT(crash.reason, HasSubstr("signal 11"));
+
+  const FinishedJob slow = RunOne(Shell(3, "sleep 60", 0.1));
+  EXPECT_EQ(slow.end, JobEnd::kTimeCap);
+  EXPECT_LT(slow.duration, 10);
+
+  Job absent = Shell(4, "");
+  absent.command = {"talus-no-such-command"};
+  EXPECT_EQ(RunOne(absent).end, JobEnd::kNotStarted);
+  EXPECT_THAT(base::ReadFile(absent.folder / "log.txt"), HasSubstr("cannot be run"));
+
+  Job nowhere = Shell(5, "true");
+  nowhere.folder = root_ / "absent";
+  EXPECT_EQ(RunOne(nowhere).end, JobEnd::kNotStarted);
+}
+
+TEST_F(LocalRunnerTest, TimeCapAndCancelEndWhatTheCommandHasStarted) {
+  LocalRunner runner({.workers = 2});
+  const Job jobs[] = {Shell(1, "sleep 60 & echo $$ > pid; wait", 0.3),
+                      Shell(2, "sleep 60 & echo $$ > pid; wait")};
+  runner.Submit(jobs);
+  EXPECT_EQ(runner.Wait(20).at(0).id, 1);
+  pid_t group[2] = {};
+  for (int i = 0; i < 2; ++i) std::ifstream(jobs[i].folder / "pid") >> group[i];
+  EXPECT_TRUE(Eventually([&] { return !GroupLives(group[0]); }));
+  EXPECT_TRUE(GroupLives(group[1]));
+  runner.Cancel(2);
+  EXPECT_EQ(runner.Wait(20).at(0).end, JobEnd::kCancelled);
+  EXPECT_TRUE(Eventually([&] { return !GroupLives(group[1]); }));
+}
+
+TEST_F(LocalRunnerTest, JobsEndWithAKilledProgramAndTheirChildrenBeforeTheFolderIsUsedAgain) {
+  const Job job = Shell(1, "trap '' HUP; sleep 60 & echo $$ > pid.new; mv pid.new pid; wait");
+  const pid_t program = ::fork();
+  if (program == 0) {
+    LocalRunner runner({.workers = 1});
+    runner.Submit(std::span(&job, 1));
+    runner.Wait(60);
+    ::_exit(0);
+  }
+  ASSERT_TRUE(Eventually([&] {
+    return std::filesystem::exists(job.folder / "pid") &&
+           std::filesystem::exists(job.folder / ".process_group");
+  }));
+  pid_t group = 0;
+  std::ifstream(job.folder / "pid") >> group;
+  ::kill(program, SIGKILL);
+  ::waitpid(program, nullptr, 0);
+  EXPECT_TRUE(Eventually([&] { return !Lives(group); })) << "the command lives on";
+  LocalRunner next({.workers = 1});
+  EXPECT_FALSE(next.Adopt(job, ""));
+  EXPECT_FALSE(GroupLives(group)) << "a child of the command lives on";
+}
+
+TEST_F(LocalRunnerTest, WaitReturnsInTimeAndReportsEachJobOnce) {
+  LocalRunner runner({.workers = 2});
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "sleep 0.5")};
+  runner.Submit(jobs);
+  EXPECT_EQ(runner.Wait(20).size(), 1u);
+  const auto start = Clock::now();
+  EXPECT_TRUE(runner.Wait(0.05).empty());
+  EXPECT_LT(Since(start), 0.4);
+  EXPECT_EQ(runner.Wait(20).at(0).id, 2);
+  EXPECT_TRUE(runner.Wait(0).empty());
+}
+
+// What a trial costs beyond its own work.
+TEST_F(LocalRunnerTest, TwoHundredTrivialJobsTakeLessThanFourSeconds) {
+  LocalRunner runner({.workers = 2});
+  std::vector<Job> jobs;
+  for (int id = 0; id < 200; ++id) {
+    jobs.push_back(Shell(id, ""));
+    jobs.back().command = {"/bin/true"};
+  }
+  const auto start = Clock::now();
+  std::size_t next = 0;
+  std::size_t ended = 0;
+  while (ended < jobs.size()) {
+    while (next < jobs.size() && next - ended < 2) runner.Submit(std::span(&jobs[next++], 1));
+    ended += runner.Wait(10).size();
+  }
+  // 4 s is the required 50 a second; a quiet core does 500.
+  EXPECT_LT(Since(start), 4);
+}
+
+}  // namespace
+}  // namespace talus::experiments
