@@ -1,0 +1,25 @@
+// Evaluations pooled by point: replicates become one point with their mean and count.
+//
+// Exact, not an approximation: for m values y_j = f + noise, the likelihood of all of them is that
+// of their mean, with noise variance n²/m, times a factor of n alone (PooledData::scatter).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace talus::surrogate {
+
+struct PooledData {
+  Eigen::MatrixXd points;  // d × u, the distinct points as columns, in order of first appearance
+  Eigen::VectorXd values;  // u, means over the replicates
+  Eigen::VectorXd counts;  // u, number of replicates, >= 1
+  double scatter = 0;      // Σ (y_j - mean)² over all points, in squared units of the values
+  int num_values = 0;      // evaluations before pooling
+};
+
+// `points` has one evaluation a row. Points are the same when all coordinates are equal.
+PooledData Pool(const Eigen::MatrixXd& points, const Eigen::VectorXd& values);
+
+// Adds one evaluation; returns the column it went to.
+Eigen::Index AddTo(PooledData& data, const Eigen::VectorXd& point, double value);
+
+}  // namespace talus::surrogate
