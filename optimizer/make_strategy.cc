@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "optimizer/design_strategy.h"
+#include "optimizer/replayed_search.h"
 
 namespace talus::optimizer {
 namespace {
@@ -28,6 +29,28 @@ Points SobolInside(const Domain& domain, int num_points, std::uint64_t seed) {
     }
   }
   return inside;
+}
+
+ReplayOptions SearchOf(StrategyKind kind) {
+  using surrogate::SearchAlgorithm;
+  switch (kind) {
+    case StrategyKind::kDirectL:
+      return {.algorithm = SearchAlgorithm::kDirectL, .name = "DIRECT-L"};
+    case StrategyKind::kCrs2:
+      return {.algorithm = SearchAlgorithm::kCrs2, .name = "CRS2"};
+    case StrategyKind::kBobyqa:
+      return {.algorithm = SearchAlgorithm::kBobyqa, .name = "multi-start BOBYQA", .local = true};
+    case StrategyKind::kCobyla:
+      return {.algorithm = SearchAlgorithm::kCobyla, .name = "multi-start COBYLA", .local = true};
+    case StrategyKind::kNelderMead:
+      return {.algorithm = SearchAlgorithm::kNelderMead,
+              .name = "multi-start Nelder-Mead",
+              .local = true};
+    case StrategyKind::kSubplex:
+      return {.algorithm = SearchAlgorithm::kSubplex, .name = "multi-start subplex", .local = true};
+    default:
+      throw base::Error("this kind of strategy is no search");
+  }
 }
 
 }  // namespace
@@ -71,8 +94,9 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
       return std::make_unique<GridStrategy>(
           domain, GridStrategy::Sweep{.levels = LevelsFor(options, domain.num_parameters),
                                       .refine_best = options.refine_best});
+    default:
+      return std::make_unique<ReplayedSearch>(domain, SearchOf(options.kind), seed);
   }
-  throw base::Error("unknown kind of strategy");
 }
 
 }  // namespace talus::optimizer

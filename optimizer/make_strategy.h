@@ -14,7 +14,17 @@
 
 namespace talus::optimizer {
 
-enum class StrategyKind { kLhs, kSobol, kGrid };
+enum class StrategyKind {
+  kLhs,
+  kSobol,
+  kGrid,
+  kDirectL,
+  kCrs2,
+  kBobyqa,
+  kCobyla,
+  kNelderMead,
+  kSubplex,
+};
 
 struct StrategyOptions {
   StrategyKind kind = StrategyKind::kLhs;
@@ -47,6 +57,10 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
 template <>
 struct talus::base::Names<talus::optimizer::StrategyKind> {
   using Kind = talus::optimizer::StrategyKind;
-  static constexpr std::array kList{std::pair{"lhs", Kind::kLhs}, std::pair{"sobol", Kind::kSobol},
-                                    std::pair{"grid", Kind::kGrid}};
+  static constexpr std::array kList{
+      std::pair{"lhs", Kind::kLhs},         std::pair{"sobol", Kind::kSobol},
+      std::pair{"grid", Kind::kGrid},       std::pair{"direct_l", Kind::kDirectL},
+      std::pair{"cobyla", Kind::kCobyla},   std::pair{"nelder_mead", Kind::kNelderMead},
+      std::pair{"subplex", Kind::kSubplex},
+  };
 };

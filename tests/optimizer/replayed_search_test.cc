@@ -1,0 +1,124 @@
+#include "optimizer/replayed_search.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "optimizer/make_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+using ::testing::HasSubstr;
+
+double Bowl(const Eigen::VectorXd& u) {
+  return (u - Eigen::Vector3d(0.3, 0.6, 0.45)).cwiseProduct(Eigen::Vector3d(1, 2, 3)).squaredNorm();
+}
+
+std::unique_ptr<Strategy> Make(StrategyKind kind) {
+  return MakeStrategy({.kind = kind}, Domain{.num_parameters = 3}, nullptr, 7);
+}
+
+class EverySearch : public testing::TestWithParam<StrategyKind> {};
+
+TEST_P(EverySearch, ToldTheSameGoesOnTheSame) {
+  const auto first = Make(GetParam());
+  const auto second = Make(GetParam());
+  for (int i = 0; i < 30; ++i) {
+    const auto proposals = first->Ask(1, {});
+    ASSERT_EQ(proposals.size(), 1u);
+    const Observation observation{.point = proposals[0].point, .value = Bowl(proposals[0].point)};
+    first->Tell(observation);
+    second->Tell(observation);
+  }
+  EXPECT_EQ(first->Ask(1, {})[0].point, second->Ask(1, {})[0].point);
+}
+
+TEST_P(EverySearch, BatchesHoldNoPointTwiceAndNoPendingOne) {
+  const auto strategy = Make(GetParam());
+  std::vector<Eigen::VectorXd> asked;
+  for (int i = 0; i < 10; ++i) {
+    const auto before = strategy->Ask(2, {});
+    const std::vector<Eigen::VectorXd> pending{before[0].point, before[1].point};
+    auto proposals = strategy->Ask(2, pending);
+    proposals.insert(proposals.begin(), before.begin(), before.end());
+    for (const Proposal& p : proposals) {
+      for (const auto& other : asked) ASSERT_FALSE(SamePoint(p.point, other));
+      asked.push_back(p.point);
+      ASSERT_TRUE((p.point.array() >= 0).all() && (p.point.array() <= 1).all());
+    }
+    for (const Proposal& p : proposals) strategy->Tell({.point = p.point, .value = Bowl(p.point)});
+  }
+}
+
+TEST_P(EverySearch, GetsNearerThanChance) {
+  const auto strategy = Make(GetParam());
+  for (int i = 0; i < 200; ++i) {
+    const Proposal p = strategy->Ask(1, {}).at(0);
+    // A failed run in the way must not stop the search.
+    strategy->Tell({.point = p.point, .failed = i == 20, .value = Bowl(p.point)});
+  }
+  const Answer answer = strategy->Recommend();
+  EXPECT_EQ(answer.predicted_value, Bowl(answer.point));
+  // The best of 200 random points is above 0.016 in the median: 4/3 π r³ / √6 = ln 2 / 200.
+  EXPECT_LT(answer.predicted_value, 0.016);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EverySearch,
+                         testing::Values(StrategyKind::kDirectL, StrategyKind::kCrs2,
+
+                                         StrategyKind::kBobyqa, StrategyKind::kCobyla,
+                                         StrategyKind::kNelderMead, StrategyKind::kSubplex));
+
+TEST(ReplayedSearch, IsTheSearchItself) {
+  std::vector<Eigen::VectorXd> direct;
+  const surrogate::SearchTask task{
+      .algorithm = surrogate::SearchAlgorithm::kCrs2,
+      .lower = Eigen::VectorXd::Zero(3),
+      .upper = Eigen::VectorXd::Ones(3),
+      .start = Eigen::VectorXd::Constant(3, 0.5),
+      .max_evaluations = 60,
+      .seed = 7,
+  };
+  surrogate::Minimize(
+      [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
+        direct.push_back(x);
+        return Bowl(x);
+      },
+      task);
+  ReplayedSearch search(Domain{.num_parameters = 3, .guesses = {task.start}},
+                        {.algorithm = surrogate::SearchAlgorithm::kCrs2, .name = "CRS2"}, 7);
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    const auto point = search.Ask(1, {}).at(0).point;
+    EXPECT_EQ(point, direct[i]) << i;
+    search.Tell({.point = point, .value = Bowl(point)});
+  }
+}
+
+TEST(ReplayedSearch, LocalSearchThatHasConvergedStartsElsewhere) {
+  const auto strategy = Make(StrategyKind::kBobyqa);
+  double farthest_late = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto point = strategy->Ask(1, {}).at(0).point;
+    if (i >= 60) farthest_late = std::max(farthest_late, Bowl(point));
+    strategy->Tell({.point = point, .value = Bowl(point)});
+  }
+  EXPECT_LT(strategy->Recommend().predicted_value, 1e-6);
+  EXPECT_GT(farthest_late, 0.1);  // a new start, far from the minimum that is found by then
+  EXPECT_FALSE(strategy->StopReason());
+}
+
+TEST(ReplayedSearch, NeverAsksForAForbiddenPoint) {
+  Domain domain{.num_parameters = 3};
+  domain.feasible = [](const Eigen::VectorXd& u) { return u.sum() < 1; };
+  for (const StrategyKind kind : {StrategyKind::kDirectL, StrategyKind::kBobyqa}) {
+    const auto strategy = MakeStrategy({.kind = kind}, domain, nullptr, 7);
+    for (int i = 0; i < 30; ++i) {
+      const auto point = strategy->Ask(1, {}).at(0).point;
+      ASSERT_LT(point.sum(), 1);
+      strategy->Tell({.point = point, .value = Bowl(point)});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace talus::optimizer
