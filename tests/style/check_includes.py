@@ -17,6 +17,7 @@ FENCES = [  # (include, files that may have it)
     (r"nlopt", r"(surrogate|optimizer)/nlopt_\w+\.cc$"),
     (r"ceres/", r"(surrogate|imaging)/\w+\.cc$"),
     (r"sqlite3\.h", r"experiments/journal/\w+\.cc$"),
+    (r"(pugixml|zlib)", r"imaging/vtk_xml\w*\.cc$"),
     (r"opencv2/", r"imaging/\w+\.cc$"),
     (r"(hwy/|experimental/simd|immintrin)", r"engine/"),
     (r"Eigen/", r"(surrogate|optimizer|imaging|experiments)/"),
