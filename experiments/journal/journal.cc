@@ -79,11 +79,6 @@ TrialRecord ReadTrial(const Statement& row) {
   return trial;
 }
 
-// "sad" in mm² → column sad_mm2
-std::string ColumnName(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + "_" + unit;
-}
-
 // "J/m^2" → "J_per_m2": a unit as part of a column's name.
 std::string UnitInName(const std::string& unit) {
   std::string name;
@@ -164,15 +159,21 @@ void Journal::InsertCampaign(const CampaignRecord& c) {
   database_
       .Prepare(
           "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, "
-          "'running', '', 0, '')")
-      .Bind(c.name, c.spec_text, c.spec_json, c.spec_hash, c.talus_version, c.created_utc,
-            c.objective, Blob{c.aehp_png}, Blob{c.aehp_sd_png}, c.frame_json, c.nebp_px,
-            c.noise_mm2.value_or(std::nan("")))
+          "?13, 'running', '', 0, '')")
+      .Bind(c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
+            c.created_utc, c.objective, Blob{c.aehp_png}, Blob{c.aehp_sd_png}, c.frame_json,
+            c.nebp_px, c.noise_mm2.value_or(std::nan("")))
       .Finish();
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const ParameterRecord& p = c.parameters[i];
     database_.Prepare("INSERT INTO parameters VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
         .Bind(static_cast<std::int64_t>(i), p.name, p.low, p.high, p.scale, p.unit)
+        .Finish();
+  }
+  for (std::size_t i = 0; i < c.reference.size(); ++i) {
+    const MetricRecord& m = c.reference[i];
+    database_.Prepare("INSERT INTO reference_metrics VALUES (?1, ?2, ?3, ?4, ?5)")
+        .Bind(static_cast<std::int64_t>(i), m.name, m.value, m.unit, m.undefined)
         .Finish();
   }
 }
@@ -182,15 +183,15 @@ void Journal::CreateView(const CampaignRecord& campaign) {
   std::string columns = "SELECT t.id, t.kind, t.status";
   for (std::size_t i = 0; i < campaign.parameters.size(); ++i) {
     const ParameterRecord& p = campaign.parameters[i];
+    const std::string column = p.unit.empty() ? p.name : p.name + "_" + UnitInName(p.unit);
     columns +=
         ",\n (SELECT value FROM points WHERE trial = t.id AND position = " + std::to_string(i) +
-        ") AS \"" + ColumnName(p.name, UnitInName(p.unit)) + '"';
+        ") AS " + column;
   }
-  const std::pair<const char*, const char*> metrics[] = {
-      {"sad", "mm2"}, {"rmse", ""}, {"aor1", "deg"}, {"aor2", "deg"}, {"aor3", "deg"}};
-  for (const auto& [name, unit] : metrics) {
+  for (const char* metric : {"sad_mm2", "rmse_gray", "repose_angle_1_mean_deg",
+                             "repose_angle_2_mean_deg", "repose_angle_3_mean_deg"}) {
     columns += ",\n (SELECT value FROM metrics WHERE trial = t.id AND name = '" +
-               std::string(name) + "') AS " + ColumnName(name, unit);
+               std::string(metric) + "') AS " + metric;
   }
   database_.Execute("CREATE VIEW results AS " + columns +
                     ",\n t.duration_s, t.seed, t.reason FROM trials t ORDER BY t.id");
@@ -198,24 +199,20 @@ void Journal::CreateView(const CampaignRecord& campaign) {
 
 CampaignRecord Journal::Campaign() {
   Statement row = database_.Prepare(
-      "SELECT name, spec_text, spec_json, spec_hash, talus_version, created_utc, objective, "
+      "SELECT name, spec_path, spec_text, spec_json, spec_hash, talus_version, created_utc, "
+      "objective, "
       "aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, experimental_noise_floor_mm2 FROM "
       "campaign");
   if (!row.Step()) throw base::Error("the journal holds no campaign");
-  CampaignRecord c{.name = row.Text(0),
-                   .spec_text = row.Text(1),
-                   .spec_json = row.Text(2),
-                   .spec_hash = row.Text(3),
-                   .talus_version = row.Text(4),
-                   .created_utc = row.Text(5),
-                   .objective = row.Text(6),
-                   .parameters = {},
-                   .aehp_png = row.Bytes(7),
-                   .aehp_sd_png = row.Bytes(8),
-                   .frame_json = row.Text(9),
-                   .nebp_px = row.Real(10),
-                   .noise_mm2 = std::nullopt};
-  if (!row.IsNull(11)) c.noise_mm2 = row.Real(11);
+  CampaignRecord c;
+  int column = 0;
+  for (std::string* text :
+       {&c.name, &c.spec_path, &c.spec_text, &c.spec_json, &c.spec_hash, &c.talus_version,
+        &c.created_utc, &c.objective, &c.aehp_png, &c.aehp_sd_png, &c.frame_json}) {
+    *text = row.Bytes(column++);
+  }
+  c.nebp_px = row.Real(column++);
+  if (!row.IsNull(column)) c.noise_mm2 = row.Real(column);
   Statement list =
       database_.Prepare("SELECT name, low, high, scale, unit FROM parameters ORDER BY position");
   while (list.Step()) {
@@ -224,6 +221,14 @@ CampaignRecord Journal::Campaign() {
                             .high = list.Real(2),
                             .scale = list.Text(3),
                             .unit = list.Text(4)});
+  }
+  Statement metrics = database_.Prepare(
+      "SELECT name, value, unit, undefined FROM reference_metrics ORDER BY position");
+  while (metrics.Step()) {
+    c.reference.push_back({.name = metrics.Text(0),
+                           .value = metrics.Real(1),
+                           .unit = metrics.Text(2),
+                           .undefined = metrics.Text(3)});
   }
   return c;
 }
@@ -344,10 +349,6 @@ void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
         .Finish();
   }
   transaction.Commit();
-}
-
-void Journal::Drop(std::int64_t trial) {
-  database_.Prepare("DELETE FROM trials WHERE id = ?1 AND status = 'running'").Bind(trial).Finish();
 }
 
 std::string Journal::ProfilePng(std::int64_t trial) {

@@ -45,7 +45,6 @@ class Journal {
   void Restart(const TrialRecord& trial);
   // Status, reason, metrics, timing and image in one transaction. Sets finish_order.
   void Finish(TrialRecord& trial, std::string_view profile_png);
-  void Drop(std::int64_t trial);  // forgets a running trial, as if it had never been asked for
 
   // The trial's ANHP, bytes of a PNG; empty when it has none or its checksum does not match.
   std::string ProfilePng(std::int64_t trial);

@@ -31,9 +31,18 @@ struct ParameterRecord {
   std::string unit;   // of value, low and high; "" if none
 };
 
+// One number measured on a trial; `value` is NaN and `undefined` says why where it is not defined.
+struct MetricRecord {
+  std::string name;  // with the unit: "sad_mm2", "repose_angle_2_mean_deg"
+  double value = 0;
+  std::string unit;       // "mm2", "deg", "-"
+  std::string undefined;  // empty when the value is
+};
+
 // What holds for the campaign as a whole. Written once, when it starts.
 struct CampaignRecord {
   std::string name;
+  std::string spec_path;      // absolute, where it was then
   std::string spec_text;      // as the user wrote it
   std::string spec_json;      // as it was understood, all defaults filled in
   std::string spec_hash;      // of what may not change
@@ -41,7 +50,8 @@ struct CampaignRecord {
   std::string created_utc;    // 2026-01-31T12:00:00Z
   std::string objective;      // name of the metric that is minimised, or of the angle to be met
   std::vector<ParameterRecord> parameters;
-  std::string aehp_png;             // the experiment's profile, bytes of a PNG
+  std::vector<MetricRecord> reference;  // metrics of the experiment itself
+  std::string aehp_png;                 // the experiment's profile, bytes of a PNG
   std::string aehp_sd_png;          // its standard deviation image; empty for a map without runs
   std::string frame_json;           // the profile's frame, as imaging::Frame is written
   double nebp_px = 0;               // of the AEHP, equivalent black pixels
@@ -54,14 +64,6 @@ struct ProgressRecord {
   std::string stop_reason;        // in words, when it is not running
   double elapsed_s = 0;           // time worked on it, all sessions together
   std::string result_json;        // result.json's text once there is one
-};
-
-// One number measured on a trial; `value` is NaN and `undefined` says why where it is not defined.
-struct MetricRecord {
-  std::string name;  // "sad", "aor2"
-  double value = 0;
-  std::string unit;       // "mm2", "deg", "" if none
-  std::string undefined;  // empty when the value is
 };
 
 struct TrialRecord {

@@ -13,6 +13,7 @@ inline constexpr const char* kSchemaVersion1 = R"sql(
 CREATE TABLE campaign (
   id INTEGER PRIMARY KEY CHECK (id = 1),
   name TEXT NOT NULL,
+  spec_path TEXT NOT NULL,
   spec_text TEXT NOT NULL,
   spec_json TEXT NOT NULL,
   spec_hash TEXT NOT NULL,
@@ -36,6 +37,13 @@ CREATE TABLE parameters (
   high REAL NOT NULL,
   scale TEXT NOT NULL,
   unit TEXT NOT NULL              -- SI unit of low, high and every value of it
+);
+CREATE TABLE reference_metrics (  -- of the experiment itself
+  position INTEGER PRIMARY KEY,
+  name TEXT NOT NULL UNIQUE,      -- with the unit: repose_angle_1_mean_deg
+  value REAL,                     -- NULL when not defined
+  unit TEXT NOT NULL,
+  undefined TEXT NOT NULL         -- why it is not defined
 );
 CREATE TABLE trials (
   id INTEGER PRIMARY KEY,         -- from 1; the folder is trials/0001
@@ -68,7 +76,7 @@ CREATE TABLE points (
 ) WITHOUT ROWID;
 CREATE TABLE metrics (
   trial INTEGER NOT NULL REFERENCES trials(id) ON DELETE CASCADE,
-  name TEXT NOT NULL,
+  name TEXT NOT NULL,             -- with the unit: sad_mm2
   value REAL,                     -- NULL when not defined
   unit TEXT NOT NULL,
   undefined TEXT NOT NULL,        -- why it is not defined

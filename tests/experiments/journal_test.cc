@@ -29,6 +29,7 @@ class JournalTest : public ::testing::Test {
 
   static CampaignRecord Campaign() {
     return {.name = "test",
+            .spec_path = "/spec.json",
             .spec_text = "{}",
             .spec_json = "{}",
             .spec_hash = "0123",
@@ -42,6 +43,8 @@ class JournalTest : public ::testing::Test {
                   .high = 1e-4,
                   .scale = "log",
                   .unit = "J/m^2"}},
+            .reference =
+                {{.name = "repose_angle_2_mean_deg", .value = 33, .unit = "deg", .undefined = ""}},
             .aehp_png = std::string("\0PNG", 4),
             .aehp_sd_png = "",
             .frame_json = "{}",
@@ -59,9 +62,11 @@ class JournalTest : public ::testing::Test {
   }
   static void FinishAsOk(Journal& journal, TrialRecord trial, double sad) {
     trial.status = TrialStatus::kOk;
-    trial.metrics = {
-        {.name = "sad", .value = sad, .unit = "mm2", .undefined = ""},
-        {.name = "aor2", .value = std::nan(""), .unit = "deg", .undefined = "the heap overhangs"}};
+    trial.metrics = {{.name = "sad_mm2", .value = sad, .unit = "mm2", .undefined = ""},
+                     {.name = "repose_angle_2_mean_deg",
+                      .value = std::nan(""),
+                      .unit = "deg",
+                      .undefined = "the heap overhangs"}};
     journal.Finish(trial, "image");
   }
 
@@ -83,8 +88,8 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   EXPECT_EQ(trials[1].status, TrialStatus::kOk);
   EXPECT_EQ(trials[1].finish_order, 1);
   EXPECT_EQ(trials[1].native, (std::vector<double>{0.25, 1e-5}));
-  EXPECT_EQ(trials[1].Metric("sad"), 1.5);
-  EXPECT_EQ(trials[1].Metric("aor2"), std::nullopt);
+  EXPECT_EQ(trials[1].Metric("sad_mm2"), 1.5);
+  EXPECT_EQ(trials[1].Metric("repose_angle_2_mean_deg"), std::nullopt);
   EXPECT_EQ(trials[1].metrics[0].undefined, "the heap overhangs");
   EXPECT_EQ(reader.ProfilePng(2), "image");
   EXPECT_EQ(reader.ProfilePng(1), "");
@@ -93,6 +98,8 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   EXPECT_EQ(campaign.aehp_png.size(), 4u);  // a zero byte does not end it
   EXPECT_EQ(campaign.parameters.at(1).unit, "J/m^2");
   EXPECT_EQ(campaign.noise_mm2, 0.5);
+  EXPECT_EQ(campaign.spec_path, "/spec.json");
+  EXPECT_EQ(campaign.reference.at(0).value, 33);
 }
 
 TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
@@ -101,7 +108,8 @@ TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
   FinishAsOk(journal, Trial(1), 1.5);
   Database database(File(), Database::Mode::kReadOnly);
   Statement row = database.Prepare(
-      "SELECT sliding_friction, surface_energy_J_per_m2, sad_mm2, aor2_deg, duration_s FROM "
+      "SELECT sliding_friction, surface_energy_J_per_m2, sad_mm2, repose_angle_2_mean_deg, "
+      "duration_s FROM "
       "results");
   ASSERT_TRUE(row.Step());
   EXPECT_EQ(row.Real(1), 1e-5);
@@ -109,20 +117,19 @@ TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
   EXPECT_TRUE(row.IsNull(3));
 }
 
-TEST_F(JournalTest, FinishedTrialsKeepTheirOrderAndDroppedOnesAreGone) {
+TEST_F(JournalTest, FinishedTrialsKeepTheirOrder) {
   {
     Journal journal = Journal::Create(File(), Campaign());
     for (int id = 1; id <= 3; ++id) journal.Start(Trial(id));
     FinishAsOk(journal, Trial(3), 1);
     FinishAsOk(journal, Trial(1), 2);
-    journal.Drop(2);
-    journal.Drop(1);  // is not running: stays
   }
   Journal again = Journal::Open(File());
   const auto trials = again.Trials();
-  ASSERT_EQ(trials.size(), 2u);
+  ASSERT_EQ(trials.size(), 3u);
   EXPECT_EQ(trials[0].finish_order, 2);
-  EXPECT_EQ(trials[1].finish_order, 1);
+  EXPECT_EQ(trials[1].finish_order, 0);
+  EXPECT_EQ(trials[2].finish_order, 1);
 }
 
 TEST_F(JournalTest, KilledWhileWritingLosesNothingThatWasFinished) {
@@ -150,7 +157,7 @@ TEST_F(JournalTest, KilledWhileWritingLosesNothingThatWasFinished) {
   const auto trials = Journal::Open(File()).Trials();
   ASSERT_GE(trials.size(), static_cast<std::size_t>(last));
   for (int i = 0; i < last; ++i)
-    EXPECT_EQ(trials[static_cast<std::size_t>(i)].Metric("sad"), i + 1);
+    EXPECT_EQ(trials[static_cast<std::size_t>(i)].Metric("sad_mm2"), i + 1);
 }
 
 TEST_F(JournalTest, DamageIsNoticed) {
