@@ -18,6 +18,7 @@ FENCES = [  # (include, files that may have it)
     (r"ceres/", r"(surrogate|imaging)/\w+\.cc$"),
     (r"sqlite3\.h", r"experiments/journal/\w+\.cc$"),
     (r"(pugixml|zlib)", r"imaging/vtk_xml\w*\.cc$"),
+    (r"(png|jpeglib|tiffio)\.h", r"imaging/image_codec_\w+\.cc$"),
     (r"opencv2/", r"imaging/\w+\.cc$"),
     (r"(hwy/|experimental/simd|immintrin)", r"engine/"),
     (r"Eigen/", r"(surrogate|optimizer|imaging|experiments)/"),
