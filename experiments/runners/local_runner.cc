@@ -133,6 +133,11 @@ std::vector<std::string> Environment(int threads) {
   return list;
 }
 
+// Signals that others send; a program that goes wrong by itself gets one of the rest.
+bool IsFromOutside(int signal) {
+  return signal == SIGKILL || signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
+}
+
 std::string SignalText(int signal) {
   return "was ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
 }
@@ -283,7 +288,7 @@ FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
   } else if (process.stopped == JobEnd::kCancelled) {
     job.reason = "was cancelled";
   } else if (WIFSIGNALED(status)) {
-    job.end = JobEnd::kSignal;
+    job.end = IsFromOutside(WTERMSIG(status)) ? JobEnd::kPreempted : JobEnd::kSignal;
     job.reason = SignalText(WTERMSIG(status));
   } else {
     job.exit_status = WEXITSTATUS(status);

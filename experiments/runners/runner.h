@@ -30,7 +30,7 @@ enum class JobEnd {
   kTimeCap,      // was stopped after time_cap
   kOutOfMemory,  // was stopped for its memory
   kNodeFailure,  // the machine it ran on went away
-  kPreempted,    // was put aside for others
+  kPreempted,    // was ended by somebody else, and may be run again as it was
   kCancelled,    // by Cancel
   kNotStarted    // the command cannot be run, or the queue refused it
 };

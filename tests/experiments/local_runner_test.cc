@@ -107,6 +107,9 @@ TEST_F(LocalRunnerTest, EveryWayToFailHasItsReason) {
   EXPECT_EQ(crash.end, JobEnd::kSignal);
   EXPECT_THAT(crash.reason, HasSubstr("signal 11"));
 
+  const FinishedJob killed = RunOne(Shell(6, "kill -KILL $$"));
+  EXPECT_EQ(killed.end, JobEnd::kPreempted);
+
   const FinishedJob slow = RunOne(Shell(3, "sleep 60", 0.1));
   EXPECT_EQ(slow.end, JobEnd::kTimeCap);
   EXPECT_LT(slow.duration, 10);

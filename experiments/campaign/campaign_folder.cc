@@ -1,0 +1,57 @@
+#include "experiments/campaign/campaign_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace talus::experiments {
+
+std::filesystem::path CampaignFolder::trial(std::int64_t id) const {
+  char name[32];
+  std::snprintf(name, sizeof name, "%04lld", static_cast<long long>(id));
+  return root / "trials" / name;
+}
+
+CampaignLock::CampaignLock(const std::filesystem::path& root) {
+  const std::string path = (root / "campaign.lock").string();
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) throw base::Error(path + ": cannot be written: " + std::strerror(errno));
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    char owner[32] = "";
+    if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
+    ::close(file_);
+    throw base::Error(root.string() + ": another process (number " + owner +
+                      ") works on this campaign; end it first, or wait");
+  }
+  const std::string owner = std::to_string(::getpid());
+  if (::ftruncate(file_, 0) != 0 ||
+      ::pwrite(file_, owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
+    const int code = errno;
+    ::close(file_);
+    throw base::Error(path + ": cannot be written: " + std::strerror(code));
+  }
+}
+
+CampaignLock::CampaignLock(CampaignLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+
+CampaignLock::~CampaignLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void RequireWritable(const std::filesystem::path& root) {
+  constexpr std::size_t kEnoughForATrial = 256 * 1024;
+  const std::filesystem::path probe = root / ".probe";
+  base::WriteFileAtomically(probe, std::string(kEnoughForATrial, '.'));
+  std::filesystem::remove(probe);
+}
+
+}  // namespace talus::experiments

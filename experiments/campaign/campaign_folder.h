@@ -1,0 +1,36 @@
+// The folder of a campaign: where its files are, and who may write them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace talus::experiments {
+
+struct CampaignFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path trial(std::int64_t id) const;  // trials/0001
+  std::filesystem::path log() const { return root / "campaign.log"; }
+  std::filesystem::path result() const { return root / "result.json"; }
+  std::filesystem::path spec() const { return root / "spec.json"; }
+  std::filesystem::path aehp() const { return root / "aehp.png"; }
+};
+
+// Held while a process works on the campaign; it goes with the process, however that ends.
+class CampaignLock {
+ public:
+  // Throws base::Error that names the process that has it.
+  explicit CampaignLock(const std::filesystem::path& root);
+  CampaignLock(CampaignLock&& other) noexcept;
+  ~CampaignLock();
+
+ private:
+  int file_;
+};
+
+// Throws base::Error, with the system's reason, when nothing can be written there: a full disk, a
+// folder that has become read-only. So that such a thing is not taken for a trial's own failure.
+void RequireWritable(const std::filesystem::path& root);
+
+}  // namespace talus::experiments

@@ -1,0 +1,94 @@
+#include "experiments/campaign/campaign_result.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+
+namespace talus::experiments {
+namespace {
+
+// Four significant digits: more than any calibration knows.
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string Padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.append(width - text.size(), ' ');
+  return text;
+}
+
+std::string ParameterLines(const CampaignResult& result) {
+  std::string text;
+  for (const ResultParameter& p : result.parameters) {
+    text += "  " + Padded(p.name, 18) + Padded(Number(p.value) + " " + p.unit, 18) + "90 % in " +
+            Number(p.credible_low) + " … " + Number(p.credible_high) + "\n";
+  }
+  return text;
+}
+
+std::string ConfirmedLines(const CampaignResult& result) {
+  const std::string unit = " " + result.objective_unit;
+  std::string text;
+  for (std::size_t i = 0; i < result.confirmed.size(); ++i) {
+    const ResultCandidate& c = result.confirmed[i];
+    std::string line = i == 0 ? "  confirmed" : "  candidate " + std::to_string(i + 1);
+    text += Padded(line, 20) + Number(c.mean) + unit;
+    if (std::isfinite(c.standard_error)) text += " ± " + Number(c.standard_error);
+    text += " (" + std::to_string(c.num_trials) + " fresh seeds, scale factor " +
+            Number(c.scale_factor) + ")";
+    if (i > 0) {
+      text += " at";
+      for (const double value : c.values) text += " " + Number(value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string FloorLine(const CampaignResult& result) {
+  if (!result.noise_floor)
+    return "  noise floor       not known: the experiment has one run only\n";
+  std::string text = "  noise floor       " + Number(*result.noise_floor) +
+                     " mm² SAD from run to run of the experiment";
+  if (result.confirmed_over_floor) {
+    text += "; confirmed SAD is " + Number(*result.confirmed_over_floor) + " times that";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string ResultText(const CampaignResult& result) { return base::ToJson(result).dump(2) + "\n"; }
+
+CampaignResult ParseResult(const std::string& text) {
+  CampaignResult result;
+  base::Problems problems("result", {});
+  // null stands for what is not defined, which the fields' defaults do not.
+  base::ReadOptions(nlohmann::json::parse(text), result, {problems, {}});
+  return result;
+}
+
+std::string ResultSummary(const CampaignResult& r) {
+  std::string text = r.name + ": recommended set\n" + ParameterLines(r);
+  text += "  predicted         " + Number(r.predicted) + " " + r.objective_unit + " ± " +
+          Number(r.predicted_sd) + "; one simulation scatters by " + Number(r.noise_sd) + "\n";
+  text += ConfirmedLines(r) + FloorLine(r);
+  text += "  tied within noise " + Number(100 * r.tied_volume) + " % of the searched ranges\n";
+  text += "  stopped because   " + r.stop_reason + "\n";
+  text += "  holds for         scale factor " + Number(r.conditions.scale_factor) + ", Y " +
+          Number(r.conditions.youngs_modulus) + " Pa, lift velocity " +
+          Number(r.conditions.lift_velocity) + " m/s, adhesion " + r.conditions.adhesion +
+          ", rolling " + r.conditions.rolling + "\n";
+  text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
+          std::to_string(r.cost.num_failed) + " failed), " + Number(r.cost.core_hours) +
+          " core hours, " + Number(r.cost.elapsed / 60) + " min\n";
+  text += "  model             " + r.model + "\n";
+  for (const std::string& warning : r.warnings) text += "  warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,146 @@
+// What a campaign says in the end: the content of result.json, every number with its unit.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+
+namespace talus::experiments {
+
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+// A calibrated parameter, SI; its unit stands beside it because it differs from one to the other.
+struct ResultParameter {
+  std::string name;
+  std::string unit;
+  double value = 0;
+  double credible_low = kNotKnown;   // 90 %
+  double credible_high = kNotKnown;  // 90 %
+  double sobol_first = kNotKnown;
+  double sobol_total = kNotKnown;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("unit", self.unit);
+    visit("value", self.value);
+    visit("credible_90_low", self.credible_low);
+    visit("credible_90_high", self.credible_high);
+    visit("sobol_first", self.sobol_first);
+    visit("sobol_total", self.sobol_total);
+  }
+};
+
+// A set that was simulated again with fresh seeds.
+struct ResultCandidate {
+  std::vector<double> values{};  // in the order of the parameters, SI
+  double scale_factor = 1;
+  int num_trials = 0;                 // that succeeded
+  double mean = kNotKnown;            // of the objective
+  double standard_error = kNotKnown;  // of that mean; not known for one trial
+  std::optional<double> sad_mm2{};    // mean SAD, whatever the objective
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("values", self.values);
+    visit("scale_factor", self.scale_factor);
+    visit("num_trials", self.num_trials);
+    visit("objective_mean", self.mean);
+    visit("objective_standard_error", self.standard_error);
+    visit("sad_mm2", self.sad_mm2);
+  }
+};
+
+// A calibrated set, above all γ, holds only together with these.
+struct ResultConditions {
+  double scale_factor = 1;
+  double surface_energy_exponent = 1;
+  double youngs_modulus = 0;  // [Pa]
+  double lift_velocity = 0;   // [m/s]
+  std::string adhesion;
+  std::string rolling;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("scale_factor", self.scale_factor);
+    visit("surface_energy_exponent", self.surface_energy_exponent);
+    visit("youngs_modulus_pa", self.youngs_modulus);
+    visit("lift_velocity_m_per_s", self.lift_velocity);
+    visit("adhesion", self.adhesion);
+    visit("rolling", self.rolling);
+  }
+};
+
+struct ResultCost {
+  int num_trials = 0;
+  int num_failed = 0;
+  double core_hours = 0;
+  double elapsed = 0;  // [s], all sessions together
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("num_trials", self.num_trials);
+    visit("num_failed", self.num_failed);
+    visit("core_hours", self.core_hours);
+    visit("elapsed_s", self.elapsed);
+  }
+};
+
+struct CampaignResult {
+  std::string name;
+  std::string talus_version;
+  std::string stop_reason;
+  std::string objective;       // key with the unit: "sad_mm2"
+  std::string objective_unit;  // for people: "mm²"
+  std::vector<ResultParameter> parameters{};
+  double predicted = kNotKnown;                  // objective at the recommended set
+  double predicted_sd = kNotKnown;               // of that mean
+  double noise_sd = kNotKnown;                   // scatter of one simulation, by the model
+  std::optional<double> replicates_sd{};         // the same, from the replicates before the search
+  std::vector<ResultCandidate> confirmed{};      // the recommended set first
+  std::optional<double> noise_floor{};           // of the experiment: SAD [mm²]
+  std::optional<double> confirmed_over_floor{};  // confirmed SAD / noise floor [-]
+  double tied_volume = kNotKnown;                // share of the searched box [-]
+  std::vector<std::vector<double>> tied{};       // sets that tie, SI
+  std::vector<std::vector<double>> correlation{};  // between the parameters
+  std::string model;
+  std::vector<std::string> warnings{};
+  ResultConditions conditions;
+  ResultCost cost;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("talus_version", self.talus_version);
+    visit("stop_reason", self.stop_reason);
+    visit("objective", self.objective);
+    visit("objective_unit", self.objective_unit);
+    visit("parameters", self.parameters);
+    visit("predicted_objective", self.predicted);
+    visit("predicted_objective_sd", self.predicted_sd);
+    visit("noise_sd", self.noise_sd);
+    visit("replicates_sd", self.replicates_sd);
+    visit("confirmed", self.confirmed);
+    visit("experimental_noise_floor_mm2", self.noise_floor);
+    visit("confirmed_sad_over_noise_floor", self.confirmed_over_floor);
+    visit("tied_volume_fraction", self.tied_volume);
+    visit("tied_sets", self.tied);
+    visit("correlation", self.correlation);
+    visit("model", self.model);
+    visit("warnings", self.warnings);
+    visit("conditions", self.conditions);
+    visit("cost", self.cost);
+  }
+};
+
+// result.json's text, and back (for the report).
+std::string ResultText(const CampaignResult& result);
+CampaignResult ParseResult(const std::string& text);
+
+// The same for people, in some twenty lines.
+std::string ResultSummary(const CampaignResult& result);
+
+}  // namespace talus::experiments

@@ -1,0 +1,187 @@
+#include "experiments/campaign/conclude.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/cli/commands.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr std::size_t kMostTied = 200;  // listed; the tied volume counts them all
+
+struct Sample {
+  int count = 0;
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double sd = std::numeric_limits<double>::quiet_NaN();  // of one, unbiased
+};
+
+Sample SampleOf(const std::vector<double>& values) {
+  Sample sample{.count = static_cast<int>(values.size())};
+  if (values.empty()) return sample;
+  double sum = 0;
+  for (const double v : values) sum += v;
+  sample.mean = sum / sample.count;
+  if (sample.count < 2) return sample;
+  double squares = 0;
+  for (const double v : values) squares += (v - sample.mean) * (v - sample.mean);
+  sample.sd = std::sqrt(squares / (sample.count - 1));
+  return sample;
+}
+
+std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
+                               const Eigen::VectorXd& point) {
+  std::vector<double> values;
+  const std::vector<double> all = space.ToNative(point);
+  for (const int i : space.Free()) values.push_back(all[static_cast<std::size_t>(i)]);
+  return values;
+}
+
+ResultCandidate CandidateOf(const Planner& planner, const Reference& reference, std::size_t index,
+                            const Eigen::VectorXd& point) {
+  ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
+  std::vector<double> objective;
+  std::vector<double> sad;
+  for (const TrialRecord& trial : planner.trials()) {
+    if (trial.kind != TrialKind::kConfirm || trial.set != planner.ConfirmSet(index)) continue;
+    candidate.scale_factor = trial.scale_factor;
+    if (const auto value = reference.Value(trial)) objective.push_back(*value);
+    if (const auto value = trial.Metric(MetricOf(Objective::kSad))) sad.push_back(*value);
+  }
+  const Sample sample = SampleOf(objective);
+  candidate.num_trials = sample.count;
+  candidate.mean = sample.mean;
+  candidate.standard_error = sample.sd / std::sqrt(sample.count);
+  if (!sad.empty()) candidate.sad_mm2 = SampleOf(sad).mean;
+  return candidate;
+}
+
+// The model's choice stays unless fresh seeds say clearly that another candidate is better: the
+// luckiest run is no argument, a mean that is lower by twice its error is one.
+std::size_t BestCandidate(const std::vector<ResultCandidate>& candidates) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const double error = std::hypot(candidates[i].standard_error, candidates[0].standard_error);
+    if (candidates[i].mean < candidates[0].mean - 2 * error &&
+        candidates[i].mean < candidates[best].mean) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+void AddParameters(const optimizer::Answer& answer, const Planner& planner,
+                   CampaignResult& result) {
+  const auto& space = planner.space();
+  const std::vector<int> free = space.Free();
+  const std::vector<double> values = FreeValues(space, answer.point);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
+    ResultParameter parameter{.name = p.name, .unit = UnitOf(p.name), .value = values[i]};
+    if (i < answer.credible.size()) {
+      parameter.credible_low = p.ToNative(answer.credible[i].low);
+      parameter.credible_high = p.ToNative(answer.credible[i].high);
+    }
+    if (i < answer.sobol_first.size()) parameter.sobol_first = answer.sobol_first[i];
+    if (i < answer.sobol_total.size()) parameter.sobol_total = answer.sobol_total[i];
+    result.parameters.push_back(parameter);
+  }
+}
+
+void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
+                     const Reference& reference, CampaignResult& result) {
+  const auto candidates = planner.Candidates(answer);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const ResultCandidate candidate = CandidateOf(planner, reference, i, candidates[i]);
+    if (candidate.num_trials > 0) result.confirmed.push_back(candidate);
+  }
+  if (result.confirmed.empty()) return;
+  if (const std::size_t best = BestCandidate(result.confirmed); best > 0) {
+    std::rotate(result.confirmed.begin(), result.confirmed.begin() + static_cast<long>(best),
+                result.confirmed.begin() + static_cast<long>(best) + 1);
+    for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+      result.parameters[i].value = result.confirmed[0].values[i];
+    }
+    result.warnings.push_back(
+        "the set that the model recommends was confirmed worse than another candidate, which is "
+        "recommended instead; the predicted value is that of the model's set");
+  }
+  if (result.noise_floor && result.confirmed[0].sad_mm2) {
+    result.confirmed_over_floor = *result.confirmed[0].sad_mm2 / *result.noise_floor;
+  }
+}
+
+ResultConditions ConditionsOf(const CampaignSpec& spec) {
+  return {.scale_factor = spec.coarse_graining.scale_factor,
+          .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent,
+          .youngs_modulus = spec.powder.material.youngs_modulus,
+          .lift_velocity = spec.device.lift_velocity,
+          .adhesion = std::string(base::NameOf(spec.models.adhesion)),
+          .rolling = std::string(base::NameOf(spec.models.rolling))};
+}
+
+ResultCost CostOf(const Planner& planner, const Evidenced& of) {
+  ResultCost cost{.elapsed = of.elapsed};
+  for (const TrialRecord& trial : planner.trials()) {
+    if (trial.status == TrialStatus::kRunning) continue;
+    ++cost.num_trials;
+    if (trial.status == TrialStatus::kFailed) ++cost.num_failed;
+    const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * of.spec.threads;
+    if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
+  }
+  return cost;
+}
+
+// Answers speak of "parameter 2"; people know it by its name.
+std::string WithNames(std::string text, const CampaignResult& result) {
+  for (std::size_t i = result.parameters.size(); i-- > 0;) {
+    const std::string token = "parameter " + std::to_string(i);
+    for (auto at = text.find(token); at != std::string::npos; at = text.find(token)) {
+      text.replace(at, token.size(), result.parameters[i].name);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
+  const auto answer = planner.Recommend();
+  if (!answer) return std::nullopt;
+  CampaignResult result;
+  result.name = of.spec.name;
+  result.talus_version = Version();
+  result.stop_reason = planner.stop_reason();
+  result.objective = of.reference.key();
+  result.objective_unit = of.reference.unit();
+  AddParameters(*answer, planner, result);
+  result.predicted = answer->predicted_value;
+  result.predicted_sd = answer->predicted_sd;
+  result.noise_sd = answer->noise_sd;
+  result.noise_floor = of.campaign.noise_mm2;
+  result.tied_volume = answer->tied_volume;
+  for (std::size_t i = 0; i < std::min(answer->tied.size(), kMostTied); ++i) {
+    result.tied.push_back(FreeValues(planner.space(), answer->tied[i]));
+  }
+  for (Eigen::Index i = 0; i < answer->correlation.rows(); ++i) {
+    const Eigen::RowVectorXd row = answer->correlation.row(i);
+    result.correlation.emplace_back(row.data(), row.data() + row.size());
+  }
+  result.model = answer->model;
+  for (const std::string& warning : answer->warnings) {
+    result.warnings.push_back(WithNames(warning, result));
+  }
+  std::vector<double> noise;
+  for (const TrialRecord& trial : planner.trials()) {
+    if (trial.kind != TrialKind::kNoise) continue;
+    if (const auto value = of.reference.Value(trial)) noise.push_back(*value);
+  }
+  if (noise.size() >= 2) result.replicates_sd = SampleOf(noise).sd;
+  AddConfirmation(*answer, planner, of.reference, result);
+  result.conditions = ConditionsOf(of.spec);
+  result.cost = CostOf(planner, of);
+  return result;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,22 @@
+// From the finished trials to the result.
+#pragma once
+
+#include <optional>
+
+#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/planner.h"
+#include "experiments/journal/records.h"
+
+namespace talus::experiments {
+
+struct Evidenced {
+  const CampaignSpec& spec;
+  const CampaignRecord& campaign;
+  const Reference& reference;
+  double elapsed = 0;  // [s]
+};
+
+// Nothing when no trial has succeeded.
+std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of);
+
+}  // namespace talus::experiments

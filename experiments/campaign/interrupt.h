@@ -1,0 +1,23 @@
+// Ctrl-C and SIGTERM, as a campaign understands them.
+#pragma once
+
+namespace talus::experiments {
+
+enum class Interrupt {
+  kNone,
+  kDrain,  // Ctrl-C once: start nothing new, let what runs end
+  kDrop    // Ctrl-C again, or SIGTERM: stop at once
+};
+
+// While one lives, the two signals are noted instead of ending the program. One at a time.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+  ~InterruptGuard();
+
+  Interrupt Asked() const;
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,17 @@
+// The runner and the engine that a spec names.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "experiments/engines/trial_engine.h"
+#include "experiments/runners/runner.h"
+#include "experiments/spec/campaign_spec.h"
+
+namespace talus::experiments {
+
+// `folder` is the campaign's, absolute.
+std::unique_ptr<Runner> MakeRunner(const CampaignSpec& spec, const std::filesystem::path& folder);
+std::unique_ptr<TrialEngine> MakeEngine(const CampaignSpec& spec);
+
+}  // namespace talus::experiments

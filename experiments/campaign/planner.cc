@@ -1,0 +1,286 @@
+#include "experiments/campaign/planner.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+
+#include "base/random.h"
+#include "optimizer/design.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr int kMostAsked = 8;         // the strategies' limit
+constexpr double kDifferent = 0.05;   // between two candidates, in the unit cube
+constexpr int kFailuresToGiveUp = 8;  // as the first trials of all: the set-up is wrong
+// Confirmations after different searches must not share numbers.
+constexpr std::int64_t kMostCandidates = 1000;
+
+bool IsOfSearch(const TrialRecord& trial) { return trial.kind != TrialKind::kConfirm; }
+
+Eigen::VectorXd PointOf(const TrialRecord& trial) {
+  return Eigen::Map<const Eigen::VectorXd>(trial.unit.data(),
+                                           static_cast<Eigen::Index>(trial.unit.size()));
+}
+
+const char* NameOfOrigin(optimizer::Origin origin) {
+  switch (origin) {
+    case optimizer::Origin::kDesign:
+      return "design";
+    case optimizer::Origin::kRepeat:
+      return "repeat";
+    case optimizer::Origin::kModel:
+      return "model";
+    case optimizer::Origin::kSearch:
+      return "search";
+  }
+  return "";
+}
+
+std::uint64_t StreamOf(TrialKind kind) {
+  switch (kind) {
+    case TrialKind::kNoise:
+      return base::Stream("trial of noise");
+    case TrialKind::kConfirm:
+      return base::Stream("trial of confirmation");
+    default:
+      return base::Stream("trial of search");
+  }
+}
+
+}  // namespace
+
+Planner::Planner(const CampaignSpec& spec, const Reference& reference)
+    : spec_(spec), reference_(reference), space_(SpaceOf(spec)), domain_(space_.MakeDomain()) {
+  const optimizer::FieldObjective field = reference_.MakeFieldObjective();
+  strategy_ = optimizer::MakeStrategy(spec_.strategy, domain_, &field, spec_.seed);
+}
+
+void Planner::Started(const TrialRecord& trial) {
+  trials_.push_back(trial);
+  if (IsOfSearch(trial)) candidates_.reset();
+}
+
+void Planner::Finished(const TrialRecord& trial, std::vector<float> field) {
+  const auto known = std::find_if(trials_.begin(), trials_.end(),
+                                  [&](const TrialRecord& t) { return t.id == trial.id; });
+  *known = trial;
+  if (!IsOfSearch(trial)) return;
+  const std::optional<double> value = reference_.Value(trial);
+  strategy_->Tell({.point = PointOf(trial),
+                   .failed = trial.status != TrialStatus::kOk || !value,
+                   .value = value.value_or(0),
+                   .field = std::move(field)});
+  CheckThatSomeSucceed();
+}
+
+// A campaign whose first trials all fail has a mistake in its set-up; going on would only cost.
+void Planner::CheckThatSomeSucceed() {
+  int failed = 0;
+  for (const TrialRecord& trial : trials_) {
+    if (trial.status == TrialStatus::kOk) return;
+    if (trial.status == TrialStatus::kFailed) ++failed;
+  }
+  if (failed < kFailuresToGiveUp) return;
+  StopSearch("the first " + std::to_string(failed) + " trials all failed, the last because it " +
+             trials_.back().reason);
+}
+
+void Planner::StopSearch(const std::string& reason) {
+  if (stop_reason_.empty()) stop_reason_ = reason;
+}
+
+int Planner::Count(TrialKind kind) const {
+  return static_cast<int>(std::count_if(trials_.begin(), trials_.end(),
+                                        [&](const TrialRecord& t) { return t.kind == kind; }));
+}
+
+int Planner::NumOfSearch() const {
+  return static_cast<int>(std::count_if(trials_.begin(), trials_.end(), IsOfSearch));
+}
+
+std::vector<TrialRecord> Planner::Next(int count) {
+  std::vector<TrialRecord> planned;
+  const std::size_t num_before = trials_.size();
+  while (static_cast<int>(planned.size()) < count) {
+    const int wanted = count - static_cast<int>(planned.size());
+    if (!PlanNoise(planned) && !PlanReplicate(planned) && !PlanSearch(wanted, planned) &&
+        !PlanConfirmation(planned)) {
+      break;
+    }
+  }
+  trials_.resize(num_before);  // they count once they are started
+  return planned;
+}
+
+TrialRecord Planner::Make(TrialKind kind, const Eigen::VectorXd& point) const {
+  TrialRecord trial;
+  trial.kind = kind;
+  trial.objective = base::NameOf(spec_.objective);
+  trial.scale_factor = spec_.coarse_graining.scale_factor;
+  trial.unit.assign(point.data(), point.data() + point.size());
+  const std::vector<double> values = space_.ToNative(point);
+  for (const int i : space_.Free()) trial.native.push_back(values[static_cast<std::size_t>(i)]);
+  return trial;
+}
+
+void Planner::Append(TrialRecord trial, std::vector<TrialRecord>& planned) {
+  trial.id = trials_.empty() ? 1 : trials_.back().id + 1;
+  trial.kind_index = trial.kind == TrialKind::kDesign || trial.kind == TrialKind::kSearch
+                         ? Count(TrialKind::kDesign) + Count(TrialKind::kSearch)
+                         : Count(trial.kind);
+  trial.seed = SeedOf(trial);
+  trials_.push_back(trial);
+  planned.push_back(std::move(trial));
+}
+
+std::int64_t Planner::SeedOf(const TrialRecord& trial) const {
+  constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
+  const auto index = static_cast<std::uint64_t>(trial.kind_index) |
+                     (static_cast<std::uint64_t>(trial.attempts - 1) << 48);
+  base::Random random(spec_.seed, StreamOf(trial.kind), index);
+  return static_cast<std::int64_t>(1 + random.Below(kMostSeeds));
+}
+
+Eigen::VectorXd Planner::NoisePoint() const {
+  if (!domain_.guesses.empty()) return domain_.guesses.front();
+  const Eigen::VectorXd center = Eigen::VectorXd::Constant(domain_.num_parameters, 0.5);
+  if (domain_.Contains(center)) return center;
+  constexpr int kTries = 1024;
+  for (const Eigen::VectorXd& point : optimizer::Sobol(kTries, domain_.num_parameters, 0)) {
+    if (domain_.Contains(point)) return point;
+  }
+  return center;  // the strategy says that the constraints leave nothing
+}
+
+bool Planner::PlanNoise(std::vector<TrialRecord>& planned) {
+  if (!stop_reason_.empty() || Count(TrialKind::kNoise) >= spec_.noise.replicates) return false;
+  Append(Make(TrialKind::kNoise, NoisePoint()), planned);
+  return true;
+}
+
+// A proposal whose replicates are not complete yet.
+bool Planner::PlanReplicate(std::vector<TrialRecord>& planned) {
+  if (spec_.replicates == 1) return false;
+  std::map<std::int64_t, std::pair<int, const TrialRecord*>> sets;
+  for (const TrialRecord& trial : trials_) {
+    if (trial.kind != TrialKind::kDesign && trial.kind != TrialKind::kSearch) continue;
+    ++sets[trial.set].first;
+    sets[trial.set].second = &trial;
+  }
+  for (const auto& [set, members] : sets) {
+    if (members.first >= spec_.replicates) continue;
+    TrialRecord trial = Make(members.second->kind, PointOf(*members.second));
+    trial.origin = members.second->origin;
+    trial.set = set;
+    Append(std::move(trial), planned);
+    return true;
+  }
+  return false;
+}
+
+bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
+  if (!stop_reason_.empty()) return false;
+  const int left = spec_.budget.simulations - NumOfSearch();
+  if (left <= 0) {
+    StopSearch("the budget of " + std::to_string(spec_.budget.simulations) +
+               " simulations is used");
+    return false;
+  }
+  if (const auto reason = strategy_->StopReason()) {
+    StopSearch(*reason);
+    return false;
+  }
+  std::vector<Eigen::VectorXd> pending;
+  for (const TrialRecord& trial : trials_) {
+    if (IsOfSearch(trial) && trial.status == TrialStatus::kRunning) {
+      pending.push_back(PointOf(trial));
+    }
+  }
+  const int sets = (left + spec_.replicates - 1) / spec_.replicates;
+  const auto proposals = strategy_->Ask(std::min({count, sets, kMostAsked}), pending);
+  for (const optimizer::Proposal& proposal : proposals) {
+    const bool design = proposal.origin == optimizer::Origin::kDesign;
+    TrialRecord trial = Make(design ? TrialKind::kDesign : TrialKind::kSearch, proposal.point);
+    trial.origin = NameOfOrigin(proposal.origin);
+    trial.set = 1;  // 0 is the noise's
+    for (const TrialRecord& other : trials_) {
+      if (IsOfSearch(other)) trial.set = std::max(trial.set, other.set + 1);
+    }
+    Append(std::move(trial), planned);
+  }
+  if (proposals.empty() && pending.empty()) StopSearch("the strategy has no more to propose");
+  return !proposals.empty();
+}
+
+std::optional<optimizer::Answer> Planner::Recommend() {
+  const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
+    return IsOfSearch(t) && t.status == TrialStatus::kOk && reference_.Value(t);
+  });
+  if (!any) return std::nullopt;
+  return strategy_->Recommend();
+}
+
+std::int64_t Planner::ConfirmSet(std::size_t candidate) const {
+  return NumOfSearch() * kMostCandidates + static_cast<std::int64_t>(candidate);
+}
+
+std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer) const {
+  struct Set {
+    double sum = 0;
+    int count = 0;
+    Eigen::VectorXd point;
+    double mean() const { return sum / count; }
+  };
+  std::map<std::int64_t, Set> by_number;
+  for (const TrialRecord& trial : trials_) {
+    const auto value = reference_.Value(trial);
+    if (!IsOfSearch(trial) || trial.status != TrialStatus::kOk || !value) continue;
+    Set& set = by_number[trial.set];
+    set.sum += *value;
+    ++set.count;
+    set.point = PointOf(trial);
+  }
+  std::vector<Set> sets;
+  for (const auto& [number, set] : by_number) sets.push_back(set);
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const Set& a, const Set& b) { return a.mean() < b.mean(); });
+  std::vector<Eigen::VectorXd> candidates;
+  const auto add = [&](const Eigen::VectorXd& point) {
+    const bool near = std::any_of(candidates.begin(), candidates.end(), [&](const auto& other) {
+      return (other - point).template lpNorm<Eigen::Infinity>() < kDifferent;
+    });
+    if (!near && static_cast<int>(candidates.size()) < spec_.confirm.candidates) {
+      candidates.push_back(point);
+    }
+  };
+  add(answer.point);
+  for (const Set& set : sets) add(set.point);
+  return candidates;
+}
+
+bool Planner::PlanConfirmation(std::vector<TrialRecord>& planned) {
+  const bool searching = std::any_of(trials_.begin(), trials_.end(), [](const TrialRecord& t) {
+    return IsOfSearch(t) && t.status == TrialStatus::kRunning;
+  });
+  if (searching || spec_.confirm.candidates == 0) return false;
+  if (!candidates_) {
+    const auto answer = Recommend();
+    if (!answer) return false;
+    candidates_ = Candidates(*answer);
+  }
+  for (std::size_t c = 0; c < candidates_->size(); ++c) {
+    const auto done = std::count_if(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
+      return t.kind == TrialKind::kConfirm && t.set == ConfirmSet(c);
+    });
+    if (done >= spec_.confirm.replicates) continue;
+    TrialRecord trial = Make(TrialKind::kConfirm, (*candidates_)[c]);
+    trial.set = ConfirmSet(c);
+    trial.scale_factor = spec_.confirm.scale_factor.value_or(trial.scale_factor);
+    Append(std::move(trial), planned);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,73 @@
+// Which trial comes next: noise first, then what the optimiser asks for, then the confirmation.
+//
+// A planner's state follows from the trials it was told, in their order, and from those that are
+// running; so it is rebuilt from a journal, and with one worker goes on as if nothing had happened.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/reference.h"
+#include "experiments/journal/records.h"
+#include "experiments/spec/campaign_spec.h"
+#include "optimizer/strategy.h"
+
+namespace talus::experiments {
+
+class Planner {
+ public:
+  Planner(const CampaignSpec& spec, const Reference& reference);
+
+  // A trial that is running, started now or by an earlier process.
+  void Started(const TrialRecord& trial);
+  // A trial that has finished; the field is empty when it failed or its image is lost.
+  void Finished(const TrialRecord& trial, std::vector<float> field);
+
+  // Up to `count` trials to start now, numbered on from the last. None while the confirmation waits
+  // for running ones, and none at the end.
+  std::vector<TrialRecord> Next(int count);
+
+  // No more trials of noise and search, because …
+  void StopSearch(const std::string& reason);
+  const std::string& stop_reason() const { return stop_reason_; }
+
+  // What the trials so far say; nothing before the first that succeeded.
+  std::optional<optimizer::Answer> Recommend();
+
+  // The sets to be confirmed: the recommended one first, then the best of the others.
+  std::vector<Eigen::VectorXd> Candidates(const optimizer::Answer& answer) const;
+  // TrialRecord::set of the trials that confirm a candidate.
+  std::int64_t ConfirmSet(std::size_t candidate) const;
+
+  const std::vector<TrialRecord>& trials() const { return trials_; }  // by id
+  const optimizer::ParameterSpace& space() const { return space_; }
+
+  // A fresh seed for each trial and attempt; small enough for any engine.
+  std::int64_t SeedOf(const TrialRecord& trial) const;
+
+ private:
+  bool PlanNoise(std::vector<TrialRecord>& planned);
+  bool PlanReplicate(std::vector<TrialRecord>& planned);
+  bool PlanSearch(int count, std::vector<TrialRecord>& planned);
+  bool PlanConfirmation(std::vector<TrialRecord>& planned);
+  TrialRecord Make(TrialKind kind, const Eigen::VectorXd& point) const;
+  void Append(TrialRecord trial, std::vector<TrialRecord>& planned);
+  Eigen::VectorXd NoisePoint() const;
+  int Count(TrialKind kind) const;
+  int NumOfSearch() const;  // noise included
+  void CheckThatSomeSucceed();
+
+  const CampaignSpec spec_;
+  const Reference reference_;
+  const optimizer::ParameterSpace space_;
+  const optimizer::Domain domain_;
+  std::unique_ptr<optimizer::Strategy> strategy_;
+  std::vector<TrialRecord> trials_;
+  std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
+  std::string stop_reason_;
+};
+
+}  // namespace talus::experiments

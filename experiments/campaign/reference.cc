@@ -1,0 +1,147 @@
+#include "experiments/campaign/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr double kSideMargin = 0.15;  // of the plate diameter, on either side of the powder
+constexpr double kTopMargin = 0.25;   // of the plate diameter, above the powder
+
+// The bounding box of the experiment's powder above the plate, widened by the margins. A heap that
+// leaves it is so far off that its exact shape does not matter; its metrics are of the whole image.
+imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
+  const imaging::Frame& frame = aehp.frame;
+  const int bottom = std::clamp(static_cast<int>(std::ceil(frame.baseline)), 1, frame.height);
+  int left = frame.width;
+  int right = 0;
+  int top = bottom - 1;
+  for (int y = 0; y < bottom; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (aehp.image.at(x, y) == 255) continue;
+      left = std::min(left, x);
+      right = std::max(right, x + 1);
+      top = std::min(top, y);
+    }
+  }
+  if (left >= right) throw base::ConfigError("experiment: shows no powder above the plate");
+  const double plate = frame.plate_diameter / frame.pixel_size;  // [px]
+  const int side = static_cast<int>(std::ceil(kSideMargin * plate));
+  left = std::max(0, left - side);
+  right = std::min(frame.width, right + side);
+  top = std::max(0, top - static_cast<int>(std::ceil(kTopMargin * plate)));
+  return {.left = left, .top = top, .width = right - left, .height = bottom - top};
+}
+
+}  // namespace
+
+std::string MetricOf(Objective objective) {
+  switch (objective) {
+    case Objective::kSad:
+      return "sad_mm2";
+    case Objective::kRmse:
+      return "rmse_gray";
+    case Objective::kAor1:
+      return "repose_angle_1_mean_deg";
+    case Objective::kAor2:
+      return "repose_angle_2_mean_deg";
+    case Objective::kAor3:
+      return "repose_angle_3_mean_deg";
+  }
+  return {};
+}
+
+Reference::Reference(imaging::Profile aehp, imaging::MetricOptions options, Objective objective)
+    : aehp_{.profile = std::move(aehp), .parts = {}},
+      options_(std::move(options)),
+      objective_(objective),
+      region_(RegionThatMatters(aehp_.profile)) {
+  if (!IsAngle(objective)) return;
+  const auto metrics = imaging::CompareProfiles(aehp_, aehp_, options_);
+  const imaging::Measured angle = imaging::FindMetric(metrics, MetricOf(objective)).value;
+  if (!angle.defined()) {
+    throw base::ConfigError("objective: the experiment's " + std::string(base::NameOf(objective)) +
+                            " is not defined, because " + angle.not_defined +
+                            "; use \"sad\" or \"rmse\"");
+  }
+  angle_ = angle.value;
+}
+
+std::vector<MetricRecord> Reference::Measure(const imaging::GrayImage& profile) const {
+  std::vector<MetricRecord> records;
+  const imaging::HeapImages heap{.profile = {.image = profile, .frame = frame()}, .parts = {}};
+  for (const imaging::Metric& metric : imaging::CompareProfiles(heap, aehp_, options_)) {
+    records.push_back({.name = metric.name,
+                       .value = metric.value.value,
+                       .unit = metric.unit,
+                       .undefined = metric.value.not_defined});
+  }
+  return records;
+}
+
+std::optional<double> Reference::Value(const TrialRecord& trial) const {
+  const std::optional<double> value = trial.Metric(MetricOf(objective_));
+  if (!value || !IsAngle(objective_)) return value;
+  return std::abs(*value - angle_);
+}
+
+std::string Reference::unit() const {
+  if (IsAngle(objective_)) return "°";
+  return objective_ == Objective::kSad ? "mm²" : "grey levels";
+}
+
+std::string Reference::key() const {
+  return IsAngle(objective_) ? std::string(base::NameOf(objective_)) + "_difference_deg"
+                             : MetricOf(objective_);
+}
+
+std::vector<float> Reference::Field(const imaging::GrayImage& profile) const {
+  std::vector<float> field;
+  field.reserve(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height));
+  for (int y = 0; y < region_.height; ++y) {
+    for (int x = 0; x < region_.width; ++x) {
+      const int gray = profile.at(region_.left + x, region_.top + y);
+      field.push_back(static_cast<float>(255 - gray) / 255.0F);
+    }
+  }
+  return field;
+}
+
+optimizer::FieldObjective Reference::MakeFieldObjective() const {
+  const double pixel_mm = 1e3 * frame().pixel_size;
+  optimizer::FieldObjective objective{.width = region_.width,
+                                      .height = region_.height,
+                                      .target = Field(aehp_.profile.image),
+                                      .sad_scale = pixel_mm * pixel_mm,
+                                      .metric = {}};
+  if (objective_ != Objective::kSad) {
+    objective.metric = [self = *this](std::span<const float> field) {
+      return self.ValueOfField(field);
+    };
+  }
+  return objective;
+}
+
+// The objective of a predicted field, as it would be measured on its image.
+double Reference::ValueOfField(std::span<const float> field) const {
+  imaging::GrayImage image{.width = frame().width, .height = frame().height, .pixels = {}};
+  image.pixels.assign(aehp_.profile.image.pixels.size(), 255);
+  std::size_t i = 0;
+  for (int y = 0; y < region_.height; ++y) {
+    for (int x = 0; x < region_.width; ++x) {
+      const float powder = std::clamp(field[i++], 0.0F, 1.0F);
+      image.at(region_.left + x, region_.top + y) =
+          static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
+    }
+  }
+  TrialRecord trial;
+  trial.metrics = Measure(image);
+  constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
+  return Value(trial).value_or(kWorst);
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,50 @@
+// The experiment as a campaign uses it: what every trial is compared with, and by what number.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/journal/records.h"
+#include "experiments/spec/objective.h"
+#include "imaging/metrics.h"
+#include "optimizer/field_objective.h"
+
+namespace talus::experiments {
+
+class Reference {
+ public:
+  // Throws ConfigError when the experiment has no such angle of repose.
+  Reference(imaging::Profile aehp, imaging::MetricOptions options, Objective objective);
+
+  const imaging::Frame& frame() const { return aehp_.profile.frame; }
+
+  // Every metric of a trial's profile.
+  std::vector<MetricRecord> Measure(const imaging::GrayImage& profile) const;
+
+  // What is minimised, or nothing where it is not defined.
+  std::optional<double> Value(const TrialRecord& trial) const;
+
+  std::string unit() const;  // of Value, for people: "mm²"
+  std::string key() const;   // its name with the unit: "sad_mm2"
+
+  // The part of a profile that matters, 1 = powder: where the experiment has powder, with a margin;
+  // never below the plate.
+  std::vector<float> Field(const imaging::GrayImage& profile) const;
+  optimizer::FieldObjective MakeFieldObjective() const;
+
+ private:
+  double ValueOfField(std::span<const float> field) const;
+
+  imaging::HeapImages aehp_;
+  imaging::MetricOptions options_;
+  Objective objective_;
+  imaging::Region region_;
+  double angle_ = 0;  // of the experiment, for an angle objective [deg]
+};
+
+// "sad_mm2": the metric that an objective looks at.
+std::string MetricOf(Objective objective);
+
+}  // namespace talus::experiments

@@ -1,0 +1,53 @@
+// How much a campaign may spend, and on what.
+#pragma once
+
+#include <optional>
+
+#include "base/field.h"
+#include "base/problems.h"
+
+namespace talus::experiments {
+
+struct BudgetOptions {
+  int simulations = 60;                // trials of noise and search together, >= 1
+  std::optional<double> wall_clock{};  // [s], all sessions together, > 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("simulations", self.simulations,
+          {.doc = "trials for noise and search; the confirmation comes on top; >= 1"});
+    visit("wall_clock", self.wall_clock,
+          {.dimension = base::Dimension::kTime,
+           .doc = "no new trial of the search after this time of work, > 0"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+struct NoiseOptions {
+  int replicates = 3;  // at one point with other seeds before the search, 0 or >= 2
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("replicates", self.replicates,
+          {.doc = "trials at one point before the search, for the run-to-run scatter; 0 or >= 2"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+struct ConfirmOptions {
+  int candidates = 2;                    // sets that are simulated again at the end, >= 0
+  int replicates = 3;                    // fresh seeds of each, >= 1
+  std::optional<double> scale_factor{};  // >= 1; default: that of the search
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("candidates", self.candidates,
+          {.doc = "best sets that are simulated again at the end, >= 0"});
+    visit("replicates", self.replicates, {.doc = "fresh seeds of each, >= 1"});
+    visit("scale_factor", self.scale_factor,
+          {.doc = "of the confirmation, to see whether coarse graining matters; >= 1"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+}  // namespace talus::experiments

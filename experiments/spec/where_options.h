@@ -1,0 +1,43 @@
+// What simulates a trial, and where.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "base/field.h"
+#include "base/problems.h"
+
+namespace talus::experiments {
+
+enum class EngineKind { kTalus };
+
+struct EngineOptions {
+  EngineKind kind = EngineKind::kTalus;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind, {.doc = "talus: the engine of this program"});
+  }
+};
+
+enum class RunnerKind { kLocal };
+
+struct RunnerOptions {
+  RunnerKind kind = RunnerKind::kLocal;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind, {.doc = "local: processes of this machine"});
+  }
+};
+
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::EngineKind> {
+  static constexpr std::array kList{std::pair{"talus", talus::experiments::EngineKind::kTalus}};
+};
+template <>
+struct talus::base::Names<talus::experiments::RunnerKind> {
+  static constexpr std::array kList{std::pair{"local", talus::experiments::RunnerKind::kLocal}};
+};
