@@ -9,6 +9,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "imaging/metrics.h"
+#include "imaging/plate_fit.h"
 #include "imaging/profile.h"
 
 namespace talus::imaging {
@@ -66,14 +67,6 @@ struct ExperimentOptions {
     visit("metrics", self.metrics, {.doc = "how the profiles are measured"});
   }
   void Validate(base::Problems& problems) const;
-};
-
-// Where the plate stands in one photograph.
-struct PlatePose {
-  double width = 0;     // [px]
-  double center_x = 0;  // of its top edge [px] from the left edge of the photograph
-  double baseline = 0;  // of the middle of its top edge [px] from the top edge
-  double tilt = 0;      // [rad], > 0 if the right end is lower
 };
 
 struct MeasuredView {

@@ -1,0 +1,48 @@
+// A backlit photograph made independent of its light: 1 is the background, powder is dark.
+//
+//   relative(x, y) = I(x, y) / background(x, y)
+//
+// The background is a polynomial of fourth degree through what is light, found in a few rounds:
+// what is dark on the picture relative to the last background is left out of the next one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/gray_image.h"
+
+namespace talus::imaging {
+
+struct RelativeImage {
+  int width = 0;              // [px]
+  int height = 0;             // [px]
+  std::vector<float> pixels;  // row by row from the top [-]
+
+  float& at(int x, int y) {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+  float at(int x, int y) const { return const_cast<RelativeImage&>(*this).at(x, y); }
+};
+
+struct BacklitPhoto {
+  RelativeImage image;
+  double threshold = 0;  // darker is powder or plate [-]
+};
+
+// `threshold` fixes the threshold; else it is half-way between the means of the two classes that
+// Otsu's method finds, where a blurred edge has its true place. Throws ConfigError that starts with
+// `name` when the picture is black, blank or without contrast.
+BacklitPhoto FlattenPhoto(const GrayImage& photo, std::optional<double> threshold,
+                          const std::string& name);
+
+// Where Otsu's method splits the values: means of the darker and of the lighter class.
+struct TwoClasses {
+  double dark = 0;
+  double light = 0;
+  double middle() const { return (dark + light) / 2; }
+};
+TwoClasses SplitByOtsu(const std::vector<float>& values);
+
+}  // namespace talus::imaging
