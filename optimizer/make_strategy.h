@@ -60,6 +60,7 @@ struct talus::base::Names<talus::optimizer::StrategyKind> {
   static constexpr std::array kList{
       std::pair{"lhs", Kind::kLhs},         std::pair{"sobol", Kind::kSobol},
       std::pair{"grid", Kind::kGrid},       std::pair{"direct_l", Kind::kDirectL},
+      std::pair{"crs2", Kind::kCrs2},       std::pair{"bobyqa", Kind::kBobyqa},
       std::pair{"cobyla", Kind::kCobyla},   std::pair{"nelder_mead", Kind::kNelderMead},
       std::pair{"subplex", Kind::kSubplex},
   };

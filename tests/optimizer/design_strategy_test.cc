@@ -85,6 +85,18 @@ TEST(DesignStrategy, TakesGuessesFirstAndKeepsToTheDomain) {
   for (const auto& point : asked) EXPECT_LT(point.sum(), 0.5);
 }
 
+TEST(MakeStrategy, EveryKindHasANameAndProposesAPoint) {
+  // Kinds are numbered from 0 without gaps, so the list of names is complete if it counts on.
+  int count = 0;
+  for (const auto& [name, kind] : base::Names<StrategyKind>::kList) {
+    EXPECT_EQ(static_cast<int>(kind), count++) << name;
+    StrategyOptions options{.kind = kind};
+    const auto strategy = MakeStrategy(options, Domain{.num_parameters = 2}, nullptr, 1);
+    EXPECT_EQ(strategy->Ask(1, {}).size(), 1u) << name;
+  }
+  EXPECT_EQ(count, static_cast<int>(StrategyKind::kSubplex) + 1);
+}
+
 TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
   const auto error_of = [](const StrategyOptions& options) -> std::string {
     try {
