@@ -6,6 +6,7 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/runners/slurm_options.h"
 
 namespace talus::experiments {
 
@@ -20,15 +21,21 @@ struct EngineOptions {
   }
 };
 
-enum class RunnerKind { kLocal };
+enum class RunnerKind { kLocal, kSlurm };
 
 struct RunnerOptions {
   RunnerKind kind = RunnerKind::kLocal;
+  SlurmOptions slurm;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("kind", self.kind, {.doc = "local: processes of this machine"});
+    visit(
+        "kind", self.kind,
+        {.doc = "local: processes of this machine; slurm: jobs of a cluster, where the other keys "
+                "hold"});
+    SlurmOptions::Visit(self.slurm, visit);
   }
+  void Validate(base::Problems& problems) const;
 };
 
 }  // namespace talus::experiments
@@ -39,5 +46,6 @@ struct talus::base::Names<talus::experiments::EngineKind> {
 };
 template <>
 struct talus::base::Names<talus::experiments::RunnerKind> {
-  static constexpr std::array kList{std::pair{"local", talus::experiments::RunnerKind::kLocal}};
+  using R = talus::experiments::RunnerKind;
+  static constexpr std::array kList{std::pair{"local", R::kLocal}, std::pair{"slurm", R::kSlurm}};
 };

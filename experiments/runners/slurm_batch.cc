@@ -1,0 +1,139 @@
+#include "experiments/runners/slurm_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace talus::experiments {
+namespace {
+
+constexpr const char* kRecord = "#talus ";
+
+// In single quotes, so that the shell takes it as it is.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+// sbatch counts in whole minutes.
+long Minutes(const Batch& batch, const SlurmOptions& options) {
+  double seconds = options.time.value_or(0);
+  if (!options.time) {
+    for (const Job& job : batch.jobs) seconds = std::max(seconds, job.time_cap);
+  }
+  return std::lround(std::ceil(seconds / 60));
+}
+
+void AddDirectives(std::ostream& out, const Batch& batch, const SlurmOptions& options,
+                   const std::filesystem::path& stem) {
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) out << "#SBATCH --" << name << '=' << value << '\n';
+  };
+  add("job-name", batch.job_name);
+  add("array", "0-" + std::to_string(batch.jobs.size() - 1));
+  add("output", '"' + TaskLog(stem, "%a").string() + '"');
+  add("open-mode", "append");
+  add("partition", options.partition);
+  add("account", options.account);
+  add("qos", options.qos);
+  const long minutes = Minutes(batch, options);
+  if (minutes > 0) add("time", std::to_string(minutes));
+  add("mem", options.memory);
+  add("ntasks", "1");
+  add("cpus-per-task", std::to_string(options.cores));
+  out << "#SBATCH --requeue\n";
+  for (const std::string& line : options.directives) out << "#SBATCH " << line << '\n';
+}
+
+void AddJobs(std::ostream& out, const Batch& batch) {
+  out << "task=${SLURM_ARRAY_TASK_ID:-0}\ncase $task in\n";
+  for (std::size_t task = 0; task < batch.jobs.size(); ++task) {
+    const Job& job = batch.jobs[task];
+    out << task << ") folder=" << Quoted(job.folder.string()) << "; command=(";
+    for (const std::string& argument : job.command) out << ' ' << Quoted(argument);
+    out << " ) ;;\n";
+  }
+  out << "esac\n";
+}
+
+}  // namespace
+
+std::string BatchScript(const Batch& batch, const SlurmOptions& options,
+                        const std::filesystem::path& stem) {
+  std::ostringstream out;
+  out << "#!/bin/bash\n";
+  AddDirectives(out, batch, options, stem);
+  out << kRecord << "batch " << batch.number << ' ' << batch.job_name << '\n';
+  for (const Job& job : batch.jobs) {
+    out << kRecord << "job " << job.id << ' ' << job.attempt << ' ' << job.folder.string() << '\n';
+  }
+  AddJobs(out, batch);
+  out << "cd \"$folder\" || exit 1\n";
+  if (!options.modules.empty()) {
+    out << "module load";
+    for (const std::string& module : options.modules) out << ' ' << Quoted(module);
+    out << " || exit 1\n";
+  }
+  for (const std::string& line : options.setup) out << line << '\n';
+  out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n"
+      << "started=${EPOCHREALTIME//[!0-9]/}\n"
+      << "\"${command[@]}\" >log.txt 2>&1 </dev/null\n"
+      << "status=$?\n"
+      << "took=$((${EPOCHREALTIME//[!0-9]/} - started))\n";
+  // /proc/PID/stat, fields 16 and 17: processor time of the children that have ended, in ticks.
+  out << "stat=$(</proc/$$/stat)\n"
+      << "fields=(${stat##*) })\n"
+      << "cpu=$(((fields[13] + fields[14]) * 1000 / $(getconf CLK_TCK)))\n"
+      << "echo " << batch.number << " $task $status $took $cpu ${SLURM_RESTART_COUNT:-0} "
+      << "$(hostname) end >" << kTaskEndFile << ".part\n"
+      << "mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"
+      << "log=" << Quoted(TaskLog(stem, "").string()) << "\n"
+      << "log=${log%.log}$task.log\n"
+      << "[ -s \"$log\" ] || rm -f \"$log\"\n"
+      << "exit $status\n";
+  return out.str();
+}
+
+std::filesystem::path TaskLog(const std::filesystem::path& stem, const std::string& task) {
+  return stem.string() + "-" + task + ".log";
+}
+
+std::optional<Batch> ParseBatch(const std::string& script) {
+  Batch batch;
+  std::istringstream lines(script);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(kRecord)) continue;
+    std::istringstream words(line.substr(std::string(kRecord).size()));
+    std::string kind;
+    words >> kind;
+    if (kind == "batch") words >> batch.number >> batch.job_name;
+    if (kind == "job") {
+      Job job;
+      std::string folder;
+      words >> job.id >> job.attempt >> std::ws;
+      std::getline(words, folder);
+      job.folder = folder;
+      batch.jobs.push_back(std::move(job));
+    }
+  }
+  if (batch.number <= 0 || batch.job_name.empty() || batch.jobs.empty()) return std::nullopt;
+  return batch;
+}
+
+std::optional<TaskEnd> ReadTaskEnd(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kTaskEndFile);
+  TaskEnd end;
+  std::string last;
+  if (!(in >> end.batch >> end.task >> end.status >> end.duration >> end.cpu_time >> end.restarts >>
+        end.host >> last) ||
+      last != "end") {
+    return std::nullopt;
+  }
+  end.duration *= 1e-6;
+  end.cpu_time *= 1e-3;
+  return end;
+}
+
+}  // namespace talus::experiments

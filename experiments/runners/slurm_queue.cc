@@ -1,0 +1,123 @@
+#include "experiments/runners/slurm_queue.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/runners/tool.h"
+
+namespace talus::experiments {
+namespace {
+
+std::vector<std::string> Columns(const std::string& line) {
+  std::vector<std::string> columns;
+  std::istringstream cells(line);
+  for (std::string cell; std::getline(cells, cell, '|');) columns.push_back(cell);
+  return columns;
+}
+
+std::string Joined(const std::set<std::string>& jobs) {
+  std::string list;
+  for (const std::string& job : jobs) list += (list.empty() ? "" : ",") + job;
+  return list;
+}
+
+// "1234_7" → "1234"
+std::string ArrayOf(const std::string& job) { return job.substr(0, job.find('_')); }
+
+}  // namespace
+
+bool IsUnfinished(const SlurmState& state) {
+  constexpr std::array<std::string_view, 12> kUnfinished{
+      "PENDING",  "RUNNING",   "COMPLETING", "CONFIGURING", "SUSPENDED", "STOPPED",
+      "RESIZING", "SIGNALING", "REQUEUED",   "REQUEUE_FED", "STAGE_OUT", "REQUEUE_HOLD"};
+  return std::find(kUnfinished.begin(), kUnfinished.end(), state.name) != kUnfinished.end();
+}
+
+SlurmStates ParseSqueue(std::string_view output) {
+  SlurmStates states;
+  std::istringstream lines{std::string(output)};
+  for (std::string line; std::getline(lines, line);) {
+    const auto columns = Columns(line);
+    if (columns.size() < 2) continue;
+    states[columns[0]] = {columns[1], columns.size() > 2 ? columns[2] : ""};
+  }
+  return states;
+}
+
+SlurmStates ParseSacct(std::string_view output) {
+  SlurmStates states = ParseSqueue(output);
+  for (auto& [job, state] : states) {
+    // "CANCELLED by 1000"
+    const std::size_t space = state.name.find(' ');
+    if (space == std::string::npos) continue;
+    state.reason = state.name.substr(space + 1);
+    state.name.resize(space);
+  }
+  return states;
+}
+
+std::string ParseSubmitted(std::string_view output) {
+  const std::size_t end = output.find_first_not_of("0123456789");
+  return std::string(output.substr(0, std::min(end, output.size())));
+}
+
+SubmitReply SlurmQueue::Submit(const std::filesystem::path& script,
+                               const std::filesystem::path& reply_file) const {
+  const ToolResult result =
+      RunTool({"sbatch", "--parsable", script.string()}, {.output_file = reply_file});
+  SubmitReply reply;
+  if (std::filesystem::exists(reply_file)) {
+    reply.job = ParseSubmitted(base::ReadFile(reply_file));
+  }
+  if (!reply.job.empty()) return reply;
+  reply.error = result.errors.empty() ? "sbatch gave no job number" : result.errors;
+  for (const char* text : {"Unable to contact", "timed out", "temporarily", "no answer in time",
+                           "Slurm backup controller in standby", "job submit limit"}) {
+    reply.try_again = reply.try_again || reply.error.find(text) != std::string::npos;
+  }
+  return reply;
+}
+
+std::optional<SlurmStates> SlurmQueue::States(const std::set<std::string>& jobs) const {
+  // Its own user's jobs, not a list of numbers: squeue fails when one of them is forgotten.
+  const ToolResult queue =
+      RunTool({"squeue", "--me", "--states=all", "--noheader", "--array", "--format=%i|%T|%r"});
+  if (!queue.ok()) return std::nullopt;
+  SlurmStates states = ParseSqueue(queue.output);
+  std::set<std::string> known;
+  for (const auto& [job, state] : states) known.insert(ArrayOf(job));
+  std::set<std::string> forgotten;
+  std::set_difference(jobs.begin(), jobs.end(), known.begin(), known.end(),
+                      std::inserter(forgotten, forgotten.end()));
+  if (forgotten.empty()) return states;
+  const ToolResult accounting =
+      RunTool({"sacct", "--noheader", "--parsable2", "--allocations", "--array",
+               "--format=JobID,State", "--jobs=" + Joined(forgotten)});
+  // A cluster without accounting: what squeue has forgotten nobody knows.
+  if (accounting.ok()) states.merge(ParseSacct(accounting.output));
+  return states;
+}
+
+std::string SlurmQueue::Find(const std::string& job_name) const {
+  const ToolResult queue = RunTool({"squeue", "--me", "--states=all", "--noheader", "--array",
+                                    "--name=" + job_name, "--format=%i|%T"});
+  if (!queue.ok()) {
+    throw base::Error("squeue does not say whether the job " + job_name +
+                      " was submitted: " + queue.errors);
+  }
+  SlurmStates states = ParseSqueue(queue.output);
+  if (states.empty()) {
+    const ToolResult accounting =
+        RunTool({"sacct", "--noheader", "--parsable2", "--allocations", "--name=" + job_name,
+                 "--starttime=now-30days", "--format=JobID,State"});
+    if (accounting.ok()) states = ParseSacct(accounting.output);
+  }
+  return states.empty() ? "" : ParseSubmitted(states.begin()->first);
+}
+
+void SlurmQueue::Cancel(const std::string& job) const { RunTool({"scancel", job}); }
+
+}  // namespace talus::experiments

@@ -1,0 +1,59 @@
+// What we ask of Slurm, through its own commands: sbatch, squeue, sacct, scancel.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus::experiments {
+
+// A job's state in Slurm's words: "PENDING", "NODE_FAIL".
+struct SlurmState {
+  std::string name;
+  std::string reason;  // why it waits or ended: "Priority", "NonZeroExitCode"; may be empty
+};
+
+// The state we give a job that neither squeue nor sacct knows.
+inline constexpr const char* kLost = "LOST";
+
+// Whether a job in this state may still run, perhaps again.
+bool IsUnfinished(const SlurmState& state);
+
+// States by job: "1234_7" for task 7 of an array.
+using SlurmStates = std::map<std::string, SlurmState, std::less<>>;
+
+// Lines of `squeue -o "%i|%T|%r"` and of `sacct -o JobID,State`; other lines are left out.
+SlurmStates ParseSqueue(std::string_view output);
+SlurmStates ParseSacct(std::string_view output);
+
+struct SubmitReply {
+  std::string job;         // the array's number; empty when it was refused
+  std::string error;       // what sbatch says then
+  bool try_again = false;  // the cluster did not answer, or is full for now
+};
+
+class SlurmQueue {
+ public:
+  // Submits a script; the job's number goes to `reply_file` even if this process ends meanwhile.
+  SubmitReply Submit(const std::filesystem::path& script,
+                     const std::filesystem::path& reply_file) const;
+
+  // What squeue, and for jobs it has forgotten sacct, say of `jobs` (array numbers). Nothing at all
+  // when Slurm does not answer; a job that neither knows is not in the answer.
+  std::optional<SlurmStates> States(const std::set<std::string>& jobs) const;
+
+  // The array's number of a job name; "" when Slurm knows none. Throws base::Error when it does not
+  // answer: then nobody can tell.
+  std::string Find(const std::string& job_name) const;
+
+  void Cancel(const std::string& job) const;
+};
+
+// The job's number in the answer of `sbatch --parsable`, "1234" or "1234;cluster"; "" if none.
+std::string ParseSubmitted(std::string_view output);
+
+}  // namespace talus::experiments

@@ -1,0 +1,355 @@
+#include "experiments/runners/slurm_runner.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/runners/slurm_verdict.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxArray = 1000;  // Slurm's MaxArraySize is 1001 unless changed
+// Between two looks at the folders, which a network file system has to answer.
+constexpr auto kLookInterval = std::chrono::milliseconds(200);
+constexpr auto kLookPerTask = std::chrono::milliseconds(2);
+
+// Names this campaign's jobs in the queue. Only that no two campaigns share it matters, so that it
+// may come from the system's chance: no result depends on it.
+std::string CampaignId(const fs::path& folder) {
+  const fs::path file = folder / "id";
+  if (!fs::exists(file)) {
+    std::random_device chance;
+    const std::uint64_t id = (static_cast<std::uint64_t>(chance()) << 32) ^ chance();
+    base::WriteFileAtomically(file, base::Hex(id));
+  }
+  return base::ReadFile(file);
+}
+
+// A lock that the commands started meanwhile inherit: as long as one of them runs, a later process
+// waits for it, even if we were killed.
+class InheritedLock {
+ public:
+  explicit InheritedLock(const fs::path& file)
+      : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT, 0666)) {
+    if (descriptor_ < 0) throw base::Error(file.string() + ": cannot be opened");
+    // sbatch gives up after a minute (RunTool's cap); a file system without locks is not waited
+    // for.
+    for (int tries = 0; ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && tries < 700; ++tries) {
+      if (errno != EWOULDBLOCK && errno != EINTR) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  InheritedLock(const InheritedLock&) = delete;
+  InheritedLock& operator=(const InheritedLock&) = delete;
+  ~InheritedLock() { ::close(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+FinishedJob Finished(std::int64_t id, JobEnd end, std::string reason) {
+  FinishedJob finished;
+  finished.id = id;
+  finished.end = end;
+  finished.reason = std::move(reason);
+  return finished;
+}
+
+// How the command ended, as its own script says.
+FinishedJob FinishedBy(std::int64_t id, const TaskEnd& end) {
+  constexpr int kNoCommand = 127;
+  FinishedJob finished = Finished(id, JobEnd::kExit, "exit status " + std::to_string(end.status));
+  finished.exit_status = end.status;
+  finished.duration = end.duration;
+  finished.cpu_time = end.cpu_time;
+  finished.host = end.host;
+  if (end.status == kNoCommand) finished.end = JobEnd::kNotStarted;
+  if (end.status > 128) {
+    finished.end = JobEnd::kSignal;
+    finished.reason = "was ended by signal " + std::to_string(end.status - 128);
+  }
+  if (end.restarts > 0) {
+    finished.reason += ", after Slurm had requeued it " + std::to_string(end.restarts) + " times";
+  }
+  return finished;
+}
+
+// A network file system may show a new file late; listing the folder makes most of them look again.
+void LookAgain(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) (void)entry;
+}
+
+std::string TextOf(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::optional<TaskEnd> EndOf(const Job& job, std::int64_t batch, int index) {
+  const std::optional<TaskEnd> end = ReadTaskEnd(job.folder);
+  const bool ours = end && end->batch == batch && end->task == index;
+  return ours ? end : std::nullopt;
+}
+
+}  // namespace
+
+SlurmRunner::SlurmRunner(const SlurmOptions& options, const fs::path& campaign)
+    : options_(options), folder_(fs::absolute(campaign) / "slurm"), last_poll_(Clock::now()) {
+  fs::create_directories(folder_);
+  campaign_id_ = CampaignId(folder_);
+  ReadRecords();
+}
+
+fs::path SlurmRunner::BatchFile(std::int64_t batch, const char* ending) const {
+  std::string number = std::to_string(batch);
+  number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
+  return folder_ / ("batch-" + number + ending);
+}
+
+void SlurmRunner::ReadRecords() {
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".sh") continue;
+    if (const auto batch = ParseBatch(base::ReadFile(entry.path()))) {
+      records_[batch->number] = *batch;
+      last_batch_ = std::max(last_batch_, batch->number);
+    }
+  }
+}
+
+std::vector<std::string> SlurmRunner::Submit(std::span<const Job> jobs) {
+  std::vector<std::string> names;
+  for (std::size_t first = 0; first < jobs.size(); first += kMaxArray) {
+    std::vector<Task> tasks;
+    for (const Job& job : jobs.subspan(first, std::min(kMaxArray, jobs.size() - first))) {
+      tasks.push_back({.job = job});
+    }
+    SubmitBatch(std::move(tasks));
+  }
+  for (const Job& job : jobs) {
+    const auto found = tasks_.find(job.id);
+    names.push_back(found == tasks_.end() || found->second.array.empty() ? ""
+                                                                         : found->second.Name());
+  }
+  return names;
+}
+
+void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
+  Batch batch{.number = ++last_batch_, .job_name = {}, .jobs = {}};
+  batch.job_name = "talus-" + campaign_id_ + "-" + std::to_string(batch.number);
+  for (Task& task : tasks) {
+    task.batch = batch.number;
+    task.index = static_cast<int>(batch.jobs.size());
+    batch.jobs.push_back(task.job);
+    std::error_code ignored;
+    fs::remove(task.job.folder / kTaskEndFile, ignored);
+  }
+  base::WriteFileAtomically(BatchFile(batch.number, ".sh"),
+                            BatchScript(batch, options_, BatchFile(batch.number, "")));
+  for (Task& task : tasks) tasks_[task.job.id] = std::move(task);
+  SendBatch(batch.number);
+}
+
+void SlurmRunner::SendBatch(std::int64_t batch) {
+  const InheritedLock lock(folder_ / "lock");
+  const SubmitReply reply = queue_.Submit(BatchFile(batch, ".sh"), BatchFile(batch, ".job"));
+  std::vector<Task> refused;
+  for (auto& [id, task] : tasks_) {
+    if (task.batch != batch) continue;
+    task.array = reply.job;
+    if (reply.job.empty() && !reply.try_again) refused.push_back(task);
+  }
+  for (const Task& task : refused) {
+    Report(task, Finished(task.job.id, JobEnd::kNotStarted, "sbatch: " + reply.error));
+  }
+  if (!refused.empty()) fs::remove(BatchFile(batch, ".sh"));
+}
+
+// The batches that Slurm did not take. It may have taken one after all and only not have answered.
+void SlurmRunner::SendAgain() {
+  std::map<std::int64_t, std::string> unsent;
+  for (const auto& [id, task] : tasks_) {
+    if (task.array.empty()) unsent[task.batch];
+  }
+  for (auto& [batch, array] : unsent) {
+    const auto script = ParseBatch(base::ReadFile(BatchFile(batch, ".sh")));
+    try {
+      array = queue_.Find(script.value().job_name);
+    } catch (const base::Error&) {
+      return;  // Slurm does not answer; the next poll asks again
+    }
+    if (array.empty()) SendBatch(batch);
+    for (auto& [id, task] : tasks_) {
+      if (task.batch == batch && !array.empty()) task.array = array;
+    }
+  }
+}
+
+const Batch* SlurmRunner::LastRecordOf(const Job& job, int& submissions) const {
+  const Batch* last = nullptr;
+  submissions = 0;
+  for (const auto& [number, batch] : records_) {
+    const bool has = std::any_of(batch.jobs.begin(), batch.jobs.end(), [&](const Job& recorded) {
+      return recorded.id == job.id && recorded.attempt == job.attempt &&
+             recorded.folder == job.folder;
+    });
+    if (!has) continue;
+    last = &batch;
+    ++submissions;
+  }
+  return last;
+}
+
+// The array's number; "" when Slurm has never got the batch.
+std::string SlurmRunner::ArrayOf(const Batch& batch) const {
+  const InheritedLock lock(folder_ / "lock");  // waits for an sbatch that is still on its way
+  const fs::path reply = BatchFile(batch.number, ".job");
+  if (fs::exists(reply)) {
+    const std::string array = ParseSubmitted(base::ReadFile(reply));
+    if (!array.empty()) return array;
+  }
+  return queue_.Find(batch.job_name);
+}
+
+bool SlurmRunner::Adopt(const Job& job, const std::string&) {
+  int submissions = 0;
+  const Batch* batch = LastRecordOf(job, submissions);
+  if (batch == nullptr) return false;
+  const auto same = [&](const Job& recorded) { return recorded.id == job.id; };
+  const auto place = std::find_if(batch->jobs.begin(), batch->jobs.end(), same);
+  Task task{.job = job,
+            .batch = batch->number,
+            .index = static_cast<int>(place - batch->jobs.begin()),
+            .array = {},
+            .requeues = submissions - 1};
+  if (!EndOf(job, task.batch, task.index)) {
+    task.array = ArrayOf(*batch);
+    if (task.array.empty()) return false;
+  }
+  tasks_[job.id] = std::move(task);
+  return true;
+}
+
+std::vector<FinishedJob> SlurmRunner::Wait(double seconds) {
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(seconds));
+  const auto poll_interval = std::chrono::duration<double>(options_.poll_interval);
+  while (true) {
+    CollectEndFiles();
+    if (!tasks_.empty() && Clock::now() - last_poll_ >= poll_interval) {
+      last_poll_ = Clock::now();
+      SendAgain();
+      Poll();
+    }
+    JudgeEnded();
+    if (!finished_.empty() || Clock::now() >= end) break;
+    const auto look = std::max(kLookInterval, kLookPerTask * static_cast<int>(tasks_.size()));
+    const timespec pause{.tv_sec = look.count() / 1000, .tv_nsec = look.count() % 1000 * 1000000};
+    if (::nanosleep(&pause, nullptr) != 0) break;  // a signal: the caller wants to know
+  }
+  return std::exchange(finished_, {});
+}
+
+void SlurmRunner::CollectEndFiles() {
+  std::vector<std::pair<Task, TaskEnd>> ended;
+  for (const auto& [id, task] : tasks_) {
+    const auto end = EndOf(task.job, task.batch, task.index);
+    // Slurm has to say why a command was killed: for its memory, for its time, or by nobody.
+    if (end && end->status <= 128) ended.emplace_back(task, *end);
+  }
+  for (const auto& [task, end] : ended) Report(task, FinishedBy(task.job.id, end));
+}
+
+void SlurmRunner::Poll() {
+  std::set<std::string> arrays;
+  for (const auto& [id, task] : tasks_) {
+    if (!task.array.empty()) arrays.insert(task.array);
+  }
+  const std::optional<SlurmStates> states = queue_.States(arrays);
+  if (!states) return;  // Slurm does not answer; the jobs go on without us
+  for (auto& [id, task] : tasks_) {
+    if (task.array.empty()) continue;
+    const auto found = states->find(task.Name());
+    const SlurmState state = found == states->end() ? SlurmState{kLost, ""} : found->second;
+    if (IsUnfinished(state)) {
+      task.ended.reset();
+    } else if (!task.ended || task.ended->name != state.name) {
+      task.ended = state;
+      task.ended_since = Clock::now();
+    }
+  }
+}
+
+void SlurmRunner::JudgeEnded() {
+  std::vector<std::int64_t> ended;
+  for (const auto& [id, task] : tasks_) {
+    if (task.ended) ended.push_back(id);
+  }
+  for (const std::int64_t id : ended) Judge(tasks_.at(id));
+}
+
+// `task` is gone from the list when it was reported.
+void SlurmRunner::Judge(Task task) {
+  const std::string log = TextOf(TaskLog(BatchFile(task.batch, ""), std::to_string(task.index)));
+  const Verdict verdict = VerdictOf(*task.ended, log);
+  const auto end = EndOf(task.job, task.batch, task.index);
+  const auto waited = std::chrono::duration<double>(Clock::now() - task.ended_since).count();
+  if (end && verdict.await_result) {
+    Report(task, FinishedBy(task.job.id, *end));
+  } else if (verdict.await_result && waited < options_.result_delay) {
+    LookAgain(task.job.folder);
+  } else if (verdict.requeue && !task.cancelled && task.requeues < options_.max_requeues) {
+    Requeue(task, verdict.reason);
+  } else {
+    Report(task, Finished(task.job.id, verdict.end, verdict.reason));
+  }
+}
+
+void SlurmRunner::Requeue(Task task, const std::string& reason) {
+  Task again{.job = task.job,
+             .batch = 0,
+             .index = 0,
+             .array = {},
+             .requeues = task.requeues + 1,
+             .requeue_reason = reason};
+  SubmitBatch({std::move(again)});
+}
+
+void SlurmRunner::Report(const Task& task, FinishedJob finished) {
+  if (task.requeues > 0) {
+    finished.reason += ", submitted again " + std::to_string(task.requeues) + " times" +
+                       (task.requeue_reason.empty() ? "" : ": it " + task.requeue_reason);
+  }
+  if (task.cancelled) {
+    finished.end = JobEnd::kCancelled;
+    finished.reason = "was cancelled";
+  }
+  tasks_.erase(task.job.id);
+  finished_.push_back(std::move(finished));
+}
+
+void SlurmRunner::Cancel(std::int64_t id) {
+  const auto found = tasks_.find(id);
+  if (found == tasks_.end()) return;
+  found->second.cancelled = true;
+  if (!found->second.array.empty()) {
+    queue_.Cancel(found->second.Name());
+    return;
+  }
+  const Task task = found->second;
+  Report(task, Finished(id, JobEnd::kCancelled, "was cancelled"));
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,78 @@
+// Jobs as tasks of Slurm's job arrays, from a login node, with no daemon of ours.
+//
+// What was submitted is written down before it is submitted (slurm_batch.h), and each job array has
+// a name of its own, so that a later process finds every job again, and none is submitted twice,
+// wherever this one was killed. That a job has ended is seen from the file it leaves in its folder,
+// looked at often; Slurm is asked only how those without one are, at most once in `poll_interval`.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/runners/runner.h"
+#include "experiments/runners/slurm_batch.h"
+#include "experiments/runners/slurm_options.h"
+#include "experiments/runners/slurm_queue.h"
+
+namespace talus::experiments {
+
+class SlurmRunner : public Runner {
+ public:
+  // `campaign` is a folder that the compute nodes see under the same path.
+  SlurmRunner(const SlurmOptions& options, const std::filesystem::path& campaign);
+
+  int Capacity() const override { return options_.max_jobs; }
+  std::vector<std::string> Submit(std::span<const Job> jobs) override;
+  bool Adopt(const Job& job, const std::string& name) override;
+  std::vector<FinishedJob> Wait(double seconds) override;
+  void Cancel(std::int64_t id) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // One of our jobs in the queue.
+  struct Task {
+    Job job;
+    std::int64_t batch = 0;
+    int index = 0;
+    std::string array{};  // its array's number; empty while it waits to be submitted
+    int requeues = 0;     // by us
+    std::string requeue_reason{};
+    bool cancelled = false;
+    std::optional<SlurmState> ended{};  // what Slurm says, once it is final
+    Clock::time_point ended_since{};
+
+    std::string Name() const { return array + "_" + std::to_string(index); }
+  };
+
+  std::filesystem::path BatchFile(std::int64_t batch, const char* ending) const;
+  void ReadRecords();
+  const Batch* LastRecordOf(const Job& job, int& submissions) const;
+  std::string ArrayOf(const Batch& batch) const;
+
+  void SubmitBatch(std::vector<Task> tasks);
+  void SendBatch(std::int64_t batch);
+  void SendAgain();
+  void CollectEndFiles();
+  void Poll();
+  void JudgeEnded();
+  void Judge(Task task);
+  void Requeue(Task task, const std::string& reason);
+  void Report(const Task& task, FinishedJob finished);
+
+  SlurmOptions options_;
+  std::filesystem::path folder_;  // DIR/slurm
+  std::string campaign_id_;
+  SlurmQueue queue_;
+  std::int64_t last_batch_ = 0;
+  std::map<std::int64_t, Batch> records_;  // of earlier processes, by number
+  std::map<std::int64_t, Task> tasks_;     // unfinished, by job id
+  Clock::time_point last_poll_;
+  std::vector<FinishedJob> finished_;
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,114 @@
+#include "experiments/runners/tool.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace talus::experiments {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Pipe {
+  Pipe() {
+    if (::pipe2(ends, O_CLOEXEC) != 0) {
+      throw base::Error(std::string("no pipe can be made: ") + std::strerror(errno));
+    }
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  ~Pipe() {
+    ::close(ends[0]);
+    CloseWriter();
+  }
+  void CloseWriter() {
+    if (ends[1] >= 0) ::close(ends[1]);
+    ends[1] = -1;
+  }
+  int ends[2] = {-1, -1};
+};
+
+// Reads both until they are closed; false when that takes longer than the cap.
+bool Collect(std::array<Pipe, 2>& pipes, ToolResult& result, Clock::time_point end) {
+  std::string* texts[] = {&result.output, &result.errors};
+  std::array<pollfd, 2> open{pollfd{pipes[0].ends[0], POLLIN, 0}, {pipes[1].ends[0], POLLIN, 0}};
+  while (open[0].fd >= 0 || open[1].fd >= 0) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0) return false;
+    if (::poll(open.data(), open.size(), static_cast<int>(left.count())) < 0) continue;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (open[i].fd < 0 || open[i].revents == 0) continue;
+      char bytes[4096];
+      const ssize_t count = ::read(open[i].fd, bytes, sizeof bytes);
+      if (count > 0) texts[i]->append(bytes, static_cast<std::size_t>(count));
+      if (count == 0 || (count < 0 && errno != EINTR)) open[i].fd = -1;
+    }
+  }
+  return true;
+}
+
+int Spawn(const std::vector<std::string>& command, const ToolOptions& options,
+          const std::array<Pipe, 2>& pipes, pid_t& pid) {
+  std::vector<std::string> arguments = command;
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  if (options.output_file.empty()) {
+    ::posix_spawn_file_actions_adddup2(&actions, pipes[0].ends[1], 1);
+  } else {
+    ::posix_spawn_file_actions_addopen(&actions, 1, options.output_file.c_str(),
+                                       O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  }
+  ::posix_spawn_file_actions_adddup2(&actions, pipes[1].ends[1], 2);
+  // A group of its own: Ctrl-C at the terminal is for us, and must not stop it half-way.
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int code =
+      ::posix_spawnp(&pid, pointers[0], &actions, &attributes, pointers.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&actions);
+  return code;
+}
+
+}  // namespace
+
+ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options) {
+  ToolResult result;
+  std::array<Pipe, 2> pipes;
+  pid_t pid = -1;
+  const int code = Spawn(command, options, pipes, pid);
+  if (code == EAGAIN || code == ENOMEM) {
+    throw base::Error(std::string("no process can be started: ") + std::strerror(code));
+  }
+  if (code != 0) {
+    return {.status = 127, .output = {}, .errors = command[0] + ": " + std::strerror(code)};
+  }
+  for (Pipe& pipe : pipes) pipe.CloseWriter();
+  const auto cap = std::chrono::duration<double>(options.time_cap);
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(cap);
+  if (!Collect(pipes, result, end)) {
+    ::kill(-pid, SIGKILL);
+    result.errors += command[0] + " gave no answer in time";
+  }
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+}  // namespace talus::experiments

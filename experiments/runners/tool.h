@@ -1,0 +1,28 @@
+// Runs a short-lived command of the system (squeue, sbatch) and returns what it prints.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus::experiments {
+
+struct ToolResult {
+  int status = 0;      // exit status; 127 when it cannot be run, 128 + n when ended by signal n
+  std::string output;  // standard output
+  std::string errors;  // standard error
+
+  bool ok() const { return status == 0; }
+};
+
+struct ToolOptions {
+  double time_cap = 60;  // [s], after which it is killed: a queue that does not answer
+  // Where standard output goes instead of `output`: it is then there even if we are killed first.
+  std::filesystem::path output_file{};
+};
+
+// `command[0]` is looked up on the PATH. Throws base::Error only when the system has no process
+// left.
+ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options = {});
+
+}  // namespace talus::experiments

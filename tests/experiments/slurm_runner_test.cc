@@ -1,0 +1,308 @@
+// The Slurm runner with stand-ins for Slurm's commands, so that what a cluster may answer can be
+// chosen. tests/system/slurm_test.cc does the same with a real cluster.
+#include "experiments/runners/slurm_runner.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/runners/slurm_verdict.h"
+#include "experiments/runners/tool.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// sbatch gives number 100 + n to the n-th batch, notes it, and runs its tasks at once unless there
+// is a file `hold`; squeue prints the file `queue`; scancel notes what it is to cancel.
+constexpr const char* kSbatch = R"(#!/bin/bash
+[ -e hold_sbatch ] && { cat hold_sbatch >&2; exit 1; }
+echo "$2" >>submitted
+number=$((100 + $(wc -l <submitted)))
+echo "$number"
+[ -e hold ] && exit 0
+last=$(sed -n 's/^#SBATCH --array=0-//p' "$2")
+for task in $(seq 0 "$last"); do SLURM_ARRAY_TASK_ID=$task bash "$2" </dev/null >/dev/null 2>&1; done
+exit 0
+)";
+constexpr const char* kSqueue = R"(#!/bin/bash
+[ -e queue_is_down ] && { echo "Unable to contact slurm controller" >&2; exit 1; }
+[[ "$*" = *--name=* ]] && { cat found 2>/dev/null; exit 0; }
+echo asked >>squeue_calls
+cat queue 2>/dev/null; exit 0
+)";
+
+class SlurmRunnerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() /
+            ("talus slurm " + std::to_string(::getpid()) +  // a blank, as users' folders have
+             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(root_ / "bin");
+    Program("sbatch", kSbatch);
+    Program("squeue", kSqueue);
+    Program("sacct", "#!/bin/bash\ncat accounting 2>/dev/null || exit 1\n");
+    Program("scancel", "#!/bin/bash\necho \"$1\" >>cancelled\n");
+    old_path_ = std::getenv("PATH");
+    ::setenv("PATH", ((root_ / "bin").string() + ":" + old_path_).c_str(), 1);
+    old_folder_ = fs::current_path();
+    fs::current_path(root_);  // where the stand-ins look for their files
+    options_.poll_interval = 0.05;
+    options_.result_delay = 0.3;
+  }
+  void TearDown() override {
+    fs::current_path(old_folder_);
+    ::setenv("PATH", old_path_.c_str(), 1);
+    fs::remove_all(root_);
+  }
+
+  void Program(const std::string& name, const std::string& text) {
+    Put("bin/" + name, text);
+    fs::permissions(root_ / "bin" / name, fs::perms::owner_all);
+  }
+  void Put(const std::string& name, const std::string& text) {
+    std::ofstream(root_ / name, std::ios::binary) << text;
+  }
+  std::string Text(const std::string& name) {
+    return fs::exists(root_ / name) ? base::ReadFile(root_ / name) : "";
+  }
+  Job Shell(std::int64_t id, const std::string& script) {
+    Job job;
+    job.id = id;
+    job.folder = root_ / "trials" / std::to_string(id);
+    fs::create_directories(job.folder);
+    job.command = {"sh", "-c", script};
+    return job;
+  }
+  // All that finish within the time.
+  std::vector<FinishedJob> Finish(SlurmRunner& runner, std::size_t count, double seconds = 10) {
+    std::vector<FinishedJob> all;
+    const auto start = std::chrono::steady_clock::now();
+    while (all.size() < count &&
+           std::chrono::steady_clock::now() - start < std::chrono::duration<double>(seconds)) {
+      for (const FinishedJob& finished : runner.Wait(0.1)) all.push_back(finished);
+    }
+    std::sort(all.begin(), all.end(),
+              [](const FinishedJob& a, const FinishedJob& b) { return a.id < b.id; });
+    return all;
+  }
+
+  fs::path root_;
+  fs::path old_folder_;
+  std::string old_path_;
+  SlurmOptions options_;
+};
+
+TEST_F(SlurmRunnerTest, JobsGivenTogetherAreOneArrayAndTellHowTheyEnded) {
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(7, "echo \"it's $PWD\""), Shell(8, "exit 3"), Shell(9, "kill -9 $$")};
+  EXPECT_THAT(runner.Submit(jobs), ElementsAre("101_0", "101_1", "101_2"));
+  Put("queue", "101_0|COMPLETED|None\n101_1|FAILED|NonZeroExitCode\n101_2|OUT_OF_MEMORY|\n");
+  const auto finished = Finish(runner, 3);
+  ASSERT_EQ(finished.size(), 3u);
+  EXPECT_TRUE(finished[0].ok());
+  EXPECT_EQ(finished[1].end, JobEnd::kExit);
+  EXPECT_EQ(finished[1].exit_status, 3);
+  EXPECT_EQ(finished[2].end, JobEnd::kOutOfMemory);
+  EXPECT_EQ(Text("trials/7/log.txt"), "it's " + jobs[0].folder.string() + "\n");
+  EXPECT_FALSE(finished[0].host.empty());
+}
+
+TEST_F(SlurmRunnerTest, WhatTheSpecAsksForStandsInTheScript) {
+  options_.partition = "main";
+  options_.account = "powder";
+  options_.memory = "2G";
+  options_.cores = 4;
+  options_.modules = {"gcc/12"};
+  options_.directives = {"--constraint=avx512"};
+  options_.setup = {"export A=1"};
+  Job job = Shell(1, "true");
+  job.time_cap = 61;
+  const std::string script =
+      BatchScript({.number = 1, .job_name = "talus-x-1", .jobs = {job}}, options_, root_ / "batch");
+  for (const char* line : {"--partition=main\n", "--account=powder\n", "--mem=2G\n",
+                           "--cpus-per-task=4\n", "#SBATCH --constraint=avx512\n", "--time=2\n",
+                           "module load 'gcc/12' || exit 1\n", "\nexport A=1\n"}) {
+    EXPECT_THAT(script, HasSubstr(line));
+  }
+}
+
+TEST_F(SlurmRunnerTest, LaterProcessFindsTheJobsOfAnEarlierOne) {
+  Put("hold", "");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true"), Shell(3, "true")};
+  {
+    SlurmRunner runner(options_, root_ / "campaign");
+    runner.Submit(jobs);
+  }
+  SlurmRunner runner(options_, root_ / "campaign");
+  Job unknown = Shell(4, "true");
+  Job next_attempt = jobs[0];
+  next_attempt.attempt = 2;
+  EXPECT_FALSE(runner.Adopt(unknown, ""));
+  EXPECT_FALSE(runner.Adopt(next_attempt, ""));
+  for (const Job& job : jobs) EXPECT_TRUE(runner.Adopt(job, ""));
+  Put("queue", "101_0|CANCELLED|None\n101_1|TIMEOUT|TimeLimit\n101_2|RUNNING|None\n");
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
+  EXPECT_EQ(finished[1].end, JobEnd::kTimeCap);
+  EXPECT_EQ(Text("submitted").find('\n') + 1, Text("submitted").size());  // one line: one batch
+}
+
+// The process was killed after sbatch was started and before it had answered.
+TEST_F(SlurmRunnerTest, SubmissionWithoutAnAnswerIsLookedUpByName) {
+  Put("hold", "");
+  const Job jobs[] = {Shell(1, "true")};
+  SlurmRunner(options_, root_ / "campaign").Submit(jobs);
+  fs::remove(root_ / "campaign/slurm/batch-000001.job");
+  {
+    SlurmRunner runner(options_, root_ / "campaign");
+    Put("queue_is_down", "");
+    EXPECT_THROW(runner.Adopt(jobs[0], ""), base::Error);  // nobody can tell
+    fs::remove(root_ / "queue_is_down");
+    EXPECT_FALSE(runner.Adopt(jobs[0], ""));  // Slurm has never got it
+  }
+  Put("found", "555_0|RUNNING\n");
+  SlurmRunner runner(options_, root_ / "campaign");
+  ASSERT_TRUE(runner.Adopt(jobs[0], ""));
+  Put("queue", "555_0|OUT_OF_MEMORY|None\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kOutOfMemory);
+}
+
+TEST_F(SlurmRunnerTest, NodeFailureAndPreemptionAreSubmittedAgainAndRecorded) {
+  Put("hold", "");
+  options_.max_requeues = 1;
+  options_.result_delay = 20;  // a job that squeue does not name is waited for
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|NODE_FAIL|None\n101_1|PREEMPTED|None\n");
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  Put("queue", "102_0|NODE_FAIL|None\n103_0|PREEMPTED|None\n");
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_EQ(finished[0].end, JobEnd::kNodeFailure);
+  EXPECT_EQ(finished[1].end, JobEnd::kPreempted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("submitted again 1 times: it lost its node"));
+}
+
+TEST_F(SlurmRunnerTest, LateResultIsWaitedFor) {
+  Put("hold", "");
+  options_.result_delay = 20;
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|COMPLETED|None\n");
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  Put("trials/1/.slurm_end", "1 0 0 1500000 250 0 node7 end\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_TRUE(finished[0].ok());
+  EXPECT_EQ(finished[0].duration, 1.5);
+  EXPECT_EQ(finished[0].host, "node7");
+}
+
+TEST_F(SlurmRunnerTest, JobThatSlurmHasForgottenIsLookedUpInItsAccounting) {
+  Put("hold", "");
+  options_.result_delay = 0;
+  options_.max_requeues = 0;
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
+  runner.Submit(jobs);
+  Put("accounting", "101_0|CANCELLED by 1000\n");
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_THAT(finished[0].reason, HasSubstr("was cancelled in Slurm (by 1000)"));
+  EXPECT_THAT(finished[1].reason, HasSubstr("no longer known to Slurm"));
+}
+
+TEST_F(SlurmRunnerTest, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
+  SlurmRunner runner(options_, root_ / "campaign");
+  Put("hold_sbatch", "sbatch: error: invalid partition specified: mian");
+  const Job first[] = {Shell(1, "true")};
+  EXPECT_THAT(runner.Submit(first), ElementsAre(""));
+  auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("invalid partition"));
+
+  Put("hold_sbatch", "sbatch: error: Unable to contact slurm controller (connect failure)");
+  const Job second[] = {Shell(2, "true")};
+  runner.Submit(second);
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  fs::remove(root_ / "hold_sbatch");
+  finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_TRUE(finished[0].ok());
+}
+
+TEST_F(SlurmRunnerTest, CancelledJobIsReportedOnceSlurmHasStoppedIt) {
+  Put("hold", "");
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|RUNNING|None\n");
+  runner.Cancel(1);
+  EXPECT_TRUE(Finish(runner, 1, 0.3).empty());
+  EXPECT_EQ(Text("cancelled"), "101_0\n");
+  Put("queue", "101_0|CANCELLED|None\n");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
+}
+
+TEST_F(SlurmRunnerTest, SlurmIsNotAskedMoreOftenThanAllowed) {
+  Put("hold", "");
+  options_.poll_interval = 0.5;
+  SlurmRunner runner(options_, root_ / "campaign");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true"), Shell(3, "true")};
+  runner.Submit(jobs);
+  Put("queue", "101_0|RUNNING|None\n101_1|PENDING|Priority\n101_2|PENDING|Priority\n");
+  Finish(runner, 1, 1.8);
+  const std::string calls = Text("squeue_calls");
+  // 1.8 s hold three intervals of 0.5 s; a slow machine may fit in fewer.
+  EXPECT_LE(std::count(calls.begin(), calls.end(), '\n'), 3);
+  EXPECT_GE(std::count(calls.begin(), calls.end(), '\n'), 1);
+}
+
+TEST(SlurmVerdict, MemoryKillWithoutCgroupsIsSeenInTheLog) {
+  EXPECT_EQ(VerdictOf({"FAILED", "JobLaunchFailure"}, "error: Exceeded job memory limit\n").end,
+            JobEnd::kOutOfMemory);
+  const Verdict failed = VerdictOf({"FAILED", "NonZeroExitCode"}, "a\nmodule: not found\n");
+  EXPECT_EQ(failed.end, JobEnd::kSignal);
+  EXPECT_THAT(failed.reason, HasSubstr("without a result: module: not found"));
+}
+
+TEST(SlurmQueue, OnlyStatesThatMayGoOnAreUnfinished) {
+  for (const char* name : {"PENDING", "RUNNING", "COMPLETING", "REQUEUED", "SUSPENDED"}) {
+    EXPECT_TRUE(IsUnfinished({name, ""})) << name;
+  }
+  for (const char* name : {"COMPLETED", "FAILED", "TIMEOUT", "NODE_FAIL", "BOOT_FAIL", "REVOKED"}) {
+    EXPECT_FALSE(IsUnfinished({name, ""})) << name;
+  }
+}
+
+TEST(Tool, GivesOutputStatusAndAnEndToWhatHangs) {
+  const ToolResult good = RunTool({"sh", "-c", "echo out; echo err >&2; exit 4"});
+  EXPECT_EQ(good.status, 4);
+  EXPECT_EQ(good.output, "out\n");
+  EXPECT_EQ(good.errors, "err\n");
+  EXPECT_EQ(RunTool({"talus-no-such-program"}).status, 127);
+  const ToolResult hung =
+      RunTool({"sleep", "100"}, {.time_cap = 0.1, .output_file = std::filesystem::path()});
+  EXPECT_FALSE(hung.ok());
+  EXPECT_THAT(hung.errors, HasSubstr("gave no answer in time"));
+}
+
+}  // namespace
+}  // namespace talus::experiments
