@@ -13,12 +13,12 @@ namespace talus::engine {
 
 // One sphere. Velocities are those of the full step (M3).
 struct Particle {
-  std::int64_t id = 0;    // kept for life; output is sorted by it
-  int material = 0;       // index into Scene::materials
-  double radius = 0;      // [m], > 0
-  Vec3 position;          // [m]
-  Vec3 velocity;          // [m/s]
-  Vec3 angular_velocity;  // [rad/s]
+  std::int64_t id = 0;         // kept for life; output is sorted by it
+  int material = 0;            // index into Scene::materials
+  double radius = 0;           // [m], > 0
+  Vec3 position = {};          // [m]
+  Vec3 velocity = {};          // [m/s]
+  Vec3 angular_velocity = {};  // [rad/s]
 };
 
 struct Scene {
@@ -35,6 +35,10 @@ struct Scene {
   // that overlap too much, Δt beyond 0.40 t_R.
   void Validate(base::Problems& problems) const;
 };
+
+inline constexpr double kMaxRayleighFraction = 0.40;  // of Δt: beyond it a run is refused (M4)
+
+double SphereMass(const Material& material, double radius);  // [kg]
 
 // Rayleigh time of a sphere [s] (M4).
 double RayleighTime(const Material& material, double radius);

@@ -26,6 +26,17 @@ struct EnergySums {
   double potential = 0;      // -Σ m g·x [J]
 };
 
+struct SimulationState;  // engine/simulation_state.h
+
+// What the neighbour list is like, for benchmarks and progress reports.
+struct ListStatistics {
+  double skin = 0;                // [m]
+  std::int64_t num_rebuilds = 0;  // since the start
+  std::int64_t num_pairs = 0;     // listed
+  std::int64_t num_contacts = 0;  // of them, touching when the list was made
+  const char* kernels = "";       // instruction set: "avx512", "avx2", "sse2"
+};
+
 class Simulation {
  public:
   // Throws base::ConfigError with every problem of the scene.
@@ -46,8 +57,10 @@ class Simulation {
   std::vector<Particle> Particles() const;    // by id, velocities at the full step
   std::vector<ContactInfo> Contacts() const;  // δ > 0 now, ordered by (first, second)
   EnergySums Energies() const;
-  double MaxSpeed() const;                 // of any sphere [m/s]
-  const std::vector<Wall>& Walls() const;  // shapes as they stand now
+  double MaxSpeed() const;  // of any sphere [m/s]
+  const std::vector<Wall>& Walls()
+      const;  // shapes as they stand now; removed ones keep their place
+  ListStatistics Statistics() const;
 
   // From now on the wall follows `motion` (times absolute); what was prescribed before is dropped.
   void SetMotion(int wall, std::vector<MotionStep> motion);
@@ -68,9 +81,8 @@ class Simulation {
   static Simulation Restore(std::string_view bytes, int num_threads = 1);
 
  private:
-  struct State;
-  explicit Simulation(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit Simulation(std::unique_ptr<SimulationState> state);
+  std::unique_ptr<SimulationState> state_;
 };
 
 }  // namespace talus::engine

@@ -13,20 +13,20 @@ using base::Vec3;
 
 // The half space behind a plane is solid: spheres stay on the side that `normal` points to.
 struct Plane {
-  Vec3 point;            // [m]
+  Vec3 point = {};       // [m]
   Vec3 normal{0, 0, 1};  // unit vector
 };
 
 // A flat disc without thickness; both faces and the edge touch.
 struct Disc {
-  Vec3 center;           // [m]
+  Vec3 center = {};      // [m]
   Vec3 normal{0, 0, 1};  // unit vector
   double radius = 0;     // [m], > 0
 };
 
 // A tube without thickness, open at both ends; inner and outer face and both edges touch.
 struct OpenCylinder {
-  Vec3 base;           // centre of one end [m]
+  Vec3 base = {};      // centre of one end [m]
   Vec3 axis{0, 0, 1};  // unit vector from `base` to the other end
   double radius = 0;   // [m], > 0
   double length = 0;   // [m], > 0
@@ -34,7 +34,7 @@ struct OpenCylinder {
 
 // A solid cylinder; end faces, rims and side touch.
 struct SolidCylinder {
-  Vec3 base;           // centre of one end face [m]
+  Vec3 base = {};      // centre of one end face [m]
   Vec3 axis{0, 0, 1};  // unit vector from `base` to the other end
   double radius = 0;   // [m], > 0
   double length = 0;   // [m], > 0
@@ -50,9 +50,9 @@ struct MotionStep {
 
 struct Wall {
   std::string name;
-  WallShape shape;                 // where it is at time 0
-  int material = 0;                // index into Scene::materials
-  std::vector<MotionStep> motion;  // times increasing
+  WallShape shape;                      // where it is at time 0
+  int material = 0;                     // index into Scene::materials
+  std::vector<MotionStep> motion = {};  // times increasing
 };
 
 }  // namespace talus::engine

@@ -1,0 +1,155 @@
+// Forces of one chunk: eight pairs at a time, all of one run with the same two materials.
+//
+// Each block is loaded, answered by the law and added to the force rows in list order, so that the
+// sums do not depend on who computes what. Pairs out of reach cost the distance test only.
+#pragma once
+
+#include "engine/kernel/shapes.h"
+#include "engine/kernel/simd.h"
+
+namespace talus::engine::TALUS_TARGET {
+
+struct Positions {
+  Vector<Lanes> at;
+  Lanes radius;
+};
+
+TALUS_INLINE Positions LoadPositions(const StepView& step, const std::int32_t* index) {
+  const Quads q = LoadQuads(step.motion, 8, index);
+  return {{q.x, q.y, q.z}, q.w};
+}
+
+TALUS_INLINE Body<Lanes> LoadBody(const StepView& step, const std::int32_t* index,
+                                  const Lanes& radius) {
+  const Quads v = LoadQuads(step.motion + 4, 8, index);
+  const Quads w = LoadQuads(step.spin, 4, index);
+  return {radius, v.w, w.w, {v.x, v.y, v.z}, {w.x, w.y, w.z}};
+}
+
+// A part of a block, one vector wide.
+struct Part {
+  PairBlock& block;
+  std::uint8_t& touching;
+  int lane;  // the part's first lane in its block
+  Mask valid;
+
+  TALUS_INLINE const std::int32_t* first() const { return block.first + lane; }
+  TALUS_INLINE const std::int32_t* second() const { return block.second + lane; }
+  TALUS_INLINE unsigned mask() const { return (1u << Lanes::kWidth) - 1u; }
+
+  TALUS_INLINE void Load(History<Lanes>& h) const {
+    h.spring = LoadVector(block.spring);
+    h.moment = LoadVector(block.moment);
+  }
+  TALUS_INLINE void Store(const History<Lanes>& h, bool has_moment) const {
+    StoreVector(h.spring, block.spring);
+    if (has_moment) StoreVector(h.moment, block.moment);
+  }
+  TALUS_INLINE void SetTouching(unsigned bits) const {
+    touching = static_cast<std::uint8_t>((touching & ~(mask() << lane)) | (bits << lane));
+  }
+  // Nothing of this part is in reach: forget what it remembers.
+  TALUS_INLINE void Clear() const {
+    if (((touching >> lane) & mask()) == 0) return;
+    const Lanes zero(0.0);
+    const Vector<Lanes> none{zero, zero, zero};
+    Store({none, none}, true);
+    SetTouching(0);
+  }
+
+ private:
+  TALUS_INLINE Vector<Lanes> LoadVector(const double (&from)[3][kBlock]) const {
+    return {Lanes::Load(from[0] + lane), Lanes::Load(from[1] + lane), Lanes::Load(from[2] + lane)};
+  }
+  TALUS_INLINE void StoreVector(const Vector<Lanes>& a, double (&to)[3][kBlock]) const {
+    a.x.Store(to[0] + lane);
+    a.y.Store(to[1] + lane);
+    a.z.Store(to[2] + lane);
+  }
+};
+
+template <class NormalLaw, class RollingLaw>
+TALUS_INLINE Response<Lanes> Answer(const PairConstants& constants, const StepView& step,
+                                    const Contact<Lanes>& contact, Mask active, const Part& part) {
+  History<Lanes> history;
+  part.Load(history);
+  const Response<Lanes> response =
+      Respond<NormalLaw, RollingLaw>(constants, contact, Lanes(step.time_step), history);
+  const Mask touches = active & (contact.overlap > Lanes(0.0));
+  history.spring = OrZero(touches, history.spring);
+  history.moment = OrZero(touches, history.moment);
+  part.Store(history, RollingLaw::kHasMoment);
+  part.SetTouching(Bits(touches));
+  return {OrZero(active, response.force), OrZero(active, response.lever),
+          OrZero(active, response.rolling)};
+}
+
+template <class NormalLaw, class RollingLaw>
+TALUS_INLINE void SpherePart(const StepView& step, const ChunkView& chunk,
+                             const PairConstants& constants, const Part& part) {
+  const Positions pi = LoadPositions(step, part.first());
+  const Positions pj = LoadPositions(step, part.second());
+  const Vector<Lanes> offset = pj.at - pi.at;
+  const Lanes square = Dot(offset, offset);
+  const Lanes radii = pi.radius + pj.radius;
+  const Lanes reach = radii + Lanes(constants.adhesion_gap);
+  const Mask active = part.valid & (square < reach * reach);
+  if (Bits(active) == 0) return part.Clear();
+
+  const Body<Lanes> i = LoadBody(step, part.first(), pi.radius);
+  const Body<Lanes> j = LoadBody(step, part.second(), pj.radius);
+  const Lanes inverse = Rsqrt(square);
+  const Lanes inverse_radii = Rsqrt(radii * radii);
+  const Vector<Lanes> surface = i.radius * i.angular_velocity + j.radius * j.angular_velocity;
+  const Contact<Lanes> contact = MakeContact(inverse * offset, radii - square * inverse,
+                                             i.radius * j.radius * inverse_radii, surface, i, j);
+  const Response<Lanes> on_i =
+      Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
+  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, chunk.forces, part.first(),
+                   chunk.begin);
+  AddToRows<true>(on_i.force, on_i.rolling - j.radius * on_i.lever, chunk.forces, part.second(),
+                  chunk.begin);
+}
+
+template <class NormalLaw, class RollingLaw>
+TALUS_INLINE void WallPart(const StepView& step, const ChunkView& chunk,
+                           const PairConstants& constants, const WallView& wall, const Part& part) {
+  const Positions p = LoadPositions(step, part.first());
+  const NearestPoint<Lanes> nearest = Nearest(wall, p.at);
+  const Lanes overlap = p.radius - nearest.distance;
+  const Mask active = part.valid & (overlap > Lanes(-constants.adhesion_gap));
+  if (Bits(active) == 0) return part.Clear();
+
+  const Body<Lanes> i = LoadBody(step, part.first(), p.radius);
+  const Lanes zero(0.0);
+  const Body<Lanes> j{zero, zero, zero, Broadcast<Lanes>(wall.velocity), {zero, zero, zero}};
+  const Contact<Lanes> contact =
+      MakeContact(nearest.normal, overlap, i.radius, i.radius * i.angular_velocity, i, j);
+  const Response<Lanes> on_i =
+      Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
+  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, chunk.forces, part.first(),
+                   chunk.begin);
+}
+
+template <class NormalLaw, class RollingLaw>
+void Forces(const StepView& step, const ChunkView& chunk) {
+  for (std::int64_t r = 0; r < chunk.num_runs; ++r) {
+    const Run run = chunk.runs[r];
+    const PairConstants constants = step.constants[run.constants];
+    const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
+    for (std::int64_t b = 0; b < num_blocks; ++b) {
+      const std::int64_t at = run.first_block + b;
+      for (int lane = 0; lane < kBlock; lane += Lanes::kWidth) {
+        const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
+        const Part part{chunk.blocks[at], chunk.touching[at], lane, Lanes::Iota() < Lanes(left)};
+        if (run.wall < 0) {
+          SpherePart<NormalLaw, RollingLaw>(step, chunk, constants, part);
+        } else {
+          WallPart<NormalLaw, RollingLaw>(step, chunk, constants, step.walls[run.wall], part);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace talus::engine::TALUS_TARGET

@@ -1,0 +1,78 @@
+// One step of the leapfrog (M3) for the particles of a chunk, once all their forces are there.
+#pragma once
+
+#include "engine/kernel/simd.h"
+
+namespace talus::engine::TALUS_TARGET {
+
+struct Load6 {
+  Vector<Lanes> force, torque;
+};
+
+TALUS_INLINE Load6 LoadForces(const double* rows, const std::int32_t* index) {
+  const Quads f = LoadQuads(rows, 8, index);
+  const Quads t = LoadQuads(rows + 4, 8, index);
+  return {{f.x, f.y, f.z}, {t.x, t.y, t.z}};
+}
+
+TALUS_INLINE void ClearForces(double* rows) {
+  const Lanes zero(0.0);
+  for (int k = 0; k < 8 * Lanes::kWidth; k += Lanes::kWidth) zero.Store(rows + k);
+}
+
+// Rows that no particle owns (1/m = 0) stay where they are.
+TALUS_INLINE Lanes Advance(const StepView& step, std::int64_t at, const Load6& load,
+                           const std::int32_t* index) {
+  double* motion = step.motion + 8 * at;
+  double* spin = step.spin + 4 * at;
+  const Lanes dt(step.time_step);
+  Quads x = LoadQuads(motion, 8, index);
+  Quads v = LoadQuads(motion + 4, 8, index);
+  Quads w = LoadQuads(spin, 4, index);
+  const Lanes dt_if_real = Select(v.w > Lanes(0.0), dt, Lanes(0.0));
+  v.x = v.x + (load.force.x * v.w + Lanes(step.gravity[0])) * dt_if_real;
+  v.y = v.y + (load.force.y * v.w + Lanes(step.gravity[1])) * dt_if_real;
+  v.z = v.z + (load.force.z * v.w + Lanes(step.gravity[2])) * dt_if_real;
+  w.x = w.x + load.torque.x * w.w * dt;
+  w.y = w.y + load.torque.y * w.w * dt;
+  w.z = w.z + load.torque.z * w.w * dt;
+  x.x = x.x + v.x * dt;
+  x.y = x.y + v.y * dt;
+  x.z = x.z + v.z * dt;
+  StoreQuads(x, motion, 8);
+  StoreQuads(v, motion + 4, 8);
+  StoreQuads(w, spin, 4);
+  return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+
+MotionCheck Integrate(const StepView& step, const ChunkView& chunk, const Overhang* overhangs,
+                      std::int64_t num_overhangs) {
+  const std::int32_t index[kBlock] = {0, 1, 2, 3, 4, 5, 6, 7};
+  const Lanes limit(step.speed_limit * step.speed_limit);
+  Lanes fastest(0.0);
+  unsigned sound = (1u << Lanes::kWidth) - 1u;
+  for (std::int64_t at = chunk.begin; at < chunk.end; at += Lanes::kWidth) {
+    double* rows = chunk.forces + 8 * (at - chunk.begin);
+    Load6 load = LoadForces(rows, index);
+    for (std::int64_t o = 0; o < num_overhangs; ++o) {
+      const Overhang& over = overhangs[o];
+      if (at >= over.end) continue;
+      double* over_rows = over.forces + 8 * (at - over.begin);
+      const Load6 more = LoadForces(over_rows, index);
+      ClearForces(over_rows);
+      load = {load.force + more.force, load.torque + more.torque};
+    }
+    ClearForces(rows);
+    const Lanes speed_squared = Advance(step, at, load, index);
+    fastest = Max(fastest, speed_squared);
+    sound &= Bits(speed_squared <= limit);
+  }
+  double lanes[kBlock] = {};
+  fastest.Store(lanes);
+  MotionCheck check{0, sound == (1u << Lanes::kWidth) - 1u};
+  for (double lane : lanes)
+    check.max_speed_squared = lane > check.max_speed_squared ? lane : check.max_speed_squared;
+  return check;
+}
+
+}  // namespace talus::engine::TALUS_TARGET

@@ -1,0 +1,132 @@
+// What the kernels work on, and the table of them that exists once for each instruction set.
+//
+// Plain pointers and numbers only: the kernels are compiled for instructions that the machine may
+// not have, so they share no code with the rest of the program.
+//
+// A particle i owns three rows of four doubles:
+//   motion[8 i] = {x, y, z, R, vx, vy, vz, 1/m}      spin[4 i] = {ωx, ωy, ωz, 1/I}
+// Positions are at the full step, velocities half a step behind (M3).
+#pragma once
+
+#include <cstdint>
+
+#include "engine/laws/law_list.h"
+
+namespace talus::engine {
+
+inline constexpr int kBlock = 8;  // pairs in a block, for every width of vector
+
+// Eight pairs with what they remember. `second` is a particle, or unused in contacts with a wall.
+struct alignas(64) PairBlock {
+  std::int32_t first[kBlock];
+  std::int32_t second[kBlock];
+  double spring[3][kBlock];  // δ_t [m] (K4), as `first` sees it
+  double moment[3][kBlock];  // M [N m] (R2), as `first` sees it
+};
+
+enum class ShapeKind : std::int32_t { kPlane, kDisc, kOpenCylinder, kSolidCylinder };
+
+// A wall now. `point` and `axis` are point and normal, or base and axis of engine/wall.h.
+struct WallView {
+  ShapeKind kind;
+  double point[3];     // [m]
+  double axis[3];      // unit vector
+  double radius;       // [m], 0 for a plane
+  double length;       // [m], 0 for a plane and a disc
+  double velocity[3];  // [m/s]
+};
+
+// Consecutive blocks whose pairs have the same two materials, or the same material and wall.
+struct Run {
+  std::int64_t first_block;
+  std::int64_t num_pairs;  // lanes beyond these in the last block are void
+  std::int32_t constants;  // index into StepView::constants
+  std::int32_t wall;       // index into StepView::walls, -1 between spheres
+};
+
+struct StepView {
+  double* motion;
+  double* spin;
+  const PairConstants* constants;
+  const WallView* walls;
+  double gravity[3];   // [m/s²]
+  double time_step;    // Δt [s]
+  double speed_limit;  // [m/s]
+};
+
+// The particles [begin, end) and the pairs whose first particle is among them. Force rows
+// {fx, fy, fz, 0, tx, ty, tz, 0} exist for [begin, window_end), which holds all second ones.
+struct ChunkView {
+  std::int64_t begin, end, window_end;
+  PairBlock* blocks;
+  std::uint8_t* touching;  // of each block: lanes with δ > 0 at the last evaluation
+  const Run* runs;
+  std::int64_t num_runs;
+  double* forces;
+};
+
+// Largest squared speed [m²/s²], and whether every speed is a number below the limit.
+struct MotionCheck {
+  double max_speed_squared;
+  bool sound;
+};
+
+// Force rows of an earlier chunk that reach into this one.
+struct Overhang {
+  double* forces;  // row of `begin`
+  std::int64_t begin, end;
+};
+
+// Positions at the last rebuild, in the order of the particles.
+struct CloudView {
+  const double* x;
+  const double* y;
+  const double* z;
+  const double* radius;
+};
+
+// Particles of [begin, end) nearer to particle i than radii plus `reach`; `touching` those nearer
+// than the radii. The lists must have room for end − begin more, and 7 beyond.
+struct SearchQuery {
+  std::int64_t i, begin, end;
+  double reach;  // [m]
+};
+struct SearchLists {
+  std::int32_t* touching;
+  std::int32_t* near;
+  std::int64_t num_touching;
+  std::int64_t num_near;
+};
+
+struct Displacements {
+  double largest_squared;  // [m²]
+  double second_squared;   // [m²]
+};
+
+using ForcesFunction = void (*)(const StepView&, const ChunkView&);
+
+struct KernelTable {
+  const char* name;
+  int width;  // doubles in a vector
+  ForcesFunction forces[kNumNormalLaws][kNumRollingLaws];
+  MotionCheck (*integrate)(const StepView&, const ChunkView&, const Overhang*, std::int64_t);
+  void (*search)(const CloudView&, const SearchQuery&, SearchLists&);
+  Displacements (*displacements)(const CloudView&, const double* motion, std::int64_t begin,
+                                 std::int64_t end);
+  // Distance of each sphere's surface from the wall [m], to distance[0 … end − begin), rounded up
+  // to a whole block.
+  void (*wall_gaps)(const StepView&, std::int64_t wall, std::int64_t begin, std::int64_t end,
+                    double* gap);
+};
+
+namespace avx512 {
+extern const KernelTable kTable;
+}
+namespace avx2 {
+extern const KernelTable kTable;
+}
+namespace sse2 {
+extern const KernelTable kTable;
+}
+
+}  // namespace talus::engine

@@ -1,0 +1,258 @@
+#include "engine/neighbor/contact_list.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+
+namespace talus::engine {
+
+namespace {
+
+// Small enough that a chunk's rows stay in the second-level cache, large enough that few pairs
+// reach beyond it.
+constexpr std::int64_t kChunkSize = 1024;
+constexpr std::int64_t kMaxChunks = 64;
+
+// An overlap, in parts of the distance at which surfaces meet, that no contact law is meant for.
+constexpr double kMaxOverlapShare = 0.5;
+
+std::int64_t RoundUp(std::int64_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
+
+}  // namespace
+
+ChunkView Chunk::View() {
+  return {.begin = begin,
+          .end = end,
+          .window_end = window_end,
+          .blocks = blocks.data(),
+          .touching = touching.data(),
+          .runs = runs.data(),
+          .num_runs = static_cast<std::int64_t>(runs.size()),
+          .forces = forces.data()};
+}
+
+// Calls visit(first, second, block, lane) for each touching pair of the list; `second` of a wall
+// is -1 - wall.
+template <class Visitor>
+void ContactList::VisitTouching(Visitor&& visit) const {
+  for (const Chunk& chunk : chunks_) {
+    for (const Run& run : chunk.runs) {
+      for (std::int64_t k = 0; k < run.num_pairs; ++k) {
+        const std::int64_t at = run.first_block + k / kBlock;
+        const int lane = static_cast<int>(k % kBlock);
+        if ((chunk.touching[at] >> lane & 1) == 0) continue;
+        const PairBlock& block = chunk.blocks[at];
+        visit(block.first[lane], run.wall < 0 ? block.second[lane] : -1 - run.wall, block, lane);
+      }
+    }
+  }
+}
+
+// Puts the memory of touching pairs aside, under the new numbers of their particles. Seen from the
+// other side, springs and moments have the opposite sign.
+void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num) {
+  new_of_old_.assign(old_num, -1);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    new_of_old_[order[k]] = static_cast<std::int32_t>(k);
+  }
+  const auto renamed = [&](std::int32_t first, std::int32_t second, auto&& use) {
+    const std::int32_t a = new_of_old_[first];
+    const std::int32_t b = second < 0 ? second : new_of_old_[second];
+    if (a < 0 || (second >= 0 && b < 0)) return;
+    if (second >= 0 && b < a) {
+      use(b, a, -1.0);
+    } else {
+      use(a, b, 1.0);
+    }
+  };
+  old_start_.assign(order.size() + 1, 0);
+  VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock&, int) {
+    renamed(first, second, [&](std::int32_t a, std::int32_t, double) { ++old_start_[a + 1]; });
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) old_start_[i + 1] += old_start_[i];
+  old_.resize(old_start_.back());
+  VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock& block, int lane) {
+    renamed(first, second, [&](std::int32_t a, std::int32_t b, double sign) {
+      OldContact& contact = old_[old_start_[a]++];
+      contact.second = b;
+      for (int c = 0; c < 3; ++c) {
+        contact.memory[c] = sign * block.spring[c][lane];
+        contact.memory[3 + c] = sign * block.moment[c][lane];
+      }
+    });
+  });
+  std::copy_backward(old_start_.begin(), old_start_.end() - 1, old_start_.end());
+  old_start_[0] = 0;
+}
+
+void ContactList::CutChunks(std::int64_t num_particles) {
+  const std::int64_t num_chunks =
+      std::clamp<std::int64_t>(num_particles / kChunkSize, 1, kMaxChunks);
+  const std::int64_t size = RoundUp((num_particles + num_chunks - 1) / num_chunks);
+  chunks_.resize(num_chunks);
+  for (std::int64_t c = 0; c < num_chunks; ++c) {
+    chunks_[c].begin = std::min(c * size, RoundUp(num_particles));
+    chunks_[c].end = std::min((c + 1) * size, RoundUp(num_particles));
+  }
+}
+
+void ContactList::FindSpheres(const RebuildInput& input, const Chunk& chunk, Scratch& scratch) {
+  const ParticleStore& p = input.particles;
+  const CloudView cloud{p.old_x.data(), p.old_y.data(), p.old_z.data(), p.radius.data()};
+  const std::int64_t num_materials = input.num_materials;
+  for (std::int64_t i = chunk.begin; i < std::min(chunk.end, p.num); ++i) {
+    const auto ranges = grid_.LaterNeighbors(i);
+    std::int64_t room = kBlock;
+    for (const IndexRange& range : ranges)
+      room += std::max<std::int64_t>(range.end - range.begin, 0);
+    if (static_cast<std::int64_t>(scratch.found_near.size()) < room) {
+      scratch.found_near.resize(2 * room);
+      scratch.found_touching.resize(2 * room);
+    }
+    SearchLists lists{scratch.found_touching.data(), scratch.found_near.data(), 0, 0};
+    for (const IndexRange& range : ranges) {
+      if (range.begin >= range.end) continue;
+      input.kernels.search(cloud, {i, range.begin, range.end, input.reach}, lists);
+    }
+    const auto add = [&](std::int32_t j, std::vector<Candidate>& to) {
+      const auto [a, b] = std::minmax(p.materials[i], p.materials[j]);
+      to.push_back(
+          {static_cast<std::int32_t>(i), j, static_cast<std::int32_t>(a * num_materials + b)});
+    };
+    for (std::int64_t k = 0; k < lists.num_touching; ++k) {
+      const std::int32_t j = lists.touching[k];
+      const double limit = (1 - kMaxOverlapShare) * (p.Radius(i) + p.Radius(j));
+      const Vec3 offset = p.Position(j) - p.Position(i);
+      if (!(base::Dot(offset, offset) > limit * limit)) {
+        throw base::Error("spheres " + std::to_string(p.ids[i]) + " and " +
+                          std::to_string(p.ids[j]) + " overlap by more than half of their size");
+      }
+      add(j, scratch.touching);
+    }
+    for (std::int64_t k = 0; k < lists.num_near; ++k) add(lists.near[k], scratch.near);
+  }
+}
+
+void ContactList::FindWalls(const RebuildInput& input, const Chunk& chunk, Scratch& scratch) {
+  const ParticleStore& p = input.particles;
+  const auto num_materials = static_cast<std::int32_t>(input.num_materials);
+  StepView view{};
+  view.motion = input.particles.motion.data();
+  view.walls = input.walls.views().data();
+  scratch.gaps.resize(chunk.end - chunk.begin);
+  for (std::int32_t w = 0; w < input.walls.size(); ++w) {
+    if (input.walls.Removed(w)) continue;
+    input.kernels.wall_gaps(view, w, chunk.begin, chunk.end, scratch.gaps.data());
+    for (std::int64_t i = chunk.begin; i < std::min(chunk.end, p.num); ++i) {
+      const double gap = scratch.gaps[i - chunk.begin];
+      if (!(gap < input.reach)) continue;
+      if (!(gap > -kMaxOverlapShare * p.Radius(i))) {
+        throw base::Error("sphere " + std::to_string(p.ids[i]) + " goes through the wall \"" +
+                          input.walls.walls()[w].name + "\"");
+      }
+      const std::int32_t key = num_materials * (num_materials + w) + p.materials[i];
+      (gap < 0 ? scratch.touching : scratch.near)
+          .push_back({static_cast<std::int32_t>(i), -1 - w, key});
+    }
+  }
+}
+
+void ContactList::Remember(PairBlock& block, int lane, const Candidate& candidate) const {
+  for (std::int64_t k = old_start_[candidate.first]; k < old_start_[candidate.first + 1]; ++k) {
+    if (old_[k].second != candidate.second) continue;
+    for (int c = 0; c < 3; ++c) {
+      block.spring[c][lane] = old_[k].memory[c];
+      block.moment[c][lane] = old_[k].memory[3 + c];
+    }
+  }
+}
+
+// Run after run; in each the touching pairs first, so that the blocks of the others are passed
+// over.
+void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
+  const std::int64_t num_materials = input.num_materials;
+  const std::int64_t num_keys = num_materials * (num_materials + input.walls.size());
+  scratch.count_of_key.assign(num_keys, 0);
+  scratch.next_of_key.assign(num_keys, 0);
+  for (const auto* list : {&scratch.touching, &scratch.near}) {
+    for (const Candidate& candidate : *list) ++scratch.count_of_key[candidate.key];
+  }
+  chunk.runs.clear();
+  std::int64_t num_blocks = 0;
+  for (std::int64_t key = 0; key < num_keys; ++key) {
+    const std::int64_t count = scratch.count_of_key[key];
+    if (count == 0) continue;
+    const std::int64_t row = key / num_materials, column = key % num_materials;
+    const auto wall = static_cast<std::int32_t>(row < num_materials ? -1 : row - num_materials);
+    const std::int64_t other = wall < 0 ? row : input.walls.walls()[wall].material;
+    chunk.runs.push_back(
+        {num_blocks, count, static_cast<std::int32_t>(other * num_materials + column), wall});
+    scratch.next_of_key[key] = kBlock * num_blocks;
+    num_blocks += (count + kBlock - 1) / kBlock;
+  }
+  PairBlock empty{};
+  std::fill(std::begin(empty.first), std::end(empty.first), static_cast<std::int32_t>(chunk.begin));
+  std::fill(std::begin(empty.second), std::end(empty.second),
+            static_cast<std::int32_t>(chunk.begin));
+  chunk.blocks.assign(num_blocks, empty);
+  chunk.touching.assign(num_blocks, 0);
+  std::int64_t last = chunk.end - 1;
+  for (const auto* list : {&scratch.touching, &scratch.near}) {
+    for (const Candidate& candidate : *list) {
+      const std::int64_t place = scratch.next_of_key[candidate.key]++;
+      PairBlock& block = chunk.blocks[place / kBlock];
+      const int lane = static_cast<int>(place % kBlock);
+      block.first[lane] = candidate.first;
+      if (candidate.second >= 0) block.second[lane] = candidate.second;
+      last = std::max<std::int64_t>(last, candidate.second);
+      if (list != &scratch.touching) continue;
+      Remember(block, lane, candidate);
+      chunk.touching[place / kBlock] |= static_cast<std::uint8_t>(1 << lane);
+    }
+  }
+  chunk.window_end = RoundUp(last + 1);
+}
+
+void ContactList::PrepareForces() {
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    Chunk& chunk = chunks_[c];
+    chunk.forces.assign(8 * (chunk.window_end - chunk.begin), 0.0);
+    chunk.overhangs.clear();
+    for (std::size_t before = 0; before < c; ++before) {
+      Chunk& other = chunks_[before];
+      if (other.window_end <= chunk.begin) continue;
+      chunk.overhangs.push_back(
+          {other.forces.data() + 8 * (chunk.begin - other.begin), chunk.begin, other.window_end});
+    }
+  }
+}
+
+void ContactList::Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
+  scratch.touching.clear();
+  scratch.near.clear();
+  FindSpheres(input, chunk, scratch);
+  FindWalls(input, chunk, scratch);
+  Fill(input, chunk, scratch);
+}
+
+void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_t> alive) {
+  ParticleStore& p = input.particles;
+  double largest = 0;
+  for (const std::int32_t i : alive) largest = std::max(largest, p.Radius(i));
+  grid_.Build(p.motion.data(), 8, alive, 2 * largest + input.reach);
+  SaveContacts(grid_.order(), p.num);
+  p.Reorder(grid_.order());
+  CutChunks(p.num);
+  scratch_.resize(1);
+  counts_ = {};
+  for (Chunk& chunk : chunks_) {
+    Find(input, chunk, scratch_[0]);
+    counts_.touching += static_cast<std::int64_t>(scratch_[0].touching.size());
+    counts_.pairs +=
+        static_cast<std::int64_t>(scratch_[0].touching.size() + scratch_[0].near.size());
+  }
+  PrepareForces();
+}
+
+}  // namespace talus::engine

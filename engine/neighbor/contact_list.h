@@ -1,0 +1,99 @@
+// The neighbour list: pairs of spheres, and of spheres and walls, that are near, in blocks for the
+// kernels, with what the touching ones remember.
+//
+// The particles are cut into chunks, whose number depends on that of the particles only. A pair
+// belongs to the chunk of its first particle; its second one is always a later particle, in the
+// same chunk or in the overhang of the chunk's force rows. So chunks can be computed at once, and
+// every sum has one order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/aligned.h"
+#include "engine/kernel/kernel.h"
+#include "engine/neighbor/grid.h"
+#include "engine/particle_store.h"
+#include "engine/wall_set.h"
+
+namespace talus::engine {
+
+struct Chunk {
+  std::int64_t begin = 0, end = 0, window_end = 0;  // see ChunkView
+  AlignedVector<PairBlock> blocks;
+  std::vector<std::uint8_t> touching;
+  std::vector<Run> runs;
+  AlignedVector<double> forces;
+  std::vector<Overhang> overhangs;  // of the chunks before
+
+  ChunkView View();
+};
+
+struct ListCounts {
+  std::int64_t pairs = 0;     // listed
+  std::int64_t touching = 0;  // of them, when the list was made
+};
+
+// What a rebuild needs besides the list itself.
+struct RebuildInput {
+  const KernelTable& kernels;
+  ParticleStore& particles;
+  const WallSet& walls;
+  double reach = 0;                // pairs with a smaller gap are listed [m]
+  std::int64_t num_materials = 1;  // PairConstants of materials a, b stand at a · num_materials + b
+  int num_threads = 1;
+};
+
+class ContactList {
+ public:
+  // Sorts the particles `alive`, drops the others, and lists what is near. Contacts that touched at
+  // the last evaluation of the forces keep what they remember. Throws base::Error when two spheres
+  // or a sphere and a wall overlap so much that the run is meaningless.
+  void Rebuild(const RebuildInput& input, std::span<const std::int32_t> alive);
+
+  std::vector<Chunk>& chunks() { return chunks_; }
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+  ListCounts counts() const { return counts_; }
+  void SetCounts(const ListCounts& counts) { counts_ = counts; }
+
+  // Force rows and overhangs of the chunks as they are now.
+  void PrepareForces();
+
+ private:
+  struct OldContact {
+    std::int32_t second;  // new index, or -1 - wall
+    double memory[6];     // spring and moment
+  };
+  struct Candidate {
+    std::int32_t first;
+    std::int32_t second;  // particle, or -1 - wall
+    std::int32_t key;     // run it belongs to
+  };
+  struct Scratch {
+    std::vector<std::int32_t> found_touching, found_near;  // of one particle
+    std::vector<Candidate> touching, near;
+    std::vector<double> gaps;
+    std::vector<std::int64_t> count_of_key, next_of_key;
+  };
+
+  template <class Visitor>
+  void VisitTouching(Visitor&& visit) const;
+  void SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num);
+  void CutChunks(std::int64_t num_particles);
+  void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
+  void FindSpheres(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
+  void FindWalls(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
+  void Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
+  void Remember(PairBlock& block, int lane, const Candidate& candidate) const;
+
+  Grid grid_;
+  std::vector<Chunk> chunks_;
+  ListCounts counts_;
+  std::vector<std::int32_t> new_of_old_;
+  std::vector<std::int64_t> old_start_;  // of each particle's contacts in old_
+  std::vector<OldContact> old_;
+  std::vector<Scratch> scratch_;
+};
+
+}  // namespace talus::engine

@@ -1,0 +1,133 @@
+// What can be seen of a simulation between two steps. Nothing here changes its course.
+#include <algorithm>
+#include <numeric>
+
+#include "engine/kernel/shapes.h"
+#include "engine/simulation_state.h"
+
+namespace talus::engine {
+
+namespace {
+
+Vector<double> ToVector(const Vec3& a) { return {a.x, a.y, a.z}; }
+Vec3 ToVec3(const Vector<double>& a) { return {a.x, a.y, a.z}; }
+
+using ScalarLaw = Response<double> (*)(const PairConstants&, const Contact<double>&, const double&,
+                                       History<double>&);
+
+template <class Normal, class... Rollings>
+ScalarLaw PickRolling(int rolling, LawList<Rollings...>) {
+  const ScalarLaw list[] = {&Respond<Normal, Rollings, double>...};
+  return list[rolling];
+}
+template <class... Normals>
+ScalarLaw PickLaw(const ContactModels& models, LawList<Normals...>) {
+  const int rolling = static_cast<int>(models.rolling);
+  const ScalarLaw list[] = {PickRolling<Normals>(rolling, RollingLaws{})...};
+  return list[static_cast<int>(models.adhesion)];
+}
+
+Body<double> BodyOf(const ParticleStore& p, std::int64_t i) {
+  return {p.Radius(i), p.InverseMass(i), p.InverseInertia(i), ToVector(p.Velocity(i)),
+          ToVector(p.Spin(i))};
+}
+
+Contact<double> SphereContact(const ParticleStore& p, std::int64_t i, std::int64_t j) {
+  const Body<double> a = BodyOf(p, i), b = BodyOf(p, j);
+  const Vec3 offset = p.Position(j) - p.Position(i);
+  const double distance = base::Norm(offset), radii = a.radius + b.radius;
+  return MakeContact(ToVector(offset / distance), radii - distance, a.radius * b.radius / radii,
+                     a.radius * a.angular_velocity + b.radius * b.angular_velocity, a, b);
+}
+
+Contact<double> WallContact(const ParticleStore& p, std::int64_t i, const WallView& wall) {
+  const Body<double> a = BodyOf(p, i);
+  const Body<double> b{0, 0, 0, Broadcast<double>(wall.velocity), {0, 0, 0}};
+  const NearestPoint<double> nearest = Nearest(wall, ToVector(p.Position(i)));
+  return MakeContact(nearest.normal, a.radius - nearest.distance, a.radius,
+                     a.radius * a.angular_velocity, a, b);
+}
+
+History<double> HistoryOf(const PairBlock& block, int lane) {
+  return {{block.spring[0][lane], block.spring[1][lane], block.spring[2][lane]},
+          {block.moment[0][lane], block.moment[1][lane], block.moment[2][lane]}};
+}
+
+}  // namespace
+
+std::vector<Load> SimulationState::Loads() {
+  const StepView view = View();
+  const auto forces = Forces();
+  std::vector<Load> loads(particles.motion.size() / 8);
+  for (Chunk& chunk : list.chunks()) {
+    const auto blocks = chunk.blocks;
+    const auto touching = chunk.touching;
+    forces(view, chunk.View());
+    chunk.blocks = blocks;
+    chunk.touching = touching;
+  }
+  const auto add = [&](Chunk& chunk, std::int64_t i) {
+    const double* row = &chunk.forces[8 * (i - chunk.begin)];
+    loads[i].force += Vec3{row[0], row[1], row[2]};
+    loads[i].torque += Vec3{row[4], row[5], row[6]};
+  };
+  for (Chunk& chunk : list.chunks()) {
+    for (std::int64_t i = chunk.begin; i < chunk.window_end; ++i) add(chunk, i);
+    std::fill(chunk.forces.begin(), chunk.forces.end(), 0.0);
+  }
+  return loads;
+}
+
+std::vector<Particle> SimulationState::FullStep() {
+  const std::vector<Load> loads = Loads();
+  std::vector<std::int64_t> by_id(particles.num);
+  std::iota(by_id.begin(), by_id.end(), 0);
+  std::sort(by_id.begin(), by_id.end(),
+            [&](std::int64_t a, std::int64_t b) { return particles.ids[a] < particles.ids[b]; });
+  std::vector<Particle> result;
+  result.reserve(by_id.size());
+  for (const std::int64_t i : by_id) {
+    const Vec3 acceleration = particles.InverseMass(i) * loads[i].force + gravity;
+    const Vec3 turn = particles.InverseInertia(i) * loads[i].torque;
+    result.push_back({.id = particles.ids[i],
+                      .material = particles.materials[i],
+                      .radius = particles.Radius(i),
+                      .position = particles.Position(i),
+                      .velocity = particles.Velocity(i) + 0.5 * dt * acceleration,
+                      .angular_velocity = particles.Spin(i) + 0.5 * dt * turn});
+  }
+  return result;
+}
+
+std::vector<ContactInfo> SimulationState::Contacts() const {
+  const ScalarLaw law = PickLaw(models, NormalLaws{});
+  std::vector<ContactInfo> result;
+  for (const Chunk& chunk : list.chunks()) {
+    for (const Run& run : chunk.runs) {
+      for (std::int64_t k = 0; k < run.num_pairs; ++k) {
+        const PairBlock& block = chunk.blocks[run.first_block + k / kBlock];
+        const int lane = static_cast<int>(k % kBlock);
+        const std::int32_t i = block.first[lane], j = block.second[lane];
+        const Contact<double> contact = run.wall < 0
+                                            ? SphereContact(particles, i, j)
+                                            : WallContact(particles, i, walls.views()[run.wall]);
+        if (!(contact.overlap > 0)) continue;
+        History<double> history = HistoryOf(block, lane);
+        const Vec3 force = ToVec3(law(constants[run.constants], contact, dt, history).force);
+        ContactInfo info{particles.ids[i], run.wall < 0 ? particles.ids[j] : -1 - run.wall,
+                         contact.overlap, force};
+        if (run.wall < 0 && info.second < info.first) {
+          std::swap(info.first, info.second);
+          info.force = -info.force;
+        }
+        result.push_back(info);
+      }
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const ContactInfo& a, const ContactInfo& b) {
+    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+  });
+  return result;
+}
+
+}  // namespace talus::engine

@@ -1,0 +1,74 @@
+#include "engine/particle_store.h"
+
+#include <algorithm>
+
+#include "engine/kernel/kernel.h"
+
+namespace talus::engine {
+
+namespace {
+
+std::int64_t Padded(std::int64_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
+
+}  // namespace
+
+void ParticleStore::Resize(std::int64_t count) {
+  num = count;
+  motion.assign(8 * Padded(count), 0.0);
+  spin.assign(4 * Padded(count), 0.0);
+  ids.resize(count);
+  materials.resize(count);
+}
+
+void ParticleStore::NotePositions() {
+  // A search looks at whole vectors, up to seven points beyond a range.
+  for (auto* list : {&old_x, &old_y, &old_z, &radius}) list->resize(Padded(num) + kBlock);
+  for (std::int64_t i = 0; i < Padded(num); ++i) {
+    old_x[i] = motion[8 * i];
+    old_y[i] = motion[8 * i + 1];
+    old_z[i] = motion[8 * i + 2];
+    radius[i] = motion[8 * i + 3];
+  }
+}
+
+void ParticleStore::Assign(std::span<const Particle> particles, std::span<const Material> list) {
+  Resize(static_cast<std::int64_t>(particles.size()));
+  for (std::int64_t i = 0; i < num; ++i) {
+    const Particle& p = particles[i];
+    const double row[] = {p.position.x, p.position.y, p.position.z, p.radius,
+                          p.velocity.x, p.velocity.y, p.velocity.z};
+    std::copy(std::begin(row), std::end(row), &motion[8 * i]);
+    const double turn[] = {p.angular_velocity.x, p.angular_velocity.y, p.angular_velocity.z};
+    std::copy(std::begin(turn), std::end(turn), &spin[4 * i]);
+    ids[i] = p.id;
+    materials[i] = p.material;
+  }
+  SetMasses(list);
+}
+
+void ParticleStore::SetMasses(std::span<const Material> list) {
+  for (std::int64_t i = 0; i < num; ++i) {
+    const double r = Radius(i);
+    const double mass = SphereMass(list[materials[i]], r);
+    motion[8 * i + 7] = 1 / mass;
+    spin[4 * i + 3] = 1 / (0.4 * mass * r * r);
+  }
+}
+
+void ParticleStore::Reorder(std::span<const std::int32_t> order) {
+  motion_scratch_.swap(motion);
+  spin_scratch_.swap(spin);
+  ids_scratch_.swap(ids);
+  materials_scratch_.swap(materials);
+  Resize(static_cast<std::int64_t>(order.size()));
+  for (std::int64_t i = 0; i < num; ++i) {
+    const std::int64_t from = order[i];
+    std::copy_n(&motion_scratch_[8 * from], 8, &motion[8 * i]);
+    std::copy_n(&spin_scratch_[4 * from], 4, &spin[4 * i]);
+    ids[i] = ids_scratch_[from];
+    materials[i] = materials_scratch_[from];
+  }
+  NotePositions();
+}
+
+}  // namespace talus::engine

@@ -1,0 +1,157 @@
+#include "engine/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "engine/blow_up.h"
+#include "engine/simulation_state.h"
+
+namespace talus::engine {
+
+namespace {
+
+double SmallestRadius(const Scene& scene) {
+  double smallest = INFINITY;
+  for (const Particle& p : scene.particles) smallest = std::min(smallest, p.radius);
+  return std::isfinite(smallest) ? smallest : 1.0;
+}
+
+// Velocities of the scene are those of the full step; the leapfrog's live half a step before (M3).
+void StepBackHalf(SimulationState& state) {
+  const std::vector<Load> loads = state.Loads();
+  ParticleStore& p = state.particles;
+  for (std::int64_t i = 0; i < p.num; ++i) {
+    const Vec3 v =
+        p.Velocity(i) - 0.5 * state.dt * (p.InverseMass(i) * loads[i].force + state.gravity);
+    const Vec3 w = p.Spin(i) - 0.5 * state.dt * (p.InverseInertia(i) * loads[i].torque);
+    const double velocity[] = {v.x, v.y, v.z}, spin[] = {w.x, w.y, w.z};
+    std::copy_n(velocity, 3, &p.motion[8 * i + 4]);
+    std::copy_n(spin, 3, &p.spin[4 * i]);
+  }
+}
+
+std::unique_ptr<SimulationState> Start(const Scene& scene) {
+  base::Problems problems;
+  scene.Validate(problems);
+  problems.ThrowIfAny();
+  auto state = std::make_unique<SimulationState>();
+  state->num_threads = scene.num_threads;
+  state->materials = scene.materials;
+  state->models = scene.models;
+  state->gravity = scene.gravity;
+  state->dt = TimeStep(scene);
+  state->SetConstants();
+  state->particles.Assign(scene.particles, scene.materials);
+  state->walls = WallSet(scene.walls);
+  state->walls.SetTime(0, state->dt);
+  state->tuner = SkinTuner(SmallestRadius(scene));
+  state->RebuildAll();
+  state->reference_speed = ReferenceSpeed(*state);
+  state->speed_limit = SpeedLimit(*state);
+  StepBackHalf(*state);
+  return state;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene) : state_(Start(scene)) {}
+Simulation::Simulation(std::unique_ptr<SimulationState> state) : state_(std::move(state)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+void Simulation::Advance(std::int64_t num_steps) {
+  for (std::int64_t k = 0; k < num_steps; ++k) state_->Advance();
+}
+
+std::int64_t Simulation::step() const { return state_->step; }
+double Simulation::time() const { return state_->time(); }
+double Simulation::time_step() const { return state_->dt; }
+std::int64_t Simulation::num_particles() const { return state_->particles.num; }
+std::vector<Particle> Simulation::Particles() const { return state_->FullStep(); }
+std::vector<ContactInfo> Simulation::Contacts() const { return state_->Contacts(); }
+const std::vector<Wall>& Simulation::Walls() const { return state_->walls.walls(); }
+
+EnergySums Simulation::Energies() const {
+  EnergySums sums;
+  for (const Particle& p : state_->FullStep()) {
+    const Material& material = state_->materials[p.material];
+    const double mass = SphereMass(material, p.radius);
+    sums.translational += 0.5 * mass * base::Dot(p.velocity, p.velocity);
+    sums.rotational +=
+        0.2 * mass * p.radius * p.radius * base::Dot(p.angular_velocity, p.angular_velocity);
+    sums.potential -= mass * base::Dot(state_->gravity, p.position);
+  }
+  return sums;
+}
+
+double Simulation::MaxSpeed() const {
+  double speed = 0;
+  for (const Particle& p : state_->FullStep()) speed = std::max(speed, base::Norm(p.velocity));
+  return speed;
+}
+
+ListStatistics Simulation::Statistics() const {
+  const ListCounts counts = state_->list.counts();
+  return {.skin = state_->tuner.skin(),
+          .num_rebuilds = state_->tuner.num_rebuilds(),
+          .num_pairs = counts.pairs,
+          .num_contacts = counts.touching,
+          .kernels = state_->kernels->name};
+}
+
+void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {
+  Wall changed = Walls().at(wall);
+  changed.motion = std::move(motion);
+  base::Problems problems;
+  ValidateWall(changed, static_cast<int>(state_->materials.size()), problems);
+  problems.ThrowIfAny();
+  state_->walls.SetMotion(wall, std::move(changed.motion));
+  state_->walls.SetTime(time(), time_step());
+  state_->reference_speed = std::max(state_->reference_speed, state_->walls.MaxPrescribedSpeed());
+  state_->speed_limit = SpeedLimit(*state_);
+}
+
+void Simulation::RemoveWall(int wall) {
+  state_->walls.Remove(wall);
+  state_->RebuildAll();
+}
+
+std::int64_t Simulation::RemoveIf(const std::function<bool(const Particle&)>& leaves) {
+  const std::vector<Particle> particles = state_->FullStep();
+  std::vector<std::int64_t> gone;
+  for (const Particle& p : particles) {
+    if (leaves(p)) gone.push_back(p.id);
+  }
+  if (gone.empty()) return 0;
+  std::vector<std::int32_t> alive;
+  for (std::int64_t i = 0; i < state_->particles.num; ++i) {
+    if (!std::binary_search(gone.begin(), gone.end(), state_->particles.ids[i])) {
+      alive.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  state_->Rebuild(alive);
+  return static_cast<std::int64_t>(gone.size());
+}
+
+void Simulation::SetMaterial(int index, const Material& material) {
+  base::Problems problems;
+  material.Validate(problems);
+  for (std::int64_t i = 0; i < state_->particles.num && problems.empty(); ++i) {
+    if (state_->particles.materials[i] != index) continue;
+    const double rayleigh = RayleighTime(material, state_->particles.Radius(i));
+    problems.Require(time_step() <= kMaxRayleighFraction * rayleigh, "time_step", time_step(),
+                     "exceeds 0.4 Rayleigh times of a sphere of the new material");
+  }
+  problems.ThrowIfAny();
+  state_->materials.at(index) = material;
+  state_->SetConstants();
+  state_->particles.SetMasses(state_->materials);
+  state_->RebuildAll();
+  state_->reference_speed = std::max(state_->reference_speed, ReferenceSpeed(*state_));
+  state_->speed_limit = SpeedLimit(*state_);
+}
+
+}  // namespace talus::engine

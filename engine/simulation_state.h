@@ -1,0 +1,68 @@
+// What a Simulation holds, and the step. The parts are in the files that their names say.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/kernel/dispatch.h"
+#include "engine/neighbor/contact_list.h"
+#include "engine/neighbor/skin_tuner.h"
+#include "engine/particle_store.h"
+#include "engine/simulation.h"
+#include "engine/wall_set.h"
+
+namespace talus::engine {
+
+// Force and torque on a particle [N], [N m].
+struct Load {
+  Vec3 force;
+  Vec3 torque;
+};
+
+struct SimulationState {
+  const KernelTable* kernels = &ChooseKernels();
+  int num_threads = 1;
+
+  std::vector<Material> materials;
+  ContactModels models;
+  Vec3 gravity;   // [m/s²]
+  double dt = 0;  // Δt [s]
+  std::int64_t step = 0;
+  double reference_speed = 0;  // what the start can make of itself, see blow_up.h [m/s]
+  double speed_limit = 0;      // [m/s]
+
+  ParticleStore particles;
+  WallSet walls;
+  ContactList list;
+  SkinTuner tuner;
+  double wall_moved = 0;  // farthest way of any wall since the rebuild [m]
+
+  std::vector<PairConstants> constants;  // of materials a, b at a · materials.size() + b
+  double adhesion_gap = 0;               // largest of them [m]
+
+  double time() const { return static_cast<double>(step) * dt; }
+  StepView View();
+  ForcesFunction Forces() const;  // the kernel of the models
+
+  // After a change of materials.
+  void SetConstants();
+
+  // Makes the list of the particles at `alive`; the other particles leave.
+  void Rebuild(std::span<const std::int32_t> alive);
+  void RebuildAll();
+
+  void Advance();                // one step
+  MotionCheck Sweep();           // forces and motion of all chunks
+  void Watch(double max_speed);  // rebuilds the list when something may have moved too far
+
+  // Forces at the present positions, by particle index, as the next step will find them. Changes
+  // nothing.
+  std::vector<Load> Loads();
+
+  // What contacts, images and files see: velocities at the full step (M3), in the order of the ids.
+  std::vector<Particle> FullStep();
+  std::vector<ContactInfo> Contacts() const;
+};
+
+}  // namespace talus::engine
