@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "optimizer/design_strategy.h"
 #include "optimizer/replayed_search.h"
+#include "optimizer/scalar_strategy.h"
 
 namespace talus::optimizer {
 namespace {
@@ -58,6 +59,11 @@ ReplayOptions SearchOf(StrategyKind kind) {
 void StrategyOptions::Validate(base::Problems& problems) const {
   problems.Require(num_points >= 1 && num_points <= kMaxDesign, "num_points", num_points,
                    "must be from 1 to 10000");
+  problems.Require(num_initial >= 0 && num_initial <= 100, "num_initial", num_initial,
+                   "must be from 0 to 100");
+  problems.Require(stop_multiple >= 0, "stop_multiple", stop_multiple, "must not be negative");
+  problems.Require(max_replicates >= 0 && max_replicates <= 1000, "max_replicates", max_replicates,
+                   "must be from 0 to 1000");
   problems.Require(refine_best >= 0, "refine_best", refine_best, "must not be negative");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     problems.Require(levels[i] >= 1 && levels[i] <= kMaxDesign, "levels[" + std::to_string(i) + "]",
@@ -83,6 +89,12 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
   options.ValidateFor(domain.num_parameters, problems);
   problems.ThrowIfAny();
   switch (options.kind) {
+    case StrategyKind::kGp:
+      return std::make_unique<ScalarStrategy>(
+          domain, ScalarOptions{.num_initial = options.num_initial,
+                                .stop_multiple = options.stop_multiple,
+                                .max_replicates = options.max_replicates,
+                                .seed = seed});
     case StrategyKind::kLhs:
       return std::make_unique<DesignStrategy>(
           domain, LatinHypercube(options.num_points, domain.num_parameters, seed),

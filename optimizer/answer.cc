@@ -1,0 +1,199 @@
+#include "optimizer/answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/lattice.h"
+#include "optimizer/sobol_indices.h"
+
+namespace talus::optimizer {
+namespace {
+
+Eigen::MatrixXd Inside(const Domain& domain, const Eigen::MatrixXd& points) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    if (domain.Contains(points.row(i))) kept.push_back(i);
+  }
+  return points(kept, Eigen::all);
+}
+
+// Places round `point` at distances from 3e-4 to 0.3, since the minimum may be known that well.
+Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t seed) {
+  base::Random random(seed, base::Stream("around the answer"));
+  Eigen::MatrixXd places(count, point.size());
+  for (int i = 0; i < count; ++i) {
+    const double radius = 0.3 * std::pow(10.0, -3 * random.Uniform());
+    for (Eigen::Index k = 0; k < point.size(); ++k) {
+      places(i, k) = std::clamp(point[k] + radius * random.Normal(), 0.0, 1.0);
+    }
+  }
+  return places;
+}
+
+Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
+  Eigen::MatrixXd both(top.rows() + bottom.rows(), top.cols());
+  both << top, bottom;
+  return both;
+}
+
+// The `count` places most likely to lie below the answer's value.
+Eigen::MatrixXd MostPlausible(const ObjectiveModel& model, const Eigen::MatrixXd& places,
+                              double lowest, int count) {
+  const Moments moments = model.Predict(places);
+  std::vector<double> distance(static_cast<std::size_t>(places.rows()));
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    distance[static_cast<std::size_t>(i)] =
+        (moments.mean[i] - lowest) / std::max(moments.sd[i], 1e-300);
+  }
+  std::vector<Eigen::Index> order(distance.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return distance[static_cast<std::size_t>(a)] < distance[static_cast<std::size_t>(b)];
+  });
+  if (static_cast<int>(order.size()) > count) order.resize(static_cast<std::size_t>(count));
+  return places(order, Eigen::all);
+}
+
+// One minimiser of each posterior draw, a row each.
+Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Eigen::MatrixXd& places,
+                               const AnswerOptions& options) {
+  const Eigen::MatrixXd draws = model.Draw(
+      places, options.num_draws, base::Random(options.seed, base::Stream("answer draws")));
+  Eigen::MatrixXd minimisers(draws.rows(), places.cols());
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    Eigen::Index lowest = 0;
+    draws.row(i).minCoeff(&lowest);
+    minimisers.row(i) = places.row(lowest);
+  }
+  return minimisers;
+}
+
+std::vector<Range> CredibleRanges(const Eigen::MatrixXd& minimisers, const Eigen::VectorXd& point,
+                                  double confidence) {
+  std::vector<Range> ranges;
+  for (Eigen::Index k = 0; k < minimisers.cols(); ++k) {
+    Eigen::VectorXd sorted = minimisers.col(k);
+    std::sort(sorted.begin(), sorted.end());
+    const auto quantile = [&](double share) {
+      return sorted[static_cast<Eigen::Index>(
+          std::lround(share * static_cast<double>(sorted.size() - 1)))];
+    };
+    // A skewed posterior may leave the minimiser of the mean out; the range is meant to hold it.
+    ranges.push_back({.low = std::min(quantile((1 - confidence) / 2), point[k]),
+                      .high = std::max(quantile((1 + confidence) / 2), point[k])});
+  }
+  return ranges;
+}
+
+Eigen::MatrixXd Correlation(const Eigen::MatrixXd& sample) {
+  const Eigen::MatrixXd centred = sample.rowwise() - sample.colwise().mean();
+  const Eigen::MatrixXd covariance = centred.transpose() * centred;
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(sample.cols(), sample.cols());
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    for (Eigen::Index j = 0; j < result.cols(); ++j) {
+      if (i != j && sd[i] > 0 && sd[j] > 0) result(i, j) = covariance(i, j) / (sd[i] * sd[j]);
+    }
+  }
+  return result;
+}
+
+// Rows of `places` whose mean is at most `level`.
+Eigen::MatrixXd Below(const ObjectiveModel& model, const Eigen::MatrixXd& places, double level) {
+  const Eigen::VectorXd mean = model.Predict(places).mean;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    if (mean[i] <= level) kept.push_back(i);
+  }
+  return places(kept, Eigen::all);
+}
+
+struct Box {
+  Eigen::VectorXd low;
+  Eigen::VectorXd high;
+};
+
+// The box of some points, a fifth wider on each side, within the cube.
+Box Wrap(const Eigen::MatrixXd& points) {
+  const Eigen::VectorXd low = points.colwise().minCoeff();
+  const Eigen::VectorXd high = points.colwise().maxCoeff();
+  const Eigen::VectorXd margin = (0.2 * (high - low)).cwiseMax(1e-6);
+  return {(low - margin).cwiseMax(0.0), (high + margin).cwiseMin(1.0)};
+}
+
+// A few of the points, each the farthest from those before; the first is farthest from `point`.
+std::vector<Eigen::VectorXd> Spread(const Eigen::MatrixXd& points, const Eigen::VectorXd& point,
+                                    int count) {
+  std::vector<Eigen::VectorXd> chosen;
+  Eigen::VectorXd nearest = (points.rowwise() - point.transpose()).rowwise().squaredNorm();
+  while (static_cast<int>(chosen.size()) < std::min<Eigen::Index>(count, points.rows())) {
+    Eigen::Index far = 0;
+    nearest.maxCoeff(&far);
+    chosen.emplace_back(points.row(far));
+    nearest = nearest.cwiseMin((points.rowwise() - points.row(far)).rowwise().squaredNorm());
+  }
+  return chosen;
+}
+
+// The tied set is found in the cube and near the answer, then measured by an even sample of the box
+// it lies in, so that its volume is known however small it is.
+void DescribeTies(const ObjectiveModel& model, const Domain& domain, const Eigen::MatrixXd& places,
+                  const AnswerOptions& options, Answer& answer) {
+  constexpr int kNumTied = 12;
+  const double tolerance = answer.noise_sd > 0 ? answer.noise_sd : answer.predicted_sd;
+  const double level = answer.predicted_value + tolerance;
+  const Eigen::MatrixXd tied = Stack(Below(model, places, level), answer.point.transpose());
+  const Box box = Wrap(tied);
+  const Eigen::VectorXd size = box.high - box.low;
+  const int count = options.num_places;
+  Eigen::MatrixXd sample = Lattice(count, domain.num_parameters, options.seed + 1);
+  sample = (sample * size.asDiagonal()).rowwise() + box.low.transpose();
+  const Eigen::MatrixXd inside = Below(model, Inside(domain, sample), level);
+  answer.tied_volume = size.prod() * static_cast<double>(inside.rows()) / count;
+  answer.tied = Spread(inside, answer.point, kNumTied);
+}
+
+}  // namespace
+
+std::vector<std::string> BoundWarnings(const Eigen::VectorXd& point) {
+  constexpr double kNear = 0.005;
+  std::vector<std::string> warnings;
+  for (Eigen::Index i = 0; i < point.size(); ++i) {
+    if (point[i] > kNear && point[i] < 1 - kNear) continue;
+    warnings.push_back("parameter " + std::to_string(i) + " lies on its " +
+                       (point[i] < 0.5 ? "lower" : "upper") + " bound");
+  }
+  return warnings;
+}
+
+Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
+                       const Eigen::VectorXd& point, const AnswerOptions& options) {
+  Answer answer;
+  answer.point = point;
+  const Moments at = model.Predict(point.transpose());
+  answer.predicted_value = at.mean[0];
+  answer.predicted_sd = at.sd[0];
+  answer.noise_sd = model.NoiseSd(point);
+  const Eigen::MatrixXd places =
+      Inside(domain, Stack(Lattice(options.num_places, domain.num_parameters, options.seed),
+                           Around(point, options.num_places / 2, options.seed)));
+  const Eigen::MatrixXd draw_places =
+      Stack(point.transpose(),
+            MostPlausible(model, places, answer.predicted_value, options.num_draw_places - 1));
+  const Eigen::MatrixXd minimisers = DrawMinimisers(model, draw_places, options);
+  answer.credible = CredibleRanges(minimisers, point, options.confidence);
+  answer.correlation = Correlation(minimisers);
+  DescribeTies(model, domain, places, options, answer);
+  SobolIndices indices = EstimateSobolIndices(
+      [&](const Eigen::MatrixXd& points) { return model.Predict(points).mean; },
+      {.dimension = domain.num_parameters, .num_base = options.num_sobol, .seed = options.seed});
+  answer.sobol_first = std::move(indices.first);
+  answer.sobol_total = std::move(indices.total);
+  answer.warnings = BoundWarnings(point);
+  return answer;
+}
+
+}  // namespace talus::optimizer

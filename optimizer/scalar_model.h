@@ -1,0 +1,72 @@
+// The objective as a Gaussian process of numbers.
+//
+// A deterministic objective may be fitted through t(v) = ln(v - least + δ), which spreads the small
+// values of an objective that spans decades; δ, or none at all, is chosen by the marginal
+// likelihood of the values themselves (the Jacobian included). Never under noise, whose lowest
+// values are luck.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "optimizer/history.h"
+#include "optimizer/objective_model.h"
+#include "surrogate/gaussian_process.h"
+
+namespace talus::optimizer {
+
+// v → ln(v - least + delta), or v itself when delta is 0.
+struct ValueTransform {
+  double least = 0;
+  double delta = 0;
+
+  double Forward(double value) const;
+  double Backward(double transformed) const;
+  double BackwardSlope(double transformed) const;  // dv / dt
+};
+
+struct ScalarModelOptions {
+  bool deterministic = false;
+  std::uint64_t seed = 1;
+};
+
+// Fitted hyper-parameters and the transform they hold for.
+struct ScalarFit {
+  ValueTransform transform;
+  surrogate::GaussianProcess process;
+};
+
+ScalarFit FitScalar(const History& history, const ScalarModelOptions& options);
+
+// In units of the objective: the mean is transformed back, the standard deviation to first order.
+class ScalarModel : public ObjectiveModel {
+ public:
+  explicit ScalarModel(ScalarFit fit) : fit_(std::move(fit)) {}
+
+  int num_parameters() const override { return static_cast<int>(fit_.process.dimension()); }
+  Moments Predict(const Eigen::MatrixXd& points) const override;
+  Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
+                       base::Random random) const override;
+  double NoiseSd(const Eigen::VectorXd& x) const override;
+
+ private:
+  ScalarFit fit_;
+};
+
+// In units of the transformed objective, in which the process is Gaussian: for acquisition.
+class TransformedModel : public ObjectiveModel {
+ public:
+  explicit TransformedModel(surrogate::GaussianProcess process) : process_(std::move(process)) {}
+
+  int num_parameters() const override { return static_cast<int>(process_.dimension()); }
+  Moments Predict(const Eigen::MatrixXd& points) const override;
+  MomentsGradient PredictWithGradient(const Eigen::VectorXd& x) const override;
+  Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
+                       base::Random random) const override;
+  double NoiseSd(const Eigen::VectorXd& x) const override;
+
+ private:
+  surrogate::GaussianProcess process_;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,66 @@
+// The strategy for objectives that are numbers: a small design, one repeat, then a Gaussian process
+// that says where the next evaluation is worth most.
+//
+//   design → repeat of the best point, which tells noisy from deterministic →
+//   deterministic: steps by expected improvement and by a quadratic trust region, in turn
+//   noisy:         steps by noise-aware expected improvement
+//
+// Batches and pending points by the kriging believer: points under way are taken to give what the
+// process predicts, hyper-parameters frozen.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "optimizer/domain.h"
+#include "optimizer/feasibility.h"
+#include "optimizer/history.h"
+#include "optimizer/scalar_model.h"
+#include "optimizer/strategy.h"
+
+namespace talus::optimizer {
+
+struct ScalarOptions {
+  int num_initial = 0;       // evaluations of the design; 0: 2 d + 3
+  double stop_multiple = 1;  // ends when less than this × the scatter is left to gain; 0: never
+  int max_replicates = 5;    // deliberate repeats beside the first, in all
+  std::uint64_t seed = 1;
+};
+
+class ScalarStrategy : public Strategy {
+ public:
+  ScalarStrategy(Domain domain, const ScalarOptions& options);
+
+  std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
+  void Tell(const Observation& observation) override;
+  std::optional<std::string> StopReason() override;
+  Answer Recommend() override;
+
+ private:
+  using Points = std::vector<Eigen::VectorXd>;
+
+  // One more proposal, when those `asked` before are under way.
+  Proposal Next(const Points& asked);
+  std::optional<Eigen::VectorXd> NextOfDesign(const Points& asked) const;
+  std::optional<Eigen::VectorXd> FirstRepeat(const Points& asked) const;
+  Proposal ByModel(const Points& asked);
+  std::optional<Eigen::VectorXd> ByTrustRegion(const Points& asked) const;
+  Proposal NotByAccident(const Eigen::VectorXd& point, const Points& asked) const;
+  bool WasEvaluated(const Eigen::VectorXd& point, const Points& asked) const;
+  const ScalarFit& Fit();
+  Eigen::VectorXd Best();
+
+  Domain domain_;
+  ScalarOptions options_;
+  Points design_;
+  std::vector<Observation> told_;
+  History history_;
+  Repeats repeats_;
+  Feasibility feasibility_;
+  std::optional<ScalarFit> fit_;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,211 @@
+#include "optimizer/scalar_strategy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "base/random.h"
+
+namespace talus::optimizer {
+namespace {
+
+using Points = std::vector<Eigen::VectorXd>;
+
+const Eigen::Vector3d kBottom(0.3, 0.6, 0.45);
+
+double Bowl(const Eigen::VectorXd& x) {
+  const Eigen::VectorXd away = x - kBottom;
+  return 2 + away.squaredNorm() + 2 * away[0] * away[1] + 0.3 * std::sin(4 * away[2]) * away[2];
+}
+
+double NoisyBowl(const Eigen::VectorXd& x, int evaluation) {
+  base::Random random(5, base::Stream("bowl"), static_cast<std::uint64_t>(evaluation));
+  return Bowl(x) + 0.03 * random.Normal();
+}
+
+Observation Evaluated(const Eigen::VectorXd& x, bool noisy, int evaluation) {
+  return {.point = x, .value = noisy ? NoisyBowl(x, evaluation) : Bowl(x), .field = {}};
+}
+
+// Sequential: asks, evaluates, tells.
+std::vector<Observation> Run(ScalarStrategy& strategy, int budget, bool noisy) {
+  std::vector<Observation> told;
+  while (static_cast<int>(told.size()) < budget) {
+    const auto proposal = strategy.Ask(1, {}).at(0);
+    told.push_back(Evaluated(proposal.point, noisy, static_cast<int>(told.size())));
+    strategy.Tell(told.back());
+  }
+  return told;
+}
+
+ScalarStrategy Fresh() { return ScalarStrategy({.num_parameters = 3}, {.seed = 4}); }
+
+TEST(ScalarStrategy, DesignThenOneRepeatOfTheBestThenTheModel) {
+  ScalarStrategy strategy = Fresh();
+  Points points;
+  double best = INFINITY;
+  Eigen::VectorXd best_point;
+  for (int i = 0; i < 9; ++i) {
+    const Proposal proposal = strategy.Ask(1, {}).at(0);
+    EXPECT_EQ(proposal.origin, Origin::kDesign);
+    strategy.Tell(Evaluated(proposal.point, false, i));
+    if (Bowl(proposal.point) < best) {
+      best = Bowl(proposal.point);
+      best_point = proposal.point;
+    }
+  }
+  const Proposal repeat = strategy.Ask(1, {}).at(0);
+  EXPECT_EQ(repeat.origin, Origin::kRepeat);
+  EXPECT_EQ(repeat.point, best_point);
+  strategy.Tell(Evaluated(repeat.point, false, 9));
+  EXPECT_EQ(strategy.Ask(1, {}).at(0).origin, Origin::kModel);
+}
+
+// A smooth bowl without noise is known to 1e-4 of a range after 40 evaluations; with scatter 0.03,
+// a tenth of the bowl's depth at the walls, to the few per cent that the curvature allows.
+TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
+  ScalarStrategy exact = Fresh();
+  Run(exact, 40, false);
+  EXPECT_LT((exact.Recommend().point - kBottom).norm(), 1e-3);
+  EXPECT_EQ(exact.Recommend().noise_sd < 1e-3, true);
+
+  ScalarStrategy noisy = Fresh();
+  Run(noisy, 60, true);
+  const Answer answer = noisy.Recommend();
+  EXPECT_LT(Bowl(answer.point) - Bowl(kBottom), 0.02);
+  EXPECT_NEAR(answer.noise_sd, 0.03, 0.012);
+  EXPECT_NEAR(answer.predicted_value, Bowl(kBottom), 0.03);
+}
+
+// The journal is the state: proposals are the same bit for bit, whatever was asked for in between
+// and however many threads do the same at once.
+TEST(ScalarStrategy, RetellingGivesTheSameProposalWithOneAndTwoThreads) {
+  for (const bool noisy : {false, true}) {
+    ScalarStrategy lived = Fresh();
+    const std::vector<Observation> told = Run(lived, 24, noisy);
+    const Points expected = [&] {
+      Points points;
+      for (const Proposal& proposal : lived.Ask(4, {})) points.push_back(proposal.point);
+      return points;
+    }();
+    const auto retell = [&](bool& same) {
+      ScalarStrategy fresh = Fresh();
+      for (const Observation& seen : told) fresh.Tell(seen);
+      const auto proposals = fresh.Ask(4, {});
+      same = proposals.size() == 4;
+      for (std::size_t i = 0; i < 4 && same; ++i) same = proposals[i].point == expected[i];
+    };
+    bool alone = false;
+    retell(alone);
+    EXPECT_TRUE(alone);
+    bool first = false;
+    bool second = false;
+    std::thread a([&] { retell(first); });
+    std::thread b([&] { retell(second); });
+    a.join();
+    b.join();
+    EXPECT_TRUE(first && second);
+  }
+}
+
+TEST(ScalarStrategy, AskingForEightIsAskingOneByOneWithTheOthersPending) {
+  ScalarStrategy strategy = Fresh();
+  Run(strategy, 15, true);
+  const auto eight = strategy.Ask(8, {});
+  Points pending;
+  for (const Proposal& proposal : eight) {
+    EXPECT_EQ(strategy.Ask(1, pending).at(0).point, proposal.point);
+    for (const Eigen::VectorXd& other : pending) EXPECT_FALSE(SamePoint(other, proposal.point));
+    pending.push_back(proposal.point);
+  }
+}
+
+TEST(ScalarStrategy, OnlyDeliberateRepeatsAndNoMoreThanAllowed) {
+  ScalarStrategy strategy({.num_parameters = 1}, {.max_replicates = 2, .seed = 3});
+  Points seen;
+  int repeats = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Proposal proposal = strategy.Ask(1, {}).at(0);
+    const bool same = std::any_of(seen.begin(), seen.end(), [&](const Eigen::VectorXd& other) {
+      return SamePoint(other, proposal.point);
+    });
+    EXPECT_EQ(same, proposal.origin == Origin::kRepeat);
+    repeats += same ? 1 : 0;
+    seen.push_back(proposal.point);
+    base::Random random(1, base::Stream("line"), static_cast<std::uint64_t>(i));
+    const double value = std::pow(proposal.point[0] - 0.4, 2) + 0.05 * random.Normal();
+    strategy.Tell({.point = proposal.point, .value = value, .field = {}});
+  }
+  EXPECT_LE(repeats, 3);  // the first, which tells noisy from deterministic, and two
+  EXPECT_GE(repeats, 1);
+}
+
+// Everything with x0 > 0.5 fails, and the objective falls towards it: without a model of failures
+// the search would go there for ever.
+TEST(ScalarStrategy, LearnsWhereEvaluationsFail) {
+  ScalarStrategy strategy = Fresh();
+  Points failed;
+  int late_failures = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::VectorXd point = strategy.Ask(1, {}).at(0).point;
+    for (const Eigen::VectorXd& other : failed) EXPECT_FALSE(SamePoint(other, point));
+    const bool fails = point[0] > 0.5;
+    if (fails) failed.push_back(point);
+    if (fails && i >= 20) ++late_failures;
+    strategy.Tell({.point = point,
+                   .failed = fails,
+                   .value = fails ? NAN : 1 - point[0] + std::pow(point[1] - 0.5, 2),
+                   .field = {}});
+  }
+  EXPECT_LE(late_failures, 10);  // of 30, and most of them next to the border
+  const Answer answer = strategy.Recommend();
+  EXPECT_LT(answer.point[0], 0.56);
+  EXPECT_GT(answer.point[0], 0.40);
+}
+
+TEST(ScalarStrategy, GoesOnWhenEverythingFails) {
+  ScalarStrategy strategy = Fresh();
+  Points seen;
+  for (int i = 0; i < 15; ++i) {
+    const Eigen::VectorXd point = strategy.Ask(1, {}).at(0).point;
+    for (const Eigen::VectorXd& other : seen) EXPECT_FALSE(SamePoint(other, point));
+    seen.push_back(point);
+    strategy.Tell({.point = point, .failed = true, .field = {}});
+  }
+  EXPECT_FALSE(strategy.Recommend().warnings.empty());
+  EXPECT_FALSE(strategy.StopReason());
+}
+
+TEST(ScalarStrategy, StopsInWordsOnceTheScatterHidesWhatIsLeft) {
+  ScalarStrategy strategy = Fresh();
+  int evaluations = 0;
+  while (evaluations < 120 && !strategy.StopReason()) {
+    strategy.Tell(Evaluated(strategy.Ask(1, {}).at(0).point, true, evaluations++));
+  }
+  ASSERT_TRUE(strategy.StopReason());
+  EXPECT_GT(evaluations, 18);  // never before twice the design
+  EXPECT_LT(evaluations, 120);
+  EXPECT_NE(strategy.StopReason()->find("scatter of one evaluation"), std::string::npos);
+  // The promise of the rule: what was left to gain was within the scatter.
+  EXPECT_LT(Bowl(strategy.Recommend().point) - Bowl(kBottom), 0.03);
+}
+
+TEST(ScalarStrategy, StaysWithinAConstraintAndTriesGuessesFirst) {
+  const Eigen::VectorXd guess = Eigen::Vector3d(0.1, 0.2, 0.3);
+  ScalarStrategy strategy({.num_parameters = 3,
+                           .guesses = {guess},
+                           .feasible = [](const Eigen::VectorXd& x) { return x[0] + x[1] <= 0.8; }},
+                          {.seed = 2});
+  EXPECT_EQ(strategy.Ask(1, {}).at(0).point, guess);
+  for (int i = 0; i < 25; ++i) {
+    const Eigen::VectorXd point = strategy.Ask(1, {}).at(0).point;
+    EXPECT_LE(point[0] + point[1], 0.8);
+    strategy.Tell(Evaluated(point, false, i));
+  }
+  const Eigen::VectorXd best = strategy.Recommend().point;
+  EXPECT_LE(best[0] + best[1], 0.8);  // the bottom itself lies outside, at 0.9
+}
+
+}  // namespace
+}  // namespace talus::optimizer
