@@ -6,7 +6,17 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kLeast = 0.01;
+constexpr double kTurn = 0.7;   // the penalty is ln p above and a line below
+constexpr double kSteep = 1e6;  // slope of that line: more than any acquisition can gain
+
+double PenaltyOf(double p) {
+  if (p >= 1) return 0;
+  return p > kTurn ? std::log(p) : std::log(kTurn) - kSteep * (kTurn - p);
+}
+double PenaltySlope(double p) {
+  if (p >= 1) return 0;
+  return p > kTurn ? 1 / p : kSteep;
+}
 
 }  // namespace
 
@@ -28,23 +38,21 @@ Feasibility::Feasibility(const History& history) {
   process_ = surrogate::GaussianProcess::Fit(points, worked, {.frozen = state});
 }
 
-double Feasibility::At(const Eigen::VectorXd& x) const {
-  return process_ ? std::clamp(process_->Predict(x).mean, kLeast, 1.0) : 1;
+double Feasibility::Probability(const Eigen::VectorXd& x) const {
+  return process_ ? std::clamp(process_->Predict(x).mean, 0.0, 1.0) : 1;
 }
 
-Eigen::VectorXd Feasibility::LogAt(const Eigen::MatrixXd& points) const {
+Eigen::VectorXd Feasibility::Penalty(const Eigen::MatrixXd& points) const {
   if (!process_) return Eigen::VectorXd::Zero(points.rows());
-  return process_->PredictAll(points).mean.cwiseMax(kLeast).cwiseMin(1.0).array().log();
+  return process_->PredictAll(points).mean.unaryExpr(&PenaltyOf);
 }
 
-double Feasibility::LogAt(const Eigen::VectorXd& x, Eigen::VectorXd* slope) const {
+double Feasibility::Penalty(const Eigen::VectorXd& x, Eigen::VectorXd* slope) const {
   if (slope != nullptr) slope->setZero(x.size());
   if (!process_) return 0;
   const surrogate::PredictionGradient at = process_->PredictWithGradient(x);
-  if (at.value.mean >= 1) return 0;
-  if (at.value.mean <= kLeast) return std::log(kLeast);
-  if (slope != nullptr) *slope = at.mean / at.value.mean;
-  return std::log(at.value.mean);
+  if (slope != nullptr) *slope = PenaltySlope(at.value.mean) * at.mean;
+  return PenaltyOf(at.value.mean);
 }
 
 }  // namespace talus::optimizer

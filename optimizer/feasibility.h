@@ -17,12 +17,13 @@ class Feasibility {
 
   bool always() const { return !process_; }
 
-  // Probability that an evaluation works, clamped to [0.01, 1].
-  double At(const Eigen::VectorXd& x) const;
-  Eigen::VectorXd LogAt(const Eigen::MatrixXd& points) const;  // one point a row
+  // Probability that an evaluation works, in [0, 1].
+  double Probability(const Eigen::VectorXd& x) const;
 
-  // Logarithm, with its slope where not null.
-  double LogAt(const Eigen::VectorXd& x, Eigen::VectorXd* slope) const;
+  // What a point's log acquisition loses by its risk, <= 0: the logarithm of the probability p down
+  // to p = 0.7, and a steep line below: an expected gain may be e^1000 times that of a safe point.
+  Eigen::VectorXd Penalty(const Eigen::MatrixXd& points) const;  // one point a row
+  double Penalty(const Eigen::VectorXd& x, Eigen::VectorXd* slope) const;
 
  private:
   std::optional<surrogate::GaussianProcess> process_;

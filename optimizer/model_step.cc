@@ -23,13 +23,13 @@ Eigen::MatrixXd Centers(const ModelView& view) {
   return view.points(order, Eigen::all);
 }
 
-// Minus an acquisition, a function of mean and standard deviation, plus the weight of the logarithm
-// of the probability to work.
+// Minus an acquisition, a function of mean and standard deviation, plus the penalty for the risk to
+// fail.
 template <class Score>
 CheapFunction Negative(const ModelView& view, const Score& score, double feasibility_weight) {
   const auto values = [&view, score, feasibility_weight](const Eigen::MatrixXd& points) {
     const Moments moments = view.model.Predict(points);
-    Eigen::VectorXd result = -feasibility_weight * view.feasibility.LogAt(points);
+    Eigen::VectorXd result = -feasibility_weight * view.feasibility.Penalty(points);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       result[i] -= score(moments.mean[i], moments.sd[i]).value;
     }
@@ -40,12 +40,12 @@ CheapFunction Negative(const ModelView& view, const Score& score, double feasibi
     const MomentsGradient at = view.model.PredictWithGradient(x);
     const Acquisition acquisition = score(at.mean, at.sd);
     Eigen::VectorXd slope;
-    const double log_works = view.feasibility.LogAt(x, &slope);
+    const double penalty = view.feasibility.Penalty(x, &slope);
     if (gradient != nullptr) {
       *gradient = -acquisition.mean_slope * at.mean_slope - acquisition.sd_slope * at.sd_slope -
                   feasibility_weight * slope;
     }
-    return -acquisition.value - feasibility_weight * log_works;
+    return -acquisition.value - feasibility_weight * penalty;
   };
   return {values, value_and_gradient};
 }

