@@ -13,4 +13,6 @@ namespace talus::experiments {
 // "0.1.0"
 std::string Version();
 
+void AddReportCommand(CLI::App& app);
+
 }  // namespace talus::experiments

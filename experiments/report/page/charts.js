@@ -1,0 +1,95 @@
+// Every chart goes through `chart`, which sizes it, redraws it when the page changes and lists it in
+// `talusCharts` with whether it drew.
+const ink = "#1d2730", soft = "#55626d", line = "#dfe4e8";
+// Okabe and Ito's colours: told apart with every common colour blindness.
+const palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#6b6b6b"];
+const sequence = ["#fde725", "#7ad151", "#22a884", "#2a788e", "#414487", "#440154"];  // best is dark
+const starColor = "#c1121f";
+const star = "path://M0,-10 L2.6,-3.2 L9.8,-3.1 L4,1.3 L6.2,8.2 L0,4.1 L-6.2,8.2 L-4,1.3 " +
+    "L-9.8,-3.1 L-2.6,-3.2 Z";
+
+const fontFamily = getComputedStyle(document.body).fontFamily;
+
+window.talusCharts = [];
+
+const hasWebGl = (() => {
+  try {
+    const canvas = document.createElement("canvas");
+    return Boolean(canvas.getContext("webgl2") || canvas.getContext("webgl"));
+  } catch (error) {
+    return false;
+  }
+})();
+
+// Draws `makeOption(width)` into a new element when that scrolls near the window: a long page opens
+// at once. Returns {figure, redraw}.
+function chart(id, title, caption, makeOption, size = "") {
+  const place = element("div", {class: "chart " + size, id, role: "img", "aria-label": title});
+  const figure = element("figure", {}, element("h3", {}, title), place,
+      caption ? element("figcaption", {}, caption) : null);
+  const entry = {id, drawn: false};
+  window.talusCharts.push(entry);
+  let made = null;
+  const redraw = () => {
+    if (!made) return;
+    const option = makeOption(place.clientWidth);
+    if (option.height_px) place.style.height = option.height_px + "px";
+    delete option.height_px;
+    made.resize();
+    made.setOption({animation: false, textStyle: {fontFamily, fontSize: 13, color: ink}, ...option},
+        {notMerge: true});
+  };
+  const watcher = new IntersectionObserver((entries) => {
+    if (!entries.some((e) => e.isIntersecting)) return;
+    watcher.disconnect();
+    made = echarts.init(place, null, {renderer: "canvas"});
+    made.on("finished", () => { entry.drawn = true; });
+    redraw();
+    let width = place.clientWidth;
+    new ResizeObserver(() => requestAnimationFrame(() => {
+      if (place.clientWidth === width) return;
+      width = place.clientWidth;
+      redraw();
+    })).observe(figure);
+  }, {rootMargin: "400px"});
+  watcher.observe(place);
+  return {figure, redraw};
+}
+
+const nameOf = (p) => p.symbol + (p.unit ? " (" + p.unit + ")" : "");
+
+// A parameter's axis over its whole search range, on its own scale.
+const parameterAxis = (p, vertical = false) => ({
+  type: p.log ? "log" : "value", min: p.low, max: p.high, name: nameOf(p), nameLocation: "middle",
+  nameGap: vertical ? 50 : 30, nameTextStyle: {color: ink, fontSize: 13}, axisLine: {onZero: false, lineStyle: {color: "#8b979f"}},
+  axisTick: {show: true}, splitLine: {lineStyle: {color: line}},
+  axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true},
+});
+const valueAxis = (name, more = {}) => ({
+  type: "value", name, nameLocation: "middle", nameGap: 46, nameTextStyle: {color: ink, fontSize: 13},
+  axisLine: {show: true, onZero: false, lineStyle: {color: "#8b979f"}}, axisTick: {show: true},
+  axisLabel: {color: soft, hideOverlap: true, formatter: tick},
+  splitLine: {lineStyle: {color: line}}, ...more,
+});
+const margins = {left: 70, right: 24, top: 36, bottom: 52};
+const legendStyle = {top: 0, left: 0, icon: "circle", itemHeight: 11, itemWidth: 14, itemGap: 14, type: "scroll",
+                     textStyle: {color: soft, fontSize: 13}};
+const tooltipStyle = {confine: true, borderColor: line, textStyle: {color: ink, fontSize: 13}};
+const lines = (texts) => texts.map((t) => echarts.format.encodeHTML(t)).join("<br>");
+
+const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "done");
+
+// At most `limit` of them, evenly through their order, and always those that `keep` names.
+function thin(indices, limit, keep = new Set()) {
+  if (indices.length <= limit) return indices;
+  const step = indices.length / limit;
+  const chosen = new Set(Array.from({length: limit}, (_, k) => indices[Math.floor(k * step)]));
+  return indices.filter((i) => chosen.has(i) || keep.has(i));
+}
+
+function trialText(i) {
+  const t = D.trials;
+  return ["Trial " + t.id[i] + ", " + t.purpose[i],
+    ...D.parameters.map((p, k) => p.symbol + " = " + formatUnit(t.values[k][i], p.unit)),
+    ...D.metrics.map((m, k) => m.title + " = " + formatUnit(t.metrics[k][i], m.unit))];
+}

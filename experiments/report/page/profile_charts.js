@@ -1,0 +1,28 @@
+// The outlines over each other, in millimetres, with one scale for width and height.
+function outlineChart() {
+  const all = D.outlines.flatMap((o) => o.points);
+  const reach = Math.max(D.plate_mm / 2, ...all.map((p) => Math.abs(p[0]))) * 1.05;
+  const top = Math.max(...all.map((p) => p[1])) * 1.08;
+  return chart("outlines", "Outlines at half intensity",
+      "The highest powder above each point of the plate. Width and height are drawn to one scale.", (width) => {
+    const inner = width - margins.left - margins.right;
+    return {
+      height_px: Math.round(inner * top / (2 * reach)) + margins.top + margins.bottom + 26,
+      grid: {...margins, top: margins.top + 26},
+      legend: {...legendStyle, icon: "roundRect", itemHeight: 4},
+      tooltip: {...tooltipStyle, formatter: (e) => lines([e.seriesName,
+        format(e.data[0]) + " mm from the centre, " + format(e.data[1]) + " mm high"])},
+      xAxis: valueAxis("distance from the plate's centre (mm)", {min: -reach, max: reach, nameGap: 28,
+        axisLabel: {color: soft, fontSize: 12, formatter: tick, showMinLabel: false, showMaxLabel: false}}),
+      yAxis: valueAxis("height (mm)", {min: 0, max: top,
+        axisLabel: {color: soft, formatter: tick, showMaxLabel: false}}),
+      series: [
+        ...D.outlines.map((o, k) => ({type: "line", name: o.title, data: o.points, symbol: "none",
+          connectNulls: false, lineStyle: {width: k === 0 ? 3 : 1.7, color: k === 0 ? ink : palette[k - 1]},
+          itemStyle: {color: k === 0 ? ink : palette[k - 1]}, triggerLineEvent: true})),
+        {type: "line", data: [[-D.plate_mm / 2, 0], [D.plate_mm / 2, 0]], symbol: "none", silent: true,
+         lineStyle: {color: "#8b979f", width: 5}},
+      ],
+    };
+  }).figure;
+}

@@ -1,0 +1,176 @@
+// The sections of the page that are text and tables.
+const objectiveValue = (x, digits) => formatUnit(x, D.campaign.objective.unit, digits);
+
+function standing() {
+  const c = D.campaign, failed = D.trials.state.filter((s) => s === "failed").length;
+  const running = D.trials.state.filter((s) => s === "running").length;
+  const done = D.trials.state.filter((s) => s === "done").length;
+  const parts = [done + " simulations" + (c.budget ? " of at most " + c.budget : "")];
+  if (failed) parts.push(failed + " failed");
+  if (running) parts.push(running + " running");
+  if (c.core_hours !== null) parts.push(format(c.core_hours) + " core-hours");
+  return [element("span", {class: "state"}, c.state),
+    parts.join(" · ") + (c.stop_reason ? ". Why it stopped: " + c.stop_reason : "")];
+}
+
+function valueTile(p, v) {
+  const place = (x) => 100 * (p.log ? Math.log(x / p.low) / Math.log(p.high / p.low)
+                                    : (x - p.low) / (p.high - p.low));
+  const clamp = (x) => Math.min(100, Math.max(0, x));
+  const ranged = v.low !== null && v.high !== null;
+  const from = ranged ? clamp(place(v.low)) : 0, to = ranged ? clamp(place(v.high)) : 0;
+  return element("div", {class: "value"},
+    element("div", {class: "what"}, p.symbol + " ", element("span", {}, p.title)),
+    element("div", {class: "number"}, format(v.value), " ", element("small", {}, p.unit)),
+    element("div", {class: "range"}, ranged
+      ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit)
+      : "no range: the strategy has no model"),
+    element("div", {class: "track", "aria-hidden": "true"},
+      ranged ? element("div", {class: "band", style: `left:${from}%;width:${to - from}%`}) : null,
+      element("div", {class: "dot", style: `left:${clamp(place(v.value))}%`})),
+    element("div", {class: "ends"}, element("span", {}, tick(p.low)),
+      element("span", {}, p.log ? "searched, logarithmic" : "searched"),
+      element("span", {}, tick(p.high))));
+}
+
+function fact(name, value, note) {
+  return element("div", {}, element("dt", {}, name),
+    element("dd", {}, value, note ? element("small", {}, note) : null));
+}
+
+function answerSection() {
+  const h = D.headline, o = D.campaign.objective, parts = [];
+  if (!h) {
+    const own = D.objectives.find((one) => one.key === o.key && one.model);
+    parts.push(element("div", {class: "card"}, element("p", {}, "The campaign has not concluded yet. " +
+      (own ? "So far a model of its trials expects the best " + o.title + ", " +
+        formatUnit(own.model.quantity, o.unit) + " ± " + format(own.model.sd, 2) + ", at " +
+        D.parameters.map((p, k) => p.symbol + " = " + formatUnit(own.model.values[k], p.unit)).join(", ") + "."
+        : "There are too few trials to say anything about the best set."))));
+  } else {
+    const times = o.noise_floor ? " × the noise floor" : "";
+    const ratio = (x) => o.noise_floor ? format(x / o.noise_floor, 2) + times : "";
+    const facts = [];
+    if (h.predicted !== null) {
+      facts.push(fact("Predicted " + o.title, objectiveValue(h.predicted) +
+        (h.predicted_sd ? " ± " + format(h.predicted_sd, 2) : ""), ratio(h.predicted)));
+    }
+    facts.push(h.num_confirmed
+      ? fact("Confirmed " + o.title, objectiveValue(h.confirmed), "mean of " + h.num_confirmed +
+          " fresh seeds" + (o.noise_floor ? ", " + ratio(h.confirmed) : ""))
+      : fact("Confirmed " + o.title, "not yet", "no fresh seed has been run"));
+    facts.push(o.noise_floor === null
+      ? fact("Noise floor of the experiment", "unknown", "needs more than one run of photographs")
+      : fact("Noise floor of the experiment", objectiveValue(o.noise_floor), "leave one run out, SAD"));
+    facts.push(fact("Scatter of one simulation", h.noise_sd === null ? "unknown" : objectiveValue(h.noise_sd),
+      "standard deviation between seeds"));
+    if (h.tied_volume !== null) {
+      facts.push(fact("Sets that tie with it", percent(h.tied_volume), "of the searched volume"));
+    }
+    parts.push(element("div", {class: "card"},
+      element("div", {class: "answer"}, D.parameters.map((p, k) => valueTile(p, h.values[k]))),
+      element("dl", {class: "facts"}, facts),
+      h.model ? element("p", {class: "note"}, h.model) : null));
+  }
+  if (D.warnings.length) {
+    parts.push(element("div", {class: "notice", role: "note"}, element("strong", {}, "Before you use it"),
+      element("ul", {}, D.warnings.map((w) => element("li", {}, w)))));
+  }
+  if (D.conditions.length) {
+    parts.push(element("div", {class: "card"}, element("h3", {}, "It holds for"),
+      element("ul", {class: "plain"}, D.conditions.map((c) => element("li", {}, c)))));
+  }
+  return parts;
+}
+
+function sensitivityTable() {
+  const h = D.headline;
+  if (!h || !h.sobol_total.length) return [];
+  return [element("div", {class: "card"}, element("h3", {}, "What " + D.campaign.objective.title + " depends on"),
+    table([{title: "Parameter", text: true}, {title: "alone (first-order Sobol index)"},
+           {title: "with its interactions (total)"}],
+      D.parameters.map((p, k) => [p.symbol, shareBar(h.sobol_first[k]), shareBar(h.sobol_total[k])])))];
+}
+
+const shareBar = (x) => x === null || x === undefined ? "–" : element("span", {}, percent(x),
+  element("span", {class: "bar", "aria-hidden": "true"},
+    element("i", {style: `width:${Math.min(100, Math.max(0, 100 * x))}%`})));
+
+function comparisonSection() {
+  const answered = D.objectives.filter((o) => !o.absent);
+  const columns = [{title: "Objective", text: true}, {title: "Measured"}, {title: "Experiment"},
+    ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit})), {title: "Sets that tie"},
+    {title: "Tied volume"}];
+  const first = answered.map((o) => {
+    const b = o.trials.best[0];
+    return [o.title, formatUnit(b.quantity, o.unit, 4), o.is_angle ? formatUnit(o.reference, o.unit, 4) : "–",
+      ...b.values.map((x) => format(x)), o.trials.num_tied + " of " + o.trials.num_sets,
+      shareBar(o.trials.tied_volume)];
+  });
+  const second = answered.filter((o) => o.model).map((o) => [o.title,
+    formatUnit(o.model.quantity, o.unit, 4) + " ± " + format(o.model.sd, 2),
+    o.is_angle ? formatUnit(o.reference, o.unit, 4) : "–",
+    ...o.model.values.map((x) => format(x)), shareBar(o.model.tied_volume)]);
+  const parts = [
+    element("p", {class: "lead"}, "The best set by each objective, and how much of the searched volume " +
+      "ties with it: sets whose objective is within twice the scatter of one simulation. The smaller " +
+      "that volume, the more unique the answer."),
+    element("div", {class: "card"}, element("h3", {}, "From the trials"), table(columns, first))];
+  if (second.length) {
+    parts.push(element("div", {class: "card"}, element("h3", {}, "From a model of the trials"),
+      table(columns.filter((c) => c.title !== "Sets that tie"), second),
+      element("p", {class: "note"}, "A Gaussian process of the measured quantity, fitted to the same trials.")));
+  }
+  const silent = D.objectives.filter((o) => o.absent);
+  if (silent.length) {
+    parts.push(element("div", {class: "notice"}, element("ul", {}, silent.map((o) =>
+      element("li", {}, o.title + ": " + o.absent)))));
+  }
+  parts.push(element("div", {class: "card"}, answered.map((o, k) => element("details", {open: k === 0},
+    element("summary", {}, "The ten best by " + o.title),
+    table([{title: "Rank"}, {title: o.title, unit: o.unit},
+           ...(o.is_angle ? [{title: "Off by", unit: o.unit}] : []),
+           ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit})), {title: "Trials", text: true}],
+      o.trials.best.map((b, rank) => [rank + 1, format(b.quantity, 4),
+        ...(o.is_angle ? [format(b.objective, 3)] : []), ...b.values.map((x) => format(x)),
+        b.trials.slice(0, 8).join(", ") + (b.trials.length > 8 ? ", …" : "")]))))));
+  return parts;
+}
+
+function measuresTable() {
+  const shown = D.metrics.map((_, k) => k).filter((k) => !D.metrics[k].name.endsWith("_px"));
+  return element("div", {class: "card"},
+    table([{title: "Measure", text: true},
+           ...D.measures.map((m) => ({title: m.title, unit: m.note, profile: true}))],
+      shown.map((k) => [D.metrics[k].title +
+        (D.metrics[k].unit ? " (" + D.metrics[k].unit + ")" : ""), ...D.measures.map((m) => m.values[k] === null ? "not defined" : format(m.values[k], 4))])),
+    element("p", {class: "note"}, "AOR: angle of repose by methods 1 (height over base radius), 2 (regression " +
+      "over the slope) and 3 (over the part of the slope next to the base). NEBP: number of equivalent black " +
+      "pixels, the area of the profile. SAD, RMSE and IoU compare with the experiment."));
+}
+
+function pictures() {
+  return element("div", {class: "grid two"}, D.pictures.map((p) => element("figure", {class: "card"},
+    element("h3", {}, p.title), element("img", {src: p.uri, alt: p.title, width: p.width,
+      height: p.height, loading: "lazy"}), p.caption ? element("figcaption", {}, p.caption) : null)));
+}
+
+function failuresSection() {
+  const t = D.trials, groups = new Map();
+  t.id.forEach((id, i) => {
+    if (t.state[i] !== "failed") return;
+    if (!groups.has(t.reason[i])) groups.set(t.reason[i], []);
+    groups.get(t.reason[i]).push(id);
+  });
+  if (!groups.size) return [element("p", {class: "lead"}, "No trial failed.")];
+  const rows = [...groups].sort((a, b) => b[1].length - a[1].length).map(([reason, ids]) =>
+    [reason, ids.length, ids.slice(0, 20).join(", ") + (ids.length > 20 ? ", …" : "")]);
+  return [element("div", {class: "card"}, table([{title: "Reason", text: true, wide: true}, {title: "Trials"},
+    {title: "Which", text: true, wide: true}], rows))];
+}
+
+function stagesTable() {
+  if (!D.stages.length) return [];
+  return [element("div", {class: "card"}, table([{title: "Stage", text: true}, {title: "Time"}],
+    D.stages.map((s) => [s.name, duration(s.seconds)])))];
+}

@@ -1,0 +1,161 @@
+// The parameter space: where the trials lie, which each objective prefers, and what the model says.
+
+// Three dimensions when there are three parameters and the browser has WebGL, else two.
+function spaceChart() {
+  const t = D.trials, n = D.parameters.length;
+  const three = n >= 3 && hasWebGl;
+  const axes = three ? [0, 1, 2] : n >= 2 ? [0, 1] : [0];
+  const answered = D.objectives.filter((o) => !o.absent);
+  let colorBy = Math.max(0, answered.findIndex((o) => o.key === D.campaign.objective.key));
+  const rowOf = new Map(t.id.map((id, i) => [id, i]));
+  const kept = new Set(answered.flatMap((o) => o.trials.best.map((b) => rowOf.get(b.trials[0]))));
+  const logOf = (k, x) => D.parameters[k].log && three ? Math.log10(x) : x;
+  const at = (values) => axes.map((k) => logOf(k, values[k]));
+  const point = (i) => at(t.values.map((column) => column[i]));
+
+  const option = (width) => {
+    const o = answered[colorBy];
+    const m = D.metrics.findIndex((metric) => metric.name === o.metric);
+    const value = (i) => o.is_angle ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
+    const usable = doneTrials().filter((i) => t.metrics[m][i] !== null);
+    const shown = thin(usable, 3000, kept);
+    const sorted = shown.map(value).sort((a, b) => a - b);
+    // The colours end at the 90 % point: beyond it a trial is simply bad, and the legend says so.
+    const low = sorted[0], high = sorted[Math.floor(.9 * (sorted.length - 1))];
+    const kind = three ? "scatter3D" : "scatter";
+    const size = shown.length > 1000 ? 4 : 8;
+    const extra = n === 1 ? (i) => [value(i)] : () => [];
+    const series = [{
+      type: kind, name: "trials", symbolSize: size,
+      itemStyle: {opacity: .9, borderWidth: three ? .4 : .5, borderColor: "#ffffff"},
+      data: shown.map((i) => [...point(i), ...extra(i), value(i), i])}];
+    answered.forEach((objective, k) => series.push({
+      type: kind, name: "ten best by " + objective.title, symbolSize: 15 + 3 * k,
+      itemStyle: {color: "rgba(255,255,255,0)", borderColor: palette[k], borderWidth: 2, opacity: 1},
+      data: objective.trials.best.map((b) => {
+        const i = rowOf.get(b.trials[0]);
+        return [...at(b.values), ...extra(i), b.objective, i];
+      })}));
+    if (D.headline) {
+      series.push({type: kind, name: "recommended", symbol: star, symbolSize: 26, z: 9,
+        itemStyle: {color: starColor, borderColor: "#ffffff", borderWidth: 1, opacity: 1},
+        data: [[...at(D.headline.values.map((v) => v.value)),
+                ...(n === 1 ? [D.headline.predicted] : []), 0, -1]]});
+    }
+    const selected = Object.fromEntries(
+        answered.map((objective) => ["ten best by " + objective.title, objective === o]));
+    const narrow = width < 560;
+    const common = {
+      legend: {...legendStyle, selected, icon: undefined,
+               data: series.slice(1).map((s) => ({name: s.name, icon: s.symbol || "circle"}))},
+      tooltip: {...tooltipStyle, formatter: (e) => e.data[e.data.length - 1] < 0 ? "recommended"
+        : lines(trialText(e.data[e.data.length - 1]))},
+      visualMap: {seriesIndex: 0, dimension: axes.length + (n === 1 ? 1 : 0), min: low, max: high,
+        inRange: {color: [...sequence].reverse()}, calculable: false, orient: "horizontal",
+        left: 0, bottom: 0, itemWidth: 12, itemHeight: narrow ? 90 : 150,
+        text: ["≥ " + format(high) + " " + o.unit, o.title + "  " + format(low)],
+        textStyle: {color: soft}},
+      series,
+    };
+    if (!three) {
+      return {...common, grid: {...margins, bottom: 92}, xAxis: parameterAxis(D.parameters[axes[0]]),
+        yAxis: n === 1 ? valueAxis(o.title + " (" + o.unit + ")", {min: 0})
+          : parameterAxis(D.parameters[axes[1]], true)};
+    }
+    const axis = (k) => {
+      const p = D.parameters[axes[k]];
+      return {type: "value", min: logOf(axes[k], p.low), max: logOf(axes[k], p.high), name: nameOf(p),
+        nameGap: narrow ? 18 : 24, nameTextStyle: {color: ink, fontSize: narrow ? 12 : 14},
+        axisLabel: {textStyle: {color: soft, fontSize: narrow ? 10 : 12},
+          // The first label of x would stand on that of z.
+          formatter: (x) => k === 0 && x === logOf(axes[0], p.low) ? ""
+            : tick(p.log ? Number((10 ** x).toPrecision(3)) : x)},
+        interval: p.log ? 1 : undefined,
+        axisLine: {lineStyle: {color: "#8b979f", width: 1}}, splitLine: {lineStyle: {color: line}}};
+    };
+    return {...common, xAxis3D: axis(0), yAxis3D: axis(1), zAxis3D: axis(2),
+      grid3D: {boxWidth: 100, boxDepth: 100, boxHeight: 84, top: -10, bottom: 30,
+        axisPointer: {show: false}, environment: "none",
+        viewControl: {projection: "orthographic", orthographicSize: narrow ? 190 : 165, alpha: 22,
+          beta: 38, minOrthographicSize: 60, maxOrthographicSize: 320, zoomSensitivity: 0}}};
+  };
+  const made = chart("space", three ? "Trials in the space of three parameters"
+      : "Trials in the parameter space", three ? "Drag to turn. Rings mark the ten best sets of an " +
+      "objective: choose which in the legend. The star is the recommended set."
+      : n >= 3 ? "This browser has no WebGL, so the space is shown in two dimensions."
+      : "Rings mark the ten best sets of an objective; the star is the recommended set.",
+      option, "tall");
+  const chooser = element("select", {id: "space-objective",
+      onchange: (e) => { colorBy = Number(e.target.value); made.redraw(); }},
+      answered.map((o, k) => element("option", {value: k, selected: k === colorBy}, o.title)));
+  const choices = [element("label", {}, "Colour by", chooser)];
+  if (n > axes.length) {
+    axes.forEach((_, a) => choices.push(element("label", {}, "xyz"[a], element("select",
+        {onchange: (e) => { axes[a] = Number(e.target.value); made.redraw(); }},
+        D.parameters.map((p, k) => element("option", {value: k, selected: k === axes[a]}, p.symbol))))));
+  }
+  made.figure.insertBefore(element("div", {class: "row"}, choices), made.figure.children[1]);
+  return made.figure;
+}
+
+const verticalMark = (x, text) => ({silent: true, symbol: "none", precision: 18, data: [{xAxis: x}],
+  lineStyle: {color: starColor, type: "solid", width: 1.5}, label: {show: Boolean(text),
+    formatter: text, color: starColor}});
+
+function sliceChart(slice, k) {
+  const p = D.parameters[slice.parameter], o = D.campaign.objective;
+  const v = D.headline ? D.headline.values[slice.parameter] : null;
+  return chart("slice-" + k, o.title + " along " + p.symbol, "", () => ({
+    grid: {...margins, top: 24},
+    tooltip: {...tooltipStyle, trigger: "axis", formatter: (list) => {
+      const i = list[0].dataIndex;
+      return lines([p.symbol + " = " + formatUnit(slice.x[i], p.unit),
+        o.title + " = " + formatUnit(slice.mean[i], o.unit),
+        "90 %: " + format(slice.low[i]) + " to " + formatUnit(slice.high[i], o.unit)]);
+    }},
+    xAxis: parameterAxis(p),
+    yAxis: valueAxis(o.title + " (" + o.unit + ")", {min: 0}),
+    series: [
+      {type: "line", stack: "band", data: slice.x.map((x, i) => [x, Math.max(0, slice.low[i])]), symbol: "none",
+       lineStyle: {opacity: 0}, silent: true},
+      {type: "line", stack: "band", symbol: "none", lineStyle: {opacity: 0}, silent: true,
+       data: slice.x.map((x, i) => [x, slice.high[i] - Math.max(0, slice.low[i])]),
+       areaStyle: {color: palette[0], opacity: .18}},
+      {type: "line", data: slice.x.map((x, i) => [x, slice.mean[i]]), symbol: "none",
+       lineStyle: {color: palette[0], width: 2},
+       markLine: v ? verticalMark(v.value) : undefined,
+       markArea: v && v.low !== null ? {silent: true, itemStyle: {color: starColor, opacity: .07},
+                      data: [[{xAxis: v.low}, {xAxis: v.high}]]} : undefined},
+    ],
+  }), "small").figure;
+}
+
+// Density over a grid of cells between the edges pair.x and pair.y, drawn on the true axes.
+function pairChart(pair, k) {
+  const [px, py] = [D.parameters[pair.i], D.parameters[pair.j]];
+  const nx = pair.x.length - 1, ny = pair.y.length - 1;
+  const top = Math.max(...pair.chance);
+  const shade = (d) => echarts.color.lerp(top > 0 ? d / top : 0, ["#ffffff", "#cfe3ee", "#7fb2cf", "#2b7ba8", "#07405e"]);
+  return chart("pair-" + k, px.symbol + " and " + py.symbol,
+      "White: no chance to tie with the best. Darkest: " + percent(top) + ".", () => ({
+    grid: {...margins, top: 16},
+    tooltip: {...tooltipStyle, formatter: (e) => e.seriesType !== "custom" ? "recommended" : lines([
+      px.symbol + ": " + format(pair.x[e.data[0]]) + " to " + formatUnit(pair.x[e.data[0] + 1], px.unit),
+      py.symbol + ": " + format(pair.y[e.data[1]]) + " to " + formatUnit(pair.y[e.data[1] + 1], py.unit),
+      percent(e.data[2]) + " chance to tie with the best"])},
+    xAxis: parameterAxis(px), yAxis: parameterAxis(py, true),
+    series: [
+      {type: "custom", data: pair.chance.map((d, c) => [c % nx, Math.floor(c / nx), d]),
+       encode: {x: -1, y: -1}, clip: true,
+       renderItem: (params, api) => {
+         const cx = api.value(0), cy = api.value(1);
+         const a = api.coord([pair.x[cx], pair.y[cy]]), b = api.coord([pair.x[cx + 1], pair.y[cy + 1]]);
+         return {type: "rect", shape: {x: a[0], y: b[1], width: b[0] - a[0] + .5, height: a[1] - b[1] + .5},
+           style: {fill: shade(api.value(2))}};
+       }},
+      ...(D.headline ? [{type: "scatter", symbol: star, symbolSize: 18, z: 5,
+        itemStyle: {color: starColor, borderColor: "#fff", borderWidth: 1},
+        data: [[D.headline.values[pair.i].value, D.headline.values[pair.j].value]]}] : []),
+    ],
+  }), "small").figure;
+}

@@ -1,0 +1,19 @@
+// make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running: a campaign to test with.
+#include <iostream>
+#include <string>
+
+#include "tests/experiments/synthetic_campaign.h"
+#include "tests/experiments/synthetic_journal.h"
+
+int main(int argc, char** argv) {
+  if (argc != 5) {
+    std::cerr << "make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running\n";
+    return 2;
+  }
+  using namespace talus::experiments::test;
+  const SyntheticOptions options{.num_trials = std::stoi(argv[2]),
+                                 .num_parameters = std::stoi(argv[3]),
+                                 .concluded = std::string(argv[4]) == "finished"};
+  WriteSyntheticJournal(MakeSyntheticCampaign(options), argv[1]);
+  return 0;
+}

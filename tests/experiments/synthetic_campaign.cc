@@ -1,0 +1,208 @@
+#include "tests/experiments/synthetic_campaign.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "imaging/metrics.h"
+#include "optimizer/design.h"
+
+namespace talus::experiments::test {
+namespace {
+
+using optimizer::Scale;
+
+imaging::Frame SmallFrame() {
+  return {.width = 200,
+          .height = 130,
+          .pixel_size = 60e-6,
+          .center_x = 100,
+          .baseline = 122,
+          .plate_diameter = 0.01};
+}
+
+// The heap's height over the axis distance: friction sets the slope, cohesion rounds the tip and
+// steepens the foot, and each seed shifts it a little.
+imaging::Profile DrawHeap(const std::vector<double>& set, std::uint64_t seed) {
+  imaging::Profile profile{.image = {}, .frame = SmallFrame()};
+  const imaging::Frame& frame = profile.frame;
+  profile.image = {.width = frame.width, .height = frame.height, .pixels = {}};
+  profile.image.pixels.assign(static_cast<std::size_t>(frame.width * frame.height), 255);
+  base::Random random(seed, base::Stream("synthetic heap"));
+  const double cohesion = std::log10(set[2] / 1e-6) / 2.6;  // 0 … 1
+  const double slope = 0.25 + 0.9 * set[0] / (0.15 + set[0]) * (0.35 + 0.65 * set[1] / 0.7) +
+                       0.25 * cohesion + 0.012 * random.Normal();
+  const double power = 1 + 0.9 * cohesion + 0.03 * random.Normal();
+  const double radius = 0.5 * frame.plate_diameter / frame.pixel_size;
+  const double shift = 0.8 * random.Normal();
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const double across = std::abs(x + 0.5 - frame.center_x - shift) / radius;
+      const double top = 0.8 * slope * radius * (1 - std::pow(std::min(across, 1.0), power));
+      const double above = frame.baseline - y - 0.5 - top;  // of the outline [px]
+      const bool on_plate = y < frame.baseline && across < 1;
+      const double gray = std::clamp(127.5 + 127.5 * above / 4, 0.0, 255.0);
+      if (on_plate) profile.image.at(x, y) = static_cast<std::uint8_t>(gray);
+    }
+  }
+  return profile;
+}
+
+ParameterInfo Parameter(const std::string& name, const std::string& symbol, double low,
+                        double high) {
+  ParameterInfo info;
+  info.range.name = name;
+  info.range.low = low;
+  info.range.high = high;
+  info.symbol = symbol;
+  return info;
+}
+
+std::vector<ParameterInfo> Parameters(int count) {
+  std::vector<ParameterInfo> all{Parameter("sliding_friction", "μ_t", 0.001, 0.7),
+                                 Parameter("rolling_friction", "μ_r", 0.001, 0.7),
+                                 Parameter("surface_energy", "γ", 1e-6, 4e-4)};
+  all[2].range.scale = Scale::kLog;
+  all[2].unit = "J/m²";
+  all.resize(static_cast<std::size_t>(count));
+  return all;
+}
+
+double ValueOrNothing(const imaging::Measured& measured) {
+  return measured.defined() ? measured.value : kUndefined;
+}
+
+// Where trial `i` lies: six repeats of one set first, then an even design, then ever closer to the
+// truth.
+Eigen::VectorXd PointOf(int i, const SyntheticOptions& options, const Eigen::VectorXd& truth,
+                        const optimizer::Points& design) {
+  const Eigen::Index n = truth.size();
+  if (i < 6) return Eigen::VectorXd::Constant(n, 0.45);
+  if (i < options.num_trials / 2) return design[static_cast<std::size_t>(i)];
+  if (i >= options.num_trials - 3) return truth;
+  base::Random random(7, base::Stream("synthetic search"), static_cast<std::uint64_t>(i));
+  const double reach = 0.35 * (1 - static_cast<double>(i) / options.num_trials) + 0.03;
+  Eigen::VectorXd point(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    point(k) = std::clamp(truth(k) + reach * random.Normal(), 0.0, 1.0);
+  }
+  return point;
+}
+
+std::string PurposeOf(int i, int num_trials) {
+  if (i < 6) return "noise";
+  if (i >= num_trials - 3) return "confirm";
+  return i < num_trials / 2 ? "design" : "search";
+}
+
+std::vector<double> FullSet(std::vector<double> values) {
+  values.resize(3, SyntheticTruth()[2]);
+  return values;
+}
+
+TrialEvidence MakeTrial(int i, const Evidence& evidence, const SyntheticOptions& options,
+                        const Eigen::VectorXd& point) {
+  base::Random random(3, base::Stream("synthetic times"), static_cast<std::uint64_t>(i));
+  TrialEvidence trial;
+  trial.id = i + 1;
+  trial.purpose = PurposeOf(i, options.num_trials);
+  trial.point = point;
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    trial.values.push_back(
+        evidence.parameters[k].range.ToNative(point(static_cast<Eigen::Index>(k))));
+  }
+  trial.seed = 1000 + i;
+  trial.seconds = 40 + 15 * random.Uniform();
+  trial.cpu_seconds = 0.97 * trial.seconds;
+  trial.metrics.assign(evidence.metrics.size(), kUndefined);
+  if (i % options.every_failed == options.every_failed - 1) {
+    trial.state = TrialState::kFailed;
+    trial.reason = i % 2 == 0 ? "a velocity is not finite at step 81000"
+                              : "the heap is lost: 71 % of the grains left the plate";
+    return trial;
+  }
+  const imaging::Profile heap = *evidence.profile(trial.id);
+  const auto metrics = imaging::CompareProfiles({heap, {}}, {evidence.reference.aehp, {}});
+  for (std::size_t k = 0; k < metrics.size(); ++k) {
+    trial.metrics[k] = ValueOrNothing(metrics[k].value);
+  }
+  return trial;
+}
+
+Conclusion MakeConclusion(const Evidence& evidence, const Eigen::VectorXd& truth) {
+  Conclusion conclusion{.predicted = 1.52,
+                        .predicted_sd = 0.08,
+                        .confirmed = 1.61,
+                        .num_confirmed = 3,
+                        .noise_sd = 0.21,
+                        .tied_volume = 0.034,
+                        .warnings = {"μ_t and μ_r act on this heap alike (correlation -0.91): only "
+                                     "their combination is well known."},
+                        .conditions = {"surface energies that belong to Young's modulus 26.25 MPa, "
+                                       "adhesion range f = 0.1 and lift velocity 1 cm/s"},
+                        .model =
+                            "Gaussian process of 8 image modes; leave-one-out error 0.19 mm² "
+                            "(0.9 × the scatter of one simulation)."};
+  for (Eigen::Index k = 0; k < truth.size(); ++k) {
+    const auto& range = evidence.parameters[static_cast<std::size_t>(k)].range;
+    conclusion.values.push_back({range.ToNative(truth(k)),
+                                 range.ToNative(std::max(0.0, truth(k) - 0.09)),
+                                 range.ToNative(std::min(1.0, truth(k) + 0.07))});
+    conclusion.sobol_first.push_back(0.5 / static_cast<double>(k + 1));
+    conclusion.sobol_total.push_back(0.6 / static_cast<double>(k + 1));
+  }
+  return conclusion;
+}
+
+}  // namespace
+
+std::vector<double> SyntheticTruth() { return {0.32, 0.21, 3e-5}; }
+
+Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
+  Evidence evidence;
+  evidence.name = "Ti6Al4V 45–111 µm";
+  evidence.objective = "sad";
+  evidence.max_simulations = 120;
+  evidence.state = options.concluded ? "finished" : "running";
+  if (options.concluded) evidence.stop_reason = "what is left to gain is below 1 × the noise";
+  evidence.parameters = Parameters(options.num_parameters);
+  evidence.versions = {{"talus", "0.1.0"}, {"compiler", "GCC 12.2.0"}};
+  evidence.stages = {{"simulations", 1840}, {"proposals", 42}, {"projection and metrics", 3.1}};
+  evidence.spec = "{\n  // as the user wrote it, </script> and all\n  \"name\": \"Ti6Al4V\"\n}\n";
+  evidence.reference.aehp = DrawHeap(SyntheticTruth(), 999);
+  evidence.reference.noise_floor = 1.3;
+  const auto self =
+      imaging::CompareProfiles({evidence.reference.aehp, {}}, {evidence.reference.aehp, {}});
+  for (const imaging::Metric& metric : self) {
+    evidence.metrics.push_back({metric.name, metric.unit});
+    evidence.reference.metrics.push_back(ValueOrNothing(metric.value));
+  }
+
+  Eigen::VectorXd truth(options.num_parameters);
+  for (Eigen::Index k = 0; k < truth.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    truth(k) = evidence.parameters[i].range.ToUnit(SyntheticTruth()[i]);
+  }
+  const auto design = optimizer::Sobol(std::max(1, options.num_trials), options.num_parameters, 1);
+  std::vector<std::vector<double>> sets;
+  std::vector<Eigen::VectorXd> points;
+  for (int i = 0; i < options.num_trials; ++i) {
+    points.push_back(PointOf(i, options, truth, design));
+    std::vector<double> values;
+    for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+      values.push_back(
+          evidence.parameters[k].range.ToNative(points.back()(static_cast<Eigen::Index>(k))));
+    }
+    sets.push_back(FullSet(values));
+  }
+  evidence.profile = [sets](int id) -> std::optional<imaging::Profile> {
+    return DrawHeap(sets[static_cast<std::size_t>(id - 1)], static_cast<std::uint64_t>(id));
+  };
+  for (int i = 0; i < options.num_trials; ++i) {
+    evidence.trials.push_back(MakeTrial(i, evidence, options, points[static_cast<std::size_t>(i)]));
+  }
+  if (options.concluded) evidence.conclusion = MakeConclusion(evidence, truth);
+  return evidence;
+}
+
+}  // namespace talus::experiments::test

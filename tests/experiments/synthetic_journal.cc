@@ -1,0 +1,122 @@
+#include "tests/experiments/synthetic_journal.h"
+
+#include "base/json_writer.h"
+#include "experiments/campaign/campaign_result.h"
+#include "experiments/journal/journal.h"
+#include "imaging/image_file.h"
+
+namespace talus::experiments::test {
+namespace {
+
+std::vector<MetricRecord> RecordsOf(const Evidence& evidence, const std::vector<double>& values) {
+  std::vector<MetricRecord> records;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const MetricInfo& info = evidence.metrics[k];
+    const bool defined = std::isfinite(values[k]);
+    records.push_back({.name = info.name,
+                       .value = values[k],
+                       .unit = info.unit,
+                       .undefined = defined ? "" : "the slope overhangs"});
+  }
+  return records;
+}
+
+CampaignRecord CampaignOf(const Evidence& evidence) {
+  CampaignRecord record;
+  record.name = evidence.name;
+  record.spec_path = "/somewhere/spec.json";
+  record.spec_text = evidence.spec;
+  record.spec_json =
+      R"({"budget": {"simulations": )" + std::to_string(evidence.max_simulations) + "}}";
+  record.spec_hash = "0123456789abcdef";
+  record.talus_version = "0.1.0";
+  record.created_utc = "2026-01-31T12:00:00Z";
+  record.objective = evidence.objective;
+  for (const ParameterInfo& p : evidence.parameters) {
+    record.parameters.push_back({.name = p.range.name,
+                                 .low = p.range.low,
+                                 .high = p.range.high,
+                                 .scale = std::string(base::NameOf(p.range.scale)),
+                                 .unit = p.unit == "J/m²" ? "J/m^2" : p.unit});
+  }
+  record.reference = RecordsOf(evidence, evidence.reference.metrics);
+  record.aehp_png = imaging::EncodePng(evidence.reference.aehp.image);
+  record.frame_json = base::ToJson(evidence.reference.aehp.frame).dump();
+  record.noise_mm2 = evidence.reference.noise_floor;
+  return record;
+}
+
+TrialKind KindOf(const std::string& purpose) {
+  for (const auto& [name, kind] : base::Names<TrialKind>::kList) {
+    if (name == purpose) return kind;
+  }
+  return TrialKind::kSearch;
+}
+
+std::string ResultOf(const Evidence& evidence, const Conclusion& conclusion) {
+  CampaignResult result{.name = evidence.name,
+                        .talus_version = "0.1.0",
+                        .stop_reason = evidence.stop_reason,
+                        .objective = "sad_mm2",
+                        .objective_unit = "mm²",
+                        .predicted = conclusion.predicted,
+                        .predicted_sd = conclusion.predicted_sd,
+                        .noise_sd = conclusion.noise_sd,
+                        .noise_floor = evidence.reference.noise_floor,
+                        .tied_volume = conclusion.tied_volume,
+                        .model = conclusion.model,
+                        .warnings = conclusion.warnings,
+                        .conditions = {.youngs_modulus = 26.25e6,
+                                       .lift_velocity = 0.01,
+                                       .adhesion = "jkr",
+                                       .rolling = "epsd"},
+                        .cost = {}};
+  ResultCandidate confirmed{.num_trials = conclusion.num_confirmed, .mean = conclusion.confirmed};
+  for (std::size_t k = 0; k < conclusion.values.size(); ++k) {
+    const RecommendedValue& v = conclusion.values[k];
+    result.parameters.push_back({.name = evidence.parameters[k].range.name,
+                                 .unit = evidence.parameters[k].unit,
+                                 .value = v.value,
+                                 .credible_low = v.low,
+                                 .credible_high = v.high,
+                                 .sobol_first = conclusion.sobol_first[k],
+                                 .sobol_total = conclusion.sobol_total[k]});
+    confirmed.values.push_back(v.value);
+  }
+  result.confirmed.push_back(confirmed);
+  return ResultText(result);
+}
+
+}  // namespace
+
+void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  Journal journal = Journal::Create(JournalPath(folder), CampaignOf(evidence));
+  for (const TrialEvidence& t : evidence.trials) {
+    TrialRecord record;
+    record.id = t.id;
+    record.kind = KindOf(t.purpose);
+    record.kind_index = t.id;
+    record.set = t.id;
+    record.unit.assign(t.point.data(), t.point.data() + t.point.size());
+    record.native = t.values;
+    record.seed = t.seed;
+    record.started_utc = "2026-01-31T12:00:00Z";
+    journal.Start(record);
+    record.status = t.state == TrialState::kDone ? TrialStatus::kOk : TrialStatus::kFailed;
+    record.reason = t.reason;
+    record.duration_s = t.seconds;
+    record.cpu_s = t.cpu_seconds;
+    record.finished_utc = "2026-01-31T12:01:00Z";
+    const bool done = t.state == TrialState::kDone;
+    if (done) record.metrics = RecordsOf(evidence, t.metrics);
+    journal.Finish(record, done ? imaging::EncodePng(evidence.profile(t.id)->image) : "");
+  }
+  journal.SetProgress({.state = evidence.state,
+                       .stop_reason = evidence.stop_reason,
+                       .elapsed_s = 1900,
+                       .result_json = evidence.conclusion ? ResultOf(evidence, *evidence.conclusion)
+                                                          : std::string()});
+}
+
+}  // namespace talus::experiments::test
