@@ -307,6 +307,7 @@ Experiment MeasureExperiment(const ExperimentOptions& options) {
     if (!options.frame) CheckScale(collection);
     SettleFaults(options, collection, result);
     const Placement placement = Place(options, collection, result);
+    result.photo_pixel = placement.photo_pixel;
     MeasureRuns(options, collection, placement, result);
     result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};
   }

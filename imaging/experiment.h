@@ -92,6 +92,7 @@ struct NoiseFloor {
 
 struct Experiment {
   Profile aehp;
+  double photo_pixel = 0;                 // pixel size of the photographs [m], 0 for a map
   std::vector<MeasuredRun> runs;          // none for a map
   GrayImage standard_deviation;           // over the runs [grey levels], empty for fewer than two
   std::optional<NoiseFloor> noise_floor;  // for two runs or more

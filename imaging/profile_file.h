@@ -1,0 +1,17 @@
+// A profile in files: NAME.png, 8-bit grey, and NAME.json beside it with the frame.
+#pragma once
+
+#include <filesystem>
+
+#include "imaging/profile.h"
+
+namespace talus::imaging {
+
+// Writes `png` and, with the extension .json, {"frame": {…}}.
+void WriteProfile(const std::filesystem::path& png, const Profile& profile);
+
+// What WriteProfile wrote, or the aehp.png in a folder. Throws ConfigError that says what is
+// missing.
+Profile ReadProfile(const std::filesystem::path& path);
+
+}  // namespace talus::imaging
