@@ -12,6 +12,7 @@ int Run(int argc, char** argv) {
   app.set_version_flag("--version", "talus " + talus::experiments::Version());
   app.require_subcommand(1);
   talus::experiments::AddReportCommand(app);
+  talus::experiments::AddMeasureCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

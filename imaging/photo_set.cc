@@ -103,13 +103,12 @@ std::set<std::string, ByNumber> ExpectedViews(const std::map<std::string, Views,
   return expected;
 }
 
-}  // namespace
-
-PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {
+std::map<std::string, Views, ByNumber> Group(const std::vector<std::filesystem::path>& files,
+                                             const std::string& pattern) {
   const Pattern compiled = Compile(pattern);
   std::map<std::string, Views, ByNumber> runs;
   std::map<std::string, int> counted;  // files of a run so far, for a pattern without {view}
-  for (const std::filesystem::path& file : FilesOf(folder)) {
+  for (const std::filesystem::path& file : files) {
     std::smatch match;
     const std::string name = file.filename().string();
     if (!std::regex_match(name, match, compiled.expression)) continue;
@@ -117,31 +116,44 @@ PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& patt
     const std::string view =
         compiled.view_group > 0 ? match[compiled.view_group].str() : std::to_string(++counted[run]);
     const auto [entry, added] = runs[run].emplace(view, file);
-    if (!added) {
-      throw base::ConfigError(file.string() + ": is view " + view + " of run " + run +
-                              ", and so is " + entry->second.filename().string() +
-                              "; make the pattern \"" + pattern + "\" tell them apart");
-    }
+    if (added) continue;
+    throw base::ConfigError(file.string() + ": is view " + view + " of run " + run +
+                            ", and so is " + entry->second.filename().string() +
+                            "; make the pattern \"" + pattern + "\" tell them apart");
   }
-  if (runs.empty()) {
+  return runs;
+}
+
+}  // namespace
+
+PhotoSet SortPhotos(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
+  const std::map<std::string, Views, ByNumber> runs = Group(files, pattern);
+  PhotoSet set;
+  const std::set<std::string, ByNumber> expected = ExpectedViews(runs);
+  for (const auto& [run, views] : runs) {
+    PhotoFiles of_run{.run = run, .views = {}};
+    for (const std::string& view : expected) {
+      const auto found = views.find(view);
+      if (found != views.end()) {
+        of_run.views.push_back({.view = view, .path = found->second});
+      } else {
+        set.missing.push_back("run " + run + " has no view " + view + " (pattern \"" + pattern +
+                              "\")");
+      }
+    }
+    set.runs.push_back(std::move(of_run));
+  }
+  return set;
+}
+
+PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {
+  PhotoSet set = SortPhotos(FilesOf(folder), pattern);
+  if (set.runs.empty()) {
     throw base::ConfigError(folder.string() + ": no file matches the pattern \"" + pattern +
                             "\"; give the pattern of the photographs' names, such as "
                             "run{run}_view{view}.jpg");
   }
-  PhotoSet set;
-  const std::set<std::string, ByNumber> expected = ExpectedViews(runs);
-  for (const auto& [run, views] : runs) {
-    PhotoFiles files{.run = run, .views = {}};
-    for (const std::string& view : expected) {
-      const auto found = views.find(view);
-      if (found != views.end()) {
-        files.views.push_back({.view = view, .path = found->second});
-      } else {
-        set.missing.push_back(folder.string() + ": run " + run + " has no view " + view);
-      }
-    }
-    set.runs.push_back(std::move(files));
-  }
+  for (std::string& missing : set.missing) missing = folder.string() + ": " + missing;
   return set;
 }
 

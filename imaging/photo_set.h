@@ -28,4 +28,7 @@ struct PhotoSet {
 // match.
 PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern);
 
+// The same for files one by one; those that do not match are left out, and there may be no run.
+PhotoSet SortPhotos(const std::vector<std::filesystem::path>& files, const std::string& pattern);
+
 }  // namespace talus::imaging

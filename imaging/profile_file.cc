@@ -28,6 +28,10 @@ void WriteProfile(const std::filesystem::path& png, const Profile& profile) {
                             base::ToJson(Sidecar{.frame = profile.frame}).dump(2) + "\n");
 }
 
+Frame ReadFrame(const std::filesystem::path& json) {
+  return base::LoadOptions<Sidecar>(base::ReadJsonFile(json)).frame;
+}
+
 Profile ReadProfile(const std::filesystem::path& path) {
   const std::filesystem::path png = std::filesystem::is_directory(path) ? path / "aehp.png" : path;
   const std::filesystem::path json = SidecarOf(png);
@@ -35,8 +39,7 @@ Profile ReadProfile(const std::filesystem::path& path) {
     throw base::ConfigError(json.string() + ": is missing, so that the frame of " + png.string() +
                             " is not known; give the folder that `talus measure … --out` wrote");
   }
-  Profile profile{.image = ReadGrayImage(png),
-                  .frame = base::LoadOptions<Sidecar>(base::ReadJsonFile(json)).frame};
+  Profile profile{.image = ReadGrayImage(png), .frame = ReadFrame(json)};
   if (profile.image.width != profile.frame.width || profile.image.height != profile.frame.height) {
     throw base::ConfigError(png.string() + ": has " + std::to_string(profile.image.width) + " x " +
                             std::to_string(profile.image.height) + " px, " + json.string() +

@@ -14,4 +14,7 @@ void WriteProfile(const std::filesystem::path& png, const Profile& profile);
 // missing.
 Profile ReadProfile(const std::filesystem::path& path);
 
+// The frame in such a JSON file.
+Frame ReadFrame(const std::filesystem::path& json);
+
 }  // namespace talus::imaging

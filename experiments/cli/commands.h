@@ -14,5 +14,6 @@ namespace talus::experiments {
 std::string Version();
 
 void AddReportCommand(CLI::App& app);
+void AddMeasureCommand(CLI::App& app);
 
 }  // namespace talus::experiments
