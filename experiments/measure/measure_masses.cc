@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/units.h"
+#include "experiments/measure/measure_json_csv.h"
 #include "experiments/measure/measure_request.h"
-#include "experiments/measure/measure_tables.h"
 #include "imaging/mass_study.h"
 
 namespace talus::experiments {

@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "experiments/measure/measure_json_csv.h"
 #include "experiments/measure/measure_request.h"
-#include "experiments/measure/measure_tables.h"
 #include "imaging/overlay.h"
 #include "imaging/photo_set.h"
 #include "imaging/profile_file.h"

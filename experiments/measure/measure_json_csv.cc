@@ -1,4 +1,4 @@
-#include "experiments/measure/measure_tables.h"
+#include "experiments/measure/measure_json_csv.h"
 
 #include <cmath>
 #include <iomanip>
