@@ -36,6 +36,16 @@ bool IsUnfinished(const SlurmState& state) {
   return std::find(kUnfinished.begin(), kUnfinished.end(), state.name) != kUnfinished.end();
 }
 
+SlurmState StateOf(const SlurmStates& states, const std::string& array, int task) {
+  const auto own = states.find(array + "_" + std::to_string(task));
+  if (own != states.end()) return own->second;
+  const auto whole = states.find(array);
+  if (whole != states.end()) return whole->second;
+  const auto rest = states.lower_bound(array + "_[");
+  if (rest != states.end() && rest->first.starts_with(array + "_[")) return rest->second;
+  return {kLost, ""};
+}
+
 SlurmStates ParseSqueue(std::string_view output) {
   SlurmStates states;
   std::istringstream lines{std::string(output)};

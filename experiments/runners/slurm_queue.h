@@ -26,6 +26,10 @@ bool IsUnfinished(const SlurmState& state);
 // States by job: "1234_7" for task 7 of an array.
 using SlurmStates = std::map<std::string, SlurmState, std::less<>>;
 
+// The state of one task. Tasks that have never started share the array's own entry, "1234" or
+// "1234_[7-9]". LOST when there is none.
+SlurmState StateOf(const SlurmStates& states, const std::string& array, int task);
+
 // Lines of `squeue -o "%i|%T|%r"` and of `sacct -o JobID,State`; other lines are left out.
 SlurmStates ParseSqueue(std::string_view output);
 SlurmStates ParseSacct(std::string_view output);

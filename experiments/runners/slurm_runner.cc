@@ -281,8 +281,7 @@ void SlurmRunner::Poll() {
   if (!states) return;  // Slurm does not answer; the jobs go on without us
   for (auto& [id, task] : tasks_) {
     if (task.array.empty()) continue;
-    const auto found = states->find(task.Name());
-    const SlurmState state = found == states->end() ? SlurmState{kLost, ""} : found->second;
+    const SlurmState state = StateOf(*states, task.array, task.index);
     if (IsUnfinished(state)) {
       task.ended.reset();
     } else if (!task.ended || task.ended->name != state.name) {

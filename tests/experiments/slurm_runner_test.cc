@@ -149,7 +149,8 @@ TEST_F(SlurmRunnerTest, LaterProcessFindsTheJobsOfAnEarlierOne) {
   EXPECT_FALSE(runner.Adopt(unknown, ""));
   EXPECT_FALSE(runner.Adopt(next_attempt, ""));
   for (const Job& job : jobs) EXPECT_TRUE(runner.Adopt(job, ""));
-  Put("queue", "101_0|CANCELLED|None\n101_1|TIMEOUT|TimeLimit\n101_2|RUNNING|None\n");
+  // Slurm names tasks that have never run by their array alone.
+  Put("queue", "101|CANCELLED|None\n101_1|TIMEOUT|TimeLimit\n101_2|RUNNING|None\n");
   const auto finished = Finish(runner, 2);
   ASSERT_EQ(finished.size(), 2u);
   EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
