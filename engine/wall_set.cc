@@ -1,6 +1,7 @@
 #include "engine/wall_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace talus::engine {
@@ -28,11 +29,19 @@ ShapeParts Parts(WallShape& shape) {
   return std::visit([](auto& s) { return Parts(s); }, shape);
 }
 
+Vec3 Perpendicular(const Vec3& axis) {
+  const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = Cross(axis, other);
+  return across / Norm(across);
+}
+
 WallView View(Wall& wall) {
   const ShapeParts s = Parts(wall.shape);
+  const Vec3 across = Perpendicular(s.axis);
   return {.kind = s.kind,
           .point = {s.point.x, s.point.y, s.point.z},
           .axis = {s.axis.x, s.axis.y, s.axis.z},
+          .across = {across.x, across.y, across.z},
           .radius = s.radius,
           .length = s.length,
           .velocity = {0, 0, 0}};

@@ -13,6 +13,7 @@ int Run(int argc, char** argv) {
   app.require_subcommand(1);
   talus::experiments::AddReportCommand(app);
   talus::experiments::AddMeasureCommand(app);
+  talus::experiments::AddSimulateCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -31,6 +31,7 @@ struct WallView {
   ShapeKind kind;
   double point[3];     // [m]
   double axis[3];      // unit vector
+  double across[3];    // unit vector perpendicular to the axis
   double radius;       // [m], 0 for a plane
   double length;       // [m], 0 for a plane and a disc
   double velocity[3];  // [m/s]

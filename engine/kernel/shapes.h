@@ -3,8 +3,8 @@
 //   h = (x − p)·a        r = (x − p) − h a        ρ = |r|
 //
 // with p, a the point and normal, or base and axis, of the shape. Disc and cylinders take h and ρ
-// to the nearest value that lies on them; a point on the axis of an open cylinder has no nearest
-// one and is given none.
+// to the nearest value that lies on them. On the axis of an open cylinder all points are as near:
+// there the one across is taken, by way of a radial part too small to matter anywhere else.
 #pragma once
 
 #include "engine/kernel/kernel.h"
@@ -37,7 +37,7 @@ TALUS_INLINE NearestPoint<V> Nearest(const WallView& wall, const Vector<V>& x) {
   const Vector<V> from_base = x - Broadcast<V>(wall.point);
   const V h = Dot(from_base, axis);
   if (wall.kind == ShapeKind::kPlane) return {-axis, h};
-  const Vector<V> radial = from_base - h * axis;
+  const Vector<V> radial = from_base - h * axis + V(1e-100) * Broadcast<V>(wall.across);
   const V rho_squared = Max(Dot(radial, radial), V(1e-200));
   const V ratio = V(wall.radius) * Rsqrt(rho_squared);  // of the wall's radius to ρ
   const V along = h - Max(V(0.0), Min(h, V(wall.length)));

@@ -15,5 +15,6 @@ std::string Version();
 
 void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
+void AddSimulateCommand(CLI::App& app);
 
 }  // namespace talus::experiments

@@ -27,9 +27,9 @@ struct RestRule {
 };
 
 struct HeapRules {
-  double fill_max_overlap = 0.02;  // the filling ends when no overlap/radius is above [-], > 0
-  int fill_max_sweeps = 400;       // cap of the filling [-], > 0
-  RestRule settling;               // in the tube
+  double fill_max_overlap = 0.001;  // the filling ends when no overlap/radius is above [-], > 0
+  int fill_max_sweeps = 1000;       // cap of the filling [-], > 0
+  RestRule settling;                // in the tube
   std::optional<double> lift_max_time{};  // [s]; default: until twice the filled height is lifted
   RestRule heap;                          // after the tube has cleared the heap
   double leave_depth = 5;                 // below the plate, in largest diameters [-], > 0

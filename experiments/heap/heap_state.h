@@ -1,0 +1,82 @@
+// What a heap test knows beside the engine's state: the phase it is in and how the earlier ones
+// ended. It is part of the checkpoint and of the result.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "base/field.h"
+
+namespace talus::experiments {
+
+enum class HeapPhase { kSettling, kLifting, kResting, kEnded };
+
+// How a phase ended.
+enum class PhaseEnd { kNone, kAtRest, kCleared, kTimeCap, kEmpty };
+
+struct PhaseRecord {
+  PhaseEnd reason = PhaseEnd::kNone;
+  double start_time = 0;    // [s]
+  double end_time = 0;      // [s]
+  std::int64_t steps = 0;   // of the phase
+  double energy_ratio = 0;  // mean kinetic energy of a grain / (m g d) at its last check [-]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("reason", self.reason);
+    visit("start_time_s", self.start_time);
+    visit("end_time_s", self.end_time);
+    visit("steps", self.steps);
+    visit("energy_ratio", self.energy_ratio);
+  }
+};
+
+struct HeapState {
+  HeapPhase phase = HeapPhase::kSettling;
+  PhaseRecord settling;
+  PhaseRecord lifting;
+  PhaseRecord heap;
+  double filled_height = 0;  // [m]
+  double fill_overlap = 0;   // largest overlap / radius [-]
+  int fill_sweeps = 0;
+  std::int64_t num_filled = 0;
+  std::int64_t num_fallen = 0;        // left over the plate's rim
+  std::int64_t num_carried = 0;       // taken away by the tube
+  std::int64_t num_quiet_checks = 0;  // in a row, for which the phase's criterion has held
+  double particle_steps = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("phase", self.phase);
+    visit("settling", self.settling);
+    visit("lifting", self.lifting);
+    visit("heap", self.heap);
+    visit("filled_height_m", self.filled_height);
+    visit("fill_overlap", self.fill_overlap);
+    visit("fill_sweeps", self.fill_sweeps);
+    visit("num_filled", self.num_filled);
+    visit("num_fallen", self.num_fallen);
+    visit("num_carried", self.num_carried);
+    visit("num_quiet_checks", self.num_quiet_checks);
+    visit("particle_steps", self.particle_steps);
+  }
+};
+
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::HeapPhase> {
+  using P = talus::experiments::HeapPhase;
+  static constexpr std::array kList{
+      std::pair{"settling", P::kSettling}, std::pair{"lifting", P::kLifting},
+      std::pair{"coming to rest", P::kResting}, std::pair{"ended", P::kEnded}};
+};
+template <>
+struct talus::base::Names<talus::experiments::PhaseEnd> {
+  using E = talus::experiments::PhaseEnd;
+  static constexpr std::array kList{std::pair{"none", E::kNone}, std::pair{"at_rest", E::kAtRest},
+                                    std::pair{"cleared", E::kCleared},
+                                    std::pair{"time_cap", E::kTimeCap},
+                                    std::pair{"empty", E::kEmpty}};
+};

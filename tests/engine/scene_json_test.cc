@@ -1,0 +1,143 @@
+#include "engine/scene_json.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_schema.h"
+
+namespace talus::engine {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::filesystem::path Write(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    LoadScene(Write(text));
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr const char* kPair = R"({
+  "materials": [{"name": "glass", "youngs_modulus": "10 MPa", "density": "2.5 g/cm^3"}],
+  "spheres": [
+    {"diameter": "1 mm", "position": [0, 0, "2 mm"], "velocity": [0, 0, "-10 cm/s"]},
+    {"diameter": 1e-3, "position": [0, 0, "0.5 mm"], "material": "glass"}],
+  "walls": [{"shape": "plane"},
+            {"shape": "open_cylinder", "diameter": "1 cm", "length": "2 cm", "direction": [0, 0, 5],
+             "motion": [{"time": 0.1, "velocity": [0, 0, "1 cm/s"]}]}],
+  "stop": {"time": 0.1}
+})";
+
+TEST(SceneJson, ReadsSpheresWallsAndUnits) {
+  const Scene scene = LoadScene(Write(kPair)).scene;
+  ASSERT_EQ(scene.particles.size(), 2u);
+  EXPECT_EQ(scene.particles[0].radius, 0.5e-3);
+  EXPECT_EQ(scene.particles[0].velocity, (Vec3{0, 0, -0.1}));
+  EXPECT_EQ(scene.materials[0].density, 2500);
+  const auto& tube = std::get<OpenCylinder>(scene.walls.at(1).shape);
+  EXPECT_EQ(tube.axis, (Vec3{0, 0, 1}));
+  EXPECT_EQ(tube.radius, 5e-3);
+  EXPECT_EQ(scene.walls[1].motion.at(0).velocity, (Vec3{0, 0, 0.01}));
+}
+
+TEST(SceneJson, FillsAreDrawnIntoTheirRegion) {
+  const Scene scene = LoadScene(Write(R"({
+    "materials": [{"name": "a"}, {"name": "b", "density": 2000}],
+    "fills": [{"material": "b", "mass": "0.4 g", "region": {"diameter": "1 cm"},
+               "sizes": {"kind": "uniform", "min": "0.8 mm", "max": "1.2 mm"}}],
+    "walls": [{"shape": "plane"}], "stop": {"steps": 10}})"))
+                          .scene;
+  double volume = 0;
+  for (const Particle& p : scene.particles) {
+    volume += 4.0 / 3 * 3.141592653589793 * p.radius * p.radius * p.radius;
+    EXPECT_EQ(p.material, 1);
+  }
+  EXPECT_NEAR(volume * 2000, 0.4e-3, 1.5e-6);  // to within one grain, at most 1.8 µg
+}
+
+TEST(SceneJson, TheWrittenSceneIsReadBackTheSame) {
+  const LoadedScene loaded = LoadScene(Write(kPair));
+  const std::string text = SceneText(loaded.spec);
+  EXPECT_EQ(SceneText(LoadScene(Write(text)).spec), text);
+}
+
+TEST(SceneJson, EveryProblemOfAFileIsListedByPath) {
+  EXPECT_THAT(ErrorOf(R"({
+    "materials": [{"name": "a", "poisson_ratio": 0.7, "density": -1}, {"name": "a"}],
+    "spheres": [{"diameter": -1, "position": [0, 0, 0], "material": "b"},
+                {"diametr": 1, "position": [0, 0]}],
+    "walls": [{"shape": "disc"}, {"shape": "plane", "direction": [0, 0, 0]}],
+    "gravityy": [0, 0, 0], "stop": {}})"),
+              AllOf(HasSubstr("materials[0].poisson_ratio: is 0.7, must be in (-1, 0.5]"),
+                    HasSubstr("materials[0].density: is -1"), HasSubstr("materials[1].name"),
+                    HasSubstr("spheres[0].diameter: is -1, must be positive"),
+                    HasSubstr("spheres[0].material: \"b\" is not the name of a material"),
+                    HasSubstr("spheres[1].diametr: is not known here; did you mean \"diameter\"?"),
+                    HasSubstr("spheres[1].position: must be a list of three numbers"),
+                    HasSubstr("walls[0].diameter: is missing"), HasSubstr("walls[1].direction"),
+                    HasSubstr("gravityy: is not known here; did you mean \"gravity\"?"),
+                    HasSubstr("stop: must have time or steps")));
+}
+
+TEST(SceneJson, WhatTheSolverRefusesIsNamedByItsPlaceInTheFile) {
+  const auto scene = [](const std::string& spheres, const std::string& more) {
+    return R"({"materials": [{"name": "a"}], "walls": [{"shape": "plane"}], "stop": {"steps": 1},
+              "spheres": [)" +
+           spheres + "]" + more + "}";
+  };
+  const std::string one = R"({"diameter": 1e-3, "position": [0, 0, 1e-3]})";
+  EXPECT_EQ(ErrorOf(scene(one, "")), "");
+  EXPECT_THAT(ErrorOf(scene(one + "," + one, "")), HasSubstr("spheres["));  // overlap
+  EXPECT_THAT(ErrorOf(scene(R"({"diameter": 1e-3, "position": [0, 0, -1e-3]})", "")),
+              HasSubstr("spheres[0]"));  // escaped through the plane
+  EXPECT_THAT(ErrorOf(scene(one, R"(, "time_step": "1 ms")")), HasSubstr("time_step"));
+}
+
+TEST(SceneJson, AFillWithoutRoomSaysSo) {
+  EXPECT_THAT(ErrorOf(R"({
+    "materials": [{"name": "a"}], "walls": [{"shape": "plane"}], "stop": {"steps": 1},
+    "fills": [{"mass": "1 g", "region": {"diameter": "5 mm", "height": "5 mm"},
+               "sizes": {"kind": "mono", "diameter": "1 mm"}}]})"),
+              HasSubstr("fills[0].region: is too small for the mass"));
+}
+
+TEST(SceneJson, MissingFileAndBrokenJsonAreErrors) {
+  EXPECT_THROW(LoadScene("/nowhere/scene.json"), base::ConfigError);
+  EXPECT_THAT(ErrorOf("{"), HasSubstr("is not JSON"));
+}
+
+// The shipped schema is made from the Visit lists that the parser walks. After a change, run this
+// test with TALUS_UPDATE_SCHEMAS=1 and commit what it writes.
+TEST(SceneJson, TheShippedSchemaIsTheParsers) {
+  const std::string path = TALUS_SOURCE_DIR "/docs/scene.schema.json";
+  const std::string schema = base::FileSchema<SceneSpec>("talus scene").dump(2) + "\n";
+  if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
+  EXPECT_EQ(base::ReadFile(path), schema);
+}
+
+TEST(SceneJson, TheShippedExamplesAreValid) {
+  for (const char* name : {"bouncing_pair.json", "packing.json"}) {
+    EXPECT_NO_THROW(LoadScene(std::string(TALUS_SOURCE_DIR "/examples/scenes/") + name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace talus::engine
