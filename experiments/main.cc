@@ -13,6 +13,10 @@ int Run(int argc, char** argv) {
   app.require_subcommand(1);
   talus::experiments::AddReportCommand(app);
   talus::experiments::AddMeasureCommand(app);
+  talus::experiments::AddCalibrateCommand(app);
+  talus::experiments::AddResumeCommand(app);
+  talus::experiments::AddStatusCommand(app);
+  talus::experiments::AddExportCommand(app);
   talus::experiments::AddSimulateCommand(app);
   try {
     app.parse(argc, argv);

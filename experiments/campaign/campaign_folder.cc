@@ -47,6 +47,14 @@ CampaignLock::~CampaignLock() {
   if (file_ >= 0) ::close(file_);
 }
 
+bool IsWorkedOn(const std::filesystem::path& root) {
+  const int file = ::open((root / "campaign.lock").c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+  ::close(file);
+  return !free;
+}
+
 void RequireWritable(const std::filesystem::path& root) {
   constexpr std::size_t kEnoughForATrial = 256 * 1024;
   const std::filesystem::path probe = root / ".probe";

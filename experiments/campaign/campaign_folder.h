@@ -13,8 +13,9 @@ struct CampaignFolder {
   std::filesystem::path trial(std::int64_t id) const;  // trials/0001
   std::filesystem::path log() const { return root / "campaign.log"; }
   std::filesystem::path result() const { return root / "result.json"; }
-  std::filesystem::path spec() const { return root / "spec.json"; }
+  std::filesystem::path campaign() const { return root / "campaign.json"; }
   std::filesystem::path aehp() const { return root / "aehp.png"; }
+  std::filesystem::path aehp_sd() const { return root / "aehp_sd.png"; }
 };
 
 // Held while a process works on the campaign; it goes with the process, however that ends.
@@ -28,6 +29,9 @@ class CampaignLock {
  private:
   int file_;
 };
+
+// Whether some process holds the lock now.
+bool IsWorkedOn(const std::filesystem::path& root);
 
 // Throws base::Error, with the system's reason, when nothing can be written there: a full disk, a
 // folder that has become read-only. So that such a thing is not taken for a trial's own failure.

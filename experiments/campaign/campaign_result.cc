@@ -1,20 +1,13 @@
 #include "experiments/campaign/campaign_result.h"
 
 #include <cmath>
-#include <cstdio>
 
-#include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "experiments/campaign/console.h"
+#include "experiments/campaign/record_json.h"
 
 namespace talus::experiments {
 namespace {
-
-// Four significant digits: more than any calibration knows.
-std::string Number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 std::string Padded(std::string text, std::size_t width) {
   if (text.size() < width) text.append(width - text.size(), ' ');
@@ -24,8 +17,8 @@ std::string Padded(std::string text, std::size_t width) {
 std::string ParameterLines(const CampaignResult& result) {
   std::string text;
   for (const ResultParameter& p : result.parameters) {
-    text += "  " + Padded(p.name, 18) + Padded(Number(p.value) + " " + p.unit, 18) + "90 % in " +
-            Number(p.credible_low) + " … " + Number(p.credible_high) + "\n";
+    text += "  " + Padded(p.name, 18) + Padded(NumberText4(p.value) + " " + p.unit, 18) +
+            "90 % in " + NumberText4(p.credible_low) + " … " + NumberText4(p.credible_high) + "\n";
   }
   return text;
 }
@@ -36,13 +29,13 @@ std::string ConfirmedLines(const CampaignResult& result) {
   for (std::size_t i = 0; i < result.confirmed.size(); ++i) {
     const ResultCandidate& c = result.confirmed[i];
     std::string line = i == 0 ? "  confirmed" : "  candidate " + std::to_string(i + 1);
-    text += Padded(line, 20) + Number(c.mean) + unit;
-    if (std::isfinite(c.standard_error)) text += " ± " + Number(c.standard_error);
+    text += Padded(line, 20) + NumberText4(c.mean) + unit;
+    if (std::isfinite(c.standard_error)) text += " ± " + NumberText4(c.standard_error);
     text += " (" + std::to_string(c.num_trials) + " fresh seeds, scale factor " +
-            Number(c.scale_factor) + ")";
+            NumberText4(c.scale_factor) + ")";
     if (i > 0) {
       text += " at";
-      for (const double value : c.values) text += " " + Number(value);
+      for (const double value : c.values) text += " " + NumberText4(value);
     }
     text += "\n";
   }
@@ -52,10 +45,10 @@ std::string ConfirmedLines(const CampaignResult& result) {
 std::string FloorLine(const CampaignResult& result) {
   if (!result.noise_floor)
     return "  noise floor       not known: the experiment has one run only\n";
-  std::string text = "  noise floor       " + Number(*result.noise_floor) +
+  std::string text = "  noise floor       " + NumberText4(*result.noise_floor) +
                      " mm² SAD from run to run of the experiment";
   if (result.confirmed_over_floor) {
-    text += "; confirmed SAD is " + Number(*result.confirmed_over_floor) + " times that";
+    text += "; confirmed SAD is " + NumberText4(*result.confirmed_over_floor) + " times that";
   }
   return text + "\n";
 }
@@ -65,27 +58,24 @@ std::string FloorLine(const CampaignResult& result) {
 std::string ResultText(const CampaignResult& result) { return base::ToJson(result).dump(2) + "\n"; }
 
 CampaignResult ParseResult(const std::string& text) {
-  CampaignResult result;
-  base::Problems problems("result", {});
-  // null stands for what is not defined, which the fields' defaults do not.
-  base::ReadOptions(nlohmann::json::parse(text), result, {problems, {}});
-  return result;
+  return ParseRecord<CampaignResult>(text, "the result");
 }
 
 std::string ResultSummary(const CampaignResult& r) {
   std::string text = r.name + ": recommended set\n" + ParameterLines(r);
-  text += "  predicted         " + Number(r.predicted) + " " + r.objective_unit + " ± " +
-          Number(r.predicted_sd) + "; one simulation scatters by " + Number(r.noise_sd) + "\n";
+  text += "  predicted         " + NumberText4(r.predicted) + " " + r.objective_unit + " ± " +
+          NumberText4(r.predicted_sd) + "; one simulation scatters by " + NumberText4(r.noise_sd) +
+          "\n";
   text += ConfirmedLines(r) + FloorLine(r);
-  text += "  tied within noise " + Number(100 * r.tied_volume) + " % of the searched ranges\n";
+  text += "  tied within noise " + NumberText4(100 * r.tied_volume) + " % of the searched ranges\n";
   text += "  stopped because   " + r.stop_reason + "\n";
-  text += "  holds for         scale factor " + Number(r.conditions.scale_factor) + ", Y " +
-          Number(r.conditions.youngs_modulus) + " Pa, lift velocity " +
-          Number(r.conditions.lift_velocity) + " m/s, adhesion " + r.conditions.adhesion +
+  text += "  holds for         scale factor " + NumberText4(r.conditions.scale_factor) + ", Y " +
+          NumberText4(r.conditions.youngs_modulus) + " Pa, lift velocity " +
+          NumberText4(r.conditions.lift_velocity) + " m/s, adhesion " + r.conditions.adhesion +
           ", rolling " + r.conditions.rolling + "\n";
   text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
-          std::to_string(r.cost.num_failed) + " failed), " + Number(r.cost.core_hours) +
-          " core hours, " + Number(r.cost.elapsed / 60) + " min\n";
+          std::to_string(r.cost.num_failed) + " failed), " + NumberText4(r.cost.core_hours) +
+          " core hours, " + NumberText4(r.cost.elapsed / 60) + " min\n";
   text += "  model             " + r.model + "\n";
   for (const std::string& warning : r.warnings) text += "  warning: " + warning + "\n";
   return text;

@@ -187,9 +187,11 @@ bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
                " simulations is used");
     return false;
   }
-  if (const auto reason = strategy_->StopReason()) {
-    StopSearch(*reason);
-    return false;
+  if (NumOfSearch() >= spec_.budget.min_simulations) {
+    if (const auto reason = strategy_->StopReason()) {
+      StopSearch(*reason);
+      return false;
+    }
   }
   std::vector<Eigen::VectorXd> pending;
   for (const TrialRecord& trial : trials_) {

@@ -15,6 +15,10 @@ std::string Version();
 
 void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
+void AddCalibrateCommand(CLI::App& app);
+void AddExportCommand(CLI::App& app);
+void AddResumeCommand(CLI::App& app);
+void AddStatusCommand(CLI::App& app);
 void AddSimulateCommand(CLI::App& app);
 
 }  // namespace talus::experiments

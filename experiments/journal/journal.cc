@@ -94,6 +94,11 @@ std::string UnitInName(const std::string& unit) {
 
 }  // namespace
 
+std::string ColumnName(const ParameterRecord& parameter) {
+  return parameter.unit.empty() ? parameter.name
+                                : parameter.name + "_" + UnitInName(parameter.unit);
+}
+
 std::filesystem::path JournalPath(const std::filesystem::path& campaign) {
   return campaign / "journal.sqlite";
 }
@@ -183,10 +188,9 @@ void Journal::CreateView(const CampaignRecord& campaign) {
   std::string columns = "SELECT t.id, t.kind, t.status";
   for (std::size_t i = 0; i < campaign.parameters.size(); ++i) {
     const ParameterRecord& p = campaign.parameters[i];
-    const std::string column = p.unit.empty() ? p.name : p.name + "_" + UnitInName(p.unit);
     columns +=
         ",\n (SELECT value FROM points WHERE trial = t.id AND position = " + std::to_string(i) +
-        ") AS " + column;
+        ") AS " + ColumnName(p);
   }
   for (const char* metric : {"sad_mm2", "rmse_gray", "repose_angle_1_mean_deg",
                              "repose_angle_2_mean_deg", "repose_angle_3_mean_deg"}) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +23,24 @@ enum class TrialKind {
 
 enum class TrialStatus { kRunning, kOk, kFailed };
 
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::TrialKind> {
+  using K = talus::experiments::TrialKind;
+  static constexpr std::array kList{std::pair{"noise", K::kNoise}, std::pair{"design", K::kDesign},
+                                    std::pair{"search", K::kSearch},
+                                    std::pair{"confirm", K::kConfirm}};
+};
+template <>
+struct talus::base::Names<talus::experiments::TrialStatus> {
+  using S = talus::experiments::TrialStatus;
+  static constexpr std::array kList{std::pair{"running", S::kRunning}, std::pair{"ok", S::kOk},
+                                    std::pair{"failed", S::kFailed}};
+};
+
+namespace talus::experiments {
+
 // A calibrated parameter.
 struct ParameterRecord {
   std::string name;  // "sliding_friction"
@@ -29,14 +48,34 @@ struct ParameterRecord {
   double high = 0;
   std::string scale;  // "linear" or "log"
   std::string unit;   // of value, low and high; "" if none
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("low", self.low);
+    visit("high", self.high);
+    visit("scale", self.scale);
+    visit("unit", self.unit);
+  }
 };
+
+// "surface_energy_J_per_m2": its name in a table's head.
+std::string ColumnName(const ParameterRecord& parameter);
 
 // One number measured on a trial; `value` is NaN and `undefined` says why where it is not defined.
 struct MetricRecord {
   std::string name;  // with the unit: "sad_mm2", "repose_angle_2_mean_deg"
-  double value = 0;
+  double value = std::numeric_limits<double>::quiet_NaN();
   std::string unit;       // "mm2", "deg", "-"
   std::string undefined;  // empty when the value is
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("value", self.value);
+    visit("unit", self.unit);
+    visit("undefined", self.undefined);
+  }
 };
 
 // What holds for the campaign as a whole. Written once, when it starts.
@@ -56,14 +95,32 @@ struct CampaignRecord {
   std::string frame_json;           // the profile's frame, as imaging::Frame is written
   double nebp_px = 0;               // of the AEHP, equivalent black pixels
   std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
+
+  // All but the images.
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("spec_path", self.spec_path);
+    visit("spec_text", self.spec_text);
+    visit("spec_json", self.spec_json);
+    visit("spec_hash", self.spec_hash);
+    visit("talus_version", self.talus_version);
+    visit("created_utc", self.created_utc);
+    visit("objective", self.objective);
+    visit("parameters", self.parameters);
+    visit("reference", self.reference);
+    visit("frame_json", self.frame_json);
+    visit("nebp_px", self.nebp_px);
+    visit("experimental_noise_floor_mm2", self.noise_mm2);
+  }
 };
 
 // What changes while it runs.
 struct ProgressRecord {
   std::string state = "running";  // running, interrupted, finished
-  std::string stop_reason;        // in words, when it is not running
+  std::string stop_reason{};      // in words, when it is not running
   double elapsed_s = 0;           // time worked on it, all sessions together
-  std::string result_json;        // result.json's text once there is one
+  std::string result_json{};      // result.json's text once there is one
 };
 
 struct TrialRecord {
@@ -91,6 +148,33 @@ struct TrialRecord {
   std::string job;  // the runner's own name for it, such as a cluster's job number
   std::vector<MetricRecord> metrics;
 
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("id", self.id);
+    visit("kind", self.kind);
+    visit("kind_index", self.kind_index);
+    visit("set", self.set);
+    visit("origin", self.origin);
+    visit("objective", self.objective);
+    visit("unit_point", self.unit);
+    visit("values", self.native);
+    visit("seed", self.seed);
+    visit("scale_factor", self.scale_factor);
+    visit("status", self.status);
+    visit("reason", self.reason);
+    visit("attempts", self.attempts);
+    visit("finish_order", self.finish_order);
+    visit("started_utc", self.started_utc);
+    visit("finished_utc", self.finished_utc);
+    visit("duration_s", self.duration_s);
+    visit("cpu_s", self.cpu_s);
+    visit("num_steps", self.num_steps);
+    visit("num_particles", self.num_particles);
+    visit("host", self.host);
+    visit("job", self.job);
+    visit("metrics", self.metrics);
+  }
+
   // The value of a metric; nothing when the trial has none or it is not defined.
   std::optional<double> Metric(std::string_view name) const;
 };
@@ -103,17 +187,3 @@ struct EventRecord {
 };
 
 }  // namespace talus::experiments
-
-template <>
-struct talus::base::Names<talus::experiments::TrialKind> {
-  using K = talus::experiments::TrialKind;
-  static constexpr std::array kList{std::pair{"noise", K::kNoise}, std::pair{"design", K::kDesign},
-                                    std::pair{"search", K::kSearch},
-                                    std::pair{"confirm", K::kConfirm}};
-};
-template <>
-struct talus::base::Names<talus::experiments::TrialStatus> {
-  using S = talus::experiments::TrialStatus;
-  static constexpr std::array kList{std::pair{"running", S::kRunning}, std::pair{"ok", S::kOk},
-                                    std::pair{"failed", S::kFailed}};
-};

@@ -10,12 +10,15 @@ namespace talus::experiments {
 
 struct BudgetOptions {
   int simulations = 60;                // trials of noise and search together, >= 1
+  int min_simulations = 0;             // before the strategy may end the search, >= 0
   std::optional<double> wall_clock{};  // [s], all sessions together, > 0
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("simulations", self.simulations,
           {.doc = "trials for noise and search; the confirmation comes on top; >= 1"});
+    visit("min_simulations", self.min_simulations,
+          {.doc = "so many trials before the strategy may end the search early, >= 0"});
     visit("wall_clock", self.wall_clock,
           {.dimension = base::Dimension::kTime,
            .doc = "no new trial of the search after this time of work, > 0"});

@@ -41,6 +41,8 @@ void FindChanges(const ordered_json& old_value, const ordered_json& new_value,
 
 void BudgetOptions::Validate(base::Problems& problems) const {
   problems.Require(simulations >= 1, "simulations", simulations, "must be at least 1");
+  problems.Require(min_simulations >= 0, "min_simulations", min_simulations,
+                   "must not be negative");
   problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
                    "must be positive");
 }
@@ -76,6 +78,14 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(!parameters->rolling_friction || models.rolling != engine::Rolling::kNone,
                    "parameters.rolling_friction",
                    "has no effect without a rolling model; set models.rolling or leave it out");
+}
+
+CampaignSpec ParseSpecText(const std::string& text) {
+  CampaignSpec spec;
+  base::Problems problems("the journal's spec", {});
+  base::ReadOptions(nlohmann::json::parse(text), spec, {problems, {}});
+  problems.ThrowIfAny();
+  return spec;
 }
 
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {

@@ -89,6 +89,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
 
 // The spec with all its defaults and absolute paths, as JSON that reads back to the same.
 std::string SpecText(const CampaignSpec& spec);
+CampaignSpec ParseSpecText(const std::string& text);
 
 // What is searched.
 optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec);

@@ -1,0 +1,332 @@
+#include "experiments/campaign/campaign.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/campaign/conclude.h"
+#include "experiments/campaign/repair.h"
+#include "experiments/campaign/start.h"
+#include "experiments/simulate/run_log.h"
+#include "imaging/image_file.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr int kMostReruns = 3;        // of a trial that others keep ending
+constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and the clock
+
+// Ended from outside: says nothing of the parameters, and may go better next time.
+bool WasEndedByOthers(const FinishedJob& job) {
+  return job.end == JobEnd::kPreempted || job.end == JobEnd::kNodeFailure ||
+         (job.end == JobEnd::kExit && job.exit_status == base::kExitInterrupted);
+}
+
+// "ended with exit status 1: last lines of its log"
+std::string FailureText(const FinishedJob& job, const std::filesystem::path& folder) {
+  const std::string log = LastLogLines(folder);
+  return job.reason + (log.empty() ? "" : ": " + log);
+}
+
+}  // namespace
+
+Campaign::Campaign(CampaignFolder folder, CampaignLock lock, Journal journal,
+                   const CampaignSpec& spec, CampaignParts parts, Console& console)
+    : folder_(std::move(folder)),
+      lock_(std::move(lock)),
+      journal_(std::move(journal)),
+      spec_(spec),
+      record_(journal_.Campaign()),
+      reference_(ReferenceOf(record_, spec_)),
+      planner_(spec_, reference_),
+      parts_(std::move(parts)),
+      console_(console),
+      start_(Clock::now()),
+      elapsed_before_(journal_.Progress().elapsed_s) {}
+
+double Campaign::Elapsed() const {
+  return elapsed_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+CampaignEnd Campaign::Run(const InterruptGuard& interrupt) {
+  journal_.SetProgress({.elapsed_s = Elapsed()});
+  TellFinished();
+  TakeUpRunning();
+  bool announced = false;
+  while (true) {
+    const Interrupt asked = interrupt.Asked();
+    if (asked == Interrupt::kDrop) {
+      DropRunning();
+      return End(asked);
+    }
+    if (asked == Interrupt::kNone) StartTrials();
+    if (asked == Interrupt::kDrain && !std::exchange(announced, true)) {
+      console_.Line("ends when the " + std::to_string(running_.size()) +
+                    " running trials have ended; press Ctrl-C again to drop them");
+    }
+    if (running_.empty()) return End(asked);
+    ShowStatus();
+    for (const FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
+  }
+}
+
+// Trials become known by their ids, observations are told in the order in which they finished.
+void Campaign::TellFinished() {
+  const std::vector<TrialRecord> trials = journal_.Trials();
+  std::vector<TrialRecord> finished;
+  for (const TrialRecord& trial : trials) {
+    planner_.Started(trial);
+    if (trial.status != TrialStatus::kRunning) finished.push_back(trial);
+  }
+  std::sort(finished.begin(), finished.end(),
+            [](const auto& a, const auto& b) { return a.finish_order < b.finish_order; });
+  for (const TrialRecord& trial : finished) {
+    std::vector<float> field;
+    if (trial.status == TrialStatus::kOk && trial.kind != TrialKind::kConfirm) {
+      if (const auto profile = StoredProfile(journal_, folder_, trial.id)) {
+        field = reference_.Field(*profile);
+      }
+    }
+    planner_.Finished(trial, std::move(field));
+    NoteBest(trial);
+  }
+}
+
+void Campaign::TakeUpRunning() {
+  for (const TrialRecord& trial : journal_.Trials()) {
+    if (trial.status != TrialStatus::kRunning) continue;
+    if (parts_.runner->Adopt(JobOf(trial), trial.job)) {
+      running_[trial.id] = trial;
+    } else {
+      waiting_.push_back(trial);
+    }
+  }
+}
+
+void Campaign::StartTrials() {
+  if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
+    planner_.StopSearch("the time budget of " + DurationText(*spec_.budget.wall_clock) +
+                        " is used");
+  }
+  const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
+  if (room <= 0) return;
+  std::vector<TrialRecord> trials;
+  while (!waiting_.empty() && static_cast<int>(trials.size()) < room) {
+    trials.push_back(waiting_.front());
+    waiting_.pop_front();
+  }
+  for (TrialRecord& trial : planner_.Next(room - static_cast<int>(trials.size()))) {
+    trial.started_utc = UtcNow();
+    journal_.Start(trial);
+    planner_.Started(trial);
+    trials.push_back(std::move(trial));
+  }
+  if (!trials.empty()) Submit(trials);
+}
+
+// A trial whose folder holds its result already, because the process ended before it could be
+// journalled, is not run twice.
+void Campaign::Submit(const std::vector<TrialRecord>& trials) {
+  std::vector<Job> jobs;
+  std::vector<FinishedJob> ended;
+  for (const TrialRecord& trial : trials) {
+    Job job = JobOf(trial);
+    parts_.engine->Prepare(CaseOfTrial(trial), job.folder);
+    KeepTrial(folder_, trial);
+    running_[trial.id] = trial;
+    if (parts_.engine->IsComplete(job.folder)) {
+      ended.push_back({.id = trial.id,
+                       .end = JobEnd::kExit,
+                       .exit_status = 0,
+                       .reason = {},
+                       .duration = std::numeric_limits<double>::quiet_NaN(),
+                       .cpu_time = 0,
+                       .host = {}});
+      continue;
+    }
+    job.command = parts_.engine->Command(job.folder);
+    jobs.push_back(std::move(job));
+  }
+  if (!jobs.empty()) {
+    const std::vector<std::string> names = parts_.runner->Submit(jobs);
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      TrialRecord& trial = running_[jobs[i].id];
+      if (std::exchange(trial.job, names[i]) != names[i]) journal_.Restart(trial);
+    }
+  }
+  for (const FinishedJob& job : ended) HandleEnd(job);
+}
+
+Job Campaign::JobOf(const TrialRecord& trial) const {
+  const auto reruns = reruns_.find(trial.id);
+  return {.id = trial.id,
+          .attempt = trial.attempts + (reruns == reruns_.end() ? 0 : reruns->second),
+          .folder = folder_.trial(trial.id),
+          .command = {},
+          .time_cap = spec_.trial_time_cap};
+}
+
+HeapCase Campaign::CaseOfTrial(const TrialRecord& trial) const {
+  const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(
+      trial.unit.data(), static_cast<Eigen::Index>(trial.unit.size()));
+  const std::vector<double> values = planner_.space().ToNative(point);
+  return CaseOf(spec_,
+                {.values = values,
+                 .seed = static_cast<std::uint64_t>(trial.seed),
+                 .scale_factor = trial.scale_factor},
+                reference_.frame());
+}
+
+void Campaign::HandleEnd(const FinishedJob& job) {
+  const auto found = running_.find(job.id);
+  if (found == running_.end()) return;
+  TrialRecord trial = std::move(found->second);
+  running_.erase(found);
+  trial.duration_s = job.duration;
+  trial.cpu_s = job.cpu_time;
+  trial.host = job.host;
+  if (WasEndedByOthers(job) && RunAgain(trial, job)) return;
+  if (job.ok()) {
+    Collect(trial, job);
+  } else {
+    FailOrRetry(trial, FailureText(job, folder_.trial(trial.id)));
+  }
+}
+
+bool Campaign::RunAgain(TrialRecord& trial, const FinishedJob& job) {
+  if (++reruns_[trial.id] > kMostReruns) return false;
+  journal_.AddEvent("rerun", trial.id, job.reason);
+  console_.Line("trial " + std::to_string(trial.id) + " " + job.reason + "; it is run again");
+  waiting_.push_back(trial);
+  return true;
+}
+
+void Campaign::Collect(TrialRecord& trial, const FinishedJob&) {
+  TrialOutput output;
+  try {
+    output = parts_.engine->Collect(CaseOfTrial(trial), folder_.trial(trial.id));
+    trial.metrics = reference_.Measure(output.profile);
+  } catch (const base::Error& error) {
+    FailOrRetry(trial, error.what());
+    return;
+  }
+  trial.status = TrialStatus::kOk;
+  trial.reason = output.note;
+  trial.num_steps = output.num_steps;
+  trial.num_particles = output.num_particles;
+  Close(trial, &output.profile);
+}
+
+void Campaign::FailOrRetry(TrialRecord& trial, const std::string& reason) {
+  // A full disk is not the parameters' fault; nothing is recorded, and the trial is run again.
+  RequireWritable(folder_.root);
+  if (reason.find("No space left on device") != std::string::npos) {
+    throw base::Error("trial " + std::to_string(trial.id) + ": " + reason);
+  }
+  if (spec_.retry_failed && trial.attempts == 1) {
+    ++trial.attempts;
+    trial.seed = planner_.SeedOf(trial);
+    journal_.Restart(trial);
+    journal_.AddEvent("retry", trial.id, reason);
+    console_.Line("trial " + std::to_string(trial.id) + " failed (" + reason +
+                  "); it is tried again with another seed");
+    waiting_.push_back(trial);
+    return;
+  }
+  trial.status = TrialStatus::kFailed;
+  trial.reason = reason;
+  Close(trial, nullptr);
+}
+
+void Campaign::Close(TrialRecord& trial, const imaging::GrayImage* profile) {
+  trial.finished_utc = UtcNow();
+  journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
+  journal_.SetProgress({.elapsed_s = Elapsed()});
+  planner_.Finished(trial, profile == nullptr ? std::vector<float>() : reference_.Field(*profile));
+  NoteBest(trial);
+  Report(trial);
+}
+
+void Campaign::DropRunning() {
+  for (const auto& [id, trial] : running_) parts_.runner->Cancel(id);
+  const auto until = Clock::now() + std::chrono::seconds(5);
+  std::size_t left = running_.size();
+  while (left > 0 && Clock::now() < until) left -= parts_.runner->Wait(kWaitSeconds).size();
+  running_.clear();
+}
+
+CampaignEnd Campaign::End(Interrupt interrupt) {
+  const bool finished = interrupt == Interrupt::kNone && waiting_.empty();
+  ProgressRecord progress{.state = finished ? "finished" : "interrupted",
+                          .stop_reason = finished ? planner_.stop_reason() : "it was interrupted",
+                          .elapsed_s = Elapsed(),
+                          .result_json = {}};
+  if (finished) {
+    result_ = Conclude(
+        planner_,
+        {.spec = spec_, .campaign = record_, .reference = reference_, .elapsed = Elapsed()});
+    if (result_) progress.result_json = ResultText(*result_);
+    if (result_) base::WriteFileAtomically(folder_.result(), progress.result_json);
+  }
+  journal_.SetProgress(progress);
+  journal_.AddEvent("stop", 0, progress.stop_reason);
+  if (!finished) return CampaignEnd::kInterrupted;
+  if (result_) return CampaignEnd::kFinished;
+  console_.Line("no result: " + planner_.stop_reason());
+  return CampaignEnd::kFailed;
+}
+
+void Campaign::NoteBest(const TrialRecord& trial) {
+  const auto value = reference_.Value(trial);
+  if (trial.status != TrialStatus::kOk || trial.kind == TrialKind::kConfirm || !value) return;
+  if (!best_ || *value < best_->first) best_ = {*value, trial.id};
+}
+
+void Campaign::Report(const TrialRecord& trial) {
+  std::string text =
+      "trial " + std::to_string(trial.id) + " (" + std::string(base::NameOf(trial.kind)) + ")";
+  for (std::size_t i = 0; i < trial.native.size(); ++i) {
+    text += (i == 0 ? " at " : " ") + NumberText4(trial.native[i]);
+  }
+  if (trial.status == TrialStatus::kFailed) {
+    text += " failed: " + trial.reason;
+  } else if (const auto value = reference_.Value(trial)) {
+    text += ": " + NumberText4(*value) + " " + reference_.unit();
+    if (best_ && best_->second == trial.id) text += ", the best so far";
+  } else {
+    text += ": the objective is not defined";
+  }
+  console_.Line(text + ", " + DurationText(trial.duration_s));
+}
+
+void Campaign::ShowStatus() {
+  double seconds = 0;
+  int num_finished = 0;
+  int num_search = 0;
+  for (const TrialRecord& trial : planner_.trials()) {
+    if (trial.kind != TrialKind::kConfirm) ++num_search;
+    if (trial.status == TrialStatus::kRunning || !(trial.duration_s > 0)) continue;
+    seconds += trial.duration_s;
+    ++num_finished;
+  }
+  std::string text = "trial " + std::to_string(num_search) + " of " +
+                     std::to_string(spec_.budget.simulations) + ", " +
+                     std::to_string(running_.size()) + " running";
+  if (best_) {
+    text += ", best " + NumberText4(best_->first) + " " + reference_.unit() + " (trial " +
+            std::to_string(best_->second) + ")";
+  }
+  if (num_finished > 0) {
+    const int to_go = std::max(0, spec_.budget.simulations - num_search) +
+                      spec_.confirm.candidates * spec_.confirm.replicates +
+                      static_cast<int>(running_.size()) / 2;
+    text += ", at most " +
+            DurationText(seconds / num_finished * to_go / std::max(1, parts_.runner->Capacity())) +
+            " left";
+  }
+  console_.Status(text);
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,89 @@
+// The calibration loop: ask → write case → run → measure → journal → tell.
+//
+// The journal is the state. Whatever ends the process, Resume goes on from it; what was running is
+// run again, or collected where it has ended meanwhile.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "experiments/campaign/campaign_folder.h"
+#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/console.h"
+#include "experiments/campaign/interrupt.h"
+#include "experiments/campaign/planner.h"
+#include "experiments/campaign/reference.h"
+#include "experiments/engines/trial_engine.h"
+#include "experiments/journal/journal.h"
+#include "experiments/runners/runner.h"
+#include "experiments/spec/campaign_spec.h"
+
+namespace talus::experiments {
+
+// What a campaign works with, so that tests can put others in their place.
+struct CampaignParts {
+  std::unique_ptr<Runner> runner;
+  std::unique_ptr<TrialEngine> engine;
+};
+
+enum class CampaignEnd { kFinished, kInterrupted, kFailed };
+
+class Campaign {
+ public:
+  // Goes on with the journal in `folder`, whose spec is `spec`; see start.h for how both come to
+  // be.
+  Campaign(CampaignFolder folder, CampaignLock lock, Journal journal, const CampaignSpec& spec,
+           CampaignParts parts, Console& console);
+
+  // Until the budget is used, the strategy says stop, or somebody interrupts. Throws base::Error
+  // when the journal or the folder cannot be written; the running trials are then run again by the
+  // next process.
+  CampaignEnd Run(const InterruptGuard& interrupt);
+
+  const std::optional<CampaignResult>& result() const { return result_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void TellFinished();
+  void TakeUpRunning();
+  void StartTrials();
+  void Submit(const std::vector<TrialRecord>& trials);
+  Job JobOf(const TrialRecord& trial) const;
+  HeapCase CaseOfTrial(const TrialRecord& trial) const;
+  void HandleEnd(const FinishedJob& job);
+  bool RunAgain(TrialRecord& trial, const FinishedJob& job);
+  void Collect(TrialRecord& trial, const FinishedJob& job);
+  void FailOrRetry(TrialRecord& trial, const std::string& reason);
+  void Close(TrialRecord& trial, const imaging::GrayImage* profile);
+  void DropRunning();
+  CampaignEnd End(Interrupt interrupt);
+  void NoteBest(const TrialRecord& trial);
+  void Report(const TrialRecord& trial);
+  void ShowStatus();
+  double Elapsed() const;  // [s], all sessions
+
+  CampaignFolder folder_;
+  CampaignLock lock_;
+  Journal journal_;
+  CampaignSpec spec_;
+  CampaignRecord record_;
+  Reference reference_;
+  Planner planner_;
+  CampaignParts parts_;
+  Console& console_;
+  std::map<std::int64_t, TrialRecord> running_;
+  std::deque<TrialRecord> waiting_;                      // to be run again, when there is room
+  std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
+  std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
+  std::optional<CampaignResult> result_;
+  Clock::time_point start_;
+  double elapsed_before_ = 0;  // [s]
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,81 @@
+#include "experiments/campaign/repair.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_writer.h"
+#include "experiments/campaign/record_json.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr const char* kTrialFile = "trial.json";
+
+template <class Record>
+Record ReadRecord(const std::filesystem::path& path) {
+  return ParseRecord<Record>(base::ReadFile(path), path.string());
+}
+
+std::string IfThere(const std::filesystem::path& path) {
+  return std::filesystem::exists(path) ? base::ReadFile(path) : std::string();
+}
+
+// Moves the journal with its log out of the way, under a name that is free.
+void PutAside(const std::filesystem::path& journal) {
+  int number = 1;
+  const auto aside = [&](const std::string& suffix) {
+    return journal.string() + ".damaged" + std::to_string(number) + suffix;
+  };
+  while (std::filesystem::exists(aside(""))) ++number;
+  for (const char* suffix : {"", "-wal", "-shm"}) {
+    const std::string from = journal.string() + suffix;
+    if (std::filesystem::exists(from)) std::filesystem::rename(from, aside(suffix));
+  }
+}
+
+std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
+  std::vector<TrialRecord> trials;
+  if (!std::filesystem::exists(folder.root / "trials")) return trials;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.root / "trials")) {
+    const std::filesystem::path file = entry.path() / kTrialFile;
+    // A folder without one was being made when the process ended: there is no such trial yet.
+    if (std::filesystem::exists(file)) trials.push_back(ReadRecord<TrialRecord>(file));
+  }
+  std::sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return trials;
+}
+
+}  // namespace
+
+void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record) {
+  base::WriteFileAtomically(folder.aehp(), record.aehp_png);
+  if (!record.aehp_sd_png.empty()) base::WriteFileAtomically(folder.aehp_sd(), record.aehp_sd_png);
+  base::WriteFileAtomically(folder.campaign(), base::ToJson(record).dump(2) + "\n");
+}
+
+void KeepTrial(const CampaignFolder& folder, const TrialRecord& trial) {
+  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile,
+                            base::ToJson(trial).dump(2) + "\n");
+}
+
+Journal RebuildJournal(const CampaignFolder& folder) {
+  auto record = ReadRecord<CampaignRecord>(folder.campaign());
+  record.aehp_png = base::ReadFile(folder.aehp());
+  record.aehp_sd_png = IfThere(folder.aehp_sd());
+  const std::vector<TrialRecord> trials = KeptTrials(folder);
+  PutAside(JournalPath(folder.root));
+  Journal journal = Journal::Create(JournalPath(folder.root), record);
+  for (const TrialRecord& trial : trials) {
+    // After a gap nothing can be what an unbroken run would have made.
+    if (trial.id != journal.CountTrials() + 1) break;
+    journal.Start(trial);
+  }
+  journal.AddEvent("repair", 0,
+                   "the journal was damaged and has been made anew from the trials' folders");
+  return journal;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,164 @@
+#include "experiments/campaign/start.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+#include "experiments/campaign/record_json.h"
+#include "experiments/campaign/repair.h"
+#include "experiments/cli/commands.h"
+#include "imaging/image_file.h"
+
+namespace talus::experiments {
+namespace {
+
+std::vector<ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
+  std::vector<ParameterRecord> records;
+  for (const int i : space.Free()) {
+    const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(i)];
+    records.push_back({.name = p.name,
+                       .low = p.low,
+                       .high = p.high,
+                       .scale = std::string(base::NameOf(p.scale)),
+                       .unit = UnitOf(p.name)});
+  }
+  return records;
+}
+
+CampaignRecord RecordOf(const CampaignSpec& spec, const base::JsonFile& file,
+                        const imaging::Experiment& experiment) {
+  CampaignRecord record;
+  record.name = spec.name;
+  record.spec_path = std::filesystem::absolute(file.path).lexically_normal().string();
+  record.spec_text = base::ReadFile(file.path);
+  record.spec_json = SpecText(spec);
+  record.spec_hash = base::Hex(base::Checksum(record.spec_json));
+  record.talus_version = Version();
+  record.created_utc = UtcNow();
+  record.objective = base::NameOf(spec.objective);
+  record.parameters = ParametersOf(SpaceOf(spec));
+  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
+  if (!experiment.standard_deviation.pixels.empty()) {
+    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
+  }
+  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
+  record.nebp_px = imaging::Nebp(experiment.aehp.image);
+  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
+  for (const imaging::Metric& metric : experiment.metrics) {
+    record.reference.push_back({.name = metric.name,
+                                .value = metric.value.value,
+                                .unit = metric.unit,
+                                .undefined = metric.value.not_defined});
+  }
+  return record;
+}
+
+// The journal, or a new one from what the folder keeps beside it.
+Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
+  const std::filesystem::path path = JournalPath(folder.root);
+  if (!std::filesystem::exists(folder.campaign()) && !std::filesystem::exists(path)) {
+    throw base::ConfigError(folder.root.string() +
+                            ": holds no campaign; `talus calibrate SPEC` begins one");
+  }
+  std::string damage = "is not there";
+  if (std::filesystem::exists(path)) {
+    try {
+      return Journal::Open(path);
+    } catch (const base::Error& error) {
+      damage = error.what();
+    }
+    RequireWritable(folder.root);  // a journal that cannot be written is not damaged
+  }
+  console.Line("the journal " + damage + "; it is made anew from the trials' folders");
+  return RebuildJournal(folder);
+}
+
+// The spec as it is to be from now on; says what has changed where that is not allowed.
+CampaignSpec SpecToGoOnWith(Journal& journal, const ResumeOptions& options) {
+  const CampaignRecord record = journal.Campaign();
+  const bool named = !options.spec.empty();
+  const std::filesystem::path path = named ? options.spec : std::filesystem::path(record.spec_path);
+  if (!named && !std::filesystem::exists(path)) return ParseSpecText(record.spec_json);
+  if (base::ReadFile(path) == record.spec_text) return ParseSpecText(record.spec_json);
+  const CampaignSpec changed = LoadCampaignSpec(path);
+  const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(changed));
+  if (!forbidden.empty()) {
+    std::string message = path.string() +
+                          ": has changed since the campaign began, in what its trials depend on; "
+                          "undo this, or begin a new campaign:";
+    for (const std::string& change : forbidden) message += "\n  " + change;
+    throw base::ConfigError(message);
+  }
+  journal.SetSpec(base::ReadFile(path), SpecText(changed));
+  journal.AddEvent("spec", 0, "changed in budget, workers or other things that may change");
+  return changed;
+}
+
+void AddSimulations(Journal& journal, CampaignSpec& spec, int num_more) {
+  int num_search = 0;
+  for (const TrialRecord& trial : journal.Trials()) num_search += trial.kind != TrialKind::kConfirm;
+  const bool finished = journal.Progress().state == "finished";
+  const int from = finished ? num_search : std::max(num_search, spec.budget.simulations);
+  spec.budget.simulations = from + num_more;
+  spec.budget.min_simulations = spec.budget.simulations;
+  journal.SetSpec(journal.Campaign().spec_text, SpecText(spec));
+  journal.AddEvent("extend", 0, "by " + std::to_string(num_more) + " simulations");
+}
+
+}  // namespace
+
+void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& root) {
+  const base::JsonFile file = base::ReadJsonFile(spec_path);
+  const CampaignSpec spec = ReadCampaignSpec(file);
+  const CampaignFolder folder{std::filesystem::absolute(root)};
+  if (std::filesystem::exists(JournalPath(folder.root))) {
+    throw base::ConfigError(root.string() + ": holds a campaign already; `talus resume " +
+                            root.string() + "` goes on with it, or name another folder with --out");
+  }
+  const CampaignRecord record = RecordOf(spec, file, imaging::MeasureExperiment(spec.experiment));
+  ReferenceOf(record, spec);  // throws where the experiment does not have what is to be met
+  std::error_code error;
+  std::filesystem::create_directories(folder.root, error);
+  if (error) throw base::Error(root.string() + ": cannot be made: " + error.message());
+  const CampaignLock lock(folder.root);
+  KeepCampaign(folder, record);
+  Journal::Create(JournalPath(folder.root), record);
+}
+
+OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptions& options,
+                            Console& console) {
+  const CampaignFolder folder{std::filesystem::absolute(root)};
+  if (!std::filesystem::is_directory(folder.root)) {
+    throw base::ConfigError(root.string() + ": is no folder of a campaign");
+  }
+  CampaignLock lock(folder.root);
+  Journal journal = OpenOrRebuild(folder, console);
+  CampaignSpec spec = SpecToGoOnWith(journal, options);
+  if (options.add_simulations > 0) AddSimulations(journal, spec, options.add_simulations);
+  if (options.objective) spec.objective = *options.objective;
+  return {.folder = folder,
+          .lock = std::move(lock),
+          .journal = std::move(journal),
+          .spec = std::move(spec)};
+}
+
+Reference ReferenceOf(const CampaignRecord& record, const CampaignSpec& spec) {
+  return Reference({.image = imaging::DecodeGrayImage(record.aehp_png, "the journal's AEHP"),
+                    .frame = ParseRecord<imaging::Frame>(record.frame_json, "the journal's frame")},
+                   spec.experiment.metrics, spec.objective);
+}
+
+std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,
+                                                std::int64_t trial) {
+  const std::string png = journal.ProfilePng(trial);
+  try {
+    if (!png.empty()) return imaging::DecodeGrayImage(png, "a profile of the journal");
+    return imaging::ReadGrayImage(folder.trial(trial) / "profile.png");
+  } catch (const base::ConfigError&) {
+    return std::nullopt;  // the trial then counts by its number alone
+  }
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,43 @@
+// How campaigns begin and go on: from a spec to a folder with a journal, and from such a folder to
+// a campaign that runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "experiments/campaign/campaign.h"
+#include "imaging/experiment.h"
+
+namespace talus::experiments {
+
+// Makes the folder and the journal of a new campaign. Nothing is written when the spec or the
+// experiment's images are no good.
+void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder);
+
+struct ResumeOptions {
+  std::filesystem::path spec{};          // a changed spec; empty: the one it began with
+  int add_simulations = 0;               // >= 0
+  std::optional<Objective> objective{};  // searched on with, instead of the spec's
+};
+
+// Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws
+// ConfigError that names what has changed in the spec where that is not allowed.
+struct OpenedCampaign {
+  CampaignFolder folder;
+  CampaignLock lock;
+  Journal journal;
+  CampaignSpec spec;
+};
+OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
+                            Console& console);
+
+// The experiment as the journal keeps it.
+Reference ReferenceOf(const CampaignRecord& record, const CampaignSpec& spec);
+
+// A trial's profile: from the journal, or from its folder if the journal's copy is damaged.
+std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,
+                                                std::int64_t trial);
+
+}  // namespace talus::experiments

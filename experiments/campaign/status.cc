@@ -1,0 +1,109 @@
+#include "experiments/campaign/status.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/console.h"
+#include "experiments/campaign/start.h"
+#include "experiments/simulate/run_log.h"
+
+namespace talus::experiments {
+namespace {
+
+struct Counts {
+  std::array<int, 4> by_kind{};  // as in TrialKind
+  int running = 0;
+  int failed = 0;
+  double seconds = 0;  // of the finished trials
+  int finished = 0;
+
+  explicit Counts(const std::vector<TrialRecord>& trials) {
+    for (const TrialRecord& trial : trials) {
+      ++by_kind[static_cast<std::size_t>(trial.kind)];
+      running += trial.status == TrialStatus::kRunning;
+      failed += trial.status == TrialStatus::kFailed;
+      if (trial.status == TrialStatus::kRunning || !std::isfinite(trial.duration_s)) continue;
+      seconds += trial.duration_s;
+      ++finished;
+    }
+  }
+};
+
+std::string BestLine(const std::vector<TrialRecord>& trials, const CampaignRecord& campaign,
+                     const Reference& reference) {
+  const TrialRecord* best = nullptr;
+  double best_value = 0;
+  for (const TrialRecord& trial : trials) {
+    const auto value = reference.Value(trial);
+    if (trial.kind == TrialKind::kConfirm || !value || (best && *value >= best_value)) continue;
+    best = &trial;
+    best_value = *value;
+  }
+  if (best == nullptr) return "  best so far       no trial has succeeded yet\n";
+  std::string text = "  best so far       " + NumberText4(best_value) + " " + reference.unit() +
+                     ", trial " + std::to_string(best->id) + ":";
+  for (std::size_t i = 0; i < best->native.size(); ++i) {
+    text += (i == 0 ? " " : ", ") + campaign.parameters[i].name + " " +
+            NumberText4(best->native[i]) +
+            (campaign.parameters[i].unit.empty() ? "" : " " + campaign.parameters[i].unit);
+  }
+  return text + "\n";
+}
+
+std::string FailureLines(const std::vector<TrialRecord>& trials) {
+  std::map<std::string, int> reasons;
+  for (const TrialRecord& trial : trials) {
+    if (trial.status == TrialStatus::kFailed) ++reasons[trial.reason];
+  }
+  std::string text;
+  for (const auto& [reason, count] : reasons) {
+    text += "    " + std::to_string(count) + " × " + reason + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string StatusText(const std::filesystem::path& root) {
+  const CampaignFolder folder{root};
+  Journal journal = Journal::OpenReadOnly(JournalPath(folder.root));
+  const CampaignRecord campaign = journal.Campaign();
+  const ProgressRecord progress = journal.Progress();
+  const std::vector<TrialRecord> trials = journal.Trials();
+  const CampaignSpec spec = ParseSpecText(campaign.spec_json);
+  const Reference reference = ReferenceOf(campaign, spec);
+  const Counts counts(trials);
+  const bool alive = IsWorkedOn(folder.root);
+
+  std::string state = progress.state;
+  if (state == "running" && !alive) state = "ended without a word; `talus resume` goes on";
+  const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
+  std::string text = campaign.name + ": " + state + "\n";
+  if (!progress.stop_reason.empty()) text += "  because           " + progress.stop_reason + "\n";
+  text += "  trials            " + std::to_string(searched) + " of " +
+          std::to_string(spec.budget.simulations) + " (" + std::to_string(counts.by_kind[0]) +
+          " for the noise, " + std::to_string(counts.by_kind[1]) + " of the design, " +
+          std::to_string(counts.by_kind[2]) + " of the search), " +
+          std::to_string(counts.by_kind[3]) + " to confirm\n";
+  text += "  now               " + std::to_string(counts.running) +
+          (alive ? " running\n" : " to be run again\n");
+  text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
+  text += BestLine(trials, campaign, reference);
+  if (campaign.noise_mm2) {
+    text += "  noise floor       " + NumberText4(*campaign.noise_mm2) + " mm² (experiment)\n";
+  }
+  if (counts.finished > 0) {
+    text += "  a trial takes     " + DurationText(counts.seconds / counts.finished) + "\n";
+  }
+  text += "  worked on for     " + DurationText(progress.elapsed_s) + "\n";
+  if (!progress.result_json.empty())
+    text += "\n" + ResultSummary(ParseResult(progress.result_json));
+  return text;
+}
+
+}  // namespace talus::experiments
