@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
 namespace talus::optimizer {
 namespace {
@@ -11,6 +11,31 @@ double Median(Eigen::VectorXd values) {
   const auto middle = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + middle, values.end());
   return values[middle];
+}
+
+// The largest of 8, 11, 16, 23, 32, … (factors of √2) up to n; n itself below 8.
+int MilestoneBefore(int n) {
+  if (n < 8) return n;
+  const double steps = std::floor(2 * std::log2(n / 8.0) + 1e-9);
+  const int size = static_cast<int>(std::lround(8 * std::exp2(steps / 2)));
+  return std::min(size, n);
+}
+
+ValueTransform TransformOf(const Eigen::VectorXd& values, double delta_share) {
+  const double least = values.minCoeff();
+  return {.least = least, .delta = delta_share * (Median(values) - least)};
+}
+
+surrogate::GaussianProcessOptions ProcessOptions(bool deterministic, std::uint64_t seed) {
+  return {.trend = surrogate::Trend::kQuadratic, .deterministic = deterministic, .seed = seed};
+}
+
+surrogate::GaussianProcess FitTransformed(const Eigen::MatrixXd& points,
+                                          const Eigen::VectorXd& values,
+                                          const ValueTransform& transform,
+                                          const surrogate::GaussianProcessOptions& options) {
+  return surrogate::GaussianProcess::Fit(
+      points, values.unaryExpr([&](double v) { return transform.Forward(v); }), options);
 }
 
 }  // namespace
@@ -25,30 +50,38 @@ double ValueTransform::BackwardSlope(double transformed) const {
   return delta > 0 ? std::exp(transformed) : 1;
 }
 
-ScalarFit FitScalar(const History& history, const ScalarModelOptions& options) {
-  const surrogate::GaussianProcessOptions process_options{.trend = surrogate::Trend::kQuadratic,
-                                                          .deterministic = options.deterministic,
-                                                          .seed = options.seed};
-  ScalarFit best{{},
-                 surrogate::GaussianProcess::Fit(history.points, history.values, process_options)};
-  if (!options.deterministic) return best;
-  const double least = history.values.minCoeff();
-  const double spread = Median(history.values) - least;
-  if (!(spread > 0)) return best;
-  double best_score = best.process.LogPosterior();
-  for (const double fraction : {1.0, 0.1, 0.01}) {
-    const ValueTransform transform{.least = least, .delta = fraction * spread};
-    const Eigen::VectorXd values =
-        history.values.unaryExpr([&](double v) { return transform.Forward(v); });
-    auto process = surrogate::GaussianProcess::Fit(history.points, values, process_options);
-    // dt/dv = 1 / (v - least + δ), so ln|dt/dv| = -t.
-    const double score = process.LogPosterior() - values.sum();
-    if (score > best_score) {
-      best_score = score;
-      best = {transform, std::move(process)};
+ScalarFit ScalarFitter::Fit(const History& history, bool deterministic) {
+  const int size = MilestoneBefore(history.size());
+  if (milestone_.num_evaluations != size || milestone_.deterministic != deterministic) {
+    ReachMilestone(history, size, deterministic);
+  }
+  const ValueTransform transform = TransformOf(history.values, milestone_.delta_share);
+  surrogate::GaussianProcessOptions options = ProcessOptions(deterministic, seed_);
+  options.start = milestone_.hyper;
+  options.num_trial_starts = 1;
+  options.num_starts = 1;
+  return {transform, FitTransformed(history.points, history.values, transform, options)};
+}
+
+void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, bool deterministic) {
+  const Eigen::MatrixXd points = history.points.topRows(num_evaluations);
+  const Eigen::VectorXd values = history.values.head(num_evaluations);
+  milestone_ = {.num_evaluations = num_evaluations, .deterministic = deterministic};
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double share : {0.0, 1.0, 0.1, 0.01}) {
+    if (share > 0 && !deterministic) break;
+    const ValueTransform transform = TransformOf(values, share);
+    if (share > 0 && transform.delta == 0) break;  // constant values
+    const auto process =
+        FitTransformed(points, values, transform, ProcessOptions(deterministic, seed_));
+    // The density of the values, not of their transforms: ln|dt/dv| = -t.
+    const double jacobian = share > 0 ? -process.values().sum() : 0;
+    if (process.LogPosterior() + jacobian > best) {
+      best = process.LogPosterior() + jacobian;
+      milestone_.delta_share = share;
+      milestone_.hyper = process.state().hyper;
     }
   }
-  return best;
 }
 
 Moments ScalarModel::Predict(const Eigen::MatrixXd& points) const {

@@ -25,18 +25,35 @@ struct ValueTransform {
   double BackwardSlope(double transformed) const;  // dv / dt
 };
 
-struct ScalarModelOptions {
-  bool deterministic = false;
-  std::uint64_t seed = 1;
-};
-
 // Fitted hyper-parameters and the transform they hold for.
 struct ScalarFit {
   ValueTransform transform;
   surrogate::GaussianProcess process;
 };
 
-ScalarFit FitScalar(const History& history, const ScalarModelOptions& options);
+// Fits a growing history. The thorough fit, from many starts and over all transforms, is made of
+// the first 8, 11, 16, 23, … evaluations, and later ones start from its result. So a fit is a
+// function of the history alone, not of the fits asked for before, and yet most of them are cheap.
+class ScalarFitter {
+ public:
+  explicit ScalarFitter(std::uint64_t seed) : seed_(seed) {}
+
+  // At least one evaluation.
+  ScalarFit Fit(const History& history, bool deterministic);
+
+ private:
+  struct Milestone {
+    int num_evaluations = 0;  // 0: none yet
+    bool deterministic = false;
+    double delta_share = 0;  // ValueTransform::delta / (median - least)
+    surrogate::Hyperparameters hyper = {};
+  };
+
+  void ReachMilestone(const History& history, int num_evaluations, bool deterministic);
+
+  std::uint64_t seed_;
+  Milestone milestone_;
+};
 
 // In units of the objective: the mean is transformed back, the standard deviation to first order.
 class ScalarModel : public ObjectiveModel {

@@ -53,7 +53,7 @@ Eigen::VectorXd MostFeasible(const Domain& domain, const Feasibility& feasibilit
 }  // namespace
 
 ScalarStrategy::ScalarStrategy(Domain domain, const ScalarOptions& options)
-    : domain_(std::move(domain)), options_(options) {
+    : domain_(std::move(domain)), options_(options), fitter_(options.seed) {
   const int dimension = domain_.num_parameters;
   const int size = options.num_initial > 0 ? options.num_initial : 2 * dimension + 3;
   design_ = domain_.guesses;
@@ -160,7 +160,7 @@ Proposal ScalarStrategy::NotByAccident(const Eigen::VectorXd& point, const Point
 
 const ScalarFit& ScalarStrategy::Fit() {
   if (!fit_) {
-    fit_ = FitScalar(history_, {.deterministic = repeats_.deterministic, .seed = options_.seed});
+    fit_ = fitter_.Fit(history_, repeats_.deterministic);
   }
   return *fit_;
 }

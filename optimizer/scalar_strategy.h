@@ -60,6 +60,7 @@ class ScalarStrategy : public Strategy {
   History history_;
   Repeats repeats_;
   Feasibility feasibility_;
+  ScalarFitter fitter_;
   std::optional<ScalarFit> fit_;
 };
 

@@ -30,13 +30,15 @@ void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) 
 
 std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& task,
                                const HyperLayout& layout, const GaussianProcessOptions& options) {
-  std::vector<Eigen::VectorXd> thetas{PriorMedian(options.priors, layout)};
+  const Eigen::VectorXd median = PriorMedian(options.priors, layout);
+  std::vector<Eigen::VectorXd> thetas;
   if (options.start) thetas.push_back(layout.Pack(*options.start));
+  if (thetas.empty() || options.num_trial_starts > 1) thetas.push_back(median);
   const Eigen::VectorXd sd = PriorSd(options.priors, layout);
   for (int i = 0; static_cast<int>(thetas.size()) < options.num_trial_starts; ++i) {
     base::Random random(options.seed, base::Stream("hyper-parameter starts"),
                         static_cast<std::uint64_t>(i));
-    Eigen::VectorXd theta = thetas[0];
+    Eigen::VectorXd theta = median;
     for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += sd[k] * random.Normal();
     thetas.push_back(theta);
   }
