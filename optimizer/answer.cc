@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/random.h"
@@ -20,12 +19,12 @@ Eigen::MatrixXd Inside(const Domain& domain, const Eigen::MatrixXd& points) {
   return points(kept, Eigen::all);
 }
 
-// Places round `point` at distances from 3e-4 to 0.3, since the minimum may be known that well.
+// Places round `point` at distances from 3e-5 to 0.3, since the minimum may be known that well.
 Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t seed) {
   base::Random random(seed, base::Stream("around the answer"));
   Eigen::MatrixXd places(count, point.size());
   for (int i = 0; i < count; ++i) {
-    const double radius = 0.3 * std::pow(10.0, -3 * random.Uniform());
+    const double radius = 0.3 * std::pow(10.0, -4 * random.Uniform());
     for (Eigen::Index k = 0; k < point.size(); ++k) {
       places(i, k) = std::clamp(point[k] + radius * random.Normal(), 0.0, 1.0);
     }
@@ -39,22 +38,57 @@ Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom)
   return both;
 }
 
-// The `count` places most likely to lie below the answer's value.
-Eigen::MatrixXd MostPlausible(const ObjectiveModel& model, const Eigen::MatrixXd& places,
-                              double lowest, int count) {
+struct Box {
+  Eigen::VectorXd low;
+  Eigen::VectorXd high;
+};
+
+// The box of some points, a fifth wider on each side, within the cube.
+Box Wrap(const Eigen::MatrixXd& points) {
+  const Eigen::VectorXd low = points.colwise().minCoeff();
+  const Eigen::VectorXd high = points.colwise().maxCoeff();
+  const Eigen::VectorXd margin = (0.2 * (high - low)).cwiseMax(1e-7);
+  return {(low - margin).cwiseMax(0.0), (high + margin).cwiseMin(1.0)};
+}
+
+Eigen::MatrixXd LatticeIn(const Box& box, const AnswerOptions& options) {
+  const Eigen::MatrixXd unit =
+      Lattice(options.num_places, static_cast<int>(box.low.size()), options.seed + 1);
+  return (unit * (box.high - box.low).asDiagonal()).rowwise() + box.low.transpose();
+}
+
+// At most `count` rows, the first and then evenly through all of them.
+Eigen::MatrixXd FewOf(const Eigen::MatrixXd& points, Eigen::Index count) {
+  if (points.rows() <= count) return points;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < count; ++i) kept.push_back(i * points.rows() / count);
+  return points(kept, Eigen::all);
+}
+
+// Rows of `places` where the minimum may be: within three posterior standard deviations of its
+// value.
+Eigen::MatrixXd Plausible(const ObjectiveModel& model, const Eigen::MatrixXd& places,
+                          double lowest) {
   const Moments moments = model.Predict(places);
-  std::vector<double> distance(static_cast<std::size_t>(places.rows()));
+  std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
-    distance[static_cast<std::size_t>(i)] =
-        (moments.mean[i] - lowest) / std::max(moments.sd[i], 1e-300);
+    if (moments.mean[i] - 3 * moments.sd[i] <= lowest) kept.push_back(i);
   }
-  std::vector<Eigen::Index> order(distance.size());
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return distance[static_cast<std::size_t>(a)] < distance[static_cast<std::size_t>(b)];
-  });
-  if (static_cast<int>(order.size()) > count) order.resize(static_cast<std::size_t>(count));
-  return places(order, Eigen::all);
+  return places(kept, Eigen::all);
+}
+
+// Where draws are minimised: the answer, half the places even over the box of all plausible ones,
+// and half as they come, which are dense near the answer. Not the most plausible ones: those all
+// lie close to the answer, and every credible range would be narrow.
+Eigen::MatrixXd DrawPlaces(const ObjectiveModel& model, const Domain& domain,
+                           const Eigen::MatrixXd& places, const Answer& answer,
+                           const AnswerOptions& options) {
+  const Eigen::MatrixXd plausible =
+      Stack(answer.point.transpose(), Plausible(model, places, answer.predicted_value));
+  const Eigen::MatrixXd even =
+      Plausible(model, Inside(domain, LatticeIn(Wrap(plausible), options)), answer.predicted_value);
+  const Eigen::Index half = options.num_draw_places / 2;
+  return Stack(FewOf(plausible, half), FewOf(even, half));
 }
 
 // One minimiser of each posterior draw, a row each.
@@ -111,19 +145,6 @@ Eigen::MatrixXd Below(const ObjectiveModel& model, const Eigen::MatrixXd& places
   return places(kept, Eigen::all);
 }
 
-struct Box {
-  Eigen::VectorXd low;
-  Eigen::VectorXd high;
-};
-
-// The box of some points, a fifth wider on each side, within the cube.
-Box Wrap(const Eigen::MatrixXd& points) {
-  const Eigen::VectorXd low = points.colwise().minCoeff();
-  const Eigen::VectorXd high = points.colwise().maxCoeff();
-  const Eigen::VectorXd margin = (0.2 * (high - low)).cwiseMax(1e-6);
-  return {(low - margin).cwiseMax(0.0), (high + margin).cwiseMin(1.0)};
-}
-
 // A few of the points, each the farthest from those before; the first is farthest from `point`.
 std::vector<Eigen::VectorXd> Spread(const Eigen::MatrixXd& points, const Eigen::VectorXd& point,
                                     int count) {
@@ -147,12 +168,9 @@ void DescribeTies(const ObjectiveModel& model, const Domain& domain, const Eigen
   const double level = answer.predicted_value + tolerance;
   const Eigen::MatrixXd tied = Stack(Below(model, places, level), answer.point.transpose());
   const Box box = Wrap(tied);
-  const Eigen::VectorXd size = box.high - box.low;
-  const int count = options.num_places;
-  Eigen::MatrixXd sample = Lattice(count, domain.num_parameters, options.seed + 1);
-  sample = (sample * size.asDiagonal()).rowwise() + box.low.transpose();
-  const Eigen::MatrixXd inside = Below(model, Inside(domain, sample), level);
-  answer.tied_volume = size.prod() * static_cast<double>(inside.rows()) / count;
+  const Eigen::MatrixXd inside = Below(model, Inside(domain, LatticeIn(box, options)), level);
+  answer.tied_volume =
+      (box.high - box.low).prod() * static_cast<double>(inside.rows()) / options.num_places;
   answer.tied = Spread(inside, answer.point, kNumTied);
 }
 
@@ -180,10 +198,8 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
   const Eigen::MatrixXd places =
       Inside(domain, Stack(Lattice(options.num_places, domain.num_parameters, options.seed),
                            Around(point, options.num_places / 2, options.seed)));
-  const Eigen::MatrixXd draw_places =
-      Stack(point.transpose(),
-            MostPlausible(model, places, answer.predicted_value, options.num_draw_places - 1));
-  const Eigen::MatrixXd minimisers = DrawMinimisers(model, draw_places, options);
+  const Eigen::MatrixXd minimisers =
+      DrawMinimisers(model, DrawPlaces(model, domain, places, answer, options), options);
   answer.credible = CredibleRanges(minimisers, point, options.confidence);
   answer.correlation = Correlation(minimisers);
   DescribeTies(model, domain, places, options, answer);

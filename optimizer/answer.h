@@ -15,7 +15,7 @@ namespace talus::optimizer {
 
 struct AnswerOptions {
   int num_places = 4000;      // where the model is asked over the cube, > 0
-  int num_draw_places = 400;  // the most plausible of them, at which draws are minimised, > 0
+  int num_draw_places = 400;  // plausible ones, at which draws are minimised, > 1
   int num_draws = 400;        // posterior draws, > 1
   int num_sobol = 512;        // base sample of the Sobol indices, > 1
   double confidence = 0.9;    // of the credible ranges, in (0, 1)

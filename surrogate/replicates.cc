@@ -6,7 +6,7 @@ Eigen::Index AddTo(PooledData& data, const Eigen::VectorXd& point, double value)
   ++data.num_values;
   const Eigen::Index size = data.values.size();
   for (Eigen::Index i = 0; i < size; ++i) {
-    if (data.points.col(i) != point) continue;
+    if ((data.points.col(i) - point).lpNorm<Eigen::Infinity>() > kSamePlace) continue;
     const double count = data.counts[i] + 1;
     const double difference = value - data.values[i];
     data.values[i] += difference / count;

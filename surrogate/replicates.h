@@ -16,7 +16,11 @@ struct PooledData {
   int num_values = 0;      // evaluations before pooling
 };
 
-// `points` has one evaluation a row. Points are the same when all coordinates are equal.
+// Points nearer than this in every coordinate are the same: rounding on the way through native
+// values and back must not hide a replicate.
+inline constexpr double kSamePlace = 1e-9;
+
+// `points` has one evaluation a row.
 PooledData Pool(const Eigen::MatrixXd& points, const Eigen::VectorXd& values);
 
 // Adds one evaluation; returns the column it went to.

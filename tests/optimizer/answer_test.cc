@@ -1,0 +1,129 @@
+#include "optimizer/answer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optimizer/lattice.h"
+#include "optimizer/scalar_model.h"
+#include "optimizer/sobol_indices.h"
+
+namespace talus::optimizer {
+namespace {
+
+// f = |x - m|² with an uncertainty of the minimiser that is known: draws are |x - m - e|² with
+// e ~ N(0, sd²) in each coordinate.
+class KnownBowl : public ObjectiveModel {
+ public:
+  KnownBowl(Eigen::VectorXd minimum, Eigen::VectorXd sd, double noise)
+      : minimum_(std::move(minimum)), sd_(std::move(sd)), noise_(noise) {}
+
+  int num_parameters() const override { return static_cast<int>(minimum_.size()); }
+  Moments Predict(const Eigen::MatrixXd& points) const override {
+    const Eigen::VectorXd mean = (points.rowwise() - minimum_.transpose()).rowwise().squaredNorm();
+    return {mean, Eigen::VectorXd::Constant(points.rows(), 0.01)};
+  }
+  Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
+                       base::Random random) const override {
+    Eigen::MatrixXd draws(num_draws, points.rows());
+    for (int i = 0; i < num_draws; ++i) {
+      Eigen::VectorXd at = minimum_;
+      for (Eigen::Index k = 0; k < at.size(); ++k) at[k] += sd_[k] * random.Normal();
+      draws.row(i) = (points.rowwise() - at.transpose()).rowwise().squaredNorm().transpose();
+    }
+    return draws;
+  }
+  double NoiseSd(const Eigen::VectorXd&) const override { return noise_; }
+
+ private:
+  Eigen::VectorXd minimum_;
+  Eigen::VectorXd sd_;
+  double noise_;
+};
+
+const Eigen::Vector2d kMinimum(0.4, 0.55);
+
+// 90 % of a normal lies within 1.645 sd. 400 draws give a quantile to 0.1 sd, and minimisers fall
+// on 400 places, which costs about as much again.
+TEST(Answer, CredibleRangesAreThoseOfTheMinimiser) {
+  const KnownBowl model(kMinimum, Eigen::Vector2d(0.05, 0.02), 0);
+  const Answer answer = DescribeMinimum(model, {.num_parameters = 2}, kMinimum, {});
+  EXPECT_NEAR(answer.credible[0].low, 0.4 - 1.645 * 0.05, 0.015);
+  EXPECT_NEAR(answer.credible[0].high, 0.4 + 1.645 * 0.05, 0.015);
+  EXPECT_NEAR(answer.credible[1].low, 0.55 - 1.645 * 0.02, 0.01);
+  EXPECT_NEAR(answer.credible[1].high, 0.55 + 1.645 * 0.02, 0.01);
+  EXPECT_NEAR(answer.correlation(0, 1), 0, 0.2);  // 400 draws: 4 standard errors
+  EXPECT_EQ(answer.correlation(1, 1), 1);
+}
+
+// Ties: |x - m|² <= n, a disc of area π n. A lattice of 4000 counts area to about 1 %.
+TEST(Answer, TiedVolumeIsTheAreaWithinTheNoiseHoweverSmall) {
+  for (const double noise : {0.04, 1e-4, 1e-8}) {
+    const KnownBowl model(kMinimum, Eigen::Vector2d(0.01, 0.01), noise);
+    const Answer answer = DescribeMinimum(model, {.num_parameters = 2}, kMinimum, {});
+    EXPECT_NEAR(answer.tied_volume / (M_PI * noise), 1, 0.1) << noise;
+    ASSERT_FALSE(answer.tied.empty());
+    for (const Eigen::VectorXd& point : answer.tied) {
+      EXPECT_LE((point - kMinimum).squaredNorm(), noise);
+    }
+    // The first tied point is the farthest: nearly on the rim.
+    EXPECT_GT((answer.tied[0] - kMinimum).norm(), 0.8 * std::sqrt(noise));
+  }
+}
+
+TEST(Answer, WarnsOfBoundsAndKeepsToTheDomain) {
+  const Eigen::Vector2d corner(0.0, 0.999);
+  const KnownBowl model(corner, Eigen::Vector2d(0.05, 0.05), 0.01);
+  const Domain domain{.num_parameters = 2,
+                      .feasible = [](const Eigen::VectorXd& x) { return x[0] <= 0.05; }};
+  const Answer answer = DescribeMinimum(model, domain, corner, {});
+  ASSERT_EQ(answer.warnings.size(), 2u);
+  EXPECT_EQ(answer.warnings[0], "parameter 0 lies on its lower bound");
+  EXPECT_EQ(answer.warnings[1], "parameter 1 lies on its upper bound");
+  for (const Eigen::VectorXd& point : answer.tied) EXPECT_LE(point[0], 0.05);
+  EXPECT_LE(answer.credible[0].high, 0.05);
+}
+
+// f = x + 2 y + 3 x z over the cube, worked out by hand: V_x = (1 + 3/2)²/12, V_y = 4/12,
+// V_z = (3/2)²/12, V_xz = 9/144. The lattice of 512 integrates to about 1 %.
+TEST(SobolIndices, EqualThoseOfAPolynomial) {
+  const SobolIndices indices = EstimateSobolIndices(
+      [](const Eigen::MatrixXd& p) -> Eigen::VectorXd {
+        return p.col(0).array() + 2 * p.col(1).array() + 3 * p.col(0).array() * p.col(2).array();
+      },
+      {.dimension = 3, .num_base = 2048});
+  const double x = 6.25 / 12;
+  const double y = 4.0 / 12;
+  const double z = 2.25 / 12;
+  const double xz = 9.0 / 144;
+  const double all = x + y + z + xz;
+  EXPECT_NEAR(indices.first[0], x / all, 0.03);
+  EXPECT_NEAR(indices.first[1], y / all, 0.03);
+  EXPECT_NEAR(indices.first[2], z / all, 0.03);
+  EXPECT_NEAR(indices.total[0], (x + xz) / all, 0.03);
+  EXPECT_NEAR(indices.total[1], y / all, 0.03);
+  EXPECT_NEAR(indices.total[2], (z + xz) / all, 0.03);
+}
+
+TEST(SobolIndices, AConstantDependsOnNothing) {
+  const SobolIndices indices = EstimateSobolIndices(
+      [](const Eigen::MatrixXd& p) { return Eigen::VectorXd::Constant(p.rows(), 3); },
+      {.dimension = 2});
+  EXPECT_EQ(indices.total, (std::vector<double>{0, 0}));
+}
+
+// The default gradient of a model is by differences: against the process's own, analytic one.
+TEST(ObjectiveModel, DifferencesAgreeWithTheAnalyticGradient) {
+  const Eigen::MatrixXd points = Lattice(20, 3, 1);
+  const Eigen::VectorXd values = (points * Eigen::Vector3d(2, 3, 4)).array().sin();
+  const auto process = surrogate::GaussianProcess::Fit(points, values, {});
+  const TransformedModel model(process);
+  const Eigen::Vector3d x(0.3, 0.8, 0.5);
+  const MomentsGradient analytic = model.PredictWithGradient(x);
+  const MomentsGradient differences = model.ObjectiveModel::PredictWithGradient(x);
+  EXPECT_LT((analytic.mean_slope - differences.mean_slope).norm(), 1e-5);
+  EXPECT_LT((analytic.sd_slope - differences.sd_slope).norm(), 1e-5);
+}
+
+}  // namespace
+}  // namespace talus::optimizer
