@@ -131,14 +131,46 @@ TALUS_INLINE void WallPart(const StepView& step, const ChunkView& chunk,
                    chunk.begin);
 }
 
+// Asks for what the sweep will come to soon. A chunk's pairs reach `window` particles beyond their
+// first one, so the rows come up one after the other, as do the blocks.
+class Ahead {
+ public:
+  TALUS_INLINE Ahead(const StepView& step, const ChunkView& chunk)
+      : step_(step), chunk_(chunk), next_row_(chunk.begin) {}
+
+  TALUS_INLINE void Block(const PairBlock* block) const {
+    const auto* line = reinterpret_cast<const char*>(block);
+    for (std::size_t at = 0; at < sizeof(PairBlock); at += 64) _mm_prefetch(line + at, _MM_HINT_T0);
+  }
+  TALUS_INLINE void Rows(std::int64_t first) {
+    const std::int64_t wanted = first + (chunk_.window_end - chunk_.end) + kRowsAhead;
+    const std::int64_t last = wanted < chunk_.window_end ? wanted : chunk_.window_end;
+    for (; next_row_ < last; ++next_row_) {
+      _mm_prefetch(reinterpret_cast<const char*>(step_.motion + 8 * next_row_), _MM_HINT_T0);
+      _mm_prefetch(reinterpret_cast<const char*>(step_.spin + 4 * next_row_), _MM_HINT_T0);
+      _mm_prefetch(reinterpret_cast<const char*>(chunk_.forces + 8 * (next_row_ - chunk_.begin)),
+                   _MM_HINT_T0);
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kRowsAhead = 16;
+  const StepView& step_;
+  const ChunkView& chunk_;
+  std::int64_t next_row_;
+};
+
 template <class NormalLaw, class RollingLaw>
 void Forces(const StepView& step, const ChunkView& chunk) {
+  Ahead ahead(step, chunk);
   for (std::int64_t r = 0; r < chunk.num_runs; ++r) {
     const Run run = chunk.runs[r];
     const PairConstants constants = step.constants[run.constants];
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;
+      ahead.Block(chunk.blocks + at + 3);
+      ahead.Rows(chunk.blocks[at].first[0]);
       for (int lane = 0; lane < kBlock; lane += Lanes::kWidth) {
         const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
         const Part part{chunk.blocks[at], chunk.touching[at], lane, Lanes::Iota() < Lanes(left)};
