@@ -44,8 +44,8 @@ using WallShape = std::variant<Plane, Disc, OpenCylinder, SolidCylinder>;
 
 // From `time` on, until the next entry, the wall moves at `velocity`; at rest before the first.
 struct MotionStep {
-  double time = 0;  // [s]
-  Vec3 velocity;    // [m/s]
+  double time = 0;     // [s]
+  Vec3 velocity = {};  // [m/s]
 };
 
 struct Wall {

@@ -1,0 +1,139 @@
+// Scenes that make no sense are refused with every problem, and runs that blow up say where.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/engine/cloud.h"
+
+namespace talus::engine {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+template <class Action>
+std::string ErrorOf(Action&& action) {
+  try {
+    action();
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+std::string SceneError(const Scene& scene) {
+  return ErrorOf([&] { Simulation simulation(scene); });
+}
+
+Scene Sound() {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.gravity = {0, 0, -9.81};
+  scene.walls = {testing::Floor()};
+  scene.particles = testing::Cloud({.per_side = 2});
+  return scene;
+}
+
+TEST(Scene, ReportsEveryProblemAtOnce) {
+  Scene scene = Sound();
+  EXPECT_EQ(SceneError(scene), "");
+  scene.materials[0].poisson_ratio = 0.7;
+  scene.materials[0].density = NAN;
+  scene.particles[1].radius = -1;
+  scene.particles[2].position.x = INFINITY;
+  scene.particles[3].id = scene.particles[4].id;
+  scene.particles[5].material = 3;
+  scene.walls.push_back({.name = "tube",
+                         .shape = OpenCylinder{.axis = {0, 0, 0}, .radius = 0, .length = 1},
+                         .material = 9});
+  scene.walls.push_back({.name = "m", .shape = Plane{}, .motion = {{.time = 1}, {.time = 1}}});
+  scene.rayleigh_fraction = 0.5;
+  scene.models.adhesion_cutoff = 1;
+  EXPECT_THAT(
+      SceneError(scene),
+      AllOf(HasSubstr("materials[0].poisson_ratio"), HasSubstr("materials[0].density: is nan"),
+            HasSubstr("particles[1].radius: is -1"), HasSubstr("particles[2].position"),
+            HasSubstr("particles[4].id: is given twice"), HasSubstr("particles[5].material"),
+            HasSubstr("walls[1].shape"), HasSubstr("walls[1].shape.radius: is 0"),
+            HasSubstr("walls[1].material")));
+  EXPECT_THAT(SceneError(scene),
+              AllOf(HasSubstr("walls[2].motion[1].time"), HasSubstr("rayleigh_fraction: is 0.5"),
+                    HasSubstr("models.adhesion_cutoff: is 1")));
+}
+
+TEST(Scene, OverlappingAndEscapedSpheresAreNamed) {
+  Scene scene = Sound();
+  scene.particles[3].position = scene.particles[2].position + Vec3{1e-4, 0, 0};
+  scene.particles[5].position.z = -1;
+  EXPECT_THAT(SceneError(scene),
+              AllOf(HasSubstr("particles[3].position: overlaps particles[2] by"),
+                    HasSubstr("particles[5].position: stands in the wall \"floor\"")));
+}
+
+TEST(Scene, TheStepHasAnUpperLimit) {
+  Scene scene = Sound();
+  scene.time_step = 1;
+  EXPECT_THAT(SceneError(scene), HasSubstr("time_step: is 1, must not exceed 0.4 Rayleigh times"));
+  scene.time_step = 0;
+  scene.particles[0].velocity = {1e4, 0, 0};
+  EXPECT_THAT(SceneError(scene), HasSubstr("particles[0].velocity"));
+}
+
+TEST(BlowUp, ASphereThatSinksThroughAWallIsNamed) {
+  Scene scene = Sound();
+  scene.materials[0].youngs_modulus = 1;  // cannot carry its own weight
+  scene.particles = {{.id = 42, .radius = 1e-3, .position = {0, 0, 1e-3}}};
+  Simulation simulation(scene);
+  EXPECT_THAT(ErrorOf([&] { simulation.Advance(100000); }),
+              AllOf(HasSubstr("step "), HasSubstr("sphere 42 goes through the wall \"floor\"")));
+}
+
+TEST(BlowUp, AWallThatIsDrivenThroughSpheresIsCaught) {
+  Scene scene = Sound();
+  scene.walls[0].motion = {{.time = 0, .velocity = {0, 0, 60}}};
+  Simulation simulation(scene);
+  EXPECT_THAT(ErrorOf([&] { simulation.Advance(10000); }), HasSubstr("sphere"));
+}
+
+// A rolling dashpot that is far too strong for the step makes the spin diverge, and with it the
+// speed.
+TEST(BlowUp, ADivergingSphereIsNamedWithItsSpeed) {
+  Scene scene = Sound();
+  scene.models.rolling = Rolling::kEpsd;
+  scene.models.full_mobilisation_damping = 1;
+  scene.materials[0].rolling_damping = 1e5;
+  scene.materials[0].rolling_friction = 10;
+  scene.particles = {
+      {.id = 7, .radius = 1e-3, .position = {0, 0, 1e-3 - 1e-6}, .angular_velocity = {1, 0, 0}}};
+  Simulation simulation(scene);
+  EXPECT_THAT(ErrorOf([&] { simulation.Advance(100000); }),
+              AllOf(HasSubstr("step "), HasSubstr("sphere 7 has a ")));
+}
+
+TEST(SetMaterial, RefusesWhatTheStepIsTooLongFor) {
+  Simulation simulation(Sound());
+  Material stiff = testing::Glass();
+  stiff.youngs_modulus *= 100;
+  EXPECT_THAT(ErrorOf([&] { simulation.SetMaterial(0, stiff); }), HasSubstr("Rayleigh"));
+  Material rough = testing::Glass();
+  rough.sliding_friction = 0.9;
+  EXPECT_EQ(ErrorOf([&] { simulation.SetMaterial(0, rough); }), "");
+}
+
+TEST(RemoveIf, TakesOutWhatLeavesAndKeepsTheRest) {
+  Simulation simulation(Sound());
+  simulation.Advance(100);
+  const auto before = simulation.Particles();
+  EXPECT_EQ(simulation.RemoveIf([](const Particle& p) { return p.id % 2 == 1; }), 4);
+  const auto after = simulation.Particles();
+  ASSERT_EQ(after.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(after[i].id, before[2 * i].id);
+    EXPECT_EQ(after[i].position, before[2 * i].position);
+  }
+  simulation.Advance(100);
+  EXPECT_EQ(simulation.RemoveIf([](const Particle&) { return true; }), 4);
+  simulation.Advance(10);  // nothing is left, and that is no problem
+  EXPECT_EQ(simulation.num_particles(), 0);
+}
+
+}  // namespace
+}  // namespace talus::engine

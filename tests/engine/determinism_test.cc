@@ -1,0 +1,157 @@
+// Same input, same bits: whatever the threads, the stops in between, and the restarts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "base/error.h"
+#include "engine/kernel/dispatch.h"
+#include "tests/engine/cloud.h"
+
+namespace talus::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Falls into a tube, part of it leaves over the rim of the base: every kind of contact, sorting,
+// and chunks whose pairs reach into the next one.
+Scene Busy(int per_side) {
+  Material material = testing::Glass();
+  material.surface_energy = 1e-4;
+  Material wall = material;
+  wall.restitution = 0.5;
+  Scene scene = testing::EmptySpace(material);
+  scene.materials.push_back(wall);
+  scene.models = {.adhesion = Adhesion::kDmt, .rolling = Rolling::kEpsd};
+  scene.gravity = {0, 0, -9.81};
+  scene.particles = testing::Cloud({.per_side = per_side, .spacing = 1.95e-3, .speed = 0.3});
+  const double middle = per_side * 0.975e-3;
+  scene.walls = {
+      {.name = "base",
+       .shape = SolidCylinder{.base = {middle, middle, -2e-3}, .radius = middle, .length = 2e-3},
+       .material = 1},
+      {.name = "tube",
+       .shape =
+           OpenCylinder{.base = {middle, middle, 0}, .radius = 1.6 * middle + 1e-3, .length = 0.1},
+       .material = 1,
+       .motion = {{.time = 1e-3, .velocity = {0, 0, 0.5}}}}};
+  return scene;
+}
+
+TEST(Determinism, ThreadsDoNotChangeTheBits) {
+  Scene scene = Busy(16);  // 4096 spheres, four chunks
+  std::string one;
+  for (const int threads : {1, 2, 3}) {
+    scene.num_threads = threads;
+    Simulation simulation(scene);
+    simulation.Advance(200);
+    const std::string bits = simulation.Checkpoint();
+    if (threads == 1) one = bits;
+    EXPECT_TRUE(bits == one) << threads << " threads";
+    EXPECT_GT(simulation.Statistics().num_rebuilds, 2);
+  }
+}
+
+TEST(Determinism, LookingAndStoppingInBetweenChangesNothing) {
+  const Scene scene = Busy(6);
+  Simulation straight(scene), watched(scene);
+  straight.Advance(600);
+  for (int k = 0; k < 60; ++k) {
+    watched.Advance(10);
+    watched.Particles();
+    watched.Contacts();
+    watched.Energies();
+    watched.Checkpoint();
+  }
+  EXPECT_TRUE(straight.Checkpoint() == watched.Checkpoint());
+}
+
+TEST(Checkpoint, ARestartedRunEndsWithTheSameBits) {
+  Simulation straight(Busy(11));  // 1331 spheres
+  straight.Advance(300);
+  const std::string saved = straight.Checkpoint();
+  straight.Advance(400);
+  for (const int threads : {1, 2}) {
+    Simulation restarted = Simulation::Restore(saved, threads);
+    EXPECT_EQ(restarted.step(), 300);
+    EXPECT_TRUE(restarted.Checkpoint() == saved);
+    restarted.Advance(400);
+    EXPECT_TRUE(restarted.Checkpoint() == straight.Checkpoint());
+  }
+  EXPECT_GT(straight.Statistics().num_rebuilds, 3);
+}
+
+std::string RestoreError(const std::string& bytes) {
+  try {
+    Simulation::Restore(bytes);
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Checkpoint, TruncatedDamagedAndForeignTextsAreRefused) {
+  Simulation simulation(Busy(3));
+  const std::string saved = simulation.Checkpoint();
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{7}, std::size_t{40}, saved.size() - 1}) {
+    EXPECT_THAT(RestoreError(saved.substr(0, size)), HasSubstr("truncated")) << size;
+  }
+  for (const std::size_t at : {std::size_t{33}, saved.size() / 2, saved.size() - 1}) {
+    std::string damaged = saved;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    EXPECT_THAT(RestoreError(damaged), HasSubstr("damaged")) << at;
+  }
+  EXPECT_THAT(RestoreError(saved + "x"), HasSubstr("damaged"));
+  EXPECT_THAT(RestoreError(std::string(100, 'x')), HasSubstr("not a checkpoint"));
+  std::string newer = saved;
+  newer[8] = static_cast<char>(newer[8] + 1);
+  EXPECT_THAT(RestoreError(newer), HasSubstr("another version"));
+}
+
+class Kernels : public ::testing::Test {
+ protected:
+  void TearDown() override { unsetenv("TALUS_SIMD"); }
+};
+
+// Instruction sets round differently: a fused multiplication here, a reciprocal root there. One
+// oblique impact of 60 steps keeps the differences near 1e-16 of the speeds, grown by the steps.
+TEST_F(Kernels, AgreeOnACollisionToRoundOff) {
+  for (const Adhesion adhesion : {Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr}) {
+    for (const Rolling rolling :
+         {Rolling::kNone, Rolling::kConstant, Rolling::kViscous, Rolling::kEpsd}) {
+      Scene scene = Busy(1);
+      scene.models = {.adhesion = adhesion, .rolling = rolling};
+      scene.walls.clear();
+      scene.particles = {
+          {.id = 0, .radius = 1e-3, .position = {0, 0, 0.02}, .velocity = {0.2, 0.1, 0}},
+          {.id = 1,
+           .radius = 7e-4,
+           .position = {1.7e-3 - 1e-7, 0, 0.02},
+           .angular_velocity = {9, 9, 9}}};
+      std::vector<std::vector<Particle>> results;
+      for (const KernelTable* kernels : AvailableKernels()) {
+        setenv("TALUS_SIMD", kernels->name, 1);
+        Simulation simulation(scene);
+        simulation.Advance(60);
+        EXPECT_STREQ(simulation.Statistics().kernels, kernels->name);
+        results.push_back(simulation.Particles());
+      }
+      for (const auto& result : results) {
+        for (std::size_t i = 0; i < 2; ++i) {
+          EXPECT_LT(base::Norm(result[i].velocity - results[0][i].velocity), 1e-12);
+          EXPECT_LT(1e-3 * base::Norm(result[i].angular_velocity - results[0][i].angular_velocity),
+                    1e-12);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Kernels, AnUnknownInstructionSetIsAnErrorThatNamesTheKnownOnes) {
+  setenv("TALUS_SIMD", "mmx", 1);
+  EXPECT_THROW(Simulation simulation(Busy(1)), base::ConfigError);
+}
+
+}  // namespace
+}  // namespace talus::engine

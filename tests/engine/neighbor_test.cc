@@ -1,0 +1,180 @@
+// The neighbour search against looking at every pair.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "engine/neighbor/grid.h"
+#include "tests/engine/cloud.h"
+
+namespace talus::engine {
+namespace {
+
+using Pairs = std::set<std::pair<std::int64_t, std::int64_t>>;
+
+struct NamedCloud {
+  const char* name;
+  std::vector<double> rows;  // x, y, z of each point
+};
+
+std::vector<double> Points(int count, auto&& point) {
+  std::vector<double> rows;
+  for (int i = 0; i < count; ++i) {
+    base::Random random(7, base::Stream("neighbor_test"), i);
+    const Vec3 p = point(random, i);
+    rows.insert(rows.end(), {p.x, p.y, p.z});
+  }
+  return rows;
+}
+
+// The reach is 1 in all of them.
+std::vector<NamedCloud> Clouds() {
+  const auto cube = [](base::Random& random, double size) {
+    return Vec3{random.Uniform(0, size), random.Uniform(0, size), random.Uniform(0, size)};
+  };
+  return {
+      {"random", Points(800, [&](auto& r, int) { return cube(r, 9); })},
+      {"flat", Points(800,
+                      [&](auto& r, int) {
+                        return Vec3{r.Uniform(0, 30), r.Uniform(0, 30), 0};
+                      })},
+      {"clustered", Points(600,
+                           [&](auto& r, int i) {
+                             return cube(r, 2) + 50.0 * Vec3{double(i % 5), 0, 0};
+                           })},
+      {"one point", Points(50,
+                           [](auto&, int) {
+                             return Vec3{1, 2, 3};
+                           })},
+      {"line", Points(300,
+                      [](auto&, int i) {
+                        return Vec3{0, 0.5 * i, 0};
+                      })},
+      {"lattice at the reach",
+       Points(1000,
+              [](auto&, int i) {
+                return Vec3{double(i % 10), double(i / 10 % 10), double(i / 100)};
+              })},
+      {"far outliers",
+       Points(800, [&](auto& r, int i) { return i % 100 == 0 ? 1e6 * cube(r, 1) : cube(r, 9); })},
+      {"negative and far from the origin", Points(800,
+                                                  [&](auto& r, int) {
+                                                    return cube(r, 9) + Vec3{-1e4, -1e5, 3};
+                                                  })},
+      {"single", Points(1,
+                        [](auto&, int) {
+                          return Vec3{1, 2, 3};
+                        })},
+      {"none", {}}};
+}
+
+Pairs Near(const std::vector<double>& rows, auto&& for_each_candidate) {
+  Pairs pairs;
+  for_each_candidate([&](std::int64_t i, std::int64_t j) {
+    double square = 0;
+    for (int c = 0; c < 3; ++c) square += std::pow(rows[3 * i + c] - rows[3 * j + c], 2);
+    if (square < 1) {
+      EXPECT_TRUE(pairs.insert(std::minmax(i, j)).second) << "twice";
+    }
+  });
+  return pairs;
+}
+
+TEST(Grid, FindsWhatLookingAtEveryPairFinds) {
+  for (const NamedCloud& cloud : Clouds()) {
+    SCOPED_TRACE(cloud.name);
+    const auto count = static_cast<std::int64_t>(cloud.rows.size() / 3);
+    std::vector<std::int32_t> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    Grid grid;
+    grid.Build(cloud.rows.data(), 3, all, 1.0);
+    ASSERT_EQ(static_cast<std::int64_t>(grid.order().size()), count);
+    const Pairs found = Near(cloud.rows, [&](auto&& candidate) {
+      for (std::int64_t k = 0; k < count; ++k) {
+        for (const IndexRange& range : grid.LaterNeighbors(k)) {
+          for (std::int64_t m = range.begin; m < range.end; ++m) {
+            candidate(grid.order()[k], grid.order()[m]);
+          }
+        }
+      }
+    });
+    const Pairs expected = Near(cloud.rows, [&](auto&& candidate) {
+      for (std::int64_t i = 0; i < count; ++i) {
+        for (std::int64_t j = i + 1; j < count; ++j) candidate(i, j);
+      }
+    });
+    EXPECT_EQ(found, expected);
+  }
+}
+
+// A cell that must stay small: far outliers may not make the search quadratic.
+TEST(Grid, OutliersDoNotMakeTheCellsLarge) {
+  const NamedCloud cloud = Clouds()[6];
+  std::vector<std::int32_t> all(cloud.rows.size() / 3);
+  std::iota(all.begin(), all.end(), 0);
+  Grid grid;
+  grid.Build(cloud.rows.data(), 3, all, 1.0);
+  std::int64_t candidates = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const IndexRange& range : grid.LaterNeighbors(static_cast<std::int64_t>(k))) {
+      candidates += std::max<std::int64_t>(range.end - range.begin, 0);
+    }
+  }
+  EXPECT_LT(candidates, 60 * static_cast<std::int64_t>(all.size()));  // all pairs: 400 each
+}
+
+Pairs TouchingPairs(const Simulation& simulation) {
+  Pairs pairs;
+  const auto p = simulation.Particles();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    for (std::size_t j = i + 1; j < p.size(); ++j) {
+      const double radii = p[i].radius + p[j].radius;
+      if (base::Norm(p[j].position - p[i].position) < radii) pairs.insert({p[i].id, p[j].id});
+    }
+  }
+  return pairs;
+}
+
+// Spheres that cross a tenth of their radius every few steps, in a closed box; each state is
+// compared, so a contact that is found one step late would show.
+TEST(ContactList, MissesNothingWhenSpheresMoveFast) {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.particles = testing::Cloud({.per_side = 5, .speed = 4});
+  scene.walls = testing::Box(5 * 2.1e-3);
+  Simulation simulation(scene);
+  std::size_t seen = 0;
+  for (int step = 0; step < 400; ++step) {
+    simulation.Advance(1);
+    Pairs listed;
+    for (const ContactInfo& c : simulation.Contacts()) {
+      if (c.second >= 0) listed.insert({c.first, c.second});
+    }
+    ASSERT_EQ(listed, TouchingPairs(simulation)) << step;
+    seen += listed.size();
+  }
+  EXPECT_GT(seen, 1000u);
+  EXPECT_GT(simulation.Statistics().num_rebuilds, 10);
+}
+
+// One sphere that is small and fast among large ones at rest; sizes 1 : 8.
+TEST(ContactList, FindsSmallSpheresAmongLargeOnes) {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  for (const Particle& p : testing::Cloud({.per_side = 4, .speed = 0})) {
+    scene.particles.push_back(p);
+    scene.particles.push_back({.id = 1000 + p.id,
+                               .radius = 1.2e-4,
+                               .position = p.position + Vec3{1.05e-3, 1.05e-3, 1.05e-3},
+                               .velocity = {3, 1, 2}});
+  }
+  Simulation simulation(scene);
+  for (int step = 0; step < 300; ++step) {
+    simulation.Advance(1);
+    Pairs listed;
+    for (const ContactInfo& c : simulation.Contacts()) listed.insert({c.first, c.second});
+    ASSERT_EQ(listed, TouchingPairs(simulation)) << step;
+  }
+}
+
+}  // namespace
+}  // namespace talus::engine
