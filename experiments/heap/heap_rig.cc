@@ -26,6 +26,10 @@ struct EnergyRatio {
   double Value() const { return weight > 0 ? kinetic / weight : 0; }
 };
 
+// Mean kinetic energy relative to the tube, over m g d, below which grains stick to it: falling off
+// it they would have that after a fiftieth of a diameter, swinging in their bonds they stay below.
+constexpr double kStuckEnergy = 0.02;
+
 template <class... Values>
 std::string Format(const char* format, Values... values) {
   char text[200];
@@ -120,8 +124,8 @@ void HeapRig::CheckLifting(Particles particles) {
     if (connected.on_tube[i]) stuck.Add(p, {0, 0, case_.device.lift_velocity}, case_.gravity);
   }
   Record().energy_ratio = stuck.Value();
-  const bool cleared = TubeEdge() > top && !connected.tube_touches_heap &&
-                       stuck.Value() < case_.rules.heap.energy_fraction;
+  const bool cleared =
+      TubeEdge() > top && !connected.tube_touches_heap && stuck.Value() < kStuckEnergy;
   const bool held = Held(cleared, case_.rules.heap.hold_time);
   if (!held && simulation_.time() - Record().start_time < LiftMaxTime()) return;
   DropTube(particles, connected);

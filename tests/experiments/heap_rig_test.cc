@@ -1,0 +1,119 @@
+#include "experiments/heap/heap_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/heap/heap_result.h"
+
+namespace talus::experiments {
+namespace {
+
+// About 150 grains of 1 mm, soft so that a test takes a second.
+HeapCase Coarse(double sliding_friction, double rolling_friction) {
+  HeapCase c;
+  c.powder.material = {.density = 2500,
+                       .youngs_modulus = 1e6,
+                       .restitution = 0.5,
+                       .sliding_friction = sliding_friction,
+                       .rolling_friction = rolling_friction};
+  c.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-3};
+  c.powder.mass = 0.2e-3;
+  c.device.lift_velocity = 0.05;
+  c.rules.heap.max_time = 0.3;
+  return c;
+}
+
+struct Outcome {
+  HeapState state;
+  std::vector<engine::Particle> heap;
+  double height = 0;  // [m]
+};
+
+Outcome RunToTheEnd(const HeapCase& c) {
+  HeapRig rig(c);
+  while (rig.Advance()) {
+  }
+  Outcome outcome{.state = rig.state(), .heap = GrainsOfHeap(rig.simulation()), .height = 0};
+  for (const engine::Particle& p : outcome.heap) {
+    outcome.height = std::max(outcome.height, p.position.z + p.radius);
+  }
+  return outcome;
+}
+
+TEST(HeapRig, RoughGrainsHeapUpAndSlipperyOnesRunOff) {
+  const Outcome rough = RunToTheEnd(Coarse(0.8, 0.5));
+  const Outcome slippery = RunToTheEnd(Coarse(0.02, 0));
+  // 150 grains on a plate ten grains wide: a cone of three layers against, at most, one.
+  EXPECT_GT(rough.heap.size(), 2 * slippery.heap.size());
+  EXPECT_GT(rough.height, 2.4e-3);
+  EXPECT_LT(slippery.height, 1.6e-3);
+  EXPECT_EQ(rough.state.settling.reason, PhaseEnd::kAtRest);
+  EXPECT_EQ(rough.state.lifting.reason, PhaseEnd::kCleared);
+  EXPECT_EQ(rough.state.num_carried, 0);
+}
+
+TEST(HeapRig, NothingFallsBeforeTheTubeIsLifted) {
+  HeapRig rig(Coarse(0.5, 0.1));
+  while (rig.state().phase == HeapPhase::kSettling) rig.Advance();
+  EXPECT_EQ(rig.simulation().num_particles(), rig.state().num_filled);
+  // Dense enough a filling that settling is a small change.
+  double top = 0;
+  for (const engine::Particle& p : rig.simulation().Particles()) {
+    top = std::max(top, p.position.z + p.radius);
+  }
+  EXPECT_GT(top, 0.8 * rig.state().filled_height);
+  EXPECT_LT(rig.state().settling.end_time, 0.15);  // a drop over the whole height takes 0.03 s
+}
+
+TEST(HeapRig, ACapEndsAPhaseAndIsReported) {
+  HeapCase c = Coarse(0.5, 0.1);
+  c.rules.settling.max_time = 0.01;
+  c.rules.settling.hold_time = 0.01;
+  c.rules.heap.max_time = 0.012;
+  c.rules.heap.hold_time = 0.012;
+  c.rules.heap.energy_fraction = 1e-30;
+  c.rules.lift_max_time = 0.02;
+  const Outcome capped = RunToTheEnd(c);
+  EXPECT_EQ(capped.state.settling.reason, PhaseEnd::kTimeCap);
+  EXPECT_EQ(capped.state.lifting.reason, PhaseEnd::kTimeCap);
+  EXPECT_EQ(capped.state.heap.reason, PhaseEnd::kTimeCap);
+  // A criterion is looked at every few milliseconds.
+  EXPECT_NEAR(capped.state.lifting.end_time - capped.state.lifting.start_time, 0.02, 0.006);
+}
+
+TEST(HeapRig, WhatSticksToTheTubeIsCarriedAwayAndCounted) {
+  HeapCase c = Coarse(0.8, 0.5);
+  c.models.adhesion = engine::Adhesion::kDmt;
+  // Pull-off over weight: 4πγR/(mg) = 240 with itself and the tube; the plate does not hold it.
+  c.powder.material.surface_energy = 0.5;
+  c.device.plate_material = WallMaterial{.surface_energy = 0};
+  const Outcome sticky = RunToTheEnd(c);
+  EXPECT_GT(sticky.state.num_carried, sticky.state.num_filled / 2);
+  EXPECT_EQ(sticky.state.lifting.reason, PhaseEnd::kCleared);
+}
+
+TEST(Connectivity, FollowsContactsToThePlateAndElseToTheTube) {
+  std::vector<engine::Particle> grains(6);
+  for (int i = 0; i < 6; ++i) grains[static_cast<std::size_t>(i)].id = 10 * i;
+  constexpr std::int64_t kOnTube = -1 - kTube;
+  constexpr std::int64_t kOnPlate = -1 - kPlate;
+  const auto touch = [](std::int64_t first, std::int64_t second) {
+    return engine::ContactInfo{.first = first, .second = second, .overlap = 1e-6, .force = {}};
+  };
+  // 0 on the plate, 10 on 0; 20 on the tube, 30 on 20; 40 in the air; 50 on plate and tube.
+  std::vector<engine::ContactInfo> contacts{touch(0, kOnPlate), touch(0, 10), touch(20, kOnTube),
+                                            touch(20, 30), touch(50, kOnTube)};
+  Connectivity connected = Connect(grains, contacts);
+  EXPECT_EQ(connected.on_plate, (std::vector<bool>{true, true, false, false, false, false}));
+  EXPECT_EQ(connected.on_tube, (std::vector<bool>{false, false, true, true, false, true}));
+  EXPECT_FALSE(connected.tube_touches_heap);
+  contacts.push_back(touch(50, kOnPlate));
+  connected = Connect(grains, contacts);
+  EXPECT_TRUE(connected.on_plate[5]);
+  EXPECT_FALSE(connected.on_tube[5]);
+  EXPECT_TRUE(connected.tube_touches_heap);
+}
+
+}  // namespace
+}  // namespace talus::experiments

@@ -1,0 +1,200 @@
+// Runs `talus simulate` as a user does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/file.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+// A hundred-odd grains, and long enough to be interrupted: the cap ends it, not the rest.
+constexpr const char* kCase = R"({
+  "powder": {
+    "material": {"density": 2500, "youngs_modulus": "1 MPa", "sliding_friction": 0.5,
+                 "rolling_friction": 0.2, "restitution": 0.5},
+    "sizes": {"kind": "uniform", "min": "0.9 mm", "max": "1.1 mm"}, "mass": "0.2 g"},
+  "device": {"lift_velocity": "5 cm/s"}, "outputs": {"times": ["10 ms", "60 ms"], "csv": true},
+  "rules": {"heap": {"max_time": 0.6, "energy_fraction": 1e-200}},
+  "frame": {"width_px": 120, "height_px": 60, "pixel_size": "0.1 mm", "center_x_px": 60,
+            "baseline_px": 55, "plate_diameter": "10 mm"},
+  "checkpoint_interval": 0.02
+})";
+
+class Simulate : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) /
+              ("simulate_" +
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+
+  std::string Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return name;
+  }
+
+  // Exit status of a command in the test's folder; what it prints is in output_.
+  int Run(const std::string& command) {
+    const std::string all = "cd " + folder_.string() + " && { " + command + "; } > output.txt 2>&1";
+    const int status = std::system(all.c_str());
+    output_ = base::ReadFile(folder_ / "output.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int Talus(const std::string& arguments) {
+    return Run(TALUS_BINARY_DIR "/talus simulate " + arguments);
+  }
+
+  // The status of a run that gets SIGINT in the middle of its lifting.
+  int Interrupted(const std::string& out) {
+    return Run(TALUS_BINARY_DIR "/talus simulate case.json --out " + out +
+               " & pid=$!; until grep -q settling " + out +
+               "/log.txt; do sleep 0.01; done; kill -INT $pid; wait $pid");
+  }
+
+  std::string Read(const std::string& name) { return base::ReadFile(folder_ / name); }
+  nlohmann::json Result(const std::string& out) {
+    return nlohmann::json::parse(Read(out + "/result.json"));
+  }
+  void ExpectSameHeap(const std::string& a, const std::string& b) {
+    for (const char* name :
+         {"/heap.vtp", "/heap.csv", "/profile.png", "/state_0000.vtp", "/state_0001.vtp"}) {
+      EXPECT_EQ(Read(a + name), Read(b + name)) << name;
+    }
+    EXPECT_EQ(Result(a)["phases"], Result(b)["phases"]);
+    EXPECT_EQ(Result(a)["counts"], Result(b)["counts"]);
+  }
+
+  fs::path folder_;
+  std::string output_;
+};
+
+TEST_F(Simulate, ACaseLeavesItsTrialFolder) {
+  Write("case.json", kCase);
+  ASSERT_EQ(Talus("case.json --out trial"), 0) << output_;
+  const auto result = Result("trial");
+  EXPECT_EQ(result["status"], "ok");
+  const auto& counts = result["counts"];
+  EXPECT_GT(counts["on_heap"], 20);
+  EXPECT_EQ(counts["filled"].get<int>(),
+            counts["on_heap"].get<int>() + counts["fallen"].get<int>() +
+                counts["carried_by_tube"].get<int>() + counts["in_flight"].get<int>());
+  for (const char* phase : {"filling", "settling", "lifting", "heap"}) {
+    EXPECT_TRUE(result["phases"][phase]["reason"].is_string()) << phase;
+  }
+  EXPECT_EQ(result["conditions"]["lift_velocity_m_s"], 0.05);
+  EXPECT_TRUE(fs::exists(folder_ / "trial/profile.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "trial/checkpoint.bin"));
+  EXPECT_THAT(Read("trial/log.txt"), HasSubstr("lifting ended at"));
+
+  EXPECT_EQ(Talus("case.json --out trial"), 0);
+  EXPECT_THAT(output_, HasSubstr("is done already"));
+  // The complete case in the folder gives the same heap elsewhere, with other threads too.
+  ASSERT_EQ(Run("cp trial/case.json complete.json && sed -i 's/\"threads\": 1/\"threads\": 2/' "
+                "complete.json"),
+            0);
+  ASSERT_EQ(Talus("complete.json --out again --quiet"), 0) << output_;
+  EXPECT_EQ(output_, "");
+  ExpectSameHeap("trial", "again");
+}
+
+TEST_F(Simulate, ARunThatIsKilledAgainAndAgainEndsWithTheSameBits) {
+  Write("case.json", kCase);
+  ASSERT_EQ(Talus("case.json --out whole"), 0) << output_;
+  int num_kills = 0;
+  // Each life may be too short to get far on a busy machine, so the lives grow.
+  while (num_kills < 30 &&
+         Run("timeout -s KILL " + std::to_string(0.3 + 0.05 * num_kills) +
+             " " TALUS_BINARY_DIR "/talus simulate case.json --out killed") != 0) {
+    ++num_kills;
+  }
+  ASSERT_EQ(Talus("case.json --out killed"), 0) << output_;
+  EXPECT_GT(num_kills, 0);
+  EXPECT_THAT(Read("killed/log.txt"), HasSubstr("goes on from killed/checkpoint.bin"));
+  ExpectSameHeap("whole", "killed");
+}
+
+TEST_F(Simulate, CtrlCSavesACheckpointAndEndsWith130) {
+  Write("case.json", kCase);
+  ASSERT_EQ(Talus("case.json --out whole"), 0) << output_;
+  EXPECT_EQ(Interrupted("stopped"), 130) << output_;
+  EXPECT_THAT(output_, HasSubstr("the same command goes on from"));
+  EXPECT_FALSE(fs::exists(folder_ / "stopped/result.json"));
+  ASSERT_EQ(Talus("case.json --out stopped"), 0) << output_;
+  ExpectSameHeap("whole", "stopped");
+}
+
+TEST_F(Simulate, ADamagedCheckpointIsSaidAndNotUsed) {
+  Write("case.json", kCase);
+  EXPECT_EQ(Interrupted("out"), 130) << output_;
+  ASSERT_TRUE(fs::exists(folder_ / "out/checkpoint.bin")) << output_;
+  fs::resize_file(folder_ / "out/checkpoint.bin", 1000);
+  ASSERT_EQ(Talus("case.json --out out"), 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("is damaged or cut off: its checksum does not fit; begins anew"));
+  EXPECT_EQ(Result("out")["status"], "ok");
+}
+
+TEST_F(Simulate, AFolderOfAnotherInputIsRefused) {
+  Write("pair.json", Read(TALUS_SOURCE_DIR "/examples/scenes/bouncing_pair.json"));
+  ASSERT_EQ(Talus("pair.json"), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "pair/final.vtp"));
+  EXPECT_TRUE(fs::exists(folder_ / "pair/state_0004.csv"));
+  std::string other = Read("pair.json");
+  other.replace(other.find("0.5 s"), 5, "0.1 s");
+  Write("other.json", other);
+  EXPECT_EQ(Talus("other.json --out pair"), 2);
+  EXPECT_THAT(output_, HasSubstr("result of another input"));
+  EXPECT_EQ(Talus("other.json --out pair --fresh"), 0) << output_;
+  EXPECT_NEAR(Result("pair")["simulated_time_s"].get<double>(), 0.1, 1e-4);
+}
+
+TEST_F(Simulate, BadInputIsListedWithStatus2AndWritesNothing) {
+  Write("bad.json", R"({
+    "powder": {"material": {"density": -2500, "poisson_ratio": 0.7}, "mass": "2 m",
+               "sizes": {"kind": "mono", "diameter": "-1 mm"}},
+    "lift": 1})");
+  EXPECT_EQ(Talus("bad.json --out out"), 2);
+  EXPECT_THAT(output_, AllOf(HasSubstr("bad.json:2:40: powder.material.density: is -2500"),
+                             HasSubstr("powder.material.poisson_ratio"), HasSubstr("powder.mass"),
+                             HasSubstr("powder.sizes.diameter"), HasSubstr("lift: is not known")));
+  Write("neither.json", "{}");
+  EXPECT_EQ(Talus("neither.json --out out"), 2);
+  EXPECT_THAT(output_, HasSubstr("is nothing that can be simulated"));
+  EXPECT_EQ(Talus("missing.json --out out"), 2);
+  EXPECT_THAT(output_, HasSubstr("missing.json"));
+  Write("overlap.json", R"({
+    "materials": [{"name": "a"}], "stop": {"steps": 10}, "time_step": 1,
+    "spheres": [{"diameter": 1e-3, "position": [0, 0, 0]},
+                {"diameter": 1e-3, "position": [0, 0, 1e-4]}]})");
+  EXPECT_EQ(Talus("overlap.json --out out"), 2);
+  EXPECT_THAT(output_, AllOf(HasSubstr("spheres[1]"), HasSubstr("time_step")));
+  EXPECT_EQ(Talus("bad.json --ot out"), 2);  // a flag that does not exist
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Simulate, ARunThatGoesWrongSaysWhyWhenAndWhere) {
+  // So soft that it sinks through the floor under its own weight.
+  Write("soft.json", R"({
+    "materials": [{"name": "jelly", "youngs_modulus": 5, "density": 2500}],
+    "spheres": [{"diameter": "1 cm", "position": [0, 0, "5.5 mm"]}],
+    "walls": [{"name": "floor", "shape": "plane"}], "stop": {"time": 2}})");
+  EXPECT_EQ(Talus("soft.json --out out"), 1);
+  EXPECT_THAT(output_, AllOf(HasSubstr("step "), HasSubstr("sphere 0"), HasSubstr("floor")));
+  EXPECT_EQ(Result("out")["status"], "failed");
+  EXPECT_THAT(Result("out")["reason"].get<std::string>(), HasSubstr("sphere 0"));
+}
+
+}  // namespace
+}  // namespace talus
