@@ -1,0 +1,234 @@
+#include "imaging/repose_angle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "imaging/experiment.h"
+#include "imaging/image_file.h"
+#include "tests/imaging/synthetic_photo.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kBase = 300;  // [px]
+
+using Height = std::function<double(double)>;
+
+// One side of a drawn heap, `across` from its axis outwards.
+struct Side {
+  double foot = 0;      // [px]
+  double shoulder = 0;  // where a flat top ends [px]
+  Height height;
+};
+
+// The definition of methods 2 and 3, on the drawn shape itself.
+double RegressionAngle(const Side& side, double share) {
+  const double from = side.foot - share * (side.foot - side.shoulder);
+  constexpr int kSteps = 20000;
+  double x_mean = 0, h_mean = 0, sxx = 0, sxh = 0;
+  const auto at = [&](int i) { return from + (side.foot - from) * (i + 0.5) / kSteps; };
+  for (int i = 0; i < kSteps; ++i) {
+    x_mean += at(i) / kSteps;
+    h_mean += side.height(at(i)) / kSteps;
+  }
+  for (int i = 0; i < kSteps; ++i) {
+    sxx += (at(i) - x_mean) * (at(i) - x_mean);
+    sxh += (at(i) - x_mean) * (side.height(at(i)) - h_mean);
+  }
+  return std::atan(-sxh / sxx) / kDegree;
+}
+
+struct Shape {
+  std::string name;
+  double axis = 0;  // from the plate's middle [px]
+  Side left;
+  Side right;
+
+  double HeightAt(double along) const {
+    const double across = along - axis;
+    const Side& side = across < 0 ? left : right;
+    const double distance = std::abs(across);
+    return distance < side.foot ? side.height(distance) : 0;
+  }
+};
+
+Side Straight(double foot, double top, double shoulder) {
+  return {.foot = foot, .shoulder = shoulder, .height = [=](double x) {
+            return std::min(top, top * (foot - x) / (foot - shoulder));
+          }};
+}
+
+// A parabola that bends inwards (bend > 0) or outwards (bend < 0, -1 for a level top).
+Side Bent(double foot, double top, double bend) {
+  return {.foot = foot,
+          .height = [=](double x) { return top * (1 - x / foot) * (1 - bend * x / foot); }};
+}
+
+std::vector<Shape> Shapes() {
+  const auto tan = [](double degrees) { return std::tan(degrees * kDegree); };
+  const Side triangle = Straight(150, 150 * tan(30), 0);
+  // Apex beside the middle: 25° on the left, 40° on the right.
+  const double top = kBase / (1 / tan(25) + 1 / tan(40));
+  const Side trapezium = Straight(150, 90 * tan(35), 60);
+  const Side convex = Bent(150, 75, -1);
+  const Side concave = Bent(150, 95, 0.4);
+  return {{"triangle", 0, triangle, triangle},
+          {"uneven", top / tan(25) - 150, Straight(top / tan(25), top, 0),
+           Straight(top / tan(40), top, 0)},
+          {"steep", 0, Straight(150, 150 * tan(50), 0), Straight(150, 150 * tan(50), 0)},
+          {"trapezium", 0, trapezium, trapezium},
+          {"convex", 0, convex, convex},
+          {"concave", 0, concave, concave}};
+}
+
+struct Camera {
+  std::string name;
+  Scene scene;
+};
+
+std::vector<Camera> Cameras() {
+  const Scene scene{
+      .width = 420, .height = 260, .plate_depth = 30, .center_x = 210, .baseline = 205};
+  Camera ideal{"ideal", scene};
+  ideal.scene.blur = 0.5;
+  ideal.scene.noise = 0;
+  ideal.scene.uneven = false;
+  Camera left{"tilted_left", scene};
+  left.scene.tilt = -2 * kDegree;
+  left.scene.blur = 1.8;
+  Camera right{"tilted_right", scene};
+  right.scene.tilt = 2 * kDegree;
+  right.scene.noise = 6;
+  return {ideal, left, right};
+}
+
+// Four views, each shifted by another fraction of a pixel.
+std::vector<std::filesystem::path> Photos(const Shape& shape, const Camera& camera) {
+  std::vector<std::filesystem::path> photos;
+  Scene scene = camera.scene;
+  for (int view = 0; view < 4; ++view) {
+    scene.seed = static_cast<std::uint64_t>(view);
+    scene.center_x += 0.7;
+    scene.baseline -= 0.6;
+    photos.push_back(std::filesystem::path(testing::TempDir()) /
+                     ("repose_" + shape.name + camera.name + std::to_string(view) + ".png"));
+    WritePng(photos.back(), Photograph(scene, [&](double x) { return shape.HeightAt(x); }));
+  }
+  return photos;
+}
+
+class DrawnShape : public testing::TestWithParam<std::tuple<Shape, Camera>> {};
+
+// 0.2° at 300 px of base: a contour that is off by 0.5 px at one end of a side of 150 px. The whole
+// way is tested: flat field, plate, registration, outline, angles.
+TEST_P(DrawnShape, AnglesAreThoseOfTheDrawing) {
+  const auto& [shape, camera] = GetParam();
+  ExperimentOptions options;
+  options.runs = {{.name = "1", .photos = Photos(shape, camera)}};
+  options.plate_diameter = 0.01;
+  const Experiment experiment = MeasureExperiment(options);
+  const ReposeAngles angles = MeasureRepose(experiment.aehp.image, experiment.aehp.frame);
+  const auto check = [&](const Measured& measured, const Side& side, std::size_t method) {
+    ASSERT_TRUE(measured.defined()) << measured.not_defined;
+    const double expected = method == 0 ? std::atan(side.height(0) / side.foot) / kDegree
+                                        : RegressionAngle(side, method == 1 ? 1 : 0.5);
+    EXPECT_NEAR(measured.value / kDegree, expected, 0.2) << "method " << method + 1;
+  };
+  for (std::size_t method = 0; method < angles.size(); ++method) {
+    check(angles[method].left, shape.left, method);
+    check(angles[method].right, shape.right, method);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryCamera, DrawnShape,
+                         testing::Combine(testing::ValuesIn(Shapes()),
+                                          testing::ValuesIn(Cameras())),
+                         [](const auto& tested) {
+                           return std::get<0>(tested.param).name + "_" +
+                                  std::get<1>(tested.param).name;
+                         });
+
+Frame SmallFrame() {
+  return {.width = 400,
+          .height = 300,
+          .pixel_size = 0.01 / kBase,
+          .center_x = 200,
+          .baseline = 280,
+          .plate_diameter = 0.01};
+}
+
+GrayImage Silhouette(const Height& height) {
+  const Frame frame = SmallFrame();
+  GrayImage image{.width = frame.width,
+                  .height = frame.height,
+                  .pixels = std::vector<std::uint8_t>(400 * 300, 255)};
+  for (int y = 0; y < 280; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (frame.baseline - y - 0.5 < height(x + 0.5 - frame.center_x)) image.at(x, y) = 0;
+    }
+  }
+  return image;
+}
+
+void ExpectNoAngle(const ReposeAngles& angles, const std::string& reason) {
+  for (const SideAngles& sides : angles) {
+    for (const Measured* measured : {&sides.left, &sides.right, &sides.mean}) {
+      EXPECT_FALSE(measured->defined());
+      EXPECT_TRUE(std::isnan(measured->value));
+      EXPECT_NE(measured->not_defined.find(reason), std::string::npos) << measured->not_defined;
+    }
+  }
+}
+
+TEST(NoAngle, EmptyHeap) {
+  ExpectNoAngle(MeasureRepose(Silhouette([](double) { return 0; }), SmallFrame()), "empty");
+}
+
+TEST(NoAngle, LayerWithoutASlope) {
+  const auto layer = [](double x) { return std::abs(x) < 150 ? 2 : 0; };
+  ExpectNoAngle(MeasureRepose(Silhouette(layer), SmallFrame()), "high");
+}
+
+TEST(NoAngle, WallsWithoutASlope) {
+  const auto block = [](double x) { return std::abs(x) < 150 ? 80 : 0; };
+  const ReposeAngles angles = MeasureRepose(Silhouette(block), SmallFrame());
+  EXPECT_FALSE(angles[1].mean.defined());
+  EXPECT_FALSE(angles[2].mean.defined());
+}
+
+// A mushroom: 30 px wider above than at its foot, on the left only.
+TEST(NoAngle, OverhangOnOneSide) {
+  GrayImage image = Silhouette([](double x) { return std::max(0.0, 80 - std::abs(x)); });
+  for (int y = 220; y < 240; ++y) {
+    for (int x = 90; x < 200; ++x) image.at(x, y) = 0;
+  }
+  const ReposeAngles angles = MeasureRepose(image, SmallFrame());
+  EXPECT_NE(angles[1].left.not_defined.find("overhangs"), std::string::npos);
+  EXPECT_TRUE(angles[1].right.defined());
+  EXPECT_FALSE(angles[1].mean.defined());
+}
+
+// Three views of 29°, 30°, 31°: their scatter is 1°, its standard error 1/√3.
+TEST(StandardError, IsTheScatterOfThePartsOverRootN) {
+  std::vector<GrayImage> views;
+  for (const double degrees : {29.0, 30.0, 31.0}) {
+    const double slope = std::tan(degrees * kDegree);
+    views.push_back(Silhouette([=](double x) { return slope * (150 - std::abs(x)); }));
+  }
+  const Profile profile{.image = views[1], .frame = SmallFrame()};
+  const ReposeAngles angles = MeasureRepose(profile, views);
+  // Binary outlines are off by up to half a pixel at random: 0.05° in a regression over 150
+  // columns.
+  EXPECT_NEAR(angles[1].mean.value / kDegree, 30, 0.1);
+  EXPECT_NEAR(angles[1].mean.standard_error / kDegree, 1 / std::sqrt(3), 0.05);
+  EXPECT_TRUE(std::isnan(MeasureRepose(profile, {})[1].mean.standard_error));
+}
+
+}  // namespace
+}  // namespace talus::imaging
