@@ -1,0 +1,277 @@
+#include "imaging/experiment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "imaging/image_file.h"
+#include "imaging/projection.h"
+#include "tests/imaging/synthetic_photo.h"
+
+namespace talus::imaging {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kPlate = 0.01;  // [m]
+
+Scene SmallScene() {
+  return {.width = 420, .height = 220, .plate_depth = 30, .center_x = 210, .baseline = 165};
+}
+
+// Layers of a lattice of grains under a cone, each grain moved a little, so that no line of sight
+// passes between them; the lowest layer lies on the plate.
+std::vector<base::Sphere> Cone() {
+  constexpr double kRadius = 2e-4;
+  constexpr double kSlope = 0.55;
+  std::vector<base::Sphere> spheres;
+  base::Random random(5, base::Stream("cone"));
+  for (int layer = 0; layer < 20; ++layer) {
+    const double z = kRadius * (1 + 1.6 * layer);
+    const double reach = kPlate / 2 - z / kSlope;
+    for (double x = -kPlate / 2; x < kPlate / 2; x += 1.9 * kRadius) {
+      for (double y = -kPlate / 2; y < kPlate / 2; y += 1.9 * kRadius) {
+        const double dx = x + (layer % 2 + 0.3 * random.Normal()) * kRadius;
+        const double dy = y + (layer % 2 + 0.3 * random.Normal()) * kRadius;
+        if (std::hypot(dx, dy) > reach) continue;
+        spheres.push_back({.position = {dx, dy, z}, .radius = kRadius});
+      }
+    }
+  }
+  return spheres;
+}
+
+fs::path EmptyFolder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("experiment_" + name);
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+std::string Name(int run, int view) {
+  return "run" + std::to_string(run) + "_view" + std::to_string(view) + ".png";
+}
+
+ExperimentOptions Options(const fs::path& folder) {
+  ExperimentOptions options;
+  options.photos = folder;
+  options.plate_diameter = kPlate;
+  return options;
+}
+
+// 1 % of NEBP is, along an outline of 330 px, an error of a third of a pixel.
+TEST(Experiment, PhotographedSpheresGiveTheirDirectProjection) {
+  const std::vector<base::Sphere> spheres = Cone();
+  const fs::path folder = EmptyFolder("spheres");
+  constexpr int kViews = 4;
+  for (int run = 1; run <= 2; ++run) {
+    for (int view = 0; view < kViews; ++view) {
+      Scene scene = SmallScene();
+      scene.tilt = (run == 1 ? 0.8 : -1.7) * std::numbers::pi / 180;
+      scene.center_x += 3.3 * run;
+      scene.baseline -= 2.7 * run;
+      scene.seed = static_cast<std::uint64_t>(10 * run + view);
+      const double angle = std::numbers::pi * view / kViews;
+      WritePng(folder / Name(run, view), Photograph(scene, spheres, kPlate, angle));
+    }
+  }
+  const Experiment experiment = MeasureExperiment(Options(folder));
+  const Profile direct = ProjectHeap(spheres, experiment.aehp.frame, kViews);
+  EXPECT_LT(Sad(experiment.aehp.image, direct.image), 0.01 * Nebp(direct.image));
+  EXPECT_NEAR(experiment.aehp.frame.plate_diameter / experiment.aehp.frame.pixel_size, 300, 0.2);
+  // The same heap twice: what is left is what the camera's place does to the pixels.
+  EXPECT_LT(experiment.noise_floor->mean_sad_relative, 0.01);
+  for (const MeasuredRun& run : experiment.runs) {
+    for (const MeasuredView& view : run.views) {
+      const int number = run.name == "1" ? 1 : 2;
+      EXPECT_NEAR(view.plate.center_x, 210 + 3.3 * number, 0.1) << view.photo;
+      EXPECT_NEAR(view.plate.baseline, 165 - 2.7 * number, 0.25) << view.photo;
+    }
+  }
+}
+
+GrayImage Triangle(const Scene& scene) {
+  return Photograph(scene, [&](double x) { return 0.5 * (150 - std::abs(x)); });
+}
+
+// Two runs of two views, all good.
+fs::path GoodFolder(const std::string& name) {
+  const fs::path folder = EmptyFolder(name);
+  static const GrayImage photo = Triangle(SmallScene());
+  for (int run = 1; run <= 2; ++run) {
+    for (int view = 0; view < 2; ++view) WritePng(folder / Name(run, view), photo);
+  }
+  return folder;
+}
+
+std::string ErrorOf(const ExperimentOptions& options) {
+  try {
+    MeasureExperiment(options);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// Each fault names the file and a remedy, and --allow-missing-views goes on without it and says so.
+void ExpectFault(const fs::path& folder, const std::string& file, const std::string& reason) {
+  ExperimentOptions options = Options(folder);
+  const std::string error = ErrorOf(options);
+  EXPECT_THAT(error, HasSubstr(file));
+  EXPECT_THAT(error, HasSubstr(reason));
+  EXPECT_THAT(error, HasSubstr("--allow-missing-views"));
+  options.allow_missing_views = true;
+  const Experiment experiment = MeasureExperiment(options);
+  std::size_t num_views = 0;
+  for (const MeasuredRun& run : experiment.runs) num_views += run.views.size();
+  EXPECT_EQ(num_views, 3u);
+  ASSERT_EQ(experiment.notes.size(), 1u);
+  EXPECT_THAT(experiment.notes[0], HasSubstr(reason));
+}
+
+TEST(ExperimentFaults, MissingView) {
+  const fs::path folder = GoodFolder("missing");
+  fs::remove(folder / Name(2, 1));
+  ExpectFault(folder, "experiment_missing", "run 2 has no view 1");
+}
+
+TEST(ExperimentFaults, UnreadableImage) {
+  const fs::path folder = GoodFolder("unreadable");
+  std::ofstream(folder / Name(2, 1)) << "this is no image";
+  ExpectFault(folder, Name(2, 1), "no image we can read");
+}
+
+TEST(ExperimentFaults, EmptyFile) {
+  const fs::path folder = GoodFolder("empty");
+  std::ofstream(folder / Name(2, 1)).flush();
+  ExpectFault(folder, Name(2, 1), "is empty");
+}
+
+TEST(ExperimentFaults, BlackImage) {
+  const fs::path folder = GoodFolder("black");
+  WritePng(
+      folder / Name(2, 1),
+      GrayImage{.width = 420, .height = 220, .pixels = std::vector<std::uint8_t>(420 * 220, 3)});
+  ExpectFault(folder, Name(2, 1), "black everywhere");
+}
+
+TEST(ExperimentFaults, BlankImage) {
+  const fs::path folder = GoodFolder("blank");
+  WritePng(
+      folder / Name(2, 1),
+      GrayImage{.width = 420, .height = 220, .pixels = std::vector<std::uint8_t>(420 * 220, 200)});
+  ExpectFault(folder, Name(2, 1), "nothing darker");
+}
+
+TEST(ExperimentFaults, OtherSize) {
+  const fs::path folder = GoodFolder("size");
+  Scene scene = SmallScene();
+  scene.width = 460;
+  WritePng(folder / Name(2, 1), Triangle(scene));
+  ExpectFault(folder, Name(2, 1), "460 x 220 px");
+}
+
+TEST(ExperimentFaults, OtherScale) {
+  const fs::path folder = GoodFolder("scale");
+  Scene scene = SmallScene();
+  scene.plate_width = 310;
+  WritePng(folder / Name(2, 1), Triangle(scene));
+  ExpectFault(folder, Name(2, 1), "one scale");
+}
+
+// A heap without plate: nothing with straight parallel sides.
+TEST(ExperimentFaults, NoPlate) {
+  const fs::path folder = GoodFolder("plate");
+  Scene scene = SmallScene();
+  scene.plate_width = 0;
+  WritePng(folder / Name(2, 1), Triangle(scene));
+  ExpectFault(folder, Name(2, 1), "no plate found");
+}
+
+TEST(ExperimentFaults, NothingIsLeft) {
+  const fs::path folder = EmptyFolder("nothing");
+  std::ofstream(folder / Name(1, 0)) << "no image";
+  ExperimentOptions options = Options(folder);
+  options.allow_missing_views = true;
+  EXPECT_THAT(ErrorOf(options), HasSubstr("no photograph is left"));
+  EXPECT_THAT(ErrorOf(Options(EmptyFolder("none"))), HasSubstr("no file matches"));
+  EXPECT_THAT(ErrorOf(Options("/no/such/folder")), HasSubstr("/no/such/folder"));
+}
+
+TEST(ExperimentOptionsTest, BrokenRulesAreReportedTogether) {
+  ExperimentOptions options;
+  options.map = "a.png";
+  options.photos = "b";
+  options.plate_diameter = -1;
+  options.threshold = 1.5;
+  base::Problems problems;
+  options.Validate(problems);
+  EXPECT_EQ(problems.list().size(), 3u);
+}
+
+// The frame that was found, given by hand with the tilt, leads to the same profile: both rest on
+// the same photographs, so only the found tilt's error of a few thousandths of a degree is left.
+TEST(Experiment, FrameCanBeGivenInsteadOfFound) {
+  const fs::path folder = EmptyFolder("frame");
+  Scene scene = SmallScene();
+  scene.tilt = 1.5 * std::numbers::pi / 180;
+  WritePng(folder / Name(1, 0), Triangle(scene));
+  const Experiment found = MeasureExperiment(Options(folder));
+  ExperimentOptions options = Options(folder);
+  options.frame = Frame{.width = 420,
+                        .height = 220,
+                        .pixel_size = kPlate / 300,
+                        .center_x = 210,
+                        .baseline = 165,
+                        .plate_diameter = kPlate};
+  options.tilt = scene.tilt;
+  const Experiment given = MeasureExperiment(options);
+  EXPECT_LT(Sad(found.aehp.image, given.aehp.image), 0.01 * Nebp(given.aehp.image));
+}
+
+// Half the pixels each way: a quarter of the powder's pixels, within the outline's rounding.
+TEST(Experiment, PixelSizeCanBeChosen) {
+  const fs::path folder = GoodFolder("pixel");
+  const Experiment fine = MeasureExperiment(Options(folder));
+  ExperimentOptions options = Options(folder);
+  options.pixel_size = 2 * fine.aehp.frame.pixel_size;
+  const Experiment coarse = MeasureExperiment(options);
+  EXPECT_EQ(coarse.aehp.frame.width, 210);
+  EXPECT_NEAR(4 * Nebp(coarse.aehp.image) / Nebp(fine.aehp.image), 1, 0.02);
+}
+
+// A speck that floats and one beside the plate go, a hole fills, a grain on the plate stays.
+TEST(Experiment, KeepsWhatStandsOnThePlateAndFillsHoles) {
+  const Scene scene = SmallScene();
+  const auto in_disc = [](double x, double y, double cx, double cy, double r) {
+    return std::hypot(x - cx, y - cy) < r;
+  };
+  const GrayImage photo = Expose(scene, Cover(scene, [&](double x, double up) {
+                                   const bool heap = up > 0 && up < 0.6 * (90 - std::abs(x)) &&
+                                                     !in_disc(x, up, 0, 20, 6);
+                                   return heap || in_disc(x, up, -100, 60, 4) ||
+                                          in_disc(x, up, 120, 6, 6) || in_disc(x, up, 180, 10, 5);
+                                 }));
+  const fs::path folder = EmptyFolder("specks");
+  WritePng(folder / Name(1, 0), photo);
+  const Experiment experiment = MeasureExperiment(Options(folder));
+  const auto dark = [&](double along, double up) {
+    const Frame& frame = experiment.aehp.frame;
+    return experiment.aehp.image.at(static_cast<int>(frame.center_x + along),
+                                    static_cast<int>(frame.baseline - up)) == 0;
+  };
+  EXPECT_TRUE(dark(0, 20));   // the hole
+  EXPECT_TRUE(dark(120, 6));  // the grain on the plate
+  EXPECT_FALSE(dark(-100, 60));
+  EXPECT_FALSE(dark(180, 10));
+}
+
+}  // namespace
+}  // namespace talus::imaging
