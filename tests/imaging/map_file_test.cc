@@ -1,0 +1,86 @@
+#include "imaging/map_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/error.h"
+#include "imaging/experiment.h"
+#include "imaging/image_file.h"
+
+namespace talus::imaging {
+namespace {
+
+std::filesystem::path TempFile(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+// 120 × 80 px, base of 60 px from column 30 to 89 with its top at row 70, a grey layer above.
+GrayImage DrawnMap() {
+  GrayImage map{.width = 120, .height = 80, .pixels = std::vector<std::uint8_t>(120 * 80, 255)};
+  for (int y = 50; y < 70; ++y) {
+    for (int x = 30; x < 90; ++x) map.at(x, y) = 0;
+  }
+  for (int x = 40; x < 80; ++x) map.at(x, 49) = 128;
+  map.at(29, 69) = 200;  // a grain over the rim in some views
+  return map;
+}
+
+TEST(Map, BaseIsFoundInTheLowestRow) {
+  WritePng(TempFile("map.png"), DrawnMap());
+  const Profile profile = ReadMap(TempFile("map.png"), 0.012, {});
+  EXPECT_DOUBLE_EQ(profile.frame.plate_diameter / profile.frame.pixel_size, 60);
+  EXPECT_DOUBLE_EQ(profile.frame.center_x, 60);
+  EXPECT_DOUBLE_EQ(profile.frame.baseline, 70);
+  EXPECT_EQ(profile.image, DrawnMap());
+}
+
+// The plate, drawn black below the heap, is not powder when the frame says where it begins.
+TEST(Map, FrameBlanksWhatIsBelowTheBaseline) {
+  GrayImage map = DrawnMap();
+  for (int x = 0; x < 120; ++x) map.at(x, 75) = 0;
+  WritePng(TempFile("plate.png"), map);
+  const Frame frame{.width = 120,
+                    .height = 80,
+                    .pixel_size = 2e-4,
+                    .center_x = 60,
+                    .baseline = 70,
+                    .plate_diameter = 0.012};
+  EXPECT_EQ(ReadMap(TempFile("plate.png"), 0.012, frame).image, DrawnMap());
+  EXPECT_THROW(ReadMap(TempFile("plate.png"), 0.012, {}), base::ConfigError);
+}
+
+TEST(Map, WhiteAndBlackMapsAreErrorsThatNameTheFile) {
+  for (const std::uint8_t level : {0, 255}) {
+    WritePng(TempFile("plain.png"),
+             {.width = 50, .height = 40, .pixels = std::vector<std::uint8_t>(50 * 40, level)});
+    try {
+      ReadMap(TempFile("plain.png"), 0.01, {});
+      FAIL() << "no error at " << int(level);
+    } catch (const base::ConfigError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("plain.png"));
+    }
+  }
+}
+
+// A published measurement that is not part of the project: TALUS_REAL_DATA names its folder. Its
+// base is 85 px wide, and the wet sand overhangs, so that it has no angle of repose.
+TEST(Map, WetSand) {
+  const char* const folder = std::getenv("TALUS_REAL_DATA");
+  if (folder == nullptr) GTEST_SKIP() << "TALUS_REAL_DATA is not set";
+  ExperimentOptions options;
+  options.map = std::filesystem::path(folder) / "granuheap_wet_sand_map.png";
+  options.plate_diameter = 0.01;
+  const Experiment experiment = MeasureExperiment(options);
+  const Frame& frame = experiment.aehp.frame;
+  EXPECT_NEAR(frame.plate_diameter / frame.pixel_size, 85, 0.5);
+  EXPECT_EQ(frame.baseline, 540);
+  EXPECT_NEAR(Nebp(experiment.aehp.image), 4211.7, 0.1);  // Σ(255 − I)/255 of the file
+  const Measured& angle = FindMetric(experiment.metrics, "repose_angle_2_mean_deg").value;
+  EXPECT_THAT(angle.not_defined, testing::HasSubstr("overhangs"));
+}
+
+}  // namespace
+}  // namespace talus::imaging

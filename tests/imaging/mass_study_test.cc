@@ -1,0 +1,65 @@
+#include "imaging/mass_study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace talus::imaging {
+namespace {
+
+using testing::HasSubstr;
+
+// NEBP [mm²] of runs at one mass, two days of two.
+std::vector<MassRun> Runs(double mass, const std::vector<double>& nebp, double base) {
+  std::vector<MassRun> runs;
+  for (std::size_t i = 0; i < nebp.size(); ++i) {
+    runs.push_back({.mass = mass,
+                    .day = i < nebp.size() / 2 ? "1" : "2",
+                    .run = std::to_string(i),
+                    .nebp_mm2 = nebp[i],
+                    .base_share = base});
+  }
+  return runs;
+}
+
+std::vector<MassRun> operator+(std::vector<MassRun> a, const std::vector<MassRun>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// 0.8 g does not cover the plate, 1.0 g still grows, 1.2 g is the first that more powder does not
+// raise by 3 %.
+TEST(MassStudy, SmallestFormedAndRepeatableMassIsChosen) {
+  const MassStudy study = StudyMass(
+      Runs(0.8e-3, {12, 12.1, 12, 12.1}, 0.9) + Runs(1.0e-3, {16, 16.2, 16.1, 16}, 1) +
+      Runs(1.2e-3, {18, 18.2, 18.1, 17.9}, 1) + Runs(1.5e-3, {18.2, 18.1, 18.3, 18.0}, 1));
+  ASSERT_EQ(study.rows.size(), 4u);
+  EXPECT_EQ(study.chosen, 1.2e-3);
+  EXPECT_THAT(study.rows[0].remark, HasSubstr("90 % of the plate"));
+  EXPECT_THAT(study.rows[1].remark, HasSubstr("more NEBP"));
+  EXPECT_NEAR(study.rows[2].mean_mm2, 18.05, 1e-9);
+  EXPECT_NEAR(study.rows[2].sd_mm2, 0.129, 1e-3);  // of 18, 18.2, 18.1, 17.9
+  ASSERT_EQ(study.rows[2].days.size(), 2u);
+  EXPECT_NEAR(study.rows[2].days[0].mean_mm2, 18.1, 1e-9);
+}
+
+TEST(MassStudy, ScatterAndDaysDecideRepeatability) {
+  const MassStudy study = StudyMass(Runs(1e-3, {17, 19.5, 17, 19.5}, 1) +
+                                    Runs(2e-3, {17.5, 17.6, 18.6, 18.7}, 1) + Runs(3e-3, {18}, 1));
+  EXPECT_FALSE(study.chosen);
+  EXPECT_THAT(study.rows[0].remark, HasSubstr("scatters"));
+  EXPECT_THAT(study.rows[1].remark, HasSubstr("between days"));
+  EXPECT_THAT(study.rows[2].remark, HasSubstr("one run"));
+}
+
+TEST(MassStudy, PlotShowsTheRuns) {
+  const auto runs = Runs(1e-3, {17, 17.2}, 1) + Runs(2e-3, {18, 18.2}, 1);
+  const ColorImage plot = DrawMassStudy(runs, StudyMass(runs));
+  const auto coloured = std::count_if(plot.pixels.begin(), plot.pixels.end(),
+                                      [](const Color& c) { return c[0] != c[1] || c[1] != c[2]; });
+  EXPECT_GT(coloured, 100);
+}
+
+}  // namespace
+}  // namespace talus::imaging

@@ -1,0 +1,143 @@
+#include "imaging/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "base/error.h"
+#include "imaging/difference_map.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+Frame SmallFrame() {
+  return {.width = 200,
+          .height = 100,
+          .pixel_size = 1e-4,
+          .center_x = 100,
+          .baseline = 90,
+          .plate_diameter = 0.016};
+}
+
+// The mean of many binary views of a heap of height h(x) that is shifted by `shift` px: each
+// pixel's grey is the share of its column that is powder.
+Profile Drawn(const std::function<double(double)>& height, double shift = 0) {
+  const Frame frame = SmallFrame();
+  Profile profile{.image = {.width = 200, .height = 100, .pixels = {}}, .frame = frame};
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      const double h = height(x + 0.5 - frame.center_x - shift);
+      const double share = y < 90 ? std::clamp(h - (frame.baseline - y - 1), 0.0, 1.0) : 0.0;
+      profile.image.pixels.push_back(static_cast<std::uint8_t>(255 * (1 - share) + 0.5));
+    }
+  }
+  return profile;
+}
+
+double Cone(double x) { return std::max(0.0, 0.5 * (80 - std::abs(x))); }
+double Dome(double x) { return std::max(0.0, 36 * (1 - x * x / 6400)); }
+
+double Value(const std::vector<Metric>& metrics, const std::string& name) {
+  return FindMetric(metrics, name).value.value;
+}
+
+TEST(Metrics, ComparedWithItselfNothingDiffers) {
+  const HeapImages heap{.profile = Drawn(Cone), .parts = {}};
+  const auto metrics = CompareProfiles(heap, heap);
+  for (const char* name : {"sad_mm2", "sad_relative", "sad_px", "rmse_gray"}) {
+    EXPECT_EQ(Value(metrics, name), 0) << name;
+  }
+  EXPECT_EQ(Value(metrics, "iou"), 1);
+  for (const Metric& metric : metrics) {
+    EXPECT_EQ(metric.value.value, metric.reference.value) << metric.name;
+  }
+}
+
+TEST(Metrics, SadIsSymmetric) {
+  const Profile a = Drawn(Cone);
+  const Profile b = Drawn(Dome);
+  EXPECT_EQ(Sad(a.image, b.image), Sad(b.image, a.image));
+  EXPECT_GT(Sad(a.image, b.image), 100);
+}
+
+// A block of 20 × 10 px against one of 20 × 15: 100 px more, of 0.01 mm² each.
+TEST(Metrics, NumbersOfTwoBlocks) {
+  const auto block = [](double h) { return [h](double x) { return std::abs(x) < 10 ? h : 0.0; }; };
+  const HeapImages low{.profile = Drawn(block(10)), .parts = {}};
+  const HeapImages high{.profile = Drawn(block(15)), .parts = {}};
+  MetricOptions options;
+  auto metrics = CompareProfiles(high, low, options);
+  EXPECT_DOUBLE_EQ(Value(metrics, "sad_px"), 100);
+  EXPECT_DOUBLE_EQ(Value(metrics, "sad_mm2"), 1);
+  EXPECT_DOUBLE_EQ(Value(metrics, "sad_relative"), 0.5);
+  EXPECT_DOUBLE_EQ(Value(metrics, "iou"), 200.0 / 300);
+  EXPECT_DOUBLE_EQ(Value(metrics, "rmse_gray"), 255 * std::sqrt(100.0 / 20000));
+  EXPECT_DOUBLE_EQ(Value(metrics, "nebp_px"), 300);
+  EXPECT_DOUBLE_EQ(FindMetric(metrics, "nebp_px").reference.value, 200);
+  options.rmse_region = Region{.left = 90, .top = 75, .width = 20, .height = 5};  // the difference
+  EXPECT_DOUBLE_EQ(Value(CompareProfiles(high, low, options), "rmse_gray"), 255);
+  options.rmse_region = Region{.left = 190, .top = 0, .width = 20, .height = 5};
+  EXPECT_FALSE(FindMetric(CompareProfiles(high, low, options), "rmse_gray").value.defined());
+}
+
+// The triangle of the same area is the cone itself: 26.57°, and nothing deviates from it but the
+// columns' steps of up to a quarter of a pixel on 20 px of mean height.
+TEST(Metrics, ConeIsItsOwnTriangle) {
+  const auto metrics = DescribeProfile({.profile = Drawn(Cone), .parts = {}});
+  EXPECT_NEAR(Value(metrics, "triangle_angle_deg"), std::atan(0.5) / kDegree, 0.05);
+  EXPECT_LT(Value(metrics, "static_cohesive_index"), 0.02);
+  EXPECT_GT(Value(DescribeProfile({.profile = Drawn(Dome), .parts = {}}), "static_cohesive_index"),
+            0.1);
+}
+
+// A shift by s moves both outlines: |dh/dx| s a column, 0.5 × 0.3 × 160 = 24 px of 3200.
+TEST(Metrics, SadGrowsWithAShiftAsTheSlopesSay) {
+  const Profile still = Drawn(Cone);
+  EXPECT_NEAR(Sad(still.image, Drawn(Cone, 0.3).image), 24, 2);
+}
+
+TEST(Metrics, EmptyHeapHasReasonsInsteadOfNumbers) {
+  const HeapImages empty{.profile = Drawn([](double) { return 0.0; }), .parts = {}};
+  const auto metrics = CompareProfiles(empty, empty);
+  for (const char* name : {"sad_relative", "iou", "triangle_angle_deg", "static_cohesive_index",
+                           "repose_angle_2_mean_deg"}) {
+    EXPECT_FALSE(FindMetric(metrics, name).value.defined()) << name;
+    EXPECT_TRUE(std::isnan(FindMetric(metrics, name).value.value)) << name;
+  }
+}
+
+TEST(Metrics, NamesAreThoseOfEveryComparison) {
+  const HeapImages heap{.profile = Drawn(Cone), .parts = {}};
+  const auto metrics = CompareProfiles(heap, heap);
+  const auto names = MetricNames();
+  ASSERT_EQ(names.size(), metrics.size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], metrics[i].name);
+}
+
+TEST(Metrics, OtherFramesCannotBeCompared) {
+  const HeapImages heap{.profile = Drawn(Cone), .parts = {}};
+  HeapImages other = heap;
+  other.profile.frame.baseline += 0.5;
+  EXPECT_THROW(CompareProfiles(heap, other), base::ConfigError);
+}
+
+// ANHP − AEHP: white without powder in the simulation where the experiment has it is +255, blue.
+TEST(DifferenceMap, BlueWhereTheSimulationHasTooLittle) {
+  const Profile experiment = Drawn(Cone);
+  const Profile simulation = Drawn([](double x) { return x < 0 ? 0.0 : Cone(x - 20); });
+  const ColorImage map = DifferenceImage(simulation, experiment);
+  const auto at = [&](int x, int y) { return map.pixels[static_cast<std::size_t>(y * 200 + x)]; };
+  EXPECT_EQ(at(60, 80), (Color{0, 0, 255}));
+  EXPECT_EQ(at(150, 74), (Color{255, 0, 0}));
+  EXPECT_EQ(at(10, 10), (Color{255, 255, 255}));
+  const ColorImage drawn = DrawDifferenceMap(simulation, experiment);
+  EXPECT_GT(drawn.width, 500);  // enlarged, with its axes
+}
+
+}  // namespace
+}  // namespace talus::imaging

@@ -1,0 +1,55 @@
+#include "imaging/photo_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace talus::imaging {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<std::string> Names(const PhotoSet& set) {
+  std::vector<std::string> names;
+  for (const PhotoFiles& run : set.runs) {
+    for (const PhotoFile& view : run.views) {
+      names.push_back(run.run + "/" + view.view + "=" + view.path.string());
+    }
+  }
+  return names;
+}
+
+TEST(PhotoSet, RunsAndViewsAreSortedByNumber) {
+  const PhotoSet set = SortPhotos(
+      {"run10_view1.jpg", "run2_view0.jpg", "run2_view1.jpg", "run10_view0.png", "notes.txt"},
+      "run{run}_view{view}.*");
+  EXPECT_THAT(Names(set), ElementsAre("2/0=run2_view0.jpg", "2/1=run2_view1.jpg",
+                                      "10/0=run10_view0.png", "10/1=run10_view1.jpg"));
+  EXPECT_THAT(set.missing, IsEmpty());
+}
+
+TEST(PhotoSet, ViewOfAnotherRunIsMissing) {
+  const PhotoSet set = SortPhotos({"a-1.png", "a-2.png", "b-1.png"}, "{run}-{view}.png");
+  ASSERT_EQ(set.missing.size(), 1u);
+  EXPECT_THAT(set.missing[0], testing::HasSubstr("run b has no view 2"));
+}
+
+TEST(PhotoSet, GapInANumberingIsMissingButNotBetweenAngles) {
+  EXPECT_EQ(SortPhotos({"v00.png", "v01.png", "v03.png"}, "v{view}.png").missing.size(), 1u);
+  EXPECT_THAT(SortPhotos({"v000.png", "v045.png", "v090.png"}, "v{view}.png").missing, IsEmpty());
+}
+
+TEST(PhotoSet, PatternWithoutViewNumbersTheFiles) {
+  EXPECT_THAT(Names(SortPhotos({"heap (1).jpg", "heap (2).jpg"}, "heap*.jpg")),
+              ElementsAre("1/1=heap (1).jpg", "1/2=heap (2).jpg"));
+}
+
+TEST(PhotoSet, TwoFilesForOneViewAreAnError) {
+  EXPECT_THROW(SortPhotos({"run1_view1.jpg", "run1_view1.png"}, "run{run}_view{view}.*"),
+               base::ConfigError);
+}
+
+}  // namespace
+}  // namespace talus::imaging
