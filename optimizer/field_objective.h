@@ -10,15 +10,15 @@ namespace talus::optimizer {
 
 // Fields are row by row from the top, in [0, 1] with 1 = powder.
 struct FieldObjective {
-  int width = 0;              // [px]
-  int height = 0;             // [px]
-  std::vector<float> target;  // the measured field; may be empty with a metric of its own
+  int width = 0;                   // [px]
+  int height = 0;                  // [px]
+  std::vector<float> target = {};  // the measured field; may be empty with a metric of its own
 
   // The objective is the sum of absolute differences, sad_scale Σ |field - target|, whose
   // expectation has a closed form …
   double sad_scale = 0;  // > 0, such as the area of a pixel; unused beside a metric
   // … unless this is set: any other functional of a field, such as |angle of repose - reference|.
-  std::function<double(std::span<const float>)> metric;
+  std::function<double(std::span<const float>)> metric = {};
 
   double Value(std::span<const float> field) const;
 };

@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "optimizer/design_strategy.h"
+#include "optimizer/field_strategy.h"
+#include "optimizer/rbf_strategy.h"
 #include "optimizer/replayed_search.h"
 #include "optimizer/scalar_strategy.h"
 
@@ -83,18 +85,28 @@ void StrategyOptions::ValidateFor(int num_parameters, base::Problems& problems) 
 }
 
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
-                                       const FieldObjective*, std::uint64_t seed) {
+                                       const FieldObjective* field, std::uint64_t seed) {
   base::Problems problems;
   options.Validate(problems);
   options.ValidateFor(domain.num_parameters, problems);
+  problems.Require(options.kind != StrategyKind::kField || field != nullptr, "kind",
+                   "is \"field\", but evaluations bring no images here: use \"surrogate\"");
   problems.ThrowIfAny();
-  switch (options.kind) {
-    case StrategyKind::kGp:
-      return std::make_unique<ScalarStrategy>(
-          domain, ScalarOptions{.num_initial = options.num_initial,
+  const ScalarOptions surrogate{.num_initial = options.num_initial,
                                 .stop_multiple = options.stop_multiple,
                                 .max_replicates = options.max_replicates,
-                                .seed = seed});
+                                .seed = seed};
+  switch (options.kind) {
+    case StrategyKind::kSurrogate:
+    case StrategyKind::kField: {
+      const bool always = options.kind == StrategyKind::kField;
+      if (field == nullptr) return std::make_unique<ScalarStrategy>(domain, surrogate);
+      return std::make_unique<FieldStrategy>(domain, *field, always, surrogate);
+    }
+    case StrategyKind::kGp:
+      return std::make_unique<ScalarStrategy>(domain, surrogate);
+    case StrategyKind::kRbf:
+      return std::make_unique<RbfStrategy>(domain, surrogate);
     case StrategyKind::kLhs:
       return std::make_unique<DesignStrategy>(
           domain, LatinHypercube(options.num_points, domain.num_parameters, seed),

@@ -15,7 +15,10 @@
 namespace talus::optimizer {
 
 enum class StrategyKind {
+  kSurrogate,  // images where there are, as long as they predict better, else numbers
   kGp,
+  kField,
+  kRbf,
   kLhs,
   kSobol,
   kGrid,
@@ -28,11 +31,12 @@ enum class StrategyKind {
 };
 
 struct StrategyOptions {
-  StrategyKind kind = StrategyKind::kGp;
-  int num_initial = 0;           // of gp: size of the initial design, in [0, 100]; 0: 2 d + 3
-  double stop_multiple = 1;      // of gp: stop when less than this × the scatter is left to gain
-  int max_replicates = 5;        // of gp: deliberate repeats beside the first, in [0, 1000]
-  int num_points = 60;           // of lhs and sobol, in [1, 10000]
+  StrategyKind kind = StrategyKind::kSurrogate;
+  int num_initial = 0;  // of surrogates: size of the initial design, in [0, 100]; 0: 2 d + 3
+  double stop_multiple =
+      1;                   // of surrogates: stop when less than this × the scatter is left to gain
+  int max_replicates = 5;  // of surrogates: deliberate repeats beside the first, in [0, 1000]
+  int num_points = 60;     // of lhs and sobol, in [1, 10000]
   std::vector<int> levels = {};  // of grid, one a parameter, each >= 1; empty: 8 each
   int refine_best = 20;          // of grid: this many of the best are refined by half steps, >= 0
 
@@ -40,12 +44,14 @@ struct StrategyOptions {
   static void Visit(Self& self, Visitor&& visit) {
     visit("kind", self.kind, {.doc = "how the next simulations are chosen"});
     visit("num_initial", self.num_initial,
-          {.doc = "gp: size of the initial design; 0 for 2 d + 3 with d parameters"});
+          {.doc = "surrogate, gp, field, rbf: size of the initial design; 0 for 2 d + 3 with d "
+                  "parameters"});
     visit("stop_multiple", self.stop_multiple,
-          {.doc = "gp: stops when less than this times the scatter of one evaluation is left to "
+          {.doc = "surrogate, gp, field: stops when less than this times the scatter of one "
+                  "evaluation is left to "
                   "gain; 0 never"});
     visit("max_replicates", self.max_replicates,
-          {.doc = "gp: deliberate repeats beside the first one, in all"});
+          {.doc = "surrogate, gp, field, rbf: deliberate repeats beside the first one, in all"});
     visit("num_points", self.num_points, {.doc = "lhs, sobol: size of the design, 1 to 10000"});
     visit("levels", self.levels,
           {.doc = "grid: values of each parameter, in their order; 8 each if not given"});
@@ -69,7 +75,10 @@ template <>
 struct talus::base::Names<talus::optimizer::StrategyKind> {
   using Kind = talus::optimizer::StrategyKind;
   static constexpr std::array kList{
+      std::pair{"surrogate", Kind::kSurrogate},
       std::pair{"gp", Kind::kGp},
+      std::pair{"field", Kind::kField},
+      std::pair{"rbf", Kind::kRbf},
       std::pair{"lhs", Kind::kLhs},
       std::pair{"sobol", Kind::kSobol},
       std::pair{"grid", Kind::kGrid},

@@ -61,6 +61,22 @@ std::vector<Eigen::Index> Starts(const Eigen::MatrixXd& candidates, const Eigen:
   return starts;
 }
 
+// A simplex started small a second time gets on where the first one has collapsed at a kink.
+std::vector<surrogate::SearchTask> LocalSearches(const SearchOptions& options, int dimension) {
+  surrogate::SearchTask task{.algorithm = surrogate::SearchAlgorithm::kLbfgs,
+                             .lower = Eigen::VectorXd::Zero(dimension),
+                             .upper = Eigen::VectorXd::Ones(dimension),
+                             .start = {},
+                             .max_evaluations = options.max_evaluations,
+                             .absolute_tolerance = options.tolerance};
+  if (!options.kinked) return {task};
+  task.algorithm = surrogate::SearchAlgorithm::kNelderMead;
+  task.initial_step = 0.05;
+  std::vector<surrogate::SearchTask> tasks{task, task};
+  tasks[1].initial_step = 0.005;
+  return tasks;
+}
+
 }  // namespace
 
 Found SearchCube(const CheapFunction& function, const Domain& domain,
@@ -73,14 +89,13 @@ Found SearchCube(const CheapFunction& function, const Domain& domain,
   };
   Found best{{}, std::numeric_limits<double>::infinity()};
   for (const Eigen::Index start : Starts(candidates, values, options.num_local)) {
-    const surrogate::Minimum found =
-        surrogate::Minimize(inside, {.algorithm = surrogate::SearchAlgorithm::kLbfgs,
-                                     .lower = Eigen::VectorXd::Zero(domain.num_parameters),
-                                     .upper = Eigen::VectorXd::Ones(domain.num_parameters),
-                                     .start = candidates.row(start),
-                                     .max_evaluations = options.max_evaluations,
-                                     .absolute_tolerance = options.tolerance});
-    if (found.value < best.value || best.point.size() == 0) best = {found.point, found.value};
+    Eigen::VectorXd from = candidates.row(start);
+    for (surrogate::SearchTask& task : LocalSearches(options, domain.num_parameters)) {
+      task.start = from;
+      const surrogate::Minimum found = surrogate::Minimize(inside, task);
+      from = found.point;
+      if (found.value < best.value || best.point.size() == 0) best = {found.point, found.value};
+    }
   }
   return best;
 }

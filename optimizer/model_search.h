@@ -15,6 +15,7 @@ struct SearchOptions {
   int num_local = 4;         // local searches from so many of the best candidates
   int max_evaluations = 40;  // of one local search
   double tolerance = 1e-7;   // of a coordinate, ends a local search
+  bool kinked = false;       // the function has kinks: search by simplex, without gradients
   std::uint64_t seed = 1;
 };
 
@@ -22,7 +23,7 @@ struct SearchOptions {
 struct CheapFunction {
   // One value a row of points.
   std::function<Eigen::VectorXd(const Eigen::MatrixXd&)> values;
-  // One value, with the gradient where not null.
+  // One value, with the gradient where not null. Never asked for a gradient when kinked.
   std::function<double(const Eigen::VectorXd&, Eigen::VectorXd*)> value_and_gradient;
 };
 

@@ -83,9 +83,14 @@ void ScalarStrategy::Tell(const Observation& observation) {
 }
 
 Proposal ScalarStrategy::Next(const Points& asked) {
-  if (const auto point = NextOfDesign(asked)) return {*point, Origin::kDesign};
-  if (const auto point = FirstRepeat(asked)) return {*point, Origin::kRepeat};
-  return ByModel(asked);
+  const auto first = BeforeModel(asked);
+  return first ? *first : ByModel(asked);
+}
+
+std::optional<Proposal> ScalarStrategy::BeforeModel(const Points& asked) const {
+  if (const auto point = NextOfDesign(asked)) return Proposal{*point, Origin::kDesign};
+  if (const auto point = FirstRepeat(asked)) return Proposal{*point, Origin::kRepeat};
+  return std::nullopt;
 }
 
 bool ScalarStrategy::WasEvaluated(const Eigen::VectorXd& point, const Points& asked) const {

@@ -39,16 +39,24 @@ class ScalarStrategy : public Strategy {
   std::optional<std::string> StopReason() override;
   Answer Recommend() override;
 
- private:
+  // What a strategy with another model of the same evaluations shares with this one: the points
+  // before any model (design and repeat), the rule for repeats, and what is known.
   using Points = std::vector<Eigen::VectorXd>;
+  std::optional<Proposal> BeforeModel(const Points& asked) const;
+  Proposal NotByAccident(const Eigen::VectorXd& point, const Points& asked) const;
+  bool deterministic() const { return repeats_.deterministic; }
+  bool knows_scatter() const { return repeats_.num_repeats > 0; }
+  const History& history() const { return history_; }
+  const Feasibility& feasibility() const { return feasibility_; }
+  int size_of_design() const { return static_cast<int>(design_.size()); }
 
+ private:
   // One more proposal, when those `asked` before are under way.
   Proposal Next(const Points& asked);
   std::optional<Eigen::VectorXd> NextOfDesign(const Points& asked) const;
   std::optional<Eigen::VectorXd> FirstRepeat(const Points& asked) const;
   Proposal ByModel(const Points& asked);
   std::optional<Eigen::VectorXd> ByTrustRegion(const Points& asked) const;
-  Proposal NotByAccident(const Eigen::VectorXd& point, const Points& asked) const;
   bool WasEvaluated(const Eigen::VectorXd& point, const Points& asked) const;
   const ScalarFit& Fit();
   Eigen::VectorXd Best();

@@ -1,6 +1,6 @@
 // Runs a strategy on the benchmark problems and prints the solved fractions.
 //
-//   optimizer_bench [--strategy scalar] [--noise 0|1|2] [--instances 1-8] [--problems a,b]
+//   optimizer_bench [--strategy surrogate] [--noise 0|1|2] [--instances 1-8] [--problems a,b]
 //                   [--budgets 30,60,100] [--batch 1] [--csv FILE]
 //
 // r = (f(recommended) - f*) / R is judged noise-free; the score is the share of (problem, instance,
@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "bench/optimizers/problems.h"
-#include "optimizer/scalar_strategy.h"
+#include "optimizer/make_strategy.h"
 
 namespace talus::bench {
 namespace {
 
 struct Options {
-  std::string strategy = "scalar";
+  std::string strategy = "surrogate";  // a kind of strategy
   int noise = 1;
   int first_instance = 1;
   int last_instance = 8;
@@ -73,6 +73,25 @@ struct Result {
 
 Vec ToVec(const Eigen::VectorXd& point) { return {point[0], point[1], point[2]}; }
 
+// Images are only shown to the kinds that use them.
+std::unique_ptr<optimizer::Strategy> MakeFor(const Options& options, const Problem& problem,
+                                             std::uint64_t seed) {
+  optimizer::StrategyOptions strategy;
+  strategy.stop_multiple = 0;  // the whole budget is spent, whatever is left to gain
+  for (const auto& [name, kind] : base::Names<optimizer::StrategyKind>::kList) {
+    if (name == options.strategy) strategy.kind = kind;
+  }
+  const optimizer::Domain domain{.num_parameters = D};
+  if (!problem.HasImage()) return optimizer::MakeStrategy(strategy, domain, nullptr, seed);
+  const Image target = problem.Target();
+  const optimizer::FieldObjective field{.width = target.w,
+                                        .height = target.h,
+                                        .target = target.px,
+                                        .sad_scale = 100.0 / (target.w * target.h),
+                                        .metric = {}};
+  return optimizer::MakeStrategy(strategy, domain, &field, seed);
+}
+
 std::vector<Result> RunOne(const Options& options, const std::string& name, int instance) {
   const auto problem = MakeProblem(name, instance);
   Vec best;
@@ -80,19 +99,21 @@ std::vector<Result> RunOne(const Options& options, const std::string& name, int 
   Optimum(*problem, best, lowest);
   const double scale = problem->Median() - lowest;
   const auto seed = static_cast<std::uint64_t>(instance);
-  optimizer::ScalarStrategy strategy({.num_parameters = D}, {.seed = seed});
+  const auto strategy = MakeFor(options, *problem, seed);
   std::vector<Result> results;
   int told = 0;
   for (const int budget : options.budgets) {
     while (told < budget) {
-      for (const auto& proposal : strategy.Ask(std::min(options.batch, budget - told), {})) {
+      for (const auto& proposal : strategy->Ask(std::min(options.batch, budget - told), {})) {
         ++told;
-        const double value = problem->Noisy(
-            ToVec(proposal.point), 1000 * seed + static_cast<std::uint64_t>(told), options.noise);
-        strategy.Tell({.point = proposal.point, .value = value, .field = {}});
+        const std::uint64_t run = 1000 * seed + static_cast<std::uint64_t>(told);
+        const double value = problem->Noisy(ToVec(proposal.point), run, options.noise);
+        strategy->Tell({.point = proposal.point,
+                        .value = value,
+                        .field = problem->MakeImage(ToVec(proposal.point), run, options.noise).px});
       }
     }
-    const double value = problem->Value(ToVec(strategy.Recommend().point));
+    const double value = problem->Value(ToVec(strategy->Recommend().point));
     results.push_back({name, instance, budget, std::max(0.0, (value - lowest) / scale)});
   }
   return results;

@@ -90,8 +90,10 @@ TEST(MakeStrategy, EveryKindHasANameAndProposesAPoint) {
   int count = 0;
   for (const auto& [name, kind] : base::Names<StrategyKind>::kList) {
     EXPECT_EQ(static_cast<int>(kind), count++) << name;
-    StrategyOptions options{.kind = kind};
-    const auto strategy = MakeStrategy(options, Domain{.num_parameters = 2}, nullptr, 1);
+    const StrategyOptions options{.kind = kind};
+    const FieldObjective field{
+        .width = 2, .height = 2, .target = std::vector<float>(4), .sad_scale = 1};
+    const auto strategy = MakeStrategy(options, Domain{.num_parameters = 2}, &field, 1);
     EXPECT_EQ(strategy->Ask(1, {}).size(), 1u) << name;
   }
   EXPECT_EQ(count, static_cast<int>(StrategyKind::kSubplex) + 1);
@@ -109,6 +111,7 @@ TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
   EXPECT_THAT(error_of({.kind = StrategyKind::kGrid, .levels = {3, 3}}),
               HasSubstr("has 2 numbers for 6 parameters"));
   EXPECT_THAT(error_of({.kind = StrategyKind::kGrid}), HasSubstr("must be at most 10000"));
+  EXPECT_THAT(error_of({.kind = StrategyKind::kField}), HasSubstr("bring no images"));
   EXPECT_THAT(error_of({.num_points = 0}), HasSubstr("num_points: is 0"));
 }
 

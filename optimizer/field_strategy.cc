@@ -1,0 +1,169 @@
+#include "optimizer/field_strategy.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include "optimizer/answer.h"
+#include "optimizer/model_search.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kNumCenters = 5;
+constexpr double kStopSds = 1.96;
+constexpr double kStopShare = 1e-6;  // of the spread of the values, when there is no scatter
+
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+Eigen::VectorXd MeansOf(const FieldModel& model, const Eigen::MatrixXd& points) {
+  Eigen::VectorXd means(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) means[i] = model.Mean(points.row(i));
+  return means;
+}
+
+// The evaluated points of the lowest predicted mean.
+Eigen::MatrixXd Centers(const FieldModel& model, const Eigen::MatrixXd& points) {
+  const Eigen::VectorXd mean = MeansOf(model, points);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(mean.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return mean[a] < mean[b]; });
+  order.resize(std::min<std::size_t>(order.size(), kNumCenters));
+  return points(order, Eigen::all);
+}
+
+}  // namespace
+
+FieldStrategy::FieldStrategy(const Domain& domain, const FieldObjective& objective, bool always,
+                             const ScalarOptions& options)
+    : domain_(domain),
+      options_(options),
+      scalar_(domain, options),
+      fields_(objective, always, options.seed) {}
+
+void FieldStrategy::Tell(const Observation& observation) {
+  scalar_.Tell(observation);
+  if (!observation.failed) fields_.Add(observation);
+  is_current_ = false;
+}
+
+const std::optional<FieldModel>& FieldStrategy::Model() {
+  if (!is_current_) model_ = fields_.Model(scalar_.deterministic());
+  is_current_ = true;
+  return model_;
+}
+
+std::vector<Proposal> FieldStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
+  Points asked(pending.begin(), pending.end());
+  std::vector<Proposal> proposals;
+  for (int i = 0; i < count; ++i) {
+    proposals.push_back(Next(asked));
+    asked.push_back(proposals.back().point);
+  }
+  return proposals;
+}
+
+Proposal FieldStrategy::Next(const Points& asked) {
+  if (const auto first = scalar_.BeforeModel(asked)) return *first;
+  const std::optional<FieldModel>& model = Model();
+  if (!model) return scalar_.Ask(1, asked).front();
+  return scalar_.NotByAccident(ByModel(*model, asked), asked);
+}
+
+Eigen::VectorXd FieldStrategy::ByModel(const FieldModel& model, const Points& asked) const {
+  const Eigen::VectorXd lowest = LowestMean(model);
+  const double incumbent = model.Mean(lowest);
+  FieldModel believed = model;
+  for (const Eigen::VectorXd& point : asked) believed.Believe(point);
+  Eigen::MatrixXd centers = Centers(believed, scalar_.history().points);
+  centers.conservativeResize(centers.rows() + 1, Eigen::NoChange);
+  centers.row(centers.rows() - 1) = lowest;
+  const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+    return -believed.LogImprovement(points, incumbent) - scalar_.feasibility().Penalty(points);
+  };
+  const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
+    return values(x.transpose())[0];
+  };
+  return SearchCube({values, value}, domain_, centers,
+                    {.num_candidates = 300,
+                     .num_local = 3,
+                     .tolerance = 1e-6,
+                     .kinked = true,
+                     .seed = options_.seed +
+                             7919 * static_cast<std::uint64_t>(fields_.size() + asked.size())})
+      .point;
+}
+
+// A failure costs as much as the spread of the values.
+Eigen::VectorXd FieldStrategy::LowestMean(const FieldModel& model) const {
+  const History& history = scalar_.history();
+  const double spread = history.values.maxCoeff() - history.values.minCoeff();
+  const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+    return MeansOf(model, points) - spread * scalar_.feasibility().Penalty(points);
+  };
+  const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
+    return values(x.transpose())[0];
+  };
+  return SearchCube({values, value}, domain_, Centers(model, history.points),
+                    {.num_candidates = 200,
+                     .num_local = 3,
+                     .max_evaluations = 100,
+                     .kinked = true,
+                     .seed = options_.seed})
+      .point;
+}
+
+std::optional<std::string> FieldStrategy::StopReason() {
+  if (options_.stop_multiple == 0 || !scalar_.knows_scatter() ||
+      fields_.size() < 2 * scalar_.size_of_design()) {
+    return std::nullopt;
+  }
+  if (!Model()) return scalar_.StopReason();
+  const FieldModel& model = *model_;
+  const Eigen::VectorXd best = LowestMean(model);
+  const Moments at = model.Predict(best.transpose());
+  const auto lower = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+    const Moments moments = model.Predict(points);
+    return moments.mean - kStopSds * moments.sd;
+  };
+  const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
+    return lower(x.transpose())[0];
+  };
+  const double bound =
+      SearchCube({lower, value}, domain_, best.transpose(),
+                 {.num_candidates = 300, .num_local = 1, .kinked = true, .seed = options_.seed})
+          .value;
+  const double gain = at.mean[0] + kStopSds * at.sd[0] - std::min(bound, at.mean[0]);
+  const double noise = model.NoiseSd(best);
+  const Eigen::VectorXd& seen = scalar_.history().values;
+  const double enough = scalar_.deterministic() ? kStopShare * (seen.mean() - seen.minCoeff())
+                                                : options_.stop_multiple * noise;
+  if (!(gain < enough)) return std::nullopt;
+  if (scalar_.deterministic()) {
+    return "what is left to gain, at most " + Number(gain) +
+           ", is below a millionth of the spread of the values";
+  }
+  return "what is left to gain, at most " + Number(gain) + ", is below " +
+         Number(options_.stop_multiple) + " x the scatter of one evaluation, " + Number(noise);
+}
+
+Answer FieldStrategy::Recommend() {
+  if (!Model()) return scalar_.Recommend();
+  // Each place costs an image, so there are fewer than a scalar model is asked at.
+  Answer answer = DescribeMinimum(*model_, domain_, LowestMean(*model_),
+                                  {.num_places = 800,
+                                   .num_draw_places = 150,
+                                   .num_draws = 150,
+                                   .num_sobol = 128,
+                                   .seed = options_.seed});
+  answer.model = "modes of the images of " + std::to_string(fields_.size()) + " evaluations, " +
+                 (scalar_.deterministic() ? "deterministic" : "noisy") + "; " + fields_.verdict();
+  return answer;
+}
+
+}  // namespace talus::optimizer

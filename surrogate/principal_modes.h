@@ -1,0 +1,23 @@
+// Principal components: the few directions in which many long vectors differ.
+//
+//   vectorᵢ = mean + basis coefficientsᵢ + what is discarded
+#pragma once
+
+#include <Eigen/Core>
+
+namespace talus::surrogate {
+
+struct PrincipalModes {
+  Eigen::VectorXd mean;       // m
+  Eigen::MatrixXd basis;      // m × k, orthonormal columns, the strongest first
+  Eigen::VectorXd discarded;  // m: variance of each element that the modes leave out
+
+  Eigen::VectorXd Coefficients(const Eigen::VectorXd& vector) const {
+    return basis.transpose() * (vector - mean);
+  }
+};
+
+// `vectors`: one a row. At most max_modes, fewer when the rest is rounding.
+PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes);
+
+}  // namespace talus::surrogate

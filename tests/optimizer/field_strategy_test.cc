@@ -1,0 +1,191 @@
+#include "optimizer/field_strategy.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "optimizer/make_strategy.h"
+#include "surrogate/column_edges.h"
+
+namespace talus::optimizer {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr surrogate::FieldSize kSize{.width = 32, .height = 24};
+const Eigen::Vector2d kTruth(0.62, 0.35);
+
+// A heap whose steepness and rounding are the two parameters; `rough` disturbs both and the place.
+std::vector<float> HeapImage(const Eigen::VectorXd& u, double rough, std::uint64_t seed) {
+  base::Random random(seed, base::Stream("heap image"));
+  const double steep = (0.4 + 0.8 * u[0]) * (1 + rough * random.Normal());
+  const double round = (1 + 6 * u[1]) * (1 + rough * random.Normal());
+  const double shift = 5 * rough * random.Normal();
+  surrogate::ColumnEdges edges{.height = Eigen::VectorXd(kSize.width),
+                               .width = Eigen::VectorXd::Constant(kSize.width, 1.2)};
+  for (int c = 0; c < kSize.width; ++c) {
+    const double x = c + 0.5 - 16 - shift;
+    edges.height[c] =
+        std::max(0.0, 16 - 2 * u[1] - steep * (std::sqrt(x * x + round * round) - round));
+  }
+  return surrogate::Render(edges, kSize);
+}
+
+FieldObjective SadTo(std::vector<float> target) {
+  return {.width = kSize.width,
+          .height = kSize.height,
+          .target = std::move(target),
+          .sad_scale = 100.0 / kSize.num_pixels(),
+          .metric = {}};
+}
+
+std::unique_ptr<Strategy> Make(StrategyKind kind, const FieldObjective& objective) {
+  return MakeStrategy({.kind = kind, .stop_multiple = 0}, Domain{.num_parameters = 2}, &objective,
+                      3);
+}
+
+using Simulate = std::function<std::vector<float>(const Eigen::VectorXd&, std::uint64_t)>;
+
+void RunFor(Strategy& strategy, const FieldObjective& objective, const Simulate& simulate,
+            int num_evaluations, int batch = 1) {
+  for (int told = 0; told < num_evaluations;) {
+    for (const Proposal& p : strategy.Ask(batch, {})) {
+      const auto field = simulate(p.point, static_cast<std::uint64_t>(++told));
+      strategy.Tell({.point = p.point, .value = objective.Value(field), .field = field});
+    }
+  }
+}
+
+std::vector<float> Smooth(const Eigen::VectorXd& u, std::uint64_t) { return HeapImage(u, 0, 0); }
+std::vector<float> Noisy(const Eigen::VectorXd& u, std::uint64_t seed) {
+  return HeapImage(u, 0.05, seed);
+}
+
+TEST(FieldStrategy, FindsTheHeapOfANoiseFreeSimulationInFewRuns) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kSurrogate, objective);
+  RunFor(*strategy, objective, Smooth, 20);
+  const Answer answer = strategy->Recommend();
+  // Seven of the twenty are the design. A random point is 10 % off.
+  EXPECT_LT(objective.Value(HeapImage(answer.point, 0, 0)), 0.05);
+  EXPECT_THAT(answer.model, HasSubstr("column heights"));
+  EXPECT_THAT(answer.model, HasSubstr("deterministic"));
+}
+
+TEST(FieldStrategy, SeesThroughTheScatterOfSingleRuns) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kSurrogate, objective);
+  RunFor(*strategy, objective, Noisy, 30);
+  const Answer answer = strategy->Recommend();
+  double single = 0;
+  for (std::uint64_t seed = 100; seed < 140; ++seed) {
+    single += objective.Value(HeapImage(kTruth, 0.05, seed)) / 40;
+  }
+  // Even at the true parameters one run is off by `single`; the answer is off by half of it.
+  EXPECT_LT(objective.Value(HeapImage(answer.point, 0, 0)), single / 2);
+  EXPECT_GT(answer.noise_sd, 0);
+  for (const Range& range : answer.credible) EXPECT_LE(range.low, range.high);
+}
+
+TEST(FieldStrategy, ToldTheSameProposesTheSameBitForBitHoweverOftenItWasAsked) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto asked = Make(StrategyKind::kSurrogate, objective);
+  const auto silent = Make(StrategyKind::kSurrogate, objective);
+  for (std::uint64_t i = 0; i < 14; ++i) {
+    const auto point = asked->Ask(1, {}).at(0).point;
+    const auto field = HeapImage(point, 0.05, i);
+    const Observation observation{.point = point, .value = objective.Value(field), .field = field};
+    asked->Tell(observation);
+    silent->Tell(observation);
+  }
+  const std::vector<Eigen::VectorXd> pending{Eigen::Vector2d(0.5, 0.5)};
+  const auto first = asked->Ask(2, pending);
+  const auto second = silent->Ask(2, pending);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(first[i].point, second[i].point);
+}
+
+TEST(FieldStrategy, BatchesHoldDifferentPointsAndGetThereToo) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kSurrogate, objective);
+  RunFor(*strategy, objective, Smooth, 20, 4);
+  const auto batch = strategy->Ask(4, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(SamePoint(batch[i].point, batch[j].point));
+  }
+  EXPECT_LT(objective.Value(HeapImage(strategy->Recommend().point, 0, 0)), 0.1);
+}
+
+// A disc that floats: its underside overhangs, so columns have two edges.
+std::vector<float> Disc(const Eigen::VectorXd& u, std::uint64_t) {
+  std::vector<float> field(static_cast<std::size_t>(kSize.num_pixels()));
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double distance = std::hypot(x - 10 - 12 * u[0], y - 12);
+      field[static_cast<std::size_t>(y * kSize.width + x)] =
+          static_cast<float>(0.5 * std::erfc((distance - 3 - 4 * u[1]) / 3));
+    }
+  }
+  return field;
+}
+
+TEST(FieldStrategy, ServesShapesThatOverhang) {
+  const FieldObjective objective = SadTo(Disc(kTruth, 0));
+  const auto strategy = Make(StrategyKind::kField, objective);
+  RunFor(*strategy, objective, Disc, 25);
+  EXPECT_LT(objective.Value(Disc(strategy->Recommend().point, 0)), 0.3);  // a random one has 8
+}
+
+TEST(FieldStrategy, FallsBackToTheValuesWhereImagesTellNothing) {
+  // The value is smooth, the images are unrelated noise.
+  const auto value = [](const Eigen::VectorXd& u) { return (u - kTruth).squaredNorm(); };
+  FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kSurrogate, objective);
+  for (std::uint64_t i = 1; i <= 12; ++i) {
+    const auto point = strategy->Ask(1, {}).at(0).point;
+    base::Random random(i, base::Stream("unrelated"));
+    const auto field = HeapImage(Eigen::Vector2d(random.Uniform(), random.Uniform()), 0, 0);
+    strategy->Tell({.point = point, .value = value(point), .field = field});
+  }
+  const Answer answer = strategy->Recommend();
+  EXPECT_THAT(answer.model, HasSubstr("Gaussian process of 12 evaluations"));
+  EXPECT_LT(value(answer.point), 0.01);
+}
+
+TEST(FieldStrategy, MinimisesAnyMetricOfThePredictedImage) {
+  // How far the share of powder is from what it is at the truth: met along a curve.
+  const auto share = [](std::span<const float> field) {
+    double sum = 0;
+    for (const float pixel : field) sum += pixel;
+    return sum / kSize.num_pixels();
+  };
+  const double wanted = share(HeapImage(kTruth, 0, 0));
+  FieldObjective objective{.width = kSize.width, .height = kSize.height};
+  objective.metric = [=](std::span<const float> f) { return std::abs(share(f) - wanted); };
+  const auto strategy = Make(StrategyKind::kField, objective);
+  RunFor(*strategy, objective, Smooth, 12);
+  EXPECT_LT(objective.Value(HeapImage(strategy->Recommend().point, 0, 0)), 1e-3);
+}
+
+TEST(FieldStrategy, FailedEvaluationsAreNotProposedAgain) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kSurrogate, objective);
+  std::vector<Eigen::VectorXd> failed;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const auto point = strategy->Ask(1, {}).at(0).point;
+    for (const auto& other : failed) EXPECT_FALSE(SamePoint(point, other));
+    if (point[0] < 0.3) {
+      failed.push_back(point);
+      strategy->Tell({.point = point, .failed = true});
+    } else {
+      const auto field = HeapImage(point, 0, 0);
+      strategy->Tell({.point = point, .value = objective.Value(field), .field = field});
+    }
+  }
+  EXPECT_LT(failed.size(), 8u);
+  EXPECT_GT(strategy->Recommend().point[0], 0.3);
+}
+
+}  // namespace
+}  // namespace talus::optimizer

@@ -1,0 +1,47 @@
+#include "optimizer/rbf_strategy.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "optimizer/make_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+double Bowl(const Eigen::VectorXd& u) { return (u - Eigen::Vector2d(0.3, 0.6)).squaredNorm(); }
+
+double RunFor(Strategy& strategy, int num_evaluations, double noise) {
+  for (int i = 0; i < num_evaluations; ++i) {
+    base::Random random(static_cast<std::uint64_t>(i), base::Stream("bowl noise"));
+    const auto point = strategy.Ask(1, {}).at(0).point;
+    strategy.Tell({.point = point, .value = Bowl(point) + noise * random.Normal()});
+  }
+  return Bowl(strategy.Recommend().point);
+}
+
+TEST(RbfStrategy, FindsTheMinimumWithAndWithoutNoise) {
+  const auto smooth = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
+  EXPECT_LT(RunFor(*smooth, 25, 0), 1e-4);  // the best of 25 random points is near 1e-2
+  const auto noisy = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
+  EXPECT_LT(RunFor(*noisy, 40, 0.03), 0.02);
+}
+
+TEST(RbfStrategy, ToldTheSameProposesTheSameAndBatchesDiffer) {
+  const auto first = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
+  const auto second = MakeStrategy({.kind = StrategyKind::kRbf}, {.num_parameters = 2}, nullptr, 1);
+  for (int i = 0; i < 12; ++i) {
+    const auto point = first->Ask(1, {}).at(0).point;
+    for (Strategy* strategy : {first.get(), second.get()}) {
+      strategy->Tell({.point = point, .value = Bowl(point)});
+    }
+  }
+  const auto batch = first->Ask(4, {});
+  const auto again = second->Ask(4, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    EXPECT_EQ(batch[i].point, again[i].point);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(SamePoint(batch[i].point, batch[j].point));
+  }
+}
+
+}  // namespace
+}  // namespace talus::optimizer

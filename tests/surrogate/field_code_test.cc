@@ -1,0 +1,123 @@
+#include "surrogate/field_code.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "surrogate/normal_table.h"
+
+namespace talus::surrogate {
+namespace {
+
+constexpr FieldSize kSize{.width = 40, .height = 24};
+
+// A heap with a foot of half a pixel, where the edge is cut by the bottom of the image.
+ColumnEdges Heap(double top, double width) {
+  ColumnEdges edges{.height = Eigen::VectorXd(kSize.width),
+                    .width = Eigen::VectorXd::Constant(kSize.width, width)};
+  for (int c = 0; c < kSize.width; ++c) {
+    edges.height[c] = std::max(0.5, top * (1 - std::abs(c + 0.5 - 20) / 17));
+  }
+  return edges;
+}
+
+double SumOfDifferences(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
+  }
+  return sum;
+}
+
+TEST(NormalTable, IsTheNormalDistributionFunction) {
+  for (double t = -7; t <= 7; t += 0.0137) {
+    EXPECT_NEAR(NormalTable::Cdf(t), 0.5 * std::erfc(-t / std::sqrt(2.0)), 1e-8) << t;
+  }
+}
+
+TEST(ColumnEdges, AreFoundAgainInTheirImage) {
+  for (const double width : {0.8, 1.5}) {
+    const ColumnEdges edges = Heap(15, width);
+    const ColumnEdges found = FitEdges(Render(edges, kSize), kSize);
+    // Pixel values are floats, and the sums over pixels stand for integrals: at 0.8 px that is off
+    // by e^(-2 π² 0.64) ≈ 3e-6.
+    EXPECT_LT((found.height - edges.height).cwiseAbs().maxCoeff(), 2e-3) << width;
+    EXPECT_LT((found.width - edges.width).cwiseAbs().maxCoeff(), 2e-3) << width;
+  }
+}
+
+TEST(ColumnEdges, EmptyAndFullImagesHaveNone) {
+  const std::vector<float> empty(static_cast<std::size_t>(kSize.num_pixels()), 0.0F);
+  const std::vector<float> full(static_cast<std::size_t>(kSize.num_pixels()), 1.0F);
+  for (const auto& field : {empty, full}) {
+    // Three widths beyond the border: 1.3e-3 of grey in each column's last pixels.
+    EXPECT_LT(SumOfDifferences(Render(FitEdges(field, kSize), kSize), field), 0.1);
+  }
+}
+
+TEST(EdgeCode, SadIsThatOfTheDecodedImage) {
+  const auto target = Render(Heap(15, 1), kSize);
+  const EdgeCode code(kSize, target);
+  const Eigen::VectorXd vector = code.Encode(Render(Heap(12, 1.5), kSize));
+  // Pixels more than four widths from the edge count as black or white: 3e-5 each.
+  EXPECT_NEAR(code.Sad(vector), SumOfDifferences(code.Decode(vector), target), 5e-3);
+  EXPECT_GT(code.Sad(vector), 20);
+}
+
+// The mean over draws of the vector's elements.
+double MonteCarlo(const FieldCode& code, const Eigen::VectorXd& mean,
+                  const Eigen::VectorXd& variance, int num_draws) {
+  base::Random random(3, base::Stream("expected sad"));
+  double sum = 0;
+  for (int i = 0; i < num_draws; ++i) {
+    Eigen::VectorXd draw = mean;
+    for (Eigen::Index k = 0; k < draw.size(); ++k) {
+      draw[k] += std::sqrt(variance[k]) * random.Normal();
+    }
+    sum += code.Sad(draw);
+  }
+  return sum / num_draws;
+}
+
+TEST(EdgeCode, ExpectedSadIsTheMeanOverDrawsAndMoreThanThatOfTheMean) {
+  const auto target = Render(Heap(15, 1), kSize);
+  const EdgeCode code(kSize, target);
+  const Eigen::VectorXd mean = code.Encode(target);
+  for (const double sd : {0.1, 0.5, 2.0}) {
+    Eigen::VectorXd variance = Eigen::VectorXd::Zero(mean.size());
+    variance.head(kSize.width).setConstant(sd * sd);  // of the heights; widths are taken as known
+    const double expected = code.ExpectedSad(mean, variance);
+    // 4000 draws of 40 columns leave 0.3 %; six nodes are off by up to 2 % where the scatter is
+    // wider than what is left of a column above the bottom of the image.
+    EXPECT_NEAR(expected / MonteCarlo(code, mean, variance, 4000), 1, 0.02) << sd;
+    EXPECT_GT(expected, code.Sad(mean) + 0.5 * sd);
+  }
+}
+
+TEST(PixelCode, ExpectedSadIsTheMeanOverDraws) {
+  const auto target = Render(Heap(15, 1), kSize);
+  const PixelCode code(kSize, target);
+  // Grey pixels far from 0 and 1, where no draw is cut off.
+  const Eigen::VectorXd mean = (0.5 + 0.1 * (code.Encode(target).array() - 0.5)).matrix();
+  const Eigen::VectorXd variance = Eigen::VectorXd::Constant(mean.size(), 0.01);
+  EXPECT_NEAR(code.ExpectedSad(mean, variance) / MonteCarlo(code, mean, variance, 2000), 1, 1e-3);
+}
+
+TEST(PixelCode, LargeImagesAreAveragedInBlocksThatKeepTheSum) {
+  const FieldSize size{.width = 301, .height = 203};
+  std::vector<float> field(static_cast<std::size_t>(size.num_pixels()));
+  base::Random random(1, base::Stream("pixels"));
+  double sum = 0;
+  for (float& pixel : field) sum += pixel = static_cast<float>(random.Uniform());
+  const PixelCode code(size, field);
+  const Eigen::VectorXd vector = code.Encode(field);
+  EXPECT_LT(vector.size(), 7000);
+  double decoded = 0;
+  for (const float pixel : code.Decode(vector)) decoded += pixel;
+  EXPECT_NEAR(decoded, sum, 1e-3 * sum);  // floats
+  EXPECT_NEAR(code.Sad(vector), 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace talus::surrogate

@@ -1,0 +1,112 @@
+#include "surrogate/mode_process.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+
+namespace talus::surrogate {
+namespace {
+
+constexpr int kPoints = 25;
+constexpr int kElements = 30;
+
+// Curves along 30 places that depend on two parameters in three smooth ways.
+Eigen::VectorXd Curve(const Eigen::VectorXd& x) {
+  Eigen::VectorXd curve(kElements);
+  for (Eigen::Index i = 0; i < curve.size(); ++i) {
+    const double s = static_cast<double>(i) / kElements;
+    curve[i] = 3 * std::sin(2 * x[0]) * s + x[0] * x[1] * std::cos(3 * s) + x[1] * x[1] * s * s;
+  }
+  return curve;
+}
+
+struct Data {
+  Eigen::MatrixXd points{kPoints, 2};
+  Eigen::MatrixXd vectors{kPoints, kElements};
+};
+
+Data MakeData(double noise) {
+  base::Random random(5, base::Stream("mode process test"));
+  Data data;
+  for (Eigen::Index i = 0; i < kPoints; ++i) {
+    data.points.row(i) << random.Uniform(), random.Uniform();
+    data.vectors.row(i) = Curve(data.points.row(i));
+    for (Eigen::Index k = 0; k < kElements; ++k) data.vectors(i, k) += noise * random.Normal();
+  }
+  return data;
+}
+
+TEST(PrincipalModes, AreOrthonormalAndLeaveOutOnlyTheWeakest) {
+  const Data data = MakeData(0.01);
+  const PrincipalModes modes = FitModes(data.vectors, 3);
+  ASSERT_EQ(modes.basis.cols(), 3);
+  EXPECT_LT((modes.basis.transpose() * modes.basis - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  // Three modes hold the curves; what is left is the noise in the other 27 of 30 directions.
+  EXPECT_NEAR(modes.discarded.mean(), 1e-4 * 27 / 30, 2e-5);
+}
+
+TEST(PrincipalModes, OfEqualVectorsAreNone) {
+  const PrincipalModes modes = FitModes(Eigen::MatrixXd::Constant(5, 4, 2.5), 3);
+  EXPECT_EQ(modes.basis.cols(), 0);
+  EXPECT_EQ(modes.mean, Eigen::VectorXd::Constant(4, 2.5));
+}
+
+TEST(ModeProcess, PredictsCurvesItHasNotSeen) {
+  const Data data = MakeData(0);
+  ModeOptions options;
+  options.process.deterministic = true;
+  const ModeProcess process = ModeProcess::Fit(data.points, data.vectors, options);
+  const Eigen::Vector2d x(0.4, 0.6);
+  const Eigen::VectorXd predicted =
+      process.modes().mean +
+      process.modes().basis * process.Predict(x.transpose()).mean.row(0).transpose();
+  // The curves differ by about 1; 25 points in two dimensions leave a few thousandths.
+  EXPECT_LT((predicted - Curve(x)).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_EQ(process.ElementNoise(), Eigen::VectorXd::Zero(kElements));
+}
+
+TEST(ModeProcess, NoiseOfElementsIsThatOfTheData) {
+  const Data data = MakeData(0.1);
+  const ModeProcess process = ModeProcess::Fit(data.points, data.vectors, {});
+  // 25 points tell a variance to within √(2/25) ≈ 30 % a mode; the mean of 30 elements is better,
+  // less what six smooth modes take for signal.
+  EXPECT_NEAR(process.ElementNoise().mean() / 0.01, 1, 0.3);
+}
+
+TEST(ModeProcess, LeaveOneOutIsFittingWithoutThePoint) {
+  const Data data = MakeData(0.05);
+  const ModeProcess all = ModeProcess::Fit(data.points, data.vectors, {});
+  const ModeMoments left_out = all.LeaveOneOut();
+  const Eigen::Index without = 7;
+  Eigen::MatrixXd points(kPoints - 1, 2);
+  Eigen::MatrixXd vectors(kPoints - 1, kElements);
+  points << data.points.topRows(without), data.points.bottomRows(kPoints - 1 - without);
+  vectors << data.vectors.topRows(without), data.vectors.bottomRows(kPoints - 1 - without);
+  ModeOptions frozen;
+  frozen.frozen = all.state();
+  const ModeProcess fewer = ModeProcess::Fit(points, vectors, frozen);
+  const ModeMoments refitted = fewer.Predict(data.points.row(without));
+  // One is a formula, the other an elimination: rounding times the condition of the matrices.
+  EXPECT_LT((left_out.mean.row(without) - refitted.mean.row(0)).norm(), 1e-8);
+  EXPECT_LT((left_out.variance.row(without).transpose() - refitted.variance.row(0).transpose() -
+             fewer.ModeNoise())
+                .norm(),
+            1e-8);
+}
+
+TEST(ModeProcess, AddingAPointIsFittingWithIt) {
+  const Data data = MakeData(0.05);
+  const ModeProcess all = ModeProcess::Fit(data.points, data.vectors, {});
+  ModeOptions frozen;
+  frozen.frozen = all.state();
+  ModeProcess grown =
+      ModeProcess::Fit(data.points.topRows(kPoints - 1), data.vectors.topRows(kPoints - 1), frozen);
+  grown.Add(data.points.row(kPoints - 1), data.vectors.row(kPoints - 1));
+  const Eigen::RowVector2d x(0.3, 0.8);
+  EXPECT_LT((grown.Predict(x).mean - all.Predict(x).mean).norm(), 1e-8);
+}
+
+}  // namespace
+}  // namespace talus::surrogate
