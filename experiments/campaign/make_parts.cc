@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "experiments/engines/command_engine.h"
 #include "experiments/engines/talus_engine.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/slurm_runner.h"
@@ -28,6 +29,8 @@ std::unique_ptr<TrialEngine> MakeEngine(const CampaignSpec& spec) {
   switch (spec.engine.kind) {
     case EngineKind::kTalus:
       return std::make_unique<TalusEngine>();
+    case EngineKind::kCommand:
+      return std::make_unique<CommandEngine>(spec.engine.command);
   }
   throw base::Error("unknown kind of engine");
 }

@@ -197,12 +197,13 @@ void SlurmRunner::SendAgain() {
   }
 }
 
+// An earlier process may have run the job more often than this one knows of: the last one counts.
 const Batch* SlurmRunner::LastRecordOf(const Job& job, int& submissions) const {
   const Batch* last = nullptr;
   submissions = 0;
   for (const auto& [number, batch] : records_) {
     const bool has = std::any_of(batch.jobs.begin(), batch.jobs.end(), [&](const Job& recorded) {
-      return recorded.id == job.id && recorded.attempt == job.attempt &&
+      return recorded.id == job.id && recorded.attempt >= job.attempt &&
              recorded.folder == job.folder;
     });
     if (!has) continue;
@@ -309,7 +310,8 @@ void SlurmRunner::Judge(Task task) {
     Report(task, FinishedBy(task.job.id, *end));
   } else if (verdict.await_result && waited < options_.result_delay) {
     LookAgain(task.job.folder);
-  } else if (verdict.requeue && !task.cancelled && task.requeues < options_.max_requeues) {
+  } else if (verdict.requeue && !task.cancelled && task.requeues < options_.max_requeues &&
+             !task.job.command.empty()) {  // empty for an adopted job: its owner must run it again
     Requeue(task, verdict.reason);
   } else {
     Report(task, Finished(task.job.id, verdict.end, verdict.reason));

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "engine/scene_json.h"
 #include "engine/scene_run.h"
+#include "experiments/engines/command_engine.h"
 #include "experiments/heap/heap_result.h"
 #include "experiments/heap/heap_run.h"
 
@@ -45,7 +46,12 @@ void SimulateHeap(const std::filesystem::path& input, const RunFolderOptions& op
   DriveRun(job, options);
 }
 
+void SimulateCommand(const std::filesystem::path& input, const RunFolderOptions& options) {
+  SimulateCommandCase(LoadCommandCase(input), options.folder, options.fresh);
+}
+
 constexpr InputKind kKinds[] = {
+    {"engine", "a case of another engine", &SimulateCommand},  // has "powder" too
     {"powder", "a heap case", &SimulateHeap},
     {"materials", "a scene", &SimulateScene},
 };

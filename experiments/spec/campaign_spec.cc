@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "experiments/engines/command_engine.h"
 
 namespace talus::experiments {
 namespace {
@@ -35,6 +36,31 @@ void FindChanges(const ordered_json& old_value, const ordered_json& new_value,
   for (const auto& [key, value] : new_value.items()) {
     if (!old_value.contains(key)) FindChanges(ordered_json(), value, prefix + key, changes);
   }
+}
+
+// Another engine's templates are checked once, when the user's spec is read; what was read then is
+// recognised by its hash.
+void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
+  if (spec.engine.kind != EngineKind::kCommand || !spec.engine.command.templates_hash.empty()) {
+    return;
+  }
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  std::vector<double> values;
+  std::vector<std::string> calibrated;
+  for (const optimizer::Parameter& parameter : space.parameters) {
+    values.push_back(parameter.fixed.value_or(parameter.low));
+    if (!parameter.fixed) calibrated.push_back(parameter.name);
+  }
+  const HeapCase heap_case = CaseOf(
+      spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
+  problems.Within("engine", [&] {
+    CheckCommand(spec.engine.command,
+                 {.heap_case = heap_case,
+                  .calibrated = calibrated,
+                  .elsewhere = spec.runner.kind != RunnerKind::kLocal},
+                 problems);
+  });
+  spec.engine.command.templates_hash = TemplateFolder(*spec.engine.command.templates).Hash();
 }
 
 }  // namespace
@@ -105,6 +131,8 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   }
   problems.ThrowIfAny();
   engine::ReadSizeFile(spec.powder.sizes);
+  CompleteEngine(spec, problems);
+  problems.ThrowIfAny();
   return spec;
 }
 

@@ -6,19 +6,25 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/engines/command_options.h"
 #include "experiments/runners/slurm_options.h"
 
 namespace talus::experiments {
 
-enum class EngineKind { kTalus };
+enum class EngineKind { kTalus, kCommand };
 
 struct EngineOptions {
   EngineKind kind = EngineKind::kTalus;
+  CommandOptions command;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("kind", self.kind, {.doc = "talus: the engine of this program"});
+    visit("kind", self.kind,
+          {.doc = "talus: the engine of this program; command: another one, where the other keys "
+                  "hold"});
+    CommandOptions::Visit(self.command, visit);
   }
+  void Validate(base::Problems& problems) const;
 };
 
 enum class RunnerKind { kLocal, kSlurm };
@@ -42,7 +48,9 @@ struct RunnerOptions {
 
 template <>
 struct talus::base::Names<talus::experiments::EngineKind> {
-  static constexpr std::array kList{std::pair{"talus", talus::experiments::EngineKind::kTalus}};
+  using E = talus::experiments::EngineKind;
+  static constexpr std::array kList{std::pair{"talus", E::kTalus},
+                                    std::pair{"command", E::kCommand}};
 };
 template <>
 struct talus::base::Names<talus::experiments::RunnerKind> {

@@ -1,0 +1,236 @@
+#include "experiments/engines/command_engine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/engines/case_values.h"
+#include "experiments/engines/command_result.h"
+#include "experiments/runners/local_runner.h"
+#include "imaging/image_file.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+HeapCase SmallCase() {
+  HeapCase heap_case;
+  heap_case.powder.sizes.kind = engine::SizeKind::kMono;
+  heap_case.powder.sizes.diameter = 1e-3;
+  heap_case.powder.mass = 1e-4;  // 76 grains
+  heap_case.device.plate = PlateKind::kDisc;
+  heap_case.frame = imaging::Frame{.width = 40,
+                                   .height = 30,
+                                   .pixel_size = 5e-4,
+                                   .center_x = 20,
+                                   .baseline = 25,
+                                   .plate_diameter = 0.01};
+  return heap_case;
+}
+
+class CommandEngineTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() /
+            ("talus command " + std::to_string(::getpid()) +  // a blank, as users' folders have
+             ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(root_ / "deck");
+    options_.templates = root_ / "deck";
+    options_.command = {"sh", "run.sh"};
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void Deck(const std::string& name, const std::string& text) {
+    std::ofstream(root_ / "deck" / name, std::ios::binary) << text;
+  }
+  std::string Text(const std::string& name) { return base::ReadFile(root_ / name); }
+
+  // The whole trial, as a campaign has it run.
+  TrialOutput Run(const HeapCase& heap_case = SmallCase()) {
+    SimulateCommandCase({.heap = heap_case, .engine = options_}, root_ / "trial", false);
+    return {.profile = imaging::ReadGrayImage(root_ / "trial/profile.png"), .note = {}};
+  }
+  std::string FailureOf() {
+    try {
+      Run();
+    } catch (const base::Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string CheckErrors(const std::vector<std::string>& calibrated = {}) {
+    base::Problems problems("spec.json", {});
+    try {
+      CheckCommand(options_, {.heap_case = SmallCase(), .calibrated = calibrated}, problems);
+      problems.ThrowIfAny();
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path root_;
+  CommandOptions options_;
+};
+
+TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
+  Deck("run.sh", "echo 'x,y,z,r' >heap.csv; echo '0,0,{{ scale_factor }}e-3,1e-3' >>heap.csv\n");
+  const TrialOutput output = Run();
+  // A disc of 1 mm radius over pixels of 0.5 mm, its lowest point on the plate: rows 21 to 24 and
+  // columns 18 to 21 about the centre, without their corners' farthest pixels or not, but white
+  // above and beside.
+  EXPECT_EQ(output.profile.at(20, 23), 0);
+  EXPECT_EQ(output.profile.at(20, 19), 255);
+  EXPECT_EQ(output.profile.at(24, 23), 255);
+  EXPECT_TRUE(fs::exists(root_ / "trial/heap.vtp"));
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"status\": \"done\""));
+  EXPECT_THAT(Text("trial/case.json"), HasSubstr("\"command\""));
+}
+
+TEST_F(CommandEngineTest, OwnImageIsTakenAsTheProfile) {
+  Deck("run.sh", "cp prepared.png profile.png\n");
+  imaging::GrayImage image{.width = 40, .height = 30, .pixels = {}};
+  image.pixels.assign(1200, 77);
+  imaging::WritePng(root_ / "deck/prepared.png", image);
+  options_.result = "profile.png";
+  EXPECT_EQ(Run().profile, image);
+  fs::remove_all(root_ / "trial");
+  image.width = 30;
+  image.height = 40;
+  imaging::WritePng(root_ / "deck/prepared.png", image);
+  EXPECT_THAT(FailureOf(), HasSubstr("of 30 x 40 px; the experiment's is 40 x 30"));
+}
+
+TEST_F(CommandEngineTest, FailuresOfTheCommandCarryTheEndOfItsLog) {
+  Deck("run.sh", "echo 'ERROR: lost atoms'; exit 5\n");
+  EXPECT_THAT(FailureOf(), HasSubstr("exit status 5; its log ends with: ERROR: lost atoms"));
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"status\": \"failed\""));
+  fs::remove_all(root_ / "trial");
+  Deck("run.sh", "echo finished\n");
+  EXPECT_THAT(FailureOf(), HasSubstr("left no file \"heap.*\"; its log ends with: finished"));
+  fs::remove_all(root_ / "trial");
+  Deck("run.sh", "echo 'x,y,z,r' >heap.csv; echo '1,2,oops,1' >>heap.csv\n");
+  EXPECT_THAT(FailureOf(), HasSubstr("heap.csv: sphere 1 has a position"));
+  fs::remove_all(root_ / "trial");
+  Deck("run.sh", "echo 'x,y,z,r' >heap.csv; echo '1,2,3,1e-3' >>heap.csv\n");  // in millimetres
+  EXPECT_THAT(FailureOf(), HasSubstr("left nothing on the plate, of 1 spheres in heap.csv; are "
+                                     "length_unit, up and plate_center right?"));
+}
+
+TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
+  Deck("run.sh", "{{ sliding_friction }} {{ sliding_frction }}\n");
+  Deck("other", "\n{{# grain }}{{/ grain }}\n");
+  options_.command = {"talus-no-such-program", "{{ sed }}"};
+  const std::string errors = CheckErrors({"sliding_friction", "rolling_friction"});
+  EXPECT_THAT(errors, HasSubstr("run.sh:1: the placeholder \"sliding_frction\" is not known; did "
+                                "you mean \"sliding_friction\"?"));
+  EXPECT_THAT(errors, HasSubstr("other:2: the placeholder \"grain\" is not known; did you mean "
+                                "\"grains\"?"));
+  EXPECT_THAT(errors, HasSubstr("\"sed\" is not known"));
+  EXPECT_THAT(errors, HasSubstr("no file has the placeholder {{ rolling_friction }}"));
+  EXPECT_THAT(errors, Not(HasSubstr("placeholder {{ sliding_friction }}")));
+  EXPECT_THAT(errors, HasSubstr("\"talus-no-such-program\" is not found"));
+  EXPECT_FALSE(fs::exists(root_ / "trial"));
+  options_.templates = root_ / "absent";
+  EXPECT_THAT(CheckErrors(), HasSubstr("absent: cannot be read"));
+  options_.templates = root_ / "deck";
+  Deck("case.json", "{}");
+  EXPECT_THAT(CheckErrors(), HasSubstr("may not have the name of a trial's own file"));
+}
+
+TEST_F(CommandEngineTest, ProgramMayBeATemplateItself) {
+  Deck("run", "#!/bin/sh\nprintf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  options_.command = {"./run"};
+  EXPECT_THAT(CheckErrors(), HasSubstr("not executable"));
+  fs::permissions(root_ / "deck/run", fs::perms::owner_all);
+  EXPECT_EQ(CheckErrors(), "");
+  Run();
+}
+
+TEST_F(CommandEngineTest, ChangedTemplatesAreRefused) {
+  Deck("run.sh", "true\n");
+  options_.templates_hash = TemplateFolder(*options_.templates).Hash();
+  EXPECT_NO_THROW(CommandEngine{options_});
+  Deck("run.sh", "false\n");
+  EXPECT_THROW(CommandEngine{options_}, base::ConfigError);
+}
+
+TEST_F(CommandEngineTest, LastResultInNaturalOrderCounts) {
+  Deck("run.sh",
+       "mkdir post; for i in 9 10 8; do printf 'x,y,z,r\\n0,0,%se-4,1e-3\\n' $i >post/heap_$i.csv; "
+       "done\n");
+  options_.result = "post/heap_*.csv";
+  Run();
+  EXPECT_EQ(FindResult(options_, root_ / "trial").filename(), "heap_10.csv");
+  EXPECT_TRUE(NaturalLess("heap_009", "heap_10"));
+  EXPECT_FALSE(NaturalLess("heap_10", "heap_9"));
+  EXPECT_TRUE(NaturalLess("heap", "heap1"));
+}
+
+TEST_F(CommandEngineTest, ResultIsTurnedAndMovedOntoThePlate) {
+  options_.up = UpAxis::kY;
+  options_.plate_center = {1, 2, 3};
+  const auto spheres = OnOurPlate(options_, {{.position = {1, 2.5, 3.25}, .radius = 1}});
+  EXPECT_EQ(spheres[0].position, (base::Vec3{0.25, 0, 0.5}));
+}
+
+// What was begun is not mistaken for what was finished: only the mark says so.
+TEST_F(CommandEngineTest, CompleteTrialIsNotRunAgain) {
+  Deck("run.sh", "echo run >>../runs; printf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
+  Run();
+  Run();
+  EXPECT_EQ(Text("runs"), "run\n");
+  fs::remove(root_ / "trial/.command_done");
+  Run();
+  EXPECT_EQ(Text("runs"), "run\nrun\n");
+}
+
+TEST_F(CommandEngineTest, FolderWithOtherFilesIsLeftAlone) {
+  Deck("run.sh", "true\n");
+  fs::create_directories(root_ / "trial");
+  std::ofstream(root_ / "trial/thesis.tex") << "x";
+  EXPECT_THAT(FailureOf(), HasSubstr("holds other files"));
+  EXPECT_TRUE(fs::exists(root_ / "trial/thesis.tex"));
+}
+
+TEST(CaseValues, SeedsSuitTheCodesThatTakeThem) {
+  HeapCase heap_case = SmallCase();
+  std::set<std::string> primes;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    heap_case.seed = seed;
+    const TemplateValues values = CaseValues(heap_case);
+    const long prime = std::stol(values.scalars.at("prime_seed"));
+    EXPECT_GT(prime, 10000);
+    for (long d = 2; d * d <= prime; ++d) ASSERT_NE(prime % d, 0);
+    primes.insert(values.scalars.at("prime_seed"));
+  }
+  EXPECT_EQ(primes.size(), 50u);
+  heap_case.seed = ~std::uint64_t{0};
+  const long seed = std::stol(CaseValues(heap_case).scalars.at("seed"));
+  EXPECT_TRUE(seed > 0 && seed < 900000000) << seed;
+}
+
+TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
+  HeapCase heap_case = SmallCase();
+  heap_case.coarse_graining.scale_factor = 2;
+  heap_case.powder.material.surface_energy = 1e-4;
+  heap_case.device.plate_material = WallMaterial{.sliding_friction = 0.125};
+  TemplateValues values = CaseValues(heap_case);
+  EXPECT_EQ(std::stod(values.scalars.at("mean_diameter")), 2e-3);
+  EXPECT_EQ(std::stod(values.scalars.at("surface_energy_used")), 2e-4);
+  EXPECT_EQ(values.scalars.at("plate_sliding_friction"), "0.125");
+  EXPECT_EQ(values.scalars.at("tube_sliding_friction"), "0.5");
+  AddGrains(heap_case, values);
+  const TemplateTable& grains = values.tables.at("grains");
+  EXPECT_EQ(std::to_string(grains.rows.size()), values.scalars.at("num_grains"));
+  EXPECT_EQ(std::stod(grains.rows.at(0).at(4)), 2e-3);
+}
+
+}  // namespace
+}  // namespace talus::experiments
