@@ -11,6 +11,7 @@ int Run(int argc, char** argv) {
   CLI::App app("talus: calibrates discrete element models of powders from photographs of heaps");
   app.set_version_flag("--version", "talus " + talus::experiments::Version());
   app.require_subcommand(1);
+  talus::experiments::AddCompareCommand(app);
   talus::experiments::AddReportCommand(app);
   talus::experiments::AddMeasureCommand(app);
   talus::experiments::AddCalibrateCommand(app);

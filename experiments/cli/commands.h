@@ -13,6 +13,7 @@ namespace talus::experiments {
 // "0.1.0"
 std::string Version();
 
+void AddCompareCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
 void AddCalibrateCommand(CLI::App& app);

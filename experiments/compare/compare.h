@@ -2,7 +2,8 @@
 // answer is. Once from the trials alone, once from a model of the measured quantity.
 //
 // Two sets tie when their objectives differ by no more than kTieMargin times the scatter of one
-// evaluation. The tied region's volume is its share of the unit cube of the parameters.
+// evaluation, as in the optimiser's own answer. The tied region's volume is its share of the unit
+// cube of the parameters.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,7 @@
 
 namespace talus::experiments {
 
-inline constexpr double kTieMargin =
-    2;  // two evaluations of one set differ by more in 16 % of cases
+inline constexpr double kTieMargin = 1;
 inline constexpr std::size_t kNumBest = 10;
 
 // One set of parameters with all its trials: repeats count as one set with a better mean.

@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "experiments/compare/compare.h"
+#include "experiments/compare/profile_pictures.h"
 #include "experiments/report/model_views.h"
 
 namespace talus::experiments {
 
-// An image of the page, also written as a file.
-struct Picture {
-  std::string name;  // of the file, without ending: "signed_map_sad"
-  std::string title;
-  std::string caption;
-  int width = 0;   // [px]
-  int height = 0;  // [px]
-  std::string png;
-};
-
-// The outline of a profile; gaps between its parts are points with a height that is kUndefined.
+// The outline of a profile at half intensity.
 struct OutlineCurve {
   std::string title;
   std::vector<double> x;       // from the plate's centre [m]

@@ -113,7 +113,7 @@ function comparisonSection() {
     ...o.model.values.map((x) => format(x)), shareBar(o.model.tied_volume)]);
   const parts = [
     element("p", {class: "lead"}, "The best set by each objective, and how much of the searched volume " +
-      "ties with it: sets whose objective is within twice the scatter of one simulation. The smaller " +
+      "ties with it: sets whose objective is within the scatter of one simulation. The smaller " +
       "that volume, the more unique the answer."),
     element("div", {class: "card"}, element("h3", {}, "From the trials"), table(columns, first))];
   if (second.length) {

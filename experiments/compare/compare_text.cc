@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/compare/compare_tables.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string Number(double x, int digits = 4) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
+  return text;
+}
+
+// Characters, not bytes: units and symbols are not ASCII.
+std::size_t WidthOf(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+using Row = std::vector<std::string>;
+
+// Columns as wide as they must be; the first one to the left, the others to the right.
+std::string Aligned(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], WidthOf(row[i]));
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string pad(widths[i] - WidthOf(row[i]), ' ');
+      line += " " + (i == 0 ? row[i] + pad : " " + pad + row[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+Row Head(const Evidence& evidence, const std::string& first, const Row& more) {
+  Row row{first, "measured", "experiment"};
+  for (const ParameterInfo& p : evidence.parameters) {
+    row.push_back(p.symbol + (p.unit.empty() ? "" : " [" + p.unit + "]"));
+  }
+  row.insert(row.end(), more.begin(), more.end());
+  return row;
+}
+
+Row SetRow(const ObjectiveFinding& f, const std::string& measured,
+           const std::vector<double>& values) {
+  Row row{std::string(f.info.title), measured + " " + std::string(f.info.unit),
+          f.info.is_angle ? Number(f.reference) + " " + std::string(f.info.unit) : "-"};
+  for (const double value : values) row.push_back(Number(value, 3));
+  return row;
+}
+
+std::string Percent(double fraction) { return Number(100 * fraction, 2) + " %"; }
+
+std::string FromTrials(const ComparedCampaign& compared) {
+  std::vector<Row> rows{Head(compared.evidence, "from the trials", {"tied sets", "tied volume"})};
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (!f.absent.empty()) continue;
+    const ComparedSet& best = f.from_trials.best.front();
+    Row row = SetRow(f, Number(best.quantity), best.values);
+    row.push_back(std::to_string(f.from_trials.num_tied) + " of " +
+                  std::to_string(f.from_trials.num_sets));
+    row.push_back(Percent(f.from_trials.tied_volume));
+    rows.push_back(row);
+  }
+  return rows.size() > 1 ? Aligned(rows) + "\n" : "";
+}
+
+std::string FromModel(const ComparedCampaign& compared) {
+  std::vector<Row> rows{Head(compared.evidence, "from a model", {"tied volume"})};
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (!f.from_model) continue;
+    const ModelFinding& model = *f.from_model;
+    const std::string measured = Number(model.there.quantity) + " ± " + Number(model.there.sd, 2);
+    Row row = SetRow(f, measured, model.values);
+    row.push_back(Percent(model.tied_volume));
+    rows.push_back(row);
+  }
+  return rows.size() > 1 ? Aligned(rows) + "\n" : "";
+}
+
+std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f) {
+  std::vector<Row> rows{
+      Head(compared.evidence, "ten best by " + std::string(f.info.title), {"trials"})};
+  for (std::size_t i = 0; i < f.from_trials.best.size(); ++i) {
+    const ComparedSet& set = f.from_trials.best[i];
+    Row row = SetRow(f, Number(set.quantity), set.values);
+    row[0] = std::to_string(i + 1);
+    std::string ids;
+    for (std::size_t k = 0; k < std::min<std::size_t>(set.trials.size(), 6); ++k) {
+      ids += (k == 0 ? "" : ", ") + std::to_string(set.trials[k]);
+    }
+    row.push_back(ids + (set.trials.size() > 6 ? ", …" : ""));
+    rows.push_back(row);
+  }
+  return Aligned(rows) + "\n";
+}
+
+}  // namespace
+
+std::string ComparisonText(const ComparedCampaign& compared) {
+  std::string text = compared.evidence.name + "\n\n";
+  text += FromTrials(compared) + FromModel(compared);
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (f.absent.empty()) text += TenBest(compared, f);
+  }
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (!f.absent.empty()) text += "  " + std::string(f.info.title) + ": " + f.absent + "\n";
+  }
+  text += "  Sets tie when they differ by at most the scatter of one simulation:";
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (!f.absent.empty()) continue;
+    text += " " + std::string(f.info.title) + " " + Number(f.noise_sd, 2) + " " +
+            std::string(f.info.unit) + ";";
+  }
+  text.back() = '.';
+  return text + "\n";
+}
+
+}  // namespace talus::experiments
