@@ -1,6 +1,7 @@
 #include "experiments/report/write_report.h"
 
 #include "base/file.h"
+#include "experiments/report/figures.h"
 #include "experiments/report/page.h"
 #include "experiments/report/tables.h"
 
@@ -11,6 +12,9 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
   std::filesystem::create_directories(folder / "tables");
   for (const Picture& picture : data.pictures) {
     base::WriteFileAtomically(folder / "figures" / (picture.name + ".png"), picture.png);
+  }
+  for (const NamedText& figure : ReportFigures(data)) {
+    base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.text);
   }
   for (const NamedText& table : ReportTables(data)) {
     base::WriteFileAtomically(folder / "tables" / (table.name + ".csv"), table.text);

@@ -43,8 +43,8 @@ class ReportInABrowser(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="talus_report_")
         options = Options()
-        for flag in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+        for flag in ("--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                     "--enable-unsafe-swiftshader",  # WebGL without a GPU
                      "--hide-scrollbars", "--user-data-dir=" + cls.folder.name + "/profile"):
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
