@@ -1,3 +1,4 @@
+// talus compare
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -6,22 +7,48 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/go_on.h"
 #include "experiments/compare/compare_tables.h"
 #include "experiments/compare/gather_evidence.h"
 #include "experiments/compare/profile_pictures.h"
+#include "experiments/compare/strategy_runs.h"
 
 namespace talus::experiments {
 namespace {
 
 struct Arguments {
-  std::filesystem::path campaign;
+  std::string campaign;
   std::filesystem::path out;
+  std::string objective;
+  int add_simulations = 20;
+  std::vector<std::string> with;
 };
 
+void SearchOn(const Arguments& arguments) {
+  for (const auto& [name, objective] : base::Names<Objective>::kList) {
+    if (name != arguments.objective) continue;
+    GoOn(arguments.campaign,
+         {.add_simulations = arguments.add_simulations, .objective = objective});
+    return;
+  }
+}
+
+std::string StrategyComparison(const Arguments& arguments,
+                               const std::vector<ObjectiveFinding>& findings) {
+  std::vector<std::string> names{arguments.campaign};
+  names.insert(names.end(), arguments.with.begin(), arguments.with.end());
+  std::vector<Evidence> all;
+  for (const std::string& name : names) all.push_back(GatherEvidence(name));
+  const auto runs = CompareStrategies(names, all);
+  double margin = 0;
+  for (const ObjectiveFinding& f : findings) {
+    if (f.info.key == all.front().objective) margin = f.margin();
+  }
+  base::WriteFileAtomically(arguments.out / "strategies.csv", StrategiesCsv(runs));
+  return StrategiesText(runs, margin) + "\n";
+}
+
 void WriteComparison(const ComparedCampaign& compared, const std::filesystem::path& out) {
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) throw base::Error(out.string() + ": cannot be made: " + error.message());
   const auto shown = TrialsToShow(compared.evidence, compared.findings);
   std::vector<Picture> pictures = ProfilePictures(compared.evidence, shown);
   pictures.push_back(SideBySide(compared.evidence, shown));
@@ -32,17 +59,22 @@ void WriteComparison(const ComparedCampaign& compared, const std::filesystem::pa
   base::WriteFileAtomically(out / "objectives.csv", ObjectivesCsv(compared));
   base::WriteFileAtomically(out / "ten_best.csv", TenBestCsv(compared));
   base::WriteFileAtomically(out / "compare.json", ComparisonJson(compared));
-  base::WriteFileAtomically(out / "compare.txt", ComparisonText(compared));
 }
 
-void RunCompare(const Arguments& arguments) {
-  const std::filesystem::path out =
-      arguments.out.empty() ? arguments.campaign / "compare" : arguments.out;
+void RunCompare(Arguments arguments) {
+  if (!arguments.objective.empty()) SearchOn(arguments);
+  if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
   const Evidence evidence = GatherEvidence(arguments.campaign);
   const std::vector<ObjectiveFinding> findings = CompareObjectives(evidence);
   const ComparedCampaign compared{evidence, findings};
-  WriteComparison(compared, out);
-  std::cout << ComparisonText(compared) << "  Tables and pictures are in " << out.string() << '\n';
+  std::error_code error;
+  std::filesystem::create_directories(arguments.out, error);
+  if (error) throw base::Error(arguments.out.string() + ": cannot be made: " + error.message());
+  WriteComparison(compared, arguments.out);
+  std::string text = ComparisonText(compared) + "\n";
+  if (!arguments.with.empty()) text += StrategyComparison(arguments, findings);
+  base::WriteFileAtomically(arguments.out / "compare.txt", text);
+  std::cout << text << "  Tables and pictures are in " << arguments.out.string() << '\n';
 }
 
 }  // namespace
@@ -54,6 +86,20 @@ void AddCompareCommand(CLI::App& app) {
   command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/compare");
+  std::vector<std::string> objectives;
+  for (const auto& [name, objective] : base::Names<Objective>::kList) objectives.emplace_back(name);
+  CLI::Option* objective =
+      command
+          ->add_option("--objective", arguments->objective,
+                       "first search on by this objective, from all the trials there are")
+          ->check(CLI::IsMember(objectives));
+  command
+      ->add_option("--add-simulations", arguments->add_simulations,
+                   "so many more for --objective; default: 20")
+      ->check(CLI::PositiveNumber)
+      ->needs(objective);
+  command->add_option("--with", arguments->with,
+                      "other campaigns on the same experiment, to compare their strategies");
   command->callback([arguments] { RunCompare(*arguments); });
 }
 

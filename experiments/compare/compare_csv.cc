@@ -5,26 +5,10 @@ namespace talus::experiments {
 namespace {
 
 void ParameterHeads(Csv& csv, const Evidence& evidence) {
-  for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(ColumnOf(parameter));
+  for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(parameter.column);
 }
 
 }  // namespace
-
-std::string ColumnOf(const ParameterInfo& parameter) {
-  std::string unit;
-  for (std::size_t i = 0; i < parameter.unit.size(); ++i) {
-    const std::string_view rest = std::string_view(parameter.unit).substr(i);
-    if (rest.starts_with("/")) {
-      unit += "_per_";
-    } else if (rest.starts_with("²") || rest.starts_with("³")) {
-      unit += rest.starts_with("²") ? '2' : '3';
-      ++i;  // two bytes
-    } else {
-      unit += parameter.unit[i];
-    }
-  }
-  return parameter.range.name + (unit.empty() ? "" : "_" + unit);
-}
 
 std::string ObjectivesCsv(const ComparedCampaign& compared) {
   Csv csv;

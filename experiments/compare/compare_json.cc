@@ -13,7 +13,7 @@ Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json ValuesJson(const Evidence& evidence, const std::vector<double>& values) {
   Json json = Json::object();
   for (std::size_t k = 0; k < values.size(); ++k) {
-    json[ColumnOf(evidence.parameters[k])] = Number(values[k]);
+    json[evidence.parameters[k].column] = Number(values[k]);
   }
   return json;
 }

@@ -18,7 +18,4 @@ std::string ComparisonJson(const ComparedCampaign& compared);
 std::string ObjectivesCsv(const ComparedCampaign& compared);  // a line an objective and source
 std::string TenBestCsv(const ComparedCampaign& compared);
 
-// "surface_energy_J_per_m2": a parameter's name with its unit.
-std::string ColumnOf(const ParameterInfo& parameter);
-
 }  // namespace talus::experiments

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "experiments/compare/aligned.h"
 #include "experiments/compare/compare_tables.h"
 
 namespace talus::experiments {
@@ -13,33 +14,7 @@ std::string Number(double x, int digits = 4) {
   return text;
 }
 
-// Characters, not bytes: units and symbols are not ASCII.
-std::size_t WidthOf(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
-
-using Row = std::vector<std::string>;
-
-// Columns as wide as they must be; the first one to the left, the others to the right.
-std::string Aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], WidthOf(row[i]));
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line = " ";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string pad(widths[i] - WidthOf(row[i]), ' ');
-      line += " " + (i == 0 ? row[i] + pad : " " + pad + row[i]);
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
+using Row = TextRow;
 
 Row Head(const Evidence& evidence, const std::string& first, const Row& more) {
   Row row{first, "measured", "experiment"};

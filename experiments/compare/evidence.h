@@ -24,6 +24,7 @@ struct ParameterInfo {
   optimizer::Parameter range;  // name, low, high, scale
   std::string symbol;          // for axes: "μ_r"
   std::string unit;            // SI: "J/m²"; empty for a pure number
+  std::string column;          // name with unit, for tables: "surface_energy_J_per_m2"
 };
 
 struct MetricInfo {
@@ -63,6 +64,7 @@ struct RecommendedValue {
 
 // What the campaign itself concludes.
 struct Conclusion {
+  std::string objective{};  // key of one of kObjectives
   std::vector<RecommendedValue> values{};
   double predicted = kUndefined;     // the objective there, by the campaign's model
   double predicted_sd = kUndefined;  // of that mean
@@ -92,7 +94,8 @@ struct Evidence {
   std::string state;        // "running", "finished", "interrupted"
   std::string stop_reason;  // empty while running
   double scale_factor = 1;  // of the search
-  std::string objective;    // key of one of kObjectives, or its metric
+  std::string objective;    // key of one of kObjectives: the latest search's
+  std::string strategy;     // its kind
   int max_simulations = 0;  // the budget; 0: none
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;

@@ -1,8 +1,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/error.h"
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/compare/gather_evidence.h"
+#include "experiments/compare/objective.h"
 
 namespace talus::experiments {
 namespace {
@@ -27,11 +29,22 @@ std::vector<std::string> ConditionTexts(const ResultConditions& c) {
   return texts;
 }
 
+// A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
+std::string ObjectiveKey(const std::string& result_key) {
+  for (const ObjectiveInfo& info : kObjectives) {
+    if (result_key == info.metric || result_key == std::string(info.key) + "_difference_deg") {
+      return std::string(info.key);
+    }
+  }
+  throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
+}
+
 }  // namespace
 
 Conclusion ConclusionOf(const std::string& result_json) {
   const CampaignResult result = ParseResult(result_json);
-  Conclusion conclusion{.predicted = result.predicted,
+  Conclusion conclusion{.objective = ObjectiveKey(result.objective),
+                        .predicted = result.predicted,
                         .predicted_sd = result.predicted_sd,
                         .noise_sd = result.noise_sd,
                         .tied_volume = result.tied_volume,

@@ -34,6 +34,7 @@ ParameterInfo InfoOf(const ParameterRecord& record) {
   info.range.scale = record.scale == "log" ? optimizer::Scale::kLog : optimizer::Scale::kLinear;
   info.symbol = SymbolOf(record.name);
   info.unit = PrettyUnit(record.unit);
+  info.column = ColumnName(record);
   return info;
 }
 
@@ -111,10 +112,11 @@ void AddTimes(Evidence& evidence, double elapsed) {
                      {"their processor time", cpu}};
 }
 
-int MaxSimulations(const std::string& spec_json) {
-  const nlohmann::json spec = nlohmann::json::parse(spec_json, nullptr, false);
-  if (!spec.is_object() || !spec.contains("budget")) return 0;
-  return spec["budget"].value("simulations", 0);
+void AddSpec(Evidence& evidence, const CampaignRecord& record) {
+  evidence.spec = record.spec_text;
+  const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
+  if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
+  if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
 }
 
 }  // namespace
@@ -134,21 +136,24 @@ Evidence GatherEvidence(const std::filesystem::path& campaign) {
   evidence.state = progress.state;
   evidence.stop_reason = progress.stop_reason;
   evidence.objective = record.objective;
-  evidence.max_simulations = MaxSimulations(record.spec_json);
+  AddSpec(evidence, record);
   for (const ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
   AddTrials(evidence, record, journal->Trials());
   evidence.reference.aehp = ReadReference(record);
   evidence.reference.noise_floor = record.noise_mm2.value_or(kUndefined);
-  if (!progress.result_json.empty()) evidence.conclusion = ConclusionOf(progress.result_json);
+  if (!progress.result_json.empty()) {
+    evidence.conclusion = ConclusionOf(progress.result_json);
+    evidence.objective = evidence.conclusion->objective;
+  }
   AddTimes(evidence, progress.elapsed_s);
   evidence.versions = {{"talus that started the campaign", record.talus_version},
                        {"talus that wrote this report", Version()},
                        {"started", record.created_utc},
+                       {"strategy", evidence.strategy},
                        {"spec", record.spec_path},
                        {"hash of the spec", record.spec_hash}};
-  evidence.spec = record.spec_text;
   evidence.profile =
       [journal, frame = evidence.reference.aehp.frame](int id) -> std::optional<imaging::Profile> {
     const std::string png = journal->ProfilePng(id);

@@ -9,7 +9,7 @@ namespace {
 
 std::size_t IndexOf(const std::vector<ObjectiveFinding>& findings, std::string_view key) {
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (findings[i].info.key == key || findings[i].info.metric == key) return i;
+    if (findings[i].info.key == key) return i;
   }
   return 0;
 }

@@ -9,7 +9,7 @@ namespace {
 std::string Trials(const Evidence& evidence) {
   Csv csv;
   csv.Cell("trial").Cell("state").Cell("purpose").Cell("seed").Cell("scale_factor");
-  for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(ColumnOf(parameter));
+  for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(parameter.column);
   for (const MetricInfo& metric : evidence.metrics) csv.Cell(metric.name);
   csv.Cell("duration_s").Cell("cpu_s").Cell("reason").EndRow();
   for (const TrialEvidence& t : evidence.trials) {

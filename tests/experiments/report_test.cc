@@ -7,7 +7,9 @@
 #include "base/file.h"
 #include "experiments/compare/gather_evidence.h"
 #include "experiments/report/base64.h"
+#include "experiments/report/figures.h"
 #include "experiments/report/page.h"
+#include "experiments/report/svg_chart.h"
 #include "experiments/report/tables.h"
 #include "experiments/report/write_report.h"
 #include "tests/experiments/synthetic_campaign.h"
@@ -81,6 +83,32 @@ TEST_F(Report, TablesHaveARowForEachTrialAndUnitsInTheirHeads) {
             static_cast<std::ptrdiff_t>(Data().evidence.trials.size()) + 1);
   const std::string best = Table("ten_best");
   EXPECT_EQ(std::count(best.begin(), best.end(), '\n'), 1 + 5 * 10);
+}
+
+TEST_F(Report, ChartsAsSvgHaveTheirData) {
+  const auto figures = ReportFigures(Data());
+  ASSERT_EQ(figures.size(), 2u + 3 + 2 * 3);  // convergence, outlines; slices; two for each pair
+  for (const NamedText& figure : figures) {
+    EXPECT_THAT(figure.text, StartsWith("<svg ")) << figure.name;
+    EXPECT_THAT(figure.text, Not(HasSubstr("nan"))) << figure.name;
+    EXPECT_THAT(figure.text, Not(HasSubstr("inf"))) << figure.name;
+  }
+  const std::string& convergence = figures[0].text;
+  std::size_t points = 0;
+  for (auto at = convergence.find("<circle"); at != std::string::npos;
+       at = convergence.find("<circle", at + 1)) {
+    ++points;
+  }
+  EXPECT_EQ(points, 56u + 4);  // of 60 trials 4 failed; and one in the legend for each purpose
+}
+
+TEST(SvgChart, PutsValuesWhereTheyBelong) {
+  SvgChart chart({.title = "x", .low = 1e-6, .high = 1e-2, .log = true},
+                 {.title = "y", .low = 0, .high = 10});
+  chart.Points({{1e-4, 5}, {1, 5}}, {.width = 4});  // the second is off the axis
+  // The plot is 550 by 340 pixels.
+  EXPECT_THAT(chart.Text(), HasSubstr("<circle cx=\"275.00\" cy=\"170.00\""));
+  EXPECT_EQ(chart.Text().find("<circle"), chart.Text().rfind("<circle"));
 }
 
 TEST_F(Report, OutlinesEndOnThePlateWithinIt) {

@@ -55,6 +55,7 @@ ParameterInfo Parameter(const std::string& name, const std::string& symbol, doub
   info.range.low = low;
   info.range.high = high;
   info.symbol = symbol;
+  info.column = name;
   return info;
 }
 
@@ -64,6 +65,7 @@ std::vector<ParameterInfo> Parameters(int count) {
                                  Parameter("surface_energy", "γ", 1e-6, 4e-4)};
   all[2].range.scale = Scale::kLog;
   all[2].unit = "J/m²";
+  all[2].column = "surface_energy_J_per_m2";
   all.resize(static_cast<std::size_t>(count));
   return all;
 }
@@ -162,6 +164,7 @@ Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   Evidence evidence;
   evidence.name = "Ti6Al4V 45–111 µm";
   evidence.objective = "sad";
+  evidence.strategy = "surrogate";
   evidence.max_simulations = 120;
   evidence.state = options.concluded ? "finished" : "running";
   if (options.concluded) evidence.stop_reason = "what is left to gain is below 1 × the noise";

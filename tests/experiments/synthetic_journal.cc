@@ -26,8 +26,8 @@ CampaignRecord CampaignOf(const Evidence& evidence) {
   record.name = evidence.name;
   record.spec_path = "/somewhere/spec.json";
   record.spec_text = evidence.spec;
-  record.spec_json =
-      R"({"budget": {"simulations": )" + std::to_string(evidence.max_simulations) + "}}";
+  record.spec_json = R"({"budget": {"simulations": )" + std::to_string(evidence.max_simulations) +
+                     R"(}, "strategy": {"kind": ")" + evidence.strategy + "\"}}";
   record.spec_hash = "0123456789abcdef";
   record.talus_version = "0.1.0";
   record.created_utc = "2026-01-31T12:00:00Z";

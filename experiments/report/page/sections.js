@@ -150,7 +150,9 @@ function measuresTable() {
 }
 
 function pictures() {
-  return element("div", {class: "grid two"}, D.pictures.map((p) => element("figure", {class: "card"},
+  return element("div", {class: "grid two"}, D.pictures.map((p, k) => element("figure",
+    // The experiment has a row of its own; then profile and map of a trial stand side by side.
+    {class: k === 0 ? "card alone" : "card"},
     element("h3", {}, p.title), element("img", {src: p.uri, alt: p.title, width: p.width,
       height: p.height, loading: "lazy"}), p.caption ? element("figcaption", {}, p.caption) : null)));
 }

@@ -1,0 +1,14 @@
+// Text tables for a terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace talus::experiments {
+
+using TextRow = std::vector<std::string>;
+
+// Columns as wide as they must be; the first one to the left, the others to the right.
+std::string Aligned(const std::vector<TextRow>& rows);
+
+}  // namespace talus::experiments
