@@ -19,7 +19,7 @@ target_compile_options(talus_compile_options INTERFACE
   $<BUILD_INTERFACE:$<$<BOOL:${TALUS_WARNINGS_AS_ERRORS}>:-Werror>>)
 if(TALUS_SANITIZE)
   target_compile_options(talus_compile_options INTERFACE
-    $<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
+    $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
   target_link_options(talus_compile_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
