@@ -103,20 +103,24 @@ bool Inside(int column, double center, const RowSpan& span) {
   return (column - center) * (column - center) <= span.squared;
 }
 
-// The square root may be off by one rounding: the ends are put right by the test itself, so that
-// the result equals that of testing every pixel.
+// The first column at or after `end`, which is off by a rounding at most: where a pixel's centre is
+// so near that this could decide, the test itself does, so that the result equals that of testing
+// every pixel. `step` +1 for the left end, -1 for the right one.
+int EndColumn(double end, int step, double center, const RowSpan& span) {
+  constexpr double kNear = 1e-6;  // [px]
+  int column = static_cast<int>(step > 0 ? std::ceil(end) : std::floor(end));
+  const double beyond = step * (column - end);  // in [0, 1)
+  if (beyond < kNear && !Inside(column, center, span)) column += step;
+  if (beyond > 1 - kNear && Inside(column - step, center, span)) column -= step;
+  return column;
+}
+
 void Draw(std::size_t view, double center, const RowSpan& span, int width, Silhouettes& images) {
   const double left = std::max(center - span.half, -2.0);
   const double right = std::min(center + span.half, width + 1.0);
   if (!(left <= right)) return;
-  int first = static_cast<int>(std::ceil(left));
-  int last = static_cast<int>(std::floor(right));
-  if (Inside(first - 1, center, span)) --first;
-  if (first <= last && !Inside(first, center, span)) ++first;
-  if (Inside(last + 1, center, span)) ++last;
-  if (first <= last && !Inside(last, center, span)) --last;
-  first = std::max(first, 0);
-  last = std::min(last, width - 1);
+  const int first = std::max(EndColumn(left, +1, center, span), 0);
+  const int last = std::min(EndColumn(right, -1, center, span), width - 1);
   if (first <= last) images.Set(view, span.row, first, last);
 }
 
