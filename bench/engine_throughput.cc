@@ -2,32 +2,19 @@
 //   [--adhesion none|dmt|jkr] [--rolling none|constant|viscous|epsd] [--gamma J/m2]
 // Million particle steps a second of a settled packing, with what the neighbour list settled at.
 // TALUS_SIMD=avx2 or sse2 measures narrower instruction sets.
-#include <sys/resource.h>
-
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <map>
 
 #include "bench/packing.h"
+#include "bench/timing.h"
 #include "engine/simulation.h"
 
 namespace {
 
 using namespace talus;
 
-double CpuSeconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-double WallSeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+using bench::CpuSeconds, bench::WallSeconds;
 
 template <class Enum>
 Enum Named(const std::string& name) {
@@ -73,9 +60,7 @@ void Run(const std::string& path, std::map<std::string, std::string> options) {
         list.skin / (2 * scene.particles[0].radius),
         static_cast<long long>(list.num_rebuilds - rebuilds), simulation.Energies().translational);
   }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  std::printf("peak memory %.0f MB\n", static_cast<double>(usage.ru_maxrss) / 1024);
+  std::printf("peak memory %.0f MB\n", bench::PeakMegabytes());
 }
 
 }  // namespace

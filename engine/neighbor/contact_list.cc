@@ -1,6 +1,9 @@
 #include "engine/neighbor/contact_list.h"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <exception>
 #include <string>
 
 #include "base/error.h"
@@ -236,6 +239,32 @@ void ContactList::Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch
   Fill(input, chunk, scratch);
 }
 
+// Chunks know nothing of each other here. The error reported is that of the first chunk that has
+// one.
+void ContactList::FindAll(const RebuildInput& input) {
+  const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
+  scratch_.resize(input.num_threads);
+  std::vector<ListCounts> counts(num_chunks);
+  std::vector<std::exception_ptr> errors(num_chunks);
+#pragma omp parallel for num_threads(input.num_threads) schedule(dynamic) if (input.num_threads > 1)
+  for (std::int64_t c = 0; c < num_chunks; ++c) {
+    Scratch& scratch = scratch_[omp_get_thread_num()];
+    try {
+      Find(input, chunks_[c], scratch);
+      const auto touching = static_cast<std::int64_t>(scratch.touching.size());
+      counts[c] = {touching + static_cast<std::int64_t>(scratch.near.size()), touching};
+    } catch (const base::Error&) {
+      errors[c] = std::current_exception();
+    }
+  }
+  counts_ = {};
+  for (std::int64_t c = 0; c < num_chunks; ++c) {
+    if (errors[c]) std::rethrow_exception(errors[c]);
+    counts_.pairs += counts[c].pairs;
+    counts_.touching += counts[c].touching;
+  }
+}
+
 void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_t> alive) {
   ParticleStore& p = input.particles;
   double largest = 0;
@@ -244,14 +273,7 @@ void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_
   SaveContacts(grid_.order(), p.num);
   p.Reorder(grid_.order());
   CutChunks(p.num);
-  scratch_.resize(1);
-  counts_ = {};
-  for (Chunk& chunk : chunks_) {
-    Find(input, chunk, scratch_[0]);
-    counts_.touching += static_cast<std::int64_t>(scratch_[0].touching.size());
-    counts_.pairs +=
-        static_cast<std::int64_t>(scratch_[0].touching.size() + scratch_[0].near.size());
-  }
+  FindAll(input);
   PrepareForces();
 }
 

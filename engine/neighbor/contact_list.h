@@ -81,6 +81,7 @@ class ContactList {
   void VisitTouching(Visitor&& visit) const;
   void SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num);
   void CutChunks(std::int64_t num_particles);
+  void FindAll(const RebuildInput& input);
   void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void FindSpheres(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
   void FindWalls(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
