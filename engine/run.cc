@@ -30,7 +30,8 @@ RunCheckpoint Unpack(const std::string& bytes) {
   if (!bytes.starts_with(kMagic)) throw base::Error("is not a checkpoint of this version");
   const std::string_view rest =
       bytes.size() < header ? std::string_view() : std::string_view(bytes).substr(header);
-  if (bytes.compare(kMagic.size(), kDigits, base::Hex(base::Checksum(rest))) != 0) {
+  const std::string expected = base::Hex(base::Checksum(rest)) + "\n";
+  if (bytes.compare(kMagic.size(), kDigits + 1, expected) != 0) {
     throw base::Error("is damaged or cut off: its checksum does not fit");
   }
   const std::size_t times_end = rest.find('\n', kDigits + 1);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/random.h"
 
 namespace talus::engine {
 namespace {
@@ -38,7 +39,8 @@ void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
   const double density = spec.materials[static_cast<std::size_t>(material)].material.density;
   std::vector<double> radii = DrawDiameters(SizeCurve(fill.sizes), fill.mass / density);
   for (double& r : radii) r /= 2;
-  const std::uint64_t seed = spec.seed + 1000003 * index;  // two like fills differ
+  // Two like fills differ.
+  const std::uint64_t seed = base::Random(spec.seed, base::Stream("fills"), index).Next();
   radii = Shuffled(std::move(radii), seed);
   const FillRequest request{
       .region = fill.region, .solid_fraction = fill.solid_fraction, .seed = seed};

@@ -1,0 +1,53 @@
+#include "engine/run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace talus::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+const RunCheckpoint kCheckpoint{.input_hash = 0xfedcba9876543210,
+                                .timing = {.wall_time = 1.0 / 3, .cpu_time = 0.25},
+                                .state = "{\"a\": 1}",
+                                .simulation = std::string("bytes\n\0of the engine", 20)};
+
+std::string ErrorOf(const std::string& bytes) {
+  try {
+    Unpack(bytes);
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunCheckpoint, IsReadBackWhole) {
+  const RunCheckpoint again = Unpack(Pack(kCheckpoint));
+  EXPECT_EQ(again.input_hash, kCheckpoint.input_hash);
+  EXPECT_EQ(again.timing.wall_time, kCheckpoint.timing.wall_time);
+  EXPECT_EQ(again.timing.cpu_time, kCheckpoint.timing.cpu_time);
+  EXPECT_EQ(again.state, kCheckpoint.state);
+  EXPECT_EQ(again.simulation, kCheckpoint.simulation);
+}
+
+TEST(RunCheckpoint, CutAnywhereOrChangedAnywhereItIsRefused) {
+  const std::string whole = Pack(kCheckpoint);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_NE(ErrorOf(whole.substr(0, i)), "") << "cut at " << i;
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 1);
+    EXPECT_NE(ErrorOf(changed), "") << "changed at " << i;
+  }
+  EXPECT_THAT(ErrorOf("PK\x03\x04 something else"), HasSubstr("is not a checkpoint"));
+}
+
+TEST(SliceSteps, AreFewForManyParticlesAndNeverNone) {
+  EXPECT_EQ(SliceSteps(100'000'000), 1);
+  EXPECT_GT(SliceSteps(2), 1000);
+}
+
+}  // namespace
+}  // namespace talus::engine
