@@ -14,6 +14,7 @@ int Run(int argc, char** argv) {
   talus::experiments::AddCompareCommand(app);
   talus::experiments::AddReportCommand(app);
   talus::experiments::AddMeasureCommand(app);
+  talus::experiments::AddValidateCommand(app);
   talus::experiments::AddCalibrateCommand(app);
   talus::experiments::AddResumeCommand(app);
   talus::experiments::AddStatusCommand(app);

@@ -61,12 +61,15 @@ CampaignEnd Campaign::Run(const InterruptGuard& interrupt) {
       DropRunning();
       return End(asked);
     }
-    if (asked == Interrupt::kNone) StartTrials();
+    const bool started = asked == Interrupt::kNone && StartTrials();
     if (asked == Interrupt::kDrain && !std::exchange(announced, true)) {
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
     }
-    if (running_.empty()) return End(asked);
+    if (running_.empty()) {
+      if (started) continue;  // they had ended in an earlier process
+      return End(asked);
+    }
     ShowStatus();
     for (const FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
   }
@@ -105,13 +108,13 @@ void Campaign::TakeUpRunning() {
   }
 }
 
-void Campaign::StartTrials() {
+bool Campaign::StartTrials() {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
     planner_.StopSearch("the time budget of " + DurationText(*spec_.budget.wall_clock) +
                         " is used");
   }
   const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
-  if (room <= 0) return;
+  if (room <= 0) return false;
   std::vector<TrialRecord> trials;
   while (!waiting_.empty() && static_cast<int>(trials.size()) < room) {
     trials.push_back(waiting_.front());
@@ -123,7 +126,9 @@ void Campaign::StartTrials() {
     planner_.Started(trial);
     trials.push_back(std::move(trial));
   }
-  if (!trials.empty()) Submit(trials);
+  if (trials.empty()) return false;
+  Submit(trials);
+  return true;
 }
 
 // A trial whose folder holds its result already, because the process ended before it could be
@@ -243,10 +248,18 @@ void Campaign::FailOrRetry(TrialRecord& trial, const std::string& reason) {
 void Campaign::Close(TrialRecord& trial, const imaging::GrayImage* profile) {
   trial.finished_utc = UtcNow();
   journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
-  journal_.SetProgress({.elapsed_s = Elapsed()});
+  NoteElapsed();
   planner_.Finished(trial, profile == nullptr ? std::vector<float>() : reference_.Field(*profile));
   NoteBest(trial);
   Report(trial);
+}
+
+// Not with every trial: it waits for the disk.
+void Campaign::NoteElapsed() {
+  constexpr auto kPeriod = std::chrono::seconds(2);
+  if (Clock::now() - noted_ < kPeriod) return;
+  noted_ = Clock::now();
+  journal_.SetProgress({.elapsed_s = Elapsed()});
 }
 
 void Campaign::DropRunning() {
@@ -266,7 +279,11 @@ CampaignEnd Campaign::End(Interrupt interrupt) {
   if (finished) {
     result_ = Conclude(
         planner_,
-        {.spec = spec_, .campaign = record_, .reference = reference_, .elapsed = Elapsed()});
+        {.spec = spec_,
+         .campaign = record_,
+         .reference = reference_,
+         .profile = [this](std::int64_t id) { return StoredProfile(journal_, folder_, id); },
+         .elapsed = Elapsed()});
     if (result_) progress.result_json = ResultText(*result_);
     if (result_) base::WriteFileAtomically(folder_.result(), progress.result_json);
   }

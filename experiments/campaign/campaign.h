@@ -52,7 +52,7 @@ class Campaign {
 
   void TellFinished();
   void TakeUpRunning();
-  void StartTrials();
+  bool StartTrials();
   void Submit(const std::vector<TrialRecord>& trials);
   Job JobOf(const TrialRecord& trial) const;
   HeapCase CaseOfTrial(const TrialRecord& trial) const;
@@ -61,6 +61,7 @@ class Campaign {
   void Collect(TrialRecord& trial, const FinishedJob& job);
   void FailOrRetry(TrialRecord& trial, const std::string& reason);
   void Close(TrialRecord& trial, const imaging::GrayImage* profile);
+  void NoteElapsed();
   void DropRunning();
   CampaignEnd End(Interrupt interrupt);
   void NoteBest(const TrialRecord& trial);
@@ -83,6 +84,7 @@ class Campaign {
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<CampaignResult> result_;
   Clock::time_point start_;
+  Clock::time_point noted_;    // when the time worked on it was last written
   double elapsed_before_ = 0;  // [s]
 };
 

@@ -4,7 +4,7 @@
 
 #include "base/json_writer.h"
 #include "experiments/campaign/console.h"
-#include "experiments/campaign/record_json.h"
+#include "experiments/journal/record_json.h"
 
 namespace talus::experiments {
 namespace {
@@ -48,7 +48,8 @@ std::string FloorLine(const CampaignResult& result) {
   std::string text = "  noise floor       " + NumberText4(*result.noise_floor) +
                      " mm² SAD from run to run of the experiment";
   if (result.confirmed_over_floor) {
-    text += "; confirmed SAD is " + NumberText4(*result.confirmed_over_floor) + " times that";
+    text += "; the mean profile of the confirming runs is at " +
+            NumberText4(*result.confirmed_over_floor) + " times that";
   }
   return text + "\n";
 }

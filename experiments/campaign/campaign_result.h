@@ -38,10 +38,11 @@ struct ResultParameter {
 struct ResultCandidate {
   std::vector<double> values{};  // in the order of the parameters, SI
   double scale_factor = 1;
-  int num_trials = 0;                 // that succeeded
-  double mean = kNotKnown;            // of the objective
-  double standard_error = kNotKnown;  // of that mean; not known for one trial
-  std::optional<double> sad_mm2{};    // mean SAD, whatever the objective
+  int num_trials = 0;                       // that succeeded
+  double mean = kNotKnown;                  // of the objective
+  double standard_error = kNotKnown;        // of that mean; not known for one trial
+  std::optional<double> sad_mm2{};          // mean SAD of the trials, whatever the objective
+  std::optional<double> profile_sad_mm2{};  // SAD of their mean profile
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -51,6 +52,7 @@ struct ResultCandidate {
     visit("objective_mean", self.mean);
     visit("objective_standard_error", self.standard_error);
     visit("sad_mm2", self.sad_mm2);
+    visit("mean_profile_sad_mm2", self.profile_sad_mm2);
   }
 };
 
@@ -96,15 +98,16 @@ struct CampaignResult {
   std::string objective;       // key with the unit: "sad_mm2"
   std::string objective_unit;  // for people: "mm²"
   std::vector<ResultParameter> parameters{};
-  double predicted = kNotKnown;                  // objective at the recommended set
-  double predicted_sd = kNotKnown;               // of that mean
-  double noise_sd = kNotKnown;                   // scatter of one simulation, by the model
-  std::optional<double> replicates_sd{};         // the same, from the replicates before the search
-  std::vector<ResultCandidate> confirmed{};      // the recommended set first
-  std::optional<double> noise_floor{};           // of the experiment: SAD [mm²]
-  std::optional<double> confirmed_over_floor{};  // confirmed SAD / noise floor [-]
-  double tied_volume = kNotKnown;                // share of the searched box [-]
-  std::vector<std::vector<double>> tied{};       // sets that tie, SI
+  double predicted = kNotKnown;              // objective at the recommended set
+  double predicted_sd = kNotKnown;           // of that mean
+  double noise_sd = kNotKnown;               // scatter of one simulation, by the model
+  std::optional<double> replicates_sd{};     // the same, from the replicates before the search
+  std::vector<ResultCandidate> confirmed{};  // the recommended set first
+  std::optional<double> noise_floor{};       // of the experiment: SAD [mm²]
+  // SAD of the confirming trials' mean profile / noise floor [-]
+  std::optional<double> confirmed_over_floor{};
+  double tied_volume = kNotKnown;                  // share of the searched box [-]
+  std::vector<std::vector<double>> tied{};         // sets that tie, SI
   std::vector<std::vector<double>> correlation{};  // between the parameters
   std::string model;
   std::vector<std::string> warnings{};
@@ -125,7 +128,7 @@ struct CampaignResult {
     visit("replicates_sd", self.replicates_sd);
     visit("confirmed", self.confirmed);
     visit("experimental_noise_floor_mm2", self.noise_floor);
-    visit("confirmed_sad_over_noise_floor", self.confirmed_over_floor);
+    visit("confirmed_profile_sad_over_noise_floor", self.confirmed_over_floor);
     visit("tied_volume_fraction", self.tied_volume);
     visit("tied_sets", self.tied);
     visit("correlation", self.correlation);

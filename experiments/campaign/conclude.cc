@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "experiments/cli/commands.h"
+#include "imaging/projection.h"
 
 namespace talus::experiments {
 namespace {
@@ -38,15 +39,19 @@ std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
   return values;
 }
 
-ResultCandidate CandidateOf(const Planner& planner, const Reference& reference, std::size_t index,
+ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::size_t index,
                             const Eigen::VectorXd& point) {
   ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
   std::vector<double> objective;
   std::vector<double> sad;
+  std::vector<imaging::GrayImage> profiles;
   for (const TrialRecord& trial : planner.trials()) {
     if (trial.kind != TrialKind::kConfirm || trial.set != planner.ConfirmSet(index)) continue;
     candidate.scale_factor = trial.scale_factor;
-    if (const auto value = reference.Value(trial)) objective.push_back(*value);
+    if (const auto value = of.reference.Value(trial)) objective.push_back(*value);
+    if (trial.status == TrialStatus::kOk) {
+      if (auto profile = of.profile(trial.id)) profiles.push_back(std::move(*profile));
+    }
     if (const auto value = trial.Metric(MetricOf(Objective::kSad))) sad.push_back(*value);
   }
   const Sample sample = SampleOf(objective);
@@ -54,6 +59,11 @@ ResultCandidate CandidateOf(const Planner& planner, const Reference& reference, 
   candidate.mean = sample.mean;
   candidate.standard_error = sample.sd / std::sqrt(sample.count);
   if (!sad.empty()) candidate.sad_mm2 = SampleOf(sad).mean;
+  if (!profiles.empty()) {
+    TrialRecord mean;
+    mean.metrics = of.reference.Measure(imaging::MeanImage(profiles));
+    candidate.profile_sad_mm2 = mean.Metric(MetricOf(Objective::kSad));
+  }
   return candidate;
 }
 
@@ -89,11 +99,11 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
   }
 }
 
-void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
-                     const Reference& reference, CampaignResult& result) {
+void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, const Evidenced& of,
+                     CampaignResult& result) {
   const auto candidates = planner.Candidates(answer);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const ResultCandidate candidate = CandidateOf(planner, reference, i, candidates[i]);
+    const ResultCandidate candidate = CandidateOf(planner, of, i, candidates[i]);
     if (candidate.num_trials > 0) result.confirmed.push_back(candidate);
   }
   if (result.confirmed.empty()) return;
@@ -107,8 +117,8 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
         "the set that the model recommends was confirmed worse than another candidate, which is "
         "recommended instead; the predicted value is that of the model's set");
   }
-  if (result.noise_floor && result.confirmed[0].sad_mm2) {
-    result.confirmed_over_floor = *result.confirmed[0].sad_mm2 / *result.noise_floor;
+  if (result.noise_floor && result.confirmed[0].profile_sad_mm2) {
+    result.confirmed_over_floor = *result.confirmed[0].profile_sad_mm2 / *result.noise_floor;
   }
 }
 
@@ -178,7 +188,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
     if (const auto value = of.reference.Value(trial)) noise.push_back(*value);
   }
   if (noise.size() >= 2) result.replicates_sd = SampleOf(noise).sd;
-  AddConfirmation(*answer, planner, of.reference, result);
+  AddConfirmation(*answer, planner, of, result);
   result.conditions = ConditionsOf(of.spec);
   result.cost = CostOf(planner, of);
   return result;

@@ -1,6 +1,8 @@
 // From the finished trials to the result.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "experiments/campaign/campaign_result.h"
@@ -13,6 +15,8 @@ struct Evidenced {
   const CampaignSpec& spec;
   const CampaignRecord& campaign;
   const Reference& reference;
+  // A trial's ANHP.
+  std::function<std::optional<imaging::GrayImage>(std::int64_t)> profile;
   double elapsed = 0;  // [s]
 };
 

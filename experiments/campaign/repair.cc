@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_writer.h"
-#include "experiments/campaign/record_json.h"
+#include "experiments/journal/record_json.h"
 
 namespace talus::experiments {
 namespace {

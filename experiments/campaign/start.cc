@@ -6,9 +6,9 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
-#include "experiments/campaign/record_json.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/cli/commands.h"
+#include "experiments/journal/record_json.h"
 #include "imaging/image_file.h"
 
 namespace talus::experiments {
@@ -25,34 +25,6 @@ std::vector<ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space
                        .unit = UnitOf(p.name)});
   }
   return records;
-}
-
-CampaignRecord RecordOf(const CampaignSpec& spec, const base::JsonFile& file,
-                        const imaging::Experiment& experiment) {
-  CampaignRecord record;
-  record.name = spec.name;
-  record.spec_path = std::filesystem::absolute(file.path).lexically_normal().string();
-  record.spec_text = base::ReadFile(file.path);
-  record.spec_json = SpecText(spec);
-  record.spec_hash = base::Hex(base::Checksum(record.spec_json));
-  record.talus_version = Version();
-  record.created_utc = UtcNow();
-  record.objective = base::NameOf(spec.objective);
-  record.parameters = ParametersOf(SpaceOf(spec));
-  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
-  if (!experiment.standard_deviation.pixels.empty()) {
-    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
-  }
-  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
-  record.nebp_px = imaging::Nebp(experiment.aehp.image);
-  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
-  for (const imaging::Metric& metric : experiment.metrics) {
-    record.reference.push_back({.name = metric.name,
-                                .value = metric.value.value,
-                                .unit = metric.unit,
-                                .undefined = metric.value.not_defined});
-  }
-  return record;
 }
 
 // The journal, or a new one from what the folder keeps beside it.
@@ -109,6 +81,35 @@ void AddSimulations(Journal& journal, CampaignSpec& spec, int num_more) {
 
 }  // namespace
 
+CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {
+  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.experiment);
+  CampaignRecord record;
+  record.name = spec.name;
+  record.spec_path = std::filesystem::absolute(file.path).lexically_normal().string();
+  record.spec_text = base::ReadFile(file.path);
+  record.spec_json = SpecText(spec);
+  record.spec_hash = base::Hex(base::Checksum(record.spec_json));
+  record.talus_version = Version();
+  record.created_utc = UtcNow();
+  record.objective = base::NameOf(spec.objective);
+  record.parameters = ParametersOf(SpaceOf(spec));
+  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
+  if (!experiment.standard_deviation.pixels.empty()) {
+    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
+  }
+  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
+  record.nebp_px = imaging::Nebp(experiment.aehp.image);
+  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
+  for (const imaging::Metric& metric : experiment.metrics) {
+    record.reference.push_back({.name = metric.name,
+                                .value = metric.value.value,
+                                .unit = metric.unit,
+                                .undefined = metric.value.not_defined});
+  }
+  ReferenceOf(record, spec);  // throws where the experiment does not have what is to be met
+  return record;
+}
+
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& root) {
   const base::JsonFile file = base::ReadJsonFile(spec_path);
   const CampaignSpec spec = ReadCampaignSpec(file);
@@ -117,8 +118,7 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
     throw base::ConfigError(root.string() + ": holds a campaign already; `talus resume " +
                             root.string() + "` goes on with it, or name another folder with --out");
   }
-  const CampaignRecord record = RecordOf(spec, file, imaging::MeasureExperiment(spec.experiment));
-  ReferenceOf(record, spec);  // throws where the experiment does not have what is to be met
+  const CampaignRecord record = MakeRecord(spec, file);
   std::error_code error;
   std::filesystem::create_directories(folder.root, error);
   if (error) throw base::Error(root.string() + ": cannot be made: " + error.message());

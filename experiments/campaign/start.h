@@ -12,6 +12,9 @@
 
 namespace talus::experiments {
 
+// Measures the experiment; throws ConfigError where it cannot be used with this spec.
+CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file);
+
 // Makes the folder and the journal of a new campaign. Nothing is written when the spec or the
 // experiment's images are no good.
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder);

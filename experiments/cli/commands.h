@@ -20,6 +20,7 @@ void AddCalibrateCommand(CLI::App& app);
 void AddExportCommand(CLI::App& app);
 void AddResumeCommand(CLI::App& app);
 void AddStatusCommand(CLI::App& app);
+void AddValidateCommand(CLI::App& app);
 void AddSimulateCommand(CLI::App& app);
 
 }  // namespace talus::experiments

@@ -6,6 +6,7 @@
 #include "base/json_reader.h"
 #include "base/json_writer.h"
 #include "experiments/engines/command_engine.h"
+#include "experiments/journal/record_json.h"
 
 namespace talus::experiments {
 namespace {
@@ -107,11 +108,7 @@ void CampaignSpec::Validate(base::Problems& problems) const {
 }
 
 CampaignSpec ParseSpecText(const std::string& text) {
-  CampaignSpec spec;
-  base::Problems problems("the journal's spec", {});
-  base::ReadOptions(nlohmann::json::parse(text), spec, {problems, {}});
-  problems.ThrowIfAny();
-  return spec;
+  return ParseRecord<CampaignSpec>(text, "the journal's spec");
 }
 
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
@@ -132,6 +129,8 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   problems.ThrowIfAny();
   engine::ReadSizeFile(spec.powder.sizes);
   CompleteEngine(spec, problems);
+  // What shows only when it is put together, such as a tube that cannot hold the mass.
+  TypicalCase(spec).Validate(problems);
   problems.ThrowIfAny();
   return spec;
 }
@@ -168,6 +167,17 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
     SetProperty(heap_case.powder.material, space.parameters[i].name, settings.values[i]);
   }
   return heap_case;
+}
+
+HeapCase TypicalCase(const CampaignSpec& spec) {
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  const auto num_free = static_cast<Eigen::Index>(space.Free().size());
+  const std::vector<double> values = space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
+  const imaging::Frame frame{.pixel_size = 1e-4, .plate_diameter = spec.device.plate_diameter};
+  return CaseOf(
+      spec,
+      {.values = values, .seed = spec.seed, .scale_factor = spec.coarse_graining.scale_factor},
+      frame);
 }
 
 std::vector<std::string> ForbiddenChanges(const std::string& old_text,

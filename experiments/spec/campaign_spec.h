@@ -103,6 +103,9 @@ struct TrialSettings {
 HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
                 const imaging::Frame& frame);
 
+// A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
+HeapCase TypicalCase(const CampaignSpec& spec);
+
 // What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
 // what a running campaign may change is left out.
 std::vector<std::string> ForbiddenChanges(const std::string& old_text, const std::string& new_text);

@@ -1,0 +1,225 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/campaign/export.h"
+#include "experiments/campaign/status.h"
+#include "tests/experiments/fake_heap.h"
+#include "tests/experiments/scratch_folder.h"
+
+namespace talus::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kSmall = R"(,
+  "strategy": {"kind": "sobol"}, "budget": {"simulations": 12}, "noise": {"replicates": 2},
+  "confirm": {"candidates": 2, "replicates": 2}, "workers": 1)";
+
+class CampaignTest : public ::testing::Test {
+ protected:
+  fs::path Begin(const std::string& more, const std::string& name = "run") {
+    const fs::path spec = WriteFakeSpec(scratch_.path() / (name + "_in"), more);
+    BeginCampaign(spec, scratch_.path() / name);
+    return scratch_.path() / name;
+  }
+  static std::vector<TrialRecord> Trials(const fs::path& folder) {
+    return Journal::OpenReadOnly(JournalPath(folder)).Trials();
+  }
+  static CampaignResult Result(const fs::path& folder) {
+    return ParseResult(base::ReadFile(folder / "result.json"));
+  }
+  ScratchFolder scratch_;
+};
+
+std::string ErrorOf(const auto& action) {
+  try {
+    action();
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(CampaignTest, NoiseFirstThenTheSearchThenTheConfirmation) {
+  const fs::path folder = Begin(kSmall);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const auto trials = Trials(folder);
+  ASSERT_EQ(trials.size(), 12u + 4u);
+  EXPECT_EQ(trials[0].kind, TrialKind::kNoise);
+  EXPECT_EQ(trials[1].kind, TrialKind::kNoise);
+  EXPECT_EQ(trials[0].unit, trials[1].unit);
+  EXPECT_NE(trials[0].seed, trials[1].seed);
+  EXPECT_EQ(trials[2].kind, TrialKind::kDesign);
+  EXPECT_EQ(trials[12].kind, TrialKind::kConfirm);
+  EXPECT_EQ(trials[12].unit, trials[13].unit);
+  EXPECT_NE(trials[12].unit, trials[14].unit);
+  for (const TrialRecord& trial : trials) {
+    EXPECT_EQ(trial.status, TrialStatus::kOk);
+    EXPECT_TRUE(trial.Metric("sad_mm2").has_value());
+    EXPECT_TRUE(trial.Metric("rmse_gray").has_value());
+    EXPECT_TRUE(fs::exists(
+        folder / "trials" /
+        ("00" + std::string(trial.id < 10 ? "0" : "") + std::to_string(trial.id)) / "case.json"));
+  }
+}
+
+TEST_F(CampaignTest, TheResultSaysWhatIsRecommendedHowSureAndUnderWhichConditions) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 24}, "workers": 1)");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const CampaignResult result = Result(folder);
+  ASSERT_EQ(result.parameters.size(), 2u);
+  // One drawn heap scatters by 0.01 in μ_r and by 0.3/20 in μ_t, and so does the experiment, which
+  // is one such heap; three times the two together. The ranges are ten times as wide.
+  EXPECT_NEAR(result.parameters[0].value, kTrueSliding, 0.06);
+  EXPECT_NEAR(result.parameters[1].value, kTrueRolling, 0.06);
+  EXPECT_LE(result.parameters[1].credible_low, result.parameters[1].value);
+  EXPECT_GE(result.parameters[1].credible_high, result.parameters[1].value);
+  EXPECT_GT(result.replicates_sd.value_or(0), 0);
+  ASSERT_FALSE(result.confirmed.empty());
+  EXPECT_GT(result.confirmed[0].num_trials, 0);
+  EXPECT_GT(result.confirmed[0].mean, 0);
+  // Averaging over seeds takes scatter away, so the mean profile is nearer than a single one.
+  EXPECT_LT(result.confirmed[0].profile_sad_mm2.value(), result.confirmed[0].sad_mm2.value());
+  EXPECT_FALSE(result.noise_floor.has_value());  // a map has no runs
+  EXPECT_EQ(result.conditions.lift_velocity, 0.01);
+  EXPECT_EQ(result.conditions.scale_factor, 1);
+  EXPECT_FALSE(result.stop_reason.empty());
+  const std::string summary = ResultSummary(result);
+  EXPECT_THAT(summary, HasSubstr("stopped because"));
+  EXPECT_THAT(summary, HasSubstr("lift velocity 0.01 m/s"));
+}
+
+TEST_F(CampaignTest, TrialsEndedFromOutsideAreRunAgainAsTheyWere) {
+  const fs::path calm = Begin(kSmall, "calm");
+  RunFake(calm, {});
+  const fs::path disturbed = Begin(kSmall, "disturbed");
+  EXPECT_EQ(RunFake(disturbed, {.die_once = true}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(disturbed), TrialTable(calm));
+  EXPECT_THAT(base::ReadFile(disturbed / "campaign.log"), HasSubstr("it is run again"));
+}
+
+TEST_F(CampaignTest, FailuresAreRecordedAndTheSearchGoesOn) {
+  const fs::path folder = Begin(kSmall);
+  EXPECT_EQ(RunFake(folder, {.fail_at_low = true}), CampaignEnd::kFinished);
+  int failed = 0;
+  for (const TrialRecord& trial : Trials(folder)) {
+    EXPECT_EQ(trial.status == TrialStatus::kFailed, trial.native[0] < 0.3) << trial.native[0];
+    if (trial.status != TrialStatus::kFailed) continue;
+    ++failed;
+    EXPECT_EQ(trial.reason, "exit status 3: no heap");
+    EXPECT_EQ(trial.attempts, 1);
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_THAT(StatusText(folder), HasSubstr("× exit status 3: no heap"));
+}
+
+TEST_F(CampaignTest, AFailedTrialIsTriedOnceMoreWithAnotherSeedIfTheSpecSaysSo) {
+  const fs::path folder = Begin(std::string(kSmall) + R"(, "retry_failed": true)");
+  EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFinished);
+  const fs::path other = Begin(kSmall, "other");
+  RunFake(other, {});
+  const auto retried = Trials(folder);
+  const auto calm = Trials(other);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(retried[i].status, TrialStatus::kOk);
+    EXPECT_EQ(retried[i].attempts, 2);
+    EXPECT_NE(retried[i].seed, calm[i].seed);
+  }
+}
+
+TEST_F(CampaignTest, WhereEveryTrialFailsItEndsEarlyWithTheReason) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 50}, "workers": 1,
+    "strategy": {"kind": "sobol"})");
+  const std::string marker = (folder / "trials").string();
+  EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFailed);
+  EXPECT_EQ(Trials(folder).size(), 8u);
+  EXPECT_THAT(StatusText(folder), HasSubstr("the first 8 trials all failed"));
+}
+
+TEST_F(CampaignTest, AnExtendedCampaignHasTheTrialsOfALongerOne) {
+  const fs::path folder = Begin(kSmall);
+  RunFake(folder, {});
+  EXPECT_EQ(RunFake(folder, {}, {.spec = {}, .add_simulations = 5, .objective = {}}),
+            CampaignEnd::kFinished);
+  std::string longer = kSmall;
+  longer.replace(longer.find("\"simulations\": 12"), 17, "\"simulations\": 17");
+  const fs::path other = Begin(longer, "longer");
+  RunFake(other, {});
+  const auto search = [](const std::vector<TrialRecord>& trials) {
+    std::vector<std::pair<std::vector<double>, std::int64_t>> list;
+    for (const TrialRecord& t : trials) {
+      if (t.kind != TrialKind::kConfirm) list.emplace_back(t.unit, t.seed);
+    }
+    return list;
+  };
+  EXPECT_EQ(search(Trials(folder)), search(Trials(other)));
+  EXPECT_EQ(search(Trials(folder)).size(), 17u);
+}
+
+TEST_F(CampaignTest, AChangedSpecIsRefusedWithWhatChangedUnlessItMayChange) {
+  const fs::path folder = Begin(kSmall);
+  RunFake(folder, {});
+  const fs::path spec = scratch_.path() / "run_in" / "spec.json";
+  std::string text = base::ReadFile(spec);
+  std::string other = text;
+  other.replace(other.find("0.5 g"), 5, "0.6 g");
+  std::ofstream(spec) << other;
+  const std::string error = ErrorOf([&] { RunFake(folder, {}); });
+  EXPECT_THAT(error, HasSubstr("powder.mass: 0.0005 → 0.0006"));
+
+  text.replace(text.find("\"simulations\": 12"), 17, "\"simulations\": 14");
+  std::ofstream(spec) << text;
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  int search = 0;
+  for (const TrialRecord& t : Trials(folder)) search += t.kind != TrialKind::kConfirm;
+  EXPECT_EQ(search, 14);
+}
+
+TEST_F(CampaignTest, ASecondProcessIsRefused) {
+  const fs::path folder = Begin(kSmall);
+  const CampaignLock lock(folder);
+  EXPECT_THAT(ErrorOf([&] { RunFake(folder, {}); }), HasSubstr("another process"));
+  EXPECT_TRUE(IsWorkedOn(folder));
+}
+
+TEST_F(CampaignTest, NothingIsBegunTwiceOrWithAnExperimentThatCannotBeUsed) {
+  Begin(kSmall);
+  EXPECT_THAT(ErrorOf([&] { Begin(kSmall); }), HasSubstr("talus resume"));
+  const fs::path spec = WriteFakeSpec(scratch_.path() / "bad", kSmall);
+  std::ofstream(scratch_.path() / "bad" / "map.png") << "no image";
+  EXPECT_THAT(ErrorOf([&] { BeginCampaign(spec, scratch_.path() / "bad_run"); }),
+              HasSubstr("map.png"));
+  EXPECT_FALSE(fs::exists(scratch_.path() / "bad_run"));
+}
+
+TEST_F(CampaignTest, ExportsOneLineATrialWithUnitsInTheHead) {
+  const fs::path folder = Begin(kSmall);
+  RunFake(folder, {});
+  ExportCampaign(folder, folder / "export");
+  const std::string csv = base::ReadFile(folder / "export" / "trials.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 17);
+  EXPECT_THAT(csv, HasSubstr("scale_factor,sliding_friction,rolling_friction,"));
+  EXPECT_THAT(csv, HasSubstr(",sad_mm2,"));
+  EXPECT_NO_THROW(base::ParseJson(base::ReadFile(folder / "export" / "trials.json"), "json"));
+}
+
+TEST_F(CampaignTest, SeveralWorkersAndReplicatesMakeEveryTrialOnce) {
+  const fs::path folder = Begin(R"(, "strategy": {"kind": "sobol"}, "replicates": 2,
+    "budget": {"simulations": 12}, "noise": {"replicates": 2}, "workers": 4)");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  std::map<std::int64_t, int> sets;
+  std::set<std::int64_t> seeds;
+  for (const TrialRecord& t : Trials(folder)) {
+    seeds.insert(t.seed);
+    if (t.kind == TrialKind::kDesign || t.kind == TrialKind::kSearch) ++sets[t.set];
+  }
+  EXPECT_EQ(seeds.size(), Trials(folder).size());
+  EXPECT_EQ(sets.size(), 5u);
+  for (const auto& [set, count] : sets) EXPECT_EQ(count, 2);
+}
+
+}  // namespace
+}  // namespace talus::experiments

@@ -1,0 +1,143 @@
+// A campaign without simulations: heaps are drawn, in a millisecond, from the parameters and the
+// seed. For the tests of everything that goes on round a simulation.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/json_file.h"
+#include "base/random.h"
+#include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/start.h"
+#include "experiments/runners/local_runner.h"
+#include "imaging/image_file.h"
+
+namespace talus::experiments {
+
+inline constexpr double kTrueSliding = 0.45;
+inline constexpr double kTrueRolling = 0.2;
+
+inline imaging::Frame FakeFrame() {
+  return {.width = 120,
+          .height = 80,
+          .pixel_size = 1e-4,
+          .center_x = 60,
+          .baseline = 76,
+          .plate_diameter = 0.01};
+}
+
+// A cone whose slope follows μ_r, cut off at a height that follows μ_t; both scatter by the seed.
+inline imaging::GrayImage DrawHeap(double sliding, double rolling, std::uint64_t seed) {
+  const imaging::Frame frame = FakeFrame();
+  base::Random random(seed, base::Stream("fake heap"));
+  const double slope = 0.2 + rolling + 0.01 * random.Normal();
+  const double cap = 2 + 20 * sliding + 0.3 * random.Normal();
+  imaging::GrayImage image{.width = frame.width, .height = frame.height, .pixels = {}};
+  image.pixels.assign(static_cast<std::size_t>(frame.width * frame.height), 255);
+  for (int x = 10; x < 110; ++x) {
+    const double height = std::min(cap, slope * (50 - std::abs(x + 0.5 - 60)));
+    for (int y = 0; y < 76; ++y) {
+      const double powder = std::clamp(height - (75 - y), 0.0, 1.0);
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
+    }
+  }
+  return image;
+}
+
+struct FakeEngineOptions {
+  bool die_once = false;     // every third trial is ended by SIGKILL when it is run first
+  bool fail_at_low = false;  // no heap below μ_t = 0.3
+  bool fail_once = false;    // every trial's first seed fails
+  double sleep = 0;          // of each trial [s]
+};
+
+class FakeEngine : public TrialEngine {
+ public:
+  explicit FakeEngine(const FakeEngineOptions& options) : options_(options) {}
+
+  void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) override {
+    PrepareFolder(folder, "case.json", HeapCaseText(heap_case));
+    const engine::Material& m = heap_case.powder.material;
+    const auto seed = heap_case.seed;
+    imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, m.rolling_friction, seed));
+    std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
+    if (options_.die_once && seed % 3 == 0) {
+      script += "if [ ! -e died ]; then touch died; kill -9 $$; fi\n";
+    }
+    if (options_.fail_at_low && m.sliding_friction < 0.3) script += "echo no heap >&2; exit 3\n";
+    const auto marker = folder.parent_path() / (folder.filename().string() + "_failed");
+    if (options_.fail_once && !std::filesystem::exists(marker)) {
+      script += "touch " + marker.string() + "; exit 4\n";
+    }
+    std::ofstream(folder / "run.sh") << script << "cp drawn.png tmp && mv tmp profile.png\n";
+  }
+  std::vector<std::string> Command(const std::filesystem::path&) override {
+    return {"sh", "run.sh"};
+  }
+  bool IsComplete(const std::filesystem::path& folder) override {
+    return std::filesystem::exists(folder / "profile.png");
+  }
+  TrialOutput Collect(const HeapCase&, const std::filesystem::path& folder) override {
+    return {.profile = imaging::ReadGrayImage(folder / "profile.png"),
+            .num_steps = 1,
+            .num_particles = 1,
+            .note = ""};
+  }
+
+ private:
+  FakeEngineOptions options_;
+};
+
+// spec.json and the experiment's map in `folder`; `more` are further members of the spec.
+inline std::filesystem::path WriteFakeSpec(const std::filesystem::path& folder,
+                                           const std::string& more) {
+  std::filesystem::create_directories(folder);
+  imaging::WritePng(folder / "map.png", DrawHeap(kTrueSliding, kTrueRolling, 12345));
+  std::ofstream(folder / "spec.json") << R"({
+  "name": "fake",
+  "experiment": {"map": "map.png", "plate_diameter": "10 mm",
+    "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
+              "baseline_px": 76, "plate_diameter": "10 mm"}},
+  "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+  "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
+                 "rolling_friction": {"min": 0.05, "max": 0.5}})"
+                                      << more << "\n}\n";
+  return folder / "spec.json";
+}
+
+// One session of a campaign with drawn heaps.
+inline CampaignEnd RunFake(const std::filesystem::path& folder, const FakeEngineOptions& engine,
+                           const ResumeOptions& resume = {}) {
+  const InterruptGuard interrupt;
+  Console console(folder / "campaign.log", Console::Output::kQuiet);
+  OpenedCampaign opened = OpenCampaign(folder, resume, console);
+  CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),
+                      .engine = std::make_unique<FakeEngine>(engine)};
+  Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
+                    std::move(parts), console);
+  return campaign.Run(interrupt);
+}
+
+// What two campaigns that did the same have in common: everything of a trial but times and places.
+inline std::string TrialTable(const std::filesystem::path& folder) {
+  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
+  std::string table;
+  for (const TrialRecord& t : journal.Trials()) {
+    table += std::to_string(t.id) + " " + std::string(base::NameOf(t.kind)) + " " + t.origin + " " +
+             std::string(base::NameOf(t.status)) + " " + std::to_string(t.seed) + " " +
+             std::to_string(t.finish_order);
+    char number[32];
+    for (const double value : t.unit) {
+      std::snprintf(number, sizeof number, " %.17g", value);
+      table += number;
+    }
+    std::snprintf(number, sizeof number, " %.17g\n", t.Metric("sad_mm2").value_or(-1));
+    table += number;
+  }
+  return table;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,139 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_schema.h"
+#include "experiments/spec/campaign_spec.h"
+
+namespace talus::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kGood = R"({
+  "experiment": {"map": "map.png", "plate_diameter": "10 mm"},
+  "powder": {"material": {"density": 4386, "youngs_modulus": "26.25 MPa"},
+             "sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+  "models": {"adhesion": "dmt"}
+})";
+
+CampaignSpec Read(const std::string& text) {
+  return ReadCampaignSpec(base::ParseJson(text, "/folder/powder.json"));
+}
+
+std::string With(const std::string& member) {
+  std::string text = kGood;
+  return text.insert(1, "\n  " + member + ",");
+}
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    Read(text);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Spec, DefaultsAreTheThreeUsualParametersAndTheFilesName) {
+  const CampaignSpec spec = Read(kGood);
+  EXPECT_EQ(spec.name, "powder");
+  EXPECT_EQ(spec.experiment.map, "/folder/map.png");  // relative to the spec
+  const auto space = SpaceOf(spec);
+  ASSERT_EQ(space.Free().size(), 3u);
+  EXPECT_EQ(space.parameters[2].name, "surface_energy");
+  EXPECT_EQ(space.parameters[2].scale, optimizer::Scale::kLog);
+  EXPECT_DOUBLE_EQ(space.parameters[2].high, 40e-5);
+}
+
+TEST(Spec, AnySubsetOfTheMaterialWithUnitsAndFixedValues) {
+  const CampaignSpec spec = Read(With(R"("parameters": {
+    "surface_energy": {"min": "1 uJ/m^2", "max": "40e-5 J/m^2", "scale": "log"},
+    "youngs_modulus": {"min": "1 MPa", "max": "30 MPa", "guess": "10 MPa"},
+    "restitution": {"fixed": 0.6}})"));
+  const auto space = SpaceOf(spec);
+  ASSERT_EQ(space.Free().size(), 2u);
+  const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 1));
+  const HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
+  EXPECT_NEAR(c.powder.material.surface_energy, 2e-5, 1e-15);  // √(1e-6 · 4e-4)
+  EXPECT_DOUBLE_EQ(c.powder.material.youngs_modulus, 30e6);
+  EXPECT_DOUBLE_EQ(c.powder.material.restitution, 0.6);
+  EXPECT_EQ(c.seed, 7u);
+  EXPECT_EQ(c.coarse_graining.scale_factor, 2);
+  EXPECT_EQ(UnitOf("surface_energy"), "J/m^2");
+  EXPECT_EQ(UnitOf("sliding_friction"), "");
+}
+
+TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {
+  const std::string error = ErrorOf(R"({
+  "experiment": {"map": "m.png", "plate_diameter": "10 mm"},
+  "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 m"},
+  "parameters": {"sliding_friction": {"min": 0.7, "max": 0.1},
+                 "restitution": {"min": 0.5, "max": 1.5},
+                 "surface_energi": {}},
+  "objective": "saad",
+  "budget": {"simulations": 0},
+  "workers": -1
+})");
+  EXPECT_THAT(error, HasSubstr("powder.json:3:71: powder.mass: \"1.5 m\""));
+  EXPECT_THAT(error, HasSubstr("powder.json:4:46: parameters.sliding_friction.min: is 0.7, must "
+                               "be below max"));
+  EXPECT_THAT(error, HasSubstr("parameters.restitution.max: is 1.5"));
+  EXPECT_THAT(error, HasSubstr("parameters.surface_energi: is not known here; did you mean "
+                               "\"surface_energy\"?"));
+  EXPECT_THAT(error, HasSubstr("powder.json:7:16: objective: must be one of \"sad\", \"rmse\""));
+  EXPECT_THAT(error, HasSubstr("budget.simulations: is 0, must be at least 1"));
+  EXPECT_THAT(error, HasSubstr("workers: is -1"));
+}
+
+TEST(Spec, WhatHasNoEffectOrCannotBeIsRefused) {
+  EXPECT_THAT(ErrorOf(R"({
+    "experiment": {"map": "m.png", "plate_diameter": "10 mm"},
+    "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+    "parameters": {"surface_energy": {"min": 1e-6, "max": 1e-4}}})"),
+              HasSubstr("has no effect without adhesion"));
+  EXPECT_THAT(ErrorOf(With(R"("device": {"tube_length": "5 mm"})")),
+              HasSubstr("device.tube_length: is 0.005, cannot hold the mass"));
+  EXPECT_THAT(ErrorOf(With(R"("noise": {"replicates": 1})")), HasSubstr("noise.replicates: is 1"));
+}
+
+TEST(Spec, ItsTextReadsBackToTheSameSpec) {
+  const CampaignSpec spec = Read(With(R"("parameters": {
+    "sliding_friction": {"min": 0.1, "max": 0.7}, "restitution": {"fixed": 0.6}})"));
+  const std::string text = SpecText(spec);
+  EXPECT_EQ(SpecText(ParseSpecText(text)), text);
+  EXPECT_TRUE(ForbiddenChanges(text, text).empty());
+}
+
+TEST(Spec, OnlyBudgetWorkersAndTheLikeMayChange) {
+  const std::string before = SpecText(Read(kGood));
+  EXPECT_TRUE(ForbiddenChanges(
+                  before, SpecText(Read(With(R"("workers": 7, "budget": {"simulations": 9})"))))
+                  .empty());
+  const auto changes = ForbiddenChanges(
+      before, SpecText(Read(With(R"("seed": 2, "coarse_graining": {"scale_factor": 1.5})"))));
+  EXPECT_THAT(changes, ::testing::UnorderedElementsAre("seed: 1 → 2",
+                                                       "coarse_graining.scale_factor: 1.0 → 1.5"));
+}
+
+TEST(Spec, TheExamplesAreInOrder) {
+  for (const char* name : {"demo", "ti6al4v", "al6061", "wet_sand"}) {
+    const std::filesystem::path path =
+        std::filesystem::path(TALUS_SOURCE_DIR) / "examples" / name / "campaign.json";
+    EXPECT_NO_THROW(LoadCampaignSpec(path)) << path;
+  }
+}
+
+// After a change, run with TALUS_UPDATE_SCHEMAS=1 and commit what it writes.
+TEST(Spec, TheShippedSchemaIsTheParsers) {
+  const std::string path = TALUS_SOURCE_DIR "/docs/campaign.schema.json";
+  const std::string schema = base::FileSchema<CampaignSpec>("talus campaign").dump(2) + "\n";
+  if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
+  EXPECT_EQ(base::ReadFile(path), schema);
+}
+
+}  // namespace
+}  // namespace talus::experiments
