@@ -74,7 +74,7 @@ void DrawColorScale(ColorImage& canvas, double x, double top, double bottom) {
 
 // A bar of a round length, about a fifth of the map wide.
 void DrawLengthBar(ColorImage& canvas, const Axis& x, double y) {
-  const double length = Ticks(0, (x.high - x.low) / 5, 1).back();  // [mm]
+  const double length = Ticks(0, (x.high - x.low) / 5, 3).back();  // [mm]
   const double right = x.to - 12;
   const double left = right - length / (x.high - x.low) * (x.to - x.from);
   DrawLine(canvas, {left, y}, {right, y}, {.color = kBlack, .thickness = 3});

@@ -56,7 +56,7 @@ ColorImage DrawMassStudy(std::span<const MassRun> runs, const MassStudy& study) 
     index = number++;
     const double y = 50 + 20 * static_cast<double>(index);
     DrawDisc(canvas, {kWidth - 130, y}, 4, kDayColors[index % kDayColors.size()]);
-    DrawText(canvas, {"day " + day, {kWidth - 118, y}, Align::kLeft, 0.45, kBlack});
+    DrawText(canvas, {day, {kWidth - 118, y}, Align::kLeft, 0.45, kBlack});
   }
   for (const MassRow& row : study.rows) {
     const bool chosen = study.chosen == row.mass;
