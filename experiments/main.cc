@@ -20,6 +20,7 @@ int Run(int argc, char** argv) {
   talus::experiments::AddStatusCommand(app);
   talus::experiments::AddExportCommand(app);
   talus::experiments::AddSimulateCommand(app);
+  talus::experiments::AddOptimizeCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -18,6 +18,7 @@ void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
 void AddCalibrateCommand(CLI::App& app);
 void AddExportCommand(CLI::App& app);
+void AddOptimizeCommand(CLI::App& app);
 void AddResumeCommand(CLI::App& app);
 void AddStatusCommand(CLI::App& app);
 void AddValidateCommand(CLI::App& app);

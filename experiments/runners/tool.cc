@@ -57,7 +57,18 @@ bool Collect(std::array<Pipe, 2>& pipes, ToolResult& result, Clock::time_point e
   return true;
 }
 
-int Spawn(const std::vector<std::string>& command, const ToolOptions& options,
+// The pipe holds it all before anyone reads, so that nothing waits for a command that never does.
+void Fill(Pipe& pipe, const std::string& input) {
+  constexpr std::size_t kPipeHolds = 65536;
+  const ssize_t written =
+      input.size() > kPipeHolds ? -1 : ::write(pipe.ends[1], input.data(), input.size());
+  if (written != static_cast<ssize_t>(input.size())) {
+    throw base::Error("the input of a command does not fit into a pipe");
+  }
+  pipe.CloseWriter();
+}
+
+int Spawn(const std::vector<std::string>& command, const ToolOptions& options, const Pipe& input,
           const std::array<Pipe, 2>& pipes, pid_t& pid) {
   std::vector<std::string> arguments = command;
   std::vector<char*> pointers;
@@ -65,7 +76,7 @@ int Spawn(const std::vector<std::string>& command, const ToolOptions& options,
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, input.ends[0], 0);
   if (options.output_file.empty()) {
     ::posix_spawn_file_actions_adddup2(&actions, pipes[0].ends[1], 1);
   } else {
@@ -88,9 +99,11 @@ int Spawn(const std::vector<std::string>& command, const ToolOptions& options,
 
 ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options) {
   ToolResult result;
+  Pipe input;
+  Fill(input, options.input);
   std::array<Pipe, 2> pipes;
   pid_t pid = -1;
-  const int code = Spawn(command, options, pipes, pid);
+  const int code = Spawn(command, options, input, pipes, pid);
   if (code == EAGAIN || code == ENOMEM) {
     throw base::Error(std::string("no process can be started: ") + std::strerror(code));
   }

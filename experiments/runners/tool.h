@@ -19,6 +19,7 @@ struct ToolOptions {
   double time_cap = 60;  // [s], after which it is killed: a queue that does not answer
   // Where standard output goes instead of `output`: it is then there even if we are killed first.
   std::filesystem::path output_file{};
+  std::string input{};  // what it reads from its standard input; below 64 KiB
 };
 
 // `command[0]` is looked up on the PATH. Throws base::Error only when the system has no process

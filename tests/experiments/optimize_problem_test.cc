@@ -1,0 +1,30 @@
+#include "experiments/optimize/optimize_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "base/file.h"
+#include "base/json_reader.h"
+#include "base/json_schema.h"
+
+namespace talus::experiments {
+namespace {
+
+TEST(OptimizeProblem, ShippedSchemaIsThatOfTheParser) {
+  const std::string path = TALUS_SOURCE_DIR "/docs/optimize.schema.json";
+  const std::string schema =
+      base::FileSchema<OptimizeProblem>("talus optimize problem").dump(2) + "\n";
+  if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
+  EXPECT_EQ(base::ReadFile(path), schema);
+}
+
+TEST(OptimizeProblem, ExampleIsRead) {
+  const auto problem = base::LoadOptions<OptimizeProblem>(
+      base::ReadJsonFile(TALUS_SOURCE_DIR "/examples/optimize/bowl.json"));
+  EXPECT_EQ(problem.space.Free().size(), 2u);
+  EXPECT_EQ(problem.evaluations, 40);
+}
+
+}  // namespace
+}  // namespace talus::experiments

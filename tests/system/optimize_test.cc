@@ -1,0 +1,135 @@
+// Runs `talus optimize` as a user does, on a command of somebody else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/file.h"
+
+namespace talus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string kCommand = "python3 " TALUS_SOURCE_DIR "/tests/system/optimize_command.py ";
+
+constexpr const char* kUnitSquare = R"([
+  {"name": "a", "low": 0, "high": 1}, {"name": "b", "low": 0, "high": 1},
+  {"name": "c", "fixed": 7}])";
+
+class Optimize : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) /
+              ("optimize_" +
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+
+  void Write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  // Exit status of a command in the test's folder; what it prints is in out_ and errors_.
+  int Run(const std::string& command) {
+    const std::string all =
+        "cd " + folder_.string() + " && { " + command + "; } > out.txt 2> errors.txt";
+    const int status = std::system(all.c_str());
+    out_ = base::ReadFile(folder_ / "out.txt");
+    errors_ = base::ReadFile(folder_ / "errors.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  int Talus(const std::string& arguments) {
+    return Run(TALUS_BINARY_DIR "/talus optimize " + arguments);
+  }
+
+  fs::path folder_;
+  std::string out_;
+  std::string errors_;
+};
+
+TEST_F(Optimize, FindsTheMinimumOfACommandThatReturnsValuesAndSometimesFails) {
+  Write("problem.json", R"({"parameters": [
+      {"name": "a", "low": 0, "high": 1},
+      {"name": "b", "low": 1e-6, "high": 1e-2, "scale": "log"}],
+    "evaluations": 25, "workers": 2})");
+  ASSERT_EQ(Talus("problem.json --log log.jsonl --quiet -- " + kCommand + "value"), 0) << errors_;
+  const json result = json::parse(out_);
+  // The function is a bowl of width 1 in a and of a decade in b; 25 evaluations without scatter.
+  EXPECT_NEAR(result["recommended"]["a"], 0.3, 0.02);
+  EXPECT_NEAR(std::log10(result["recommended"]["b"].get<double>()), -4, 0.05);
+  EXPECT_LE(result["ranges_90"]["a"]["low"], result["recommended"]["a"]);
+  EXPECT_GE(result["ranges_90"]["a"]["high"], result["recommended"]["a"]);
+  EXPECT_FALSE(result["stopped"].get<std::string>().empty());
+  EXPECT_EQ(errors_, "");
+  std::ifstream log(folder_ / "log.jsonl");
+  int num_lines = 0;
+  for (std::string line; std::getline(log, line); ++num_lines) {
+    const json evaluation = json::parse(line);
+    EXPECT_EQ(evaluation["evaluation"], num_lines + 1);
+    const bool failed = evaluation["parameters"]["a"] > 0.9;
+    EXPECT_EQ(evaluation.contains("failed"), failed);
+    if (!failed) continue;
+    EXPECT_THAT(evaluation["failed"].get<std::string>(), HasSubstr("no heap formed"));
+  }
+  EXPECT_EQ(num_lines, result["evaluations"]);
+}
+
+TEST_F(Optimize, MeetsATargetImageGivenAsNumbersOrAsAFileTheSameWayTwice) {
+  ASSERT_EQ(Run("echo '{\"a\": 0.62, \"b\": 0.35}' | " + kCommand + "field"), 0);
+  const std::string target = out_;
+  ASSERT_EQ(Run("echo '{\"a\": 0.62, \"b\": 0.35, \"seed\": 0}' | " + kCommand + "profile"), 0);
+  const std::string rest =
+      ", \"evaluations\": 14, \"parameters\": " + std::string(kUnitSquare) + "}";
+  Write("field.json", "{\"target\": " + target + rest);
+  Write("profile.json", R"({"target": {"profile": "heap_0.png"})" + rest);
+  for (const std::string kind : {"field", "profile"}) {
+    ASSERT_EQ(Talus(kind + ".json --quiet -- " + kCommand + kind), 0) << errors_;
+    const json result = json::parse(out_);
+    EXPECT_NEAR(result["recommended"]["a"], 0.62, 0.02) << kind;
+    EXPECT_NEAR(result["recommended"]["b"], 0.35, 0.04) << kind;
+    EXPECT_EQ(result["recommended"]["c"], 7);
+    EXPECT_THAT(result["model"].get<std::string>(), HasSubstr("column heights"));
+  }
+  const std::string first = out_;
+  ASSERT_EQ(Talus("profile.json --quiet -- " + kCommand + "profile"), 0) << errors_;
+  EXPECT_EQ(out_, first);
+}
+
+TEST_F(Optimize, ReportsBadInputWithItsPlaceAndWritesNothing) {
+  Write("bad.json", R"({"parameters": [{"name": "seed", "low": 2, "high": 1}],
+  "strategy": {"kind": "grit"}, "evaluation": 3, "target": {"profile": "x.png", "field": [[0, 2]]}})");
+  EXPECT_EQ(Talus("bad.json --out result.json -- true"), 2);
+  for (const char* part :
+       {"bad.json:1:", "parameters[0].high", "must not be \"seed\"", "strategy.kind",
+        "did you mean \"evaluations\"?", "target.profile", "field[0]: is 2"}) {
+    EXPECT_THAT(errors_, HasSubstr(part));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "result.json"));
+  EXPECT_EQ(Talus("missing.json -- true"), 2);
+  EXPECT_THAT(errors_, HasSubstr("missing.json"));
+}
+
+TEST_F(Optimize, ACommandThatMakesNoSenseEndsItWithAReason) {
+  Write("problem.json", "{\"parameters\": " + std::string(kUnitSquare) + "}");
+  EXPECT_EQ(Talus("problem.json -- no_such_command"), 1);
+  EXPECT_THAT(errors_, HasSubstr("cannot be run: no_such_command"));
+  EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "nonsense"), 1);
+  EXPECT_THAT(errors_, HasSubstr("it wrote: 0.25"));
+  EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "field"), 1);
+  EXPECT_THAT(errors_, HasSubstr("no \"target\""));
+  EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "crash"), 1);
+  EXPECT_THAT(errors_, HasSubstr("have all failed, the last with exit status 1"));
+}
+
+}  // namespace
+}  // namespace talus
