@@ -67,13 +67,14 @@ void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, b
   const Eigen::MatrixXd points = history.points.topRows(num_evaluations);
   const Eigen::VectorXd values = history.values.head(num_evaluations);
   milestone_ = {.num_evaluations = num_evaluations, .deterministic = deterministic};
+  surrogate::GaussianProcessOptions options = ProcessOptions(deterministic, seed_);
+  if (deterministic) options.num_starts = 1;  // four transforms to fit
   double best = -std::numeric_limits<double>::infinity();
   for (const double share : {0.0, 1.0, 0.1, 0.01}) {
     if (share > 0 && !deterministic) break;
     const ValueTransform transform = TransformOf(values, share);
     if (share > 0 && transform.delta == 0) break;  // constant values
-    const auto process =
-        FitTransformed(points, values, transform, ProcessOptions(deterministic, seed_));
+    const auto process = FitTransformed(points, values, transform, options);
     // The density of the values, not of their transforms: ln|dt/dv| = -t.
     const double jacobian = share > 0 ? -process.values().sum() : 0;
     if (process.LogPosterior() + jacobian > best) {

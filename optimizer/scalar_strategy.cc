@@ -99,22 +99,34 @@ bool ScalarStrategy::WasEvaluated(const Eigen::VectorXd& point, const Points& as
                      [&](const Observation& seen) { return SamePoint(seen.point, point); });
 }
 
+// Enough points from elsewhere, such as the trials of another campaign, make the design needless.
 std::optional<Eigen::VectorXd> ScalarStrategy::NextOfDesign(const Points& asked) const {
+  if (told_.size() + asked.size() >= design_.size()) return std::nullopt;
   for (const Eigen::VectorXd& point : design_) {
     if (!WasEvaluated(point, asked)) return point;
   }
   return std::nullopt;
 }
 
-// The best point, since near it the scatter matters. Asked for once the design is under way.
+// The best point, since near it the scatter matters; not one that has failed meanwhile.
 std::optional<Eigen::VectorXd> ScalarStrategy::FirstRepeat(const Points& asked) const {
   if (repeats_.num_repeats > 0 || history_.size() == 0) return std::nullopt;
   for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
     if (Among(history_.points.row(i), asked)) return std::nullopt;  // the repeat is under way
   }
-  Eigen::Index best = 0;
-  history_.values.minCoeff(&best);
-  return history_.points.row(best);
+  std::optional<Eigen::Index> best;
+  for (Eigen::Index i = 0; i < history_.values.size(); ++i) {
+    if (best && history_.values[i] >= history_.values[*best]) continue;
+    if (!HasFailed(history_.points.row(i))) best = i;
+  }
+  if (!best) return std::nullopt;
+  return history_.points.row(*best);
+}
+
+bool ScalarStrategy::HasFailed(const Eigen::VectorXd& point) const {
+  return std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
+    return seen.failed && SamePoint(seen.point, point);
+  });
 }
 
 Proposal ScalarStrategy::ByModel(const Points& asked) {
@@ -148,7 +160,7 @@ Proposal ScalarStrategy::NotByAccident(const Eigen::VectorXd& point, const Point
   if (!repeats_.deterministic && repeats_.num_repeats < 1 + options_.max_replicates) {
     for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
       const Eigen::VectorXd near = history_.points.row(i);
-      if ((near - point).norm() < kReplicateDistance && !Among(near, asked)) {
+      if ((near - point).norm() < kReplicateDistance && !Among(near, asked) && !HasFailed(near)) {
         return {near, Origin::kRepeat};
       }
     }

@@ -57,6 +57,7 @@ class ScalarStrategy : public Strategy {
   std::optional<Eigen::VectorXd> FirstRepeat(const Points& asked) const;
   Proposal ByModel(const Points& asked);
   std::optional<Eigen::VectorXd> ByTrustRegion(const Points& asked) const;
+  bool HasFailed(const Eigen::VectorXd& point) const;
   bool WasEvaluated(const Eigen::VectorXd& point, const Points& asked) const;
   const ScalarFit& Fit();
   Eigen::VectorXd Best();

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 #include "base/random.h"
+#include "optimizer/lattice.h"
 
 namespace talus::optimizer {
 namespace {
@@ -165,6 +167,22 @@ TEST(ScalarStrategy, LearnsWhereEvaluationsFail) {
   EXPECT_GT(answer.point[0], 0.40);
 }
 
+TEST(ScalarStrategy, DoesNotInsistOnARepeatThatFails) {
+  ScalarStrategy strategy = Fresh();
+  Points failed;
+  for (int i = 0; i < 14; ++i) {
+    const Proposal proposal = strategy.Ask(1, {}).at(0);
+    for (const Eigen::VectorXd& other : failed) EXPECT_FALSE(SamePoint(other, proposal.point));
+    const bool fails = proposal.origin == Origin::kRepeat;
+    if (fails) failed.push_back(proposal.point);
+    strategy.Tell({.point = proposal.point,
+                   .failed = fails,
+                   .value = NoisyBowl(proposal.point, i),
+                   .field = {}});
+  }
+  EXPECT_GE(failed.size(), 2u);
+}
+
 TEST(ScalarStrategy, GoesOnWhenEverythingFails) {
   ScalarStrategy strategy = Fresh();
   Points seen;
@@ -190,6 +208,24 @@ TEST(ScalarStrategy, StopsInWordsOnceTheScatterHidesWhatIsLeft) {
   EXPECT_NE(strategy.StopReason()->find("scatter of one evaluation"), std::string::npos);
   // The promise of the rule: what was left to gain was within the scatter.
   EXPECT_LT(Bowl(strategy.Recommend().point) - Bowl(kBottom), 0.03);
+}
+
+// Processor time, so that other work on the machine does not count. The limit is one second.
+TEST(ScalarStrategy, ProposesWithinASecondAfterTwoHundredEvaluations) {
+  for (const bool noisy : {false, true}) {
+    ScalarStrategy strategy = Fresh();
+    const Eigen::MatrixXd points = Lattice(199, 3, 1);
+    for (int i = 0; i < 199; ++i) strategy.Tell(Evaluated(points.row(i), noisy, i));
+    strategy.Tell(Evaluated(points.row(0), noisy, 199));
+    // The first proposal after a resume also makes the thorough fit of a milestone.
+    const std::clock_t start = std::clock();
+    for (const Proposal& proposal : strategy.Ask(2, {})) {  // one of them by the process
+      EXPECT_EQ(proposal.origin, Origin::kModel);
+    }
+    const double first = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(first, 1.0) << (noisy ? "noisy" : "deterministic");
+    RecordProperty(noisy ? "noisy_s" : "deterministic_s", std::to_string(first));
+  }
 }
 
 TEST(ScalarStrategy, StaysWithinAConstraintAndTriesGuessesFirst) {
