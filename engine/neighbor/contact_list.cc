@@ -171,9 +171,8 @@ void ContactList::Remember(PairBlock& block, int lane, const Candidate& candidat
   }
 }
 
-// Run after run; in each the touching pairs first, so that the blocks of the others are passed
-// over.
-void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
+// One run for each key that occurs, and where its pairs go. Returns the number of blocks.
+std::int64_t ContactList::LayOutRuns(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
   const std::int64_t num_materials = input.num_materials;
   const std::int64_t num_keys = num_materials * (num_materials + input.walls.size());
   scratch.count_of_key.assign(num_keys, 0);
@@ -194,6 +193,12 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch
     scratch.next_of_key[key] = kBlock * num_blocks;
     num_blocks += (count + kBlock - 1) / kBlock;
   }
+  return num_blocks;
+}
+
+// In each run the touching pairs first, so that the blocks of the others are passed over.
+void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
+  const std::int64_t num_blocks = LayOutRuns(input, chunk, scratch);
   PairBlock empty{};
   std::fill(std::begin(empty.first), std::end(empty.first), static_cast<std::int32_t>(chunk.begin));
   std::fill(std::begin(empty.second), std::end(empty.second),

@@ -85,6 +85,7 @@ class ContactList {
   void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void FindSpheres(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
   void FindWalls(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
+  static std::int64_t LayOutRuns(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void Remember(PairBlock& block, int lane, const Candidate& candidate) const;
 
