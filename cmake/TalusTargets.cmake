@@ -12,6 +12,7 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 add_library(talus_compile_options INTERFACE)
 add_library(talus::compile_options ALIAS talus_compile_options)
 set_target_properties(talus_compile_options PROPERTIES EXPORT_NAME compile_options)
+target_compile_features(talus_compile_options INTERFACE cxx_std_20)
 # -fno-math-errno lets sqrt vectorise; -ffast-math would remove the NaN checks. -ffp-contract=off
 # keeps the bits independent of where the compiler chooses to fuse.
 target_compile_options(talus_compile_options INTERFACE
