@@ -298,6 +298,9 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
 HeapImages Experiment::Images() const { return {.profile = aehp, .parts = RunImages(*this)}; }
 
 Experiment MeasureExperiment(const ExperimentOptions& options) {
+  base::Problems problems;
+  options.Validate(problems);
+  problems.ThrowIfAny();
   Experiment result;
   if (!options.map.empty()) {
     result.aehp = ReadMap(options.map, options.plate_diameter, options.frame);

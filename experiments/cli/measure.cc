@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -22,7 +23,7 @@ struct MeasureFlags {
   std::string pixel_size;
   std::string like;
   std::string length_unit;
-  double threshold = 0;
+  std::optional<double> threshold{};
   int views = 16;
   bool map = false;
   bool allow_missing_views = false;
@@ -52,7 +53,7 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
   if (!flags.pixel_size.empty()) {
     options.pixel_size = Quantity("--pixel-size", flags.pixel_size, Dimension::kLength);
   }
-  if (flags.threshold != 0) options.threshold = flags.threshold;
+  options.threshold = flags.threshold;
   options.allow_missing_views = flags.allow_missing_views;
   if (options.plate_diameter == 0 && flags.like.empty()) {
     throw base::ConfigError("--plate-diameter is missing; give it with its unit: 10mm");

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""measure_test.py TALUS SOURCE_DIR: `talus measure` as a user calls it, in each of its forms."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TALUS = sys.argv[1]
+PHOTOS = pathlib.Path(sys.argv[2]) / "examples/photos/powder_a"
+
+
+def run(*arguments):
+    return subprocess.run([TALUS, "measure", *map(str, arguments)], capture_output=True, text=True)
+
+
+class Measure(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.aehp = cls.folder / "aehp"
+        cls.done = run(PHOTOS, "--plate-diameter", "10mm", "--out", cls.aehp)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_photographs_give_profile_plate_angles_noise_floor_and_overlays(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        self.assertIn("noise floor", self.done.stdout)
+        with open(self.aehp / "views.csv", newline="") as table:
+            views = list(csv.DictReader(table))
+        self.assertEqual(len(views), 80)
+        for view in views:  # the plate is drawn 338 px wide in every photograph
+            self.assertAlmostEqual(float(view["plate_width_px"]), 338, delta=0.5)
+        self.assertEqual(len(list((self.aehp / "overlays").glob("*.png"))), 80)
+        metrics = json.loads((self.aehp / "measure.json").read_text())["metrics"]
+        self.assertGreater(metrics["repose_angle_2_mean_deg"]["standard_error"], 0)
+
+    def test_spheres_are_compared_in_the_frame_of_the_photographs(self):
+        # One layer of touching grains: far less powder than in the photographs, so the SAD is close to
+        # what is missing.
+        spheres = self.folder / "layer.csv"
+        lines = ["x_m,y_m,z_m,diameter_m"]
+        for i in range(-12, 13):
+            for j in range(-12, 13):
+                if i * i + j * j <= 144:
+                    lines.append(f"{i * 4e-4},{j * 4e-4},2e-4,4e-4")
+        spheres.write_text("\n".join(lines) + "\n")
+        out = self.folder / "layer"
+        done = run(spheres, "--like", self.aehp, "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(next(out.rglob("metrics.csv")), newline="") as table:
+            metrics = {row["metric"]: row["value"] for row in csv.DictReader(table)}
+        photographed = json.loads((self.aehp / "measure.json").read_text())["metrics"]
+        missing = photographed["nebp_mm2"]["value"] - float(metrics["nebp_mm2"])
+        self.assertGreater(missing, 10)
+        # Powder where the photographs have none (the outermost grains overhang) counts twice.
+        self.assertAlmostEqual(float(metrics["sad_mm2"]), missing, delta=0.02 * missing)
+
+    def test_bad_input_ends_with_status_2_names_it_and_writes_nothing(self):
+        out = self.folder / "nothing"
+        for arguments, named in [
+            ((self.folder / "absent", "--plate-diameter", "10mm"), "absent"),
+            ((PHOTOS, "--plate-diameter", "10kg"), "10kg"),
+            ((PHOTOS,), "plate-diameter"),
+            ((PHOTOS, "--plate-diameter", "10mm", "--threshold", "2"), "threshold"),
+        ]:
+            done = run(*arguments, "--out", out)
+            self.assertEqual(done.returncode, 2, (arguments, done.stdout, done.stderr))
+            self.assertIn(named, done.stderr)
+            self.assertFalse(out.exists(), arguments)
+
+
+unittest.main(argv=sys.argv[:1])
