@@ -120,12 +120,61 @@ std::string ErrorOf(const ExperimentOptions& options) {
   return "no error";
 }
 
+GrayImage Uniform(std::uint8_t grey) {
+  const Scene scene = SmallScene();
+  const auto num_pixels = static_cast<std::size_t>(scene.width) * scene.height;
+  return {.width = scene.width,
+          .height = scene.height,
+          .pixels = std::vector<std::uint8_t>(num_pixels, grey)};
+}
+
+// A triangle with one thing of the scene changed.
+template <typename T>
+void WriteTriangle(const fs::path& path, T Scene::*member, T value) {
+  Scene scene = SmallScene();
+  scene.*member = value;
+  WritePng(path, Triangle(scene));
+}
+
+// What is wrong with one photograph of four, and what the error says of it.
+struct PhotoFault {
+  const char* name;
+  void (*spoil)(const fs::path& photo);
+  const char* file;  // named by the error
+  const char* reason;
+};
+
+constexpr PhotoFault kPhotoFaults[] = {
+    {"MissingView", [](const fs::path& photo) { fs::remove(photo); }, "experiment_MissingView",
+     "run 2 has no view 1"},
+    {"UnreadableImage", [](const fs::path& photo) { std::ofstream(photo) << "this is no image"; },
+     "run2_view1.png", "no image we can read"},
+    {"EmptyFile", [](const fs::path& photo) { std::ofstream(photo).flush(); }, "run2_view1.png",
+     "is empty"},
+    {"BlackImage", [](const fs::path& photo) { WritePng(photo, Uniform(3)); }, "run2_view1.png",
+     "black everywhere"},
+    {"BlankImage", [](const fs::path& photo) { WritePng(photo, Uniform(200)); }, "run2_view1.png",
+     "nothing darker"},
+    {"OtherSize", [](const fs::path& photo) { WriteTriangle(photo, &Scene::width, 460); },
+     "run2_view1.png", "460 x 220 px"},
+    {"OtherScale", [](const fs::path& photo) { WriteTriangle(photo, &Scene::plate_width, 310.0); },
+     "run2_view1.png", "one scale"},
+    // A heap without plate: nothing with straight parallel sides.
+    {"NoPlate", [](const fs::path& photo) { WriteTriangle(photo, &Scene::plate_width, 0.0); },
+     "run2_view1.png", "no plate found"},
+};
+
+class ExperimentFaults : public testing::TestWithParam<PhotoFault> {};
+
 // Each fault names the file and a remedy, and --allow-missing-views goes on without it and says so.
-void ExpectFault(const fs::path& folder, const std::string& file, const std::string& reason) {
+TEST_P(ExperimentFaults, IsNamedWithItsRemedy) {
+  const PhotoFault& fault = GetParam();
+  const fs::path folder = GoodFolder(fault.name);
+  fault.spoil(folder / Name(2, 1));
   ExperimentOptions options = Options(folder);
   const std::string error = ErrorOf(options);
-  EXPECT_THAT(error, HasSubstr(file));
-  EXPECT_THAT(error, HasSubstr(reason));
+  EXPECT_THAT(error, HasSubstr(fault.file));
+  EXPECT_THAT(error, HasSubstr(fault.reason));
   EXPECT_THAT(error, HasSubstr("--allow-missing-views"));
   options.allow_missing_views = true;
   const Experiment experiment = MeasureExperiment(options);
@@ -133,69 +182,13 @@ void ExpectFault(const fs::path& folder, const std::string& file, const std::str
   for (const MeasuredRun& run : experiment.runs) num_views += run.views.size();
   EXPECT_EQ(num_views, 3u);
   ASSERT_EQ(experiment.notes.size(), 1u);
-  EXPECT_THAT(experiment.notes[0], HasSubstr(reason));
+  EXPECT_THAT(experiment.notes[0], HasSubstr(fault.reason));
 }
 
-TEST(ExperimentFaults, MissingView) {
-  const fs::path folder = GoodFolder("missing");
-  fs::remove(folder / Name(2, 1));
-  ExpectFault(folder, "experiment_missing", "run 2 has no view 1");
-}
+INSTANTIATE_TEST_SUITE_P(EachPhoto, ExperimentFaults, testing::ValuesIn(kPhotoFaults),
+                         [](const auto& test) { return std::string(test.param.name); });
 
-TEST(ExperimentFaults, UnreadableImage) {
-  const fs::path folder = GoodFolder("unreadable");
-  std::ofstream(folder / Name(2, 1)) << "this is no image";
-  ExpectFault(folder, Name(2, 1), "no image we can read");
-}
-
-TEST(ExperimentFaults, EmptyFile) {
-  const fs::path folder = GoodFolder("empty");
-  std::ofstream(folder / Name(2, 1)).flush();
-  ExpectFault(folder, Name(2, 1), "is empty");
-}
-
-TEST(ExperimentFaults, BlackImage) {
-  const fs::path folder = GoodFolder("black");
-  WritePng(
-      folder / Name(2, 1),
-      GrayImage{.width = 420, .height = 220, .pixels = std::vector<std::uint8_t>(420 * 220, 3)});
-  ExpectFault(folder, Name(2, 1), "black everywhere");
-}
-
-TEST(ExperimentFaults, BlankImage) {
-  const fs::path folder = GoodFolder("blank");
-  WritePng(
-      folder / Name(2, 1),
-      GrayImage{.width = 420, .height = 220, .pixels = std::vector<std::uint8_t>(420 * 220, 200)});
-  ExpectFault(folder, Name(2, 1), "nothing darker");
-}
-
-TEST(ExperimentFaults, OtherSize) {
-  const fs::path folder = GoodFolder("size");
-  Scene scene = SmallScene();
-  scene.width = 460;
-  WritePng(folder / Name(2, 1), Triangle(scene));
-  ExpectFault(folder, Name(2, 1), "460 x 220 px");
-}
-
-TEST(ExperimentFaults, OtherScale) {
-  const fs::path folder = GoodFolder("scale");
-  Scene scene = SmallScene();
-  scene.plate_width = 310;
-  WritePng(folder / Name(2, 1), Triangle(scene));
-  ExpectFault(folder, Name(2, 1), "one scale");
-}
-
-// A heap without plate: nothing with straight parallel sides.
-TEST(ExperimentFaults, NoPlate) {
-  const fs::path folder = GoodFolder("plate");
-  Scene scene = SmallScene();
-  scene.plate_width = 0;
-  WritePng(folder / Name(2, 1), Triangle(scene));
-  ExpectFault(folder, Name(2, 1), "no plate found");
-}
-
-TEST(ExperimentFaults, NothingIsLeft) {
+TEST(Experiment, NothingIsLeft) {
   const fs::path folder = EmptyFolder("nothing");
   std::ofstream(folder / Name(1, 0)) << "no image";
   ExperimentOptions options = Options(folder);
