@@ -1,8 +1,11 @@
 // engine_heap [--spheres N] [--ratio D/d] [--sliding MU] [--rolling MU] [--seed N] [--threads N]
-//   [--data FILE] [--share S]
-// The whole lifted-tube problem of bench/peers/README.md: fill and settle 0.08 s, lift 0.20 s, rest
-// 0.22 s. Prints the time each part took, and the heap. --data writes the start for LAMMPS and
-// LIGGGHTS; --share runs only that share of each part.
+//   [--modulus Y] [--settle T] [--lift T] [--speed V] [--rest T] [--data FILE] [--csv FILE]
+//   [--share S]
+// The whole lifted-tube problem of bench/peers/README.md: fill and settle 0.08 s, lift 0.20 s at
+// 0.05 m/s, rest 0.22 s, unless told otherwise. Prints the time each part took, and the heap, which
+// --csv writes. --data writes the start for LAMMPS and LIGGGHTS; --share runs only that share of
+// each part.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -12,6 +15,7 @@
 #include "bench/packing.h"
 #include "bench/timing.h"
 #include "engine/simulation.h"
+#include "engine/state_file.h"
 
 namespace {
 
@@ -63,6 +67,10 @@ void WriteData(const std::string& path, const engine::Scene& scene) {
   }
 }
 
+bool OnPlate(const engine::Particle& p) {
+  return std::hypot(p.position.x, p.position.y) < kTubeRadius && p.position.z > 0;
+}
+
 bool Leaves(const engine::Particle& p) {
   return std::fabs(p.position.x) > 8e-3 || std::fabs(p.position.y) > 8e-3 || p.position.z < -4e-3;
 }
@@ -91,20 +99,23 @@ void Run(std::map<std::string, std::string> options) {
                 static_cast<std::uint64_t>(number("--seed", 1))));
   scene.materials[0].sliding_friction = number("--sliding", 0.5);
   scene.materials[0].rolling_friction = number("--rolling", 0.1);
+  scene.materials[0].youngs_modulus = number("--modulus", 26.25e6);
   scene.num_threads = static_cast<int>(number("--threads", 1));
   std::get<engine::OpenCylinder>(scene.walls[0].shape).length = 0.06;
   if (options.contains("--data")) return WriteData(options["--data"], scene);
   const double share = number("--share", 1);
   const double cpu = bench::CpuSeconds(), wall = bench::WallSeconds();
   engine::Simulation simulation(scene);
-  RunPart(simulation, "settle", 0.08 * share);
-  simulation.SetMotion(0, {{.time = simulation.time(), .velocity = {0, 0, 0.05}}});
-  RunPart(simulation, "lift", 0.20 * share);
+  RunPart(simulation, "settle", number("--settle", 0.08) * share);
+  simulation.SetMotion(0,
+                       {{.time = simulation.time(), .velocity = {0, 0, number("--speed", 0.05)}}});
+  RunPart(simulation, "lift", number("--lift", 0.20) * share);
   simulation.RemoveWall(0);
-  RunPart(simulation, "rest", 0.22 * share);
-  std::int64_t heap = 0;
-  for (const engine::Particle& p : simulation.Particles()) {
-    heap += std::hypot(p.position.x, p.position.y) < kTubeRadius && p.position.z > 0 ? 1 : 0;
+  RunPart(simulation, "rest", number("--rest", 0.22) * share);
+  const std::vector<engine::Particle> particles = simulation.Particles();
+  const auto heap = std::count_if(particles.begin(), particles.end(), OnPlate);
+  if (options.contains("--csv")) {
+    std::ofstream(options["--csv"]) << engine::CsvOf(particles);
   }
   std::printf("heap of %lld spheres after %lld steps: wall %.1f s, cpu %.1f s, %.0f MB\n",
               static_cast<long long>(heap), static_cast<long long>(simulation.step()),

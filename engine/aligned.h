@@ -1,6 +1,8 @@
-// Vectors that start at a cache line, as the kernels' rows and blocks should.
+// Vectors that start at a cache line, as the kernels' rows and blocks should, and that keep their
+// memory.
 #pragma once
 
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -18,6 +20,18 @@ struct CacheLineAllocator {
   void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
   bool operator==(const CacheLineAllocator&) const = default;
 };
+
+// Makes `list` count copies of `value`. Grows by half when it must, so that counts that wander a
+// little do not allocate again and again.
+template <class List>
+void AssignWithRoom(List& list, std::int64_t count, const typename List::value_type& value) {
+  const auto size = static_cast<std::size_t>(count);
+  if (size > list.capacity()) {
+    list.clear();
+    list.reserve(size + size / 2);
+  }
+  list.assign(size, value);
+}
 
 template <class T>
 using AlignedVector = std::vector<T, CacheLineAllocator<T>>;

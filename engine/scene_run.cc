@@ -20,6 +20,8 @@ std::int64_t CheckSteps(const StopSpec& stop, double time_step) {
   return std::max<std::int64_t>(1, std::llround(stop.hold_time / kLooks / time_step));
 }
 
+constexpr std::int64_t kDomainSteps = 100;  // between two looks at who has left the domain
+
 StateFormats Formats(const OutputSpec& outputs) { return {outputs.vtp, outputs.csv}; }
 
 }  // namespace
@@ -49,12 +51,20 @@ bool SceneRun::Advance() {
   simulation_.Advance(steps);
   state_.particle_steps +=
       static_cast<double>(steps) * static_cast<double>(simulation_.num_particles());
+  CheckDomain();
   states_.Write(simulation_);
   CheckStop();
   return state_.stop_reason.empty();
 }
 
-// Up to whatever comes first: the end, a state to write, a look at the energy, the slice's end.
+void SceneRun::CheckDomain() {
+  if (!spec_.domain || simulation_.step() % kDomainSteps != 0) return;
+  state_.num_left +=
+      simulation_.RemoveIf([&](const Particle& p) { return !spec_.domain->Contains(p.position); });
+}
+
+// Up to whatever comes first: the end, a state to write, a look at the energy or the domain, the
+// slice's end.
 std::int64_t SceneRun::NextSteps() const {
   const double until = std::min(spec_.stop.time.value_or(std::numeric_limits<double>::infinity()),
                                 states_.NextTime());
@@ -64,6 +74,7 @@ std::int64_t SceneRun::NextSteps() const {
   if (spec_.stop.energy_fraction) {
     steps = std::min(steps, check_steps_ - simulation_.step() % check_steps_);
   }
+  if (spec_.domain) steps = std::min(steps, kDomainSteps - simulation_.step() % kDomainSteps);
   if (to_go < static_cast<double>(steps)) steps = static_cast<std::int64_t>(to_go);
   return std::max<std::int64_t>(1, steps);
 }
@@ -131,6 +142,7 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
   result["input_hash"] = base::Hex(SceneHash(spec_));
   result["reason"] = state_.stop_reason;
   result["num_particles"] = particles.size();
+  result["num_left_domain"] = state_.num_left;
   result["num_steps"] = simulation_.step();
   result["time_step_s"] = simulation_.time_step();
   result["simulated_time_s"] = time;

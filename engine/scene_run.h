@@ -21,13 +21,15 @@ struct SceneRunState {
   std::int64_t quiet_steps = 0;  // for which the spheres have been at rest
   double energy_ratio = 0;       // mean kinetic energy of a sphere / (m g d) [-]
   double particle_steps = 0;
-  std::string stop_reason;  // "time", "steps", "at_rest"; empty before the end
+  std::int64_t num_left = 0;  // spheres that have left the domain
+  std::string stop_reason;    // "time", "steps", "at_rest"; empty before the end
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("quiet_steps", self.quiet_steps);
     visit("energy_ratio", self.energy_ratio);
     visit("particle_steps", self.particle_steps);
+    visit("num_left", self.num_left);
     visit("stop_reason", self.stop_reason);
   }
 };
@@ -45,6 +47,7 @@ class SceneRun : public Run {
 
  private:
   std::int64_t NextSteps() const;
+  void CheckDomain();
   void CheckStop();
   bool AtRest();
 

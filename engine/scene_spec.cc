@@ -91,6 +91,17 @@ void OutputSpec::Validate(base::Problems& problems) const {
   }
 }
 
+void DomainSpec::Validate(base::Problems& problems) const {
+  problems.Require(base::IsFinite(low) && base::IsFinite(high), "", "must be finite");
+  problems.Require(low.x < high.x && low.y < high.y && low.z < high.z, "low",
+                   "must be below high in each coordinate");
+}
+
+bool DomainSpec::Contains(const Vec3& point) const {
+  return point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y &&
+         point.z >= low.z && point.z <= high.z;
+}
+
 void SceneSpec::Validate(base::Problems& problems) const {
   problems.Require(!materials.empty(), "materials", "must have one entry at least");
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -102,6 +113,10 @@ void SceneSpec::Validate(base::Problems& problems) const {
   RequireMaterials(*this, fills, "fills", problems);
   RequireMaterials(*this, walls, "walls", problems);
   problems.Require(!spheres.empty() || !fills.empty(), "", "must have spheres or fills");
+  for (std::size_t i = 0; domain && i < spheres.size(); ++i) {
+    problems.Require(domain->Contains(spheres[i].position),
+                     "spheres[" + std::to_string(i) + "].position", "is outside the domain");
+  }
   problems.Require(base::IsFinite(gravity), "gravity", "must be finite");
   if (time_step) RequirePositive(problems, "time_step", *time_step);
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");

@@ -106,15 +106,31 @@ struct OutputSpec {
   void Validate(base::Problems& problems) const;
 };
 
+// A box: spheres whose centre leaves it leave the scene.
+struct DomainSpec {
+  Vec3 low;   // [m], below `high` in each coordinate
+  Vec3 high;  // [m]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    constexpr auto kLength = base::Dimension::kLength;
+    visit("low", self.low, {.dimension = kLength, .required = true, .doc = "corner, below high"});
+    visit("high", self.high, {.dimension = kLength, .required = true, .doc = "other corner"});
+  }
+  void Validate(base::Problems& problems) const;
+  bool Contains(const Vec3& point) const;
+};
+
 struct SceneSpec {
   std::vector<NamedMaterial> materials{};
   ContactModels models;
   std::vector<SphereSpec> spheres{};
   std::vector<FillSpec> fills{};
   std::vector<WallSpec> walls{};
-  Vec3 gravity{0, 0, -9.81};          // [m/s²]
-  std::optional<double> time_step{};  // [s], > 0
-  double rayleigh_fraction = 0.15;    // Δt / t_R where time_step is not given [-]
+  std::optional<DomainSpec> domain{};  // default: without end
+  Vec3 gravity{0, 0, -9.81};           // [m/s²]
+  std::optional<double> time_step{};   // [s], > 0
+  double rayleigh_fraction = 0.15;     // Δt / t_R where time_step is not given [-]
   StopSpec stop;
   OutputSpec outputs;
   std::uint64_t seed = 1;
@@ -129,6 +145,7 @@ struct SceneSpec {
     visit("spheres", self.spheres, {.doc = "one by one"});
     visit("fills", self.fills, {.doc = "drawn from a size distribution"});
     visit("walls", self.walls);
+    visit("domain", self.domain, {.doc = "spheres whose centre leaves this box are taken out"});
     visit("gravity", self.gravity, {.dimension = Dimension::kAcceleration});
     visit("time_step", self.time_step,
           {.dimension = Dimension::kTime, .doc = "default: rayleigh_fraction decides"});

@@ -36,7 +36,8 @@ struct SimulationState {
   WallSet walls;
   ContactList list;
   SkinTuner tuner;
-  double wall_moved = 0;  // farthest way of any wall since the rebuild [m]
+  std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
+  double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
 
   std::vector<PairConstants> constants;  // of materials a, b at a · materials.size() + b
   double adhesion_gap = 0;               // largest of them [m]

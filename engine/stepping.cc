@@ -37,9 +37,9 @@ void SimulationState::SetConstants() {
 }
 
 void SimulationState::RebuildAll() {
-  std::vector<std::int32_t> all(particles.num);
-  std::iota(all.begin(), all.end(), 0);
-  Rebuild(all);
+  all_particles.resize(particles.num);
+  std::iota(all_particles.begin(), all_particles.end(), 0);
+  Rebuild(all_particles);
 }
 
 void SimulationState::Rebuild(std::span<const std::int32_t> alive) {

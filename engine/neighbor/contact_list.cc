@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <exception>
 #include <string>
 
 #include "base/error.h"
@@ -55,7 +54,7 @@ void ContactList::VisitTouching(Visitor&& visit) const {
 // Puts the memory of touching pairs aside, under the new numbers of their particles. Seen from the
 // other side, springs and moments have the opposite sign.
 void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num) {
-  new_of_old_.assign(old_num, -1);
+  AssignWithRoom(new_of_old_, old_num, -1);
   for (std::size_t k = 0; k < order.size(); ++k) {
     new_of_old_[order[k]] = static_cast<std::int32_t>(k);
   }
@@ -69,7 +68,7 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
       use(a, b, 1.0);
     }
   };
-  old_start_.assign(order.size() + 1, 0);
+  AssignWithRoom(old_start_, static_cast<std::int64_t>(order.size()) + 1, 0);
   VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock&, int) {
     renamed(first, second, [&](std::int32_t a, std::int32_t, double) { ++old_start_[a + 1]; });
   });
@@ -203,8 +202,8 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch
   std::fill(std::begin(empty.first), std::end(empty.first), static_cast<std::int32_t>(chunk.begin));
   std::fill(std::begin(empty.second), std::end(empty.second),
             static_cast<std::int32_t>(chunk.begin));
-  chunk.blocks.assign(num_blocks, empty);
-  chunk.touching.assign(num_blocks, 0);
+  AssignWithRoom(chunk.blocks, num_blocks, empty);
+  AssignWithRoom(chunk.touching, num_blocks, 0);
   std::int64_t last = chunk.end - 1;
   for (const auto* list : {&scratch.touching, &scratch.near}) {
     for (const Candidate& candidate : *list) {
@@ -225,7 +224,7 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch
 void ContactList::PrepareForces() {
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     Chunk& chunk = chunks_[c];
-    chunk.forces.assign(8 * (chunk.window_end - chunk.begin), 0.0);
+    AssignWithRoom(chunk.forces, 8 * (chunk.window_end - chunk.begin), 0.0);
     chunk.overhangs.clear();
     for (std::size_t before = 0; before < c; ++before) {
       Chunk& other = chunks_[before];
@@ -249,24 +248,23 @@ void ContactList::Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch
 void ContactList::FindAll(const RebuildInput& input) {
   const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
   scratch_.resize(input.num_threads);
-  std::vector<ListCounts> counts(num_chunks);
-  std::vector<std::exception_ptr> errors(num_chunks);
-#pragma omp parallel for num_threads(input.num_threads) schedule(dynamic) if (input.num_threads > 1)
+  errors_.assign(num_chunks, nullptr);
+#pragma omp parallel for num_threads(input.num_threads) schedule(static) if (input.num_threads > 1)
   for (std::int64_t c = 0; c < num_chunks; ++c) {
     Scratch& scratch = scratch_[omp_get_thread_num()];
     try {
       Find(input, chunks_[c], scratch);
       const auto touching = static_cast<std::int64_t>(scratch.touching.size());
-      counts[c] = {touching + static_cast<std::int64_t>(scratch.near.size()), touching};
+      chunks_[c].counts = {touching + static_cast<std::int64_t>(scratch.near.size()), touching};
     } catch (const base::Error&) {
-      errors[c] = std::current_exception();
+      errors_[c] = std::current_exception();
     }
   }
   counts_ = {};
   for (std::int64_t c = 0; c < num_chunks; ++c) {
-    if (errors[c]) std::rethrow_exception(errors[c]);
-    counts_.pairs += counts[c].pairs;
-    counts_.touching += counts[c].touching;
+    if (errors_[c]) std::rethrow_exception(errors_[c]);
+    counts_.pairs += chunks_[c].counts.pairs;
+    counts_.touching += chunks_[c].counts.touching;
   }
 }
 

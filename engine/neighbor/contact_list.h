@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@
 
 namespace talus::engine {
 
+struct ListCounts {
+  std::int64_t pairs = 0;     // listed
+  std::int64_t touching = 0;  // of them, when the list was made
+};
+
 struct Chunk {
   std::int64_t begin = 0, end = 0, window_end = 0;  // see ChunkView
   AlignedVector<PairBlock> blocks;
@@ -26,13 +32,9 @@ struct Chunk {
   std::vector<Run> runs;
   AlignedVector<double> forces;
   std::vector<Overhang> overhangs;  // of the chunks before
+  ListCounts counts;
 
   ChunkView View();
-};
-
-struct ListCounts {
-  std::int64_t pairs = 0;     // listed
-  std::int64_t touching = 0;  // of them, when the list was made
 };
 
 // What a rebuild needs besides the list itself.
@@ -96,6 +98,7 @@ class ContactList {
   std::vector<std::int64_t> old_start_;  // of each particle's contacts in old_
   std::vector<OldContact> old_;
   std::vector<Scratch> scratch_;
+  std::vector<std::exception_ptr> errors_;  // of each chunk
 };
 
 }  // namespace talus::engine

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace talus::engine {
 
@@ -73,8 +74,9 @@ void Grid::Build(const double* rows, std::int64_t stride, std::span<const std::i
   Measure(rows, stride, alive);
   if (SetCells(size) > limit) TrimOutliers(rows, stride, alive);
   while (SetCells(size) > limit) size *= 1.25;
-  std::stable_sort(axes_.begin(), axes_.end(),
-                   [](const Axis& a, const Axis& b) { return a.num_cells < b.num_cells; });
+  std::sort(axes_.begin(), axes_.end(), [](const Axis& a, const Axis& b) {
+    return std::tie(a.num_cells, a.component) < std::tie(b.num_cells, b.component);
+  });
 
   const std::int64_t num_cells = axes_[0].num_cells * axes_[1].num_cells * axes_[2].num_cells;
   start_.assign(num_cells + 1, 0);

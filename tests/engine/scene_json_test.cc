@@ -85,7 +85,7 @@ TEST(SceneJson, EveryProblemOfAFileIsListedByPath) {
     "spheres": [{"diameter": -1, "position": [0, 0, 0], "material": "b"},
                 {"diametr": 1, "position": [0, 0]}],
     "walls": [{"shape": "disc"}, {"shape": "plane", "direction": [0, 0, 0]}],
-    "gravityy": [0, 0, 0], "stop": {}})"),
+    "domain": {"low": [1, 0, 0], "high": [1, 1, 1]}, "gravityy": [0, 0, 0], "stop": {}})"),
               AllOf(HasSubstr("materials[0].poisson_ratio: is 0.7, must be in (-1, 0.5]"),
                     HasSubstr("materials[0].density: is -1"), HasSubstr("materials[1].name"),
                     HasSubstr("spheres[0].diameter: is -1, must be positive"),
@@ -93,6 +93,8 @@ TEST(SceneJson, EveryProblemOfAFileIsListedByPath) {
                     HasSubstr("spheres[1].diametr: is not known here; did you mean \"diameter\"?"),
                     HasSubstr("spheres[1].position: must be a list of three numbers"),
                     HasSubstr("walls[0].diameter: is missing"), HasSubstr("walls[1].direction"),
+                    HasSubstr("domain.low: must be below high in each coordinate"),
+                    HasSubstr("spheres[0].position: is outside the domain"),
                     HasSubstr("gravityy: is not known here; did you mean \"gravity\"?"),
                     HasSubstr("stop: must have time or steps")));
 }

@@ -1,0 +1,98 @@
+// A step allocates nothing: this program counts what asks for memory.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <ostream>
+
+#include "tests/engine/cloud.h"
+
+namespace {
+
+std::atomic<std::int64_t> num_allocations = 0;
+
+void* Count(std::size_t size, std::size_t alignment) {
+  ++num_allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  if (void* memory = std::aligned_alloc(alignment, whole)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+// The forms for arrays and without exceptions call these.
+void* operator new(std::size_t size) { return Count(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return Count(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace talus::engine {
+namespace {
+
+struct Counted {
+  std::int64_t steps = 0;
+  std::int64_t rebuilds = 0;
+  std::int64_t allocations_in_rebuilds = 0;
+  std::int64_t allocations_between = 0;
+};
+
+Counted Watch(Simulation& simulation, std::int64_t num_steps) {
+  Counted counted;
+  std::int64_t rebuilds = simulation.Statistics().num_rebuilds;
+  for (; counted.steps < num_steps; ++counted.steps) {
+    const std::int64_t before = num_allocations;
+    simulation.Advance(1);
+    const std::int64_t allocations = num_allocations - before;
+    const std::int64_t now = simulation.Statistics().num_rebuilds;
+    (now == rebuilds ? counted.allocations_between : counted.allocations_in_rebuilds) +=
+        allocations;
+    counted.rebuilds += now - rebuilds;
+    rebuilds = now;
+  }
+  return counted;
+}
+
+// Two chunks of spheres without losses in a closed box, so that the list is made anew all the time
+// and the contacts come and go about the same number.
+struct Threading {
+  int threads;
+  std::int64_t steps;
+};
+void PrintTo(const Threading& t, std::ostream* out) { *out << t.threads << " threads"; }
+class Allocation : public ::testing::TestWithParam<Threading> {
+ protected:
+  Scene LivelyBox() const {
+    Material material = testing::Glass();
+    material.restitution = 1;
+    material.sliding_friction = 0;
+    material.surface_energy = 1e-6;
+    Scene scene = testing::EmptySpace(material);
+    scene.models = {.adhesion = Adhesion::kDmt, .rolling = Rolling::kEpsd};
+    scene.particles = testing::Cloud({.per_side = 13, .speed = 0.5});
+    scene.walls = testing::Box(13 * 2.1e-3);
+    scene.num_threads = GetParam().threads;
+    return scene;
+  }
+};
+
+TEST_P(Allocation, NoneInAStepNorInARebuildOnceTheListsHaveRoom) {
+  Simulation simulation(LivelyBox());
+  const std::int64_t at_start = num_allocations;
+  ASSERT_GT(at_start, 0) << "the counting operator new is not used";
+  simulation.Advance(GetParam().steps);
+  const Counted counted = Watch(simulation, GetParam().steps);
+  EXPECT_GT(counted.rebuilds, GetParam().steps / 50);
+  EXPECT_EQ(counted.allocations_between, 0);
+  EXPECT_EQ(counted.allocations_in_rebuilds, 0) << counted.rebuilds << " rebuilds";
+}
+// On a busy machine two threads wait for each other a long time.
+INSTANTIATE_TEST_SUITE_P(Threads, Allocation,
+                         ::testing::Values(Threading{1, 2000}, Threading{2, 300}));
+
+}  // namespace
+}  // namespace talus::engine

@@ -1,0 +1,43 @@
+#include "engine/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "engine/scene_json.h"
+
+namespace talus::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One sphere lies on a disc, one rolls over its edge and falls out of the domain.
+constexpr const char* kEdge = R"({
+  "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+  "spheres": [{"diameter": "1 mm", "position": [0, 0, "0.5 mm"]},
+              {"diameter": "1 mm", "position": ["4.8 mm", 0, "0.5 mm"],
+               "velocity": ["10 cm/s", 0, 0]}],
+  "walls": [{"shape": "disc", "diameter": "1 cm"}],
+  "domain": {"low": ["-8 mm", "-8 mm", "-4 mm"], "high": ["8 mm", "8 mm", "34 mm"]},
+  "stop": {"time": 0.05}})";
+
+TEST(SceneRun, ASphereThatLeavesTheDomainLeavesTheScene) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_domain";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << kEdge;
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  EXPECT_EQ(run.Progress().num_particles, 2);
+  while (run.Advance()) {
+  }
+  run.WriteResults({});
+  const auto result = nlohmann::json::parse(base::ReadFile(folder / "result.json"));
+  EXPECT_EQ(result["num_particles"], 1);
+  EXPECT_EQ(result["num_left_domain"], 1);
+  EXPECT_EQ(result["reason"], "time");
+}
+
+}  // namespace
+}  // namespace talus::engine
