@@ -63,11 +63,13 @@ std::string ReadFile(const std::filesystem::path& path) {
   return std::move(text).str();
 }
 
-void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
+                         Outlives outlives) {
+  const bool sync = outlives == Outlives::kPowerCut;
   const std::string temporary = path.string() + ".tmp" + std::to_string(::getpid());
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.get() < 0) Fail(path, errno);
-  if (!WriteAll(file.get(), bytes) || ::fsync(file.get()) != 0 || !file.Close() ||
+  if (!WriteAll(file.get(), bytes) || (sync && ::fsync(file.get()) != 0) || !file.Close() ||
       ::rename(temporary.c_str(), path.c_str()) != 0) {
     const int code = errno;
     ::unlink(temporary.c_str());

@@ -11,9 +11,15 @@ namespace talus::base {
 // The whole file. Throws ConfigError that names the path when it cannot be read.
 std::string ReadFile(const std::filesystem::path& path);
 
+// What is written outlives this: a power cut, for which the disk is waited for, some milliseconds,
+// or only the end of the program, of whatever kind. Then it may be empty or absent after a power
+// cut: for what can be made again.
+enum class Outlives { kPowerCut, kProgram };
+
 // Writes beside `path`, syncs, then renames: a reader sees the old file or the new one. Throws
 // Error (with the system's reason, such as a full disk) and removes the partial file when it fails.
-void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
+                         Outlives outlives = Outlives::kPowerCut);
 
 // XXH3, 64 bits [xxhash]: detects damage, not malice.
 std::uint64_t Checksum(std::string_view bytes);

@@ -23,7 +23,17 @@ Points WithGuesses(const Domain& domain, const Points& points) {
 }  // namespace
 
 DesignStrategy::DesignStrategy(const Domain& domain, const Points& points, std::string name)
-    : domain_(domain), points_(WithGuesses(domain, points)), name_(std::move(name)) {}
+    : domain_(domain),
+      points_(WithGuesses(domain, points)),
+      name_(std::move(name)),
+      is_told_(points_.size(), false) {}
+
+void DesignStrategy::Tell(const Observation& observation) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!is_told_[i]) is_told_[i] = SamePoint(points_[i], observation.point);
+  }
+  told_.push_back(observation);
+}
 
 bool DesignStrategy::WasTold(const Eigen::VectorXd& point) const {
   return std::any_of(told_.begin(), told_.end(),
@@ -43,14 +53,15 @@ std::vector<Proposal> DesignStrategy::Next(const Points& points, int count,
 }
 
 std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
-  return Next(points_, count, pending);
+  Points left;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!is_told_[i]) left.push_back(points_[i]);
+  }
+  return Next(left, count, pending);
 }
 
 std::optional<std::string> DesignStrategy::StopReason() {
-  if (!std::all_of(points_.begin(), points_.end(),
-                   [&](const Eigen::VectorXd& point) { return WasTold(point); })) {
-    return std::nullopt;
-  }
+  if (std::find(is_told_.begin(), is_told_.end(), false) != is_told_.end()) return std::nullopt;
   return "all " + std::to_string(points_.size()) + " points of " + name_ + " are evaluated";
 }
 

@@ -17,7 +17,7 @@ class DesignStrategy : public Strategy {
   DesignStrategy(const Domain& domain, const Points& points, std::string name);
 
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
-  void Tell(const Observation& observation) override { told_.push_back(observation); }
+  void Tell(const Observation& observation) override;
   std::optional<std::string> StopReason() override;
   Answer Recommend() override;
 
@@ -33,6 +33,7 @@ class DesignStrategy : public Strategy {
  private:
   const Points points_;
   const std::string name_;
+  std::vector<bool> is_told_;  // of each point: to look it up among all told ones takes too long
   std::vector<Observation> told_;
 };
 

@@ -120,12 +120,14 @@ bool Campaign::StartTrials() {
     trials.push_back(waiting_.front());
     waiting_.pop_front();
   }
-  for (TrialRecord& trial : planner_.Next(room - static_cast<int>(trials.size()))) {
-    trial.started_utc = UtcNow();
-    journal_.Start(trial);
-    planner_.Started(trial);
-    trials.push_back(std::move(trial));
+  std::vector<TrialRecord> planned = planner_.Next(room - static_cast<int>(trials.size()));
+  for (TrialRecord& trial : planned) trial.started_utc = UtcNow();
+  if (!planned.empty()) {
+    journal_.Start(planned, parts_.runner->JobsOutliveUs() ? base::Outlives::kPowerCut
+                                                           : base::Outlives::kProgram);
   }
+  for (const TrialRecord& trial : planned) planner_.Started(trial);
+  trials.insert(trials.end(), planned.begin(), planned.end());
   if (trials.empty()) return false;
   Submit(trials);
   return true;
@@ -156,10 +158,12 @@ void Campaign::Submit(const std::vector<TrialRecord>& trials) {
   }
   if (!jobs.empty()) {
     const std::vector<std::string> names = parts_.runner->Submit(jobs);
+    std::vector<TrialRecord> renamed;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
       TrialRecord& trial = running_[jobs[i].id];
-      if (std::exchange(trial.job, names[i]) != names[i]) journal_.Restart(trial);
+      if (std::exchange(trial.job, names[i]) != names[i]) renamed.push_back(trial);
     }
+    if (!renamed.empty()) journal_.Restart(renamed);
   }
   for (const FinishedJob& job : ended) HandleEnd(job);
 }
@@ -233,7 +237,7 @@ void Campaign::FailOrRetry(TrialRecord& trial, const std::string& reason) {
   if (spec_.retry_failed && trial.attempts == 1) {
     ++trial.attempts;
     trial.seed = planner_.SeedOf(trial);
-    journal_.Restart(trial);
+    journal_.Restart({&trial, 1});
     journal_.AddEvent("retry", trial.id, reason);
     console_.Line("trial " + std::to_string(trial.id) + " failed (" + reason +
                   "); it is tried again with another seed");

@@ -41,8 +41,11 @@ std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
   if (!std::filesystem::exists(folder.root / "trials")) return trials;
   for (const auto& entry : std::filesystem::directory_iterator(folder.root / "trials")) {
     const std::filesystem::path file = entry.path() / kTrialFile;
-    // A folder without one was being made when the process ended: there is no such trial yet.
-    if (std::filesystem::exists(file)) trials.push_back(ReadRecord<TrialRecord>(file));
+    // A folder without one was being made when the process ended: there is no such trial yet. An
+    // empty one is all that a power cut has left.
+    std::error_code absent;
+    const auto size = std::filesystem::file_size(file, absent);
+    if (!absent && size > 0) trials.push_back(ReadRecord<TrialRecord>(file));
   }
   std::sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return trials;
@@ -57,8 +60,8 @@ void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record) {
 }
 
 void KeepTrial(const CampaignFolder& folder, const TrialRecord& trial) {
-  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile,
-                            base::ToJson(trial).dump(2) + "\n");
+  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, base::ToJson(trial).dump(2) + "\n",
+                            base::Outlives::kProgram);
 }
 
 Journal RebuildJournal(const CampaignFolder& folder) {
@@ -71,7 +74,7 @@ Journal RebuildJournal(const CampaignFolder& folder) {
   for (const TrialRecord& trial : trials) {
     // After a gap nothing can be what an unbroken run would have made.
     if (trial.id != journal.CountTrials() + 1) break;
-    journal.Start(trial);
+    journal.Start({&trial, 1});
   }
   journal.AddEvent("repair", 0,
                    "the journal was damaged and has been made anew from the trials' folders");

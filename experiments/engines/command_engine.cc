@@ -21,6 +21,7 @@ namespace talus::experiments {
 namespace {
 
 namespace fs = std::filesystem;
+using base::Outlives;
 
 constexpr const char* kKind = "command";
 // Left by the shell that runs the command, when it has ended well.
@@ -45,7 +46,7 @@ void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
     particles[i].position = spheres[i].position;
     particles[i].radius = spheres[i].radius;
   }
-  base::WriteFileAtomically(path, engine::VtpOf(particles, 0));
+  base::WriteFileAtomically(path, engine::VtpOf(particles, 0), Outlives::kProgram);
 }
 
 Measured MeasureSpheres(const CommandOptions& options, const HeapCase& heap_case,
@@ -60,7 +61,8 @@ Measured MeasureSpheres(const CommandOptions& options, const HeapCase& heap_case
   }
   const imaging::Profile profile =
       imaging::ProjectHeap(heap, *heap_case.frame, heap_case.num_views);
-  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(profile.image));
+  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(profile.image),
+                            Outlives::kProgram);
   if (file.filename() != "heap.vtp") WriteHeap(folder / "heap.vtp", heap);
   return {.profile = profile.image, .num_spheres = spheres.size(), .num_grains = heap.size()};
 }
@@ -74,7 +76,8 @@ Measured MeasureImage(const HeapCase& heap_case, const fs::path& file, const fs:
                       std::to_string(measured.profile.height) + " px; the experiment's is " +
                       std::to_string(frame.width) + " x " + std::to_string(frame.height));
   }
-  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile));
+  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
+                            Outlives::kProgram);
   return measured;
 }
 
@@ -128,7 +131,7 @@ void CommandEngine::Prepare(const HeapCase& heap_case, const fs::path& folder) {
   if (templates_.Uses(options_, "grains")) AddGrains(heap_case, values);
   templates_.Fill(values, folder);
   const nlohmann::json command = FilledCommand(options_, values);
-  base::WriteFileAtomically(folder / kCommandFile, command.dump());
+  base::WriteFileAtomically(folder / kCommandFile, command.dump(), Outlives::kProgram);
 }
 
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
@@ -147,7 +150,8 @@ TrialOutput CommandEngine::Collect(const HeapCase& heap_case, const fs::path& fo
   const Measured measured = file.extension() == ".png"
                                 ? MeasureImage(heap_case, file, folder)
                                 : MeasureSpheres(options_, heap_case, file, folder);
-  base::WriteFileAtomically(folder / "result.json", ResultText(heap_case, measured, file));
+  base::WriteFileAtomically(folder / "result.json", ResultText(heap_case, measured, file),
+                            Outlives::kProgram);
   return {.profile = measured.profile,
           .num_steps = 0,
           .num_particles = static_cast<std::int64_t>(measured.num_spheres),

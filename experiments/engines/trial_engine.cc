@@ -22,7 +22,8 @@ void PrepareFolder(const std::filesystem::path& folder, const std::string& key_f
   std::filesystem::remove_all(folder, error);
   if (!error) std::filesystem::create_directories(folder, error);
   if (error) throw base::Error(folder.string() + ": cannot be made: " + error.message());
-  base::WriteFileAtomically(folder / key_file, text);
+  // Torn by a power cut it is not `text`, and the folder is made anew.
+  base::WriteFileAtomically(folder / key_file, text, base::Outlives::kProgram);
 }
 
 std::string LastLogLines(const std::filesystem::path& folder) {

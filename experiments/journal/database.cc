@@ -163,7 +163,9 @@ std::string Database::Damage() {
   }
 }
 
-Transaction::Transaction(Database& database) : database_(database) {
+Transaction::Transaction(Database& database, base::Outlives outlives)
+    : database_(database), outlives_(outlives) {
+  if (outlives_ == base::Outlives::kProgram) database_.Execute("PRAGMA synchronous = NORMAL");
   database_.Execute("BEGIN IMMEDIATE");
 }
 
@@ -179,6 +181,7 @@ Transaction::~Transaction() {
 void Transaction::Commit() {
   database_.Execute("COMMIT");
   done_ = true;
+  if (outlives_ == base::Outlives::kProgram) database_.Execute("PRAGMA synchronous = FULL");
 }
 
 }  // namespace talus::experiments

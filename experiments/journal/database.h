@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/file.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -60,7 +62,7 @@ class Database {
   enum class Mode { kCreate, kReadWrite, kReadOnly };
 
   // Read-write databases keep a write-ahead log and sync every commit (WAL, synchronous FULL), so
-  // that readers never wait and a power cut loses nothing that was committed.
+  // that readers never wait and a power cut loses nothing that was committed; see Transaction.
   Database(const std::filesystem::path& path, Mode mode);
   Database(Database&&) noexcept;
   Database& operator=(Database&&) noexcept;
@@ -76,10 +78,11 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-// Everything until Commit happens, or nothing does.
+// Everything until Commit happens, or nothing does. One that outlives only the program is not
+// waited for; a power cut takes it back, unless a later one that outlives that has been committed.
 class Transaction {
  public:
-  explicit Transaction(Database& database);
+  explicit Transaction(Database& database, base::Outlives outlives = base::Outlives::kPowerCut);
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction();
@@ -87,6 +90,7 @@ class Transaction {
 
  private:
   Database& database_;
+  const base::Outlives outlives_;
   bool done_ = false;
 };
 

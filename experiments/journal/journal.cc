@@ -303,8 +303,13 @@ void Journal::ReadMetrics(std::vector<TrialRecord>& trials) {
   }
 }
 
-void Journal::Start(const TrialRecord& t) {
-  Transaction transaction(database_);
+void Journal::Start(std::span<const TrialRecord> trials, base::Outlives outlives) {
+  Transaction transaction(database_, outlives);
+  for (const TrialRecord& trial : trials) Insert(trial);
+  transaction.Commit();
+}
+
+void Journal::Insert(const TrialRecord& t) {
   database_
       .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
                ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', NULL, "
@@ -317,16 +322,19 @@ void Journal::Start(const TrialRecord& t) {
         .Bind(t.id, static_cast<std::int64_t>(i), t.unit[i], t.native[i])
         .Finish();
   }
-  transaction.Commit();
 }
 
-void Journal::Restart(const TrialRecord& t) {
-  database_
-      .Prepare(
-          "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5 WHERE id = "
-          "?1 AND status = 'running'")
-      .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc)
-      .Finish();
+void Journal::Restart(std::span<const TrialRecord> trials) {
+  Transaction transaction(database_);
+  for (const TrialRecord& t : trials) {
+    database_
+        .Prepare(
+            "UPDATE trials SET seed = ?2, attempts = ?3, job = ?4, started_utc = ?5 WHERE id = "
+            "?1 AND status = 'running'")
+        .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc)
+        .Finish();
+  }
+  transaction.Commit();
 }
 
 void Journal::Finish(TrialRecord& t, std::string_view profile_png) {

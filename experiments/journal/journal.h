@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,9 +41,12 @@ class Journal {
   std::vector<TrialRecord> Trials();
   std::int64_t CountTrials();
 
-  void Start(const TrialRecord& trial);  // inserts it as running
-  // A running trial gets another seed, attempt or job name.
-  void Restart(const TrialRecord& trial);
+  // Inserts them as running, in one transaction, as each waits for the disk; not even that where a
+  // power cut ends the trials too.
+  void Start(std::span<const TrialRecord> trials,
+             base::Outlives outlives = base::Outlives::kPowerCut);
+  // Running trials get another seed, attempt or job name.
+  void Restart(std::span<const TrialRecord> trials);
   // Status, reason, metrics, timing and image in one transaction. Sets finish_order.
   void Finish(TrialRecord& trial, std::string_view profile_png);
 
@@ -56,6 +60,7 @@ class Journal {
   explicit Journal(Database database) : database_(std::move(database)) {}
   void CreateView(const CampaignRecord& campaign);
   void InsertCampaign(const CampaignRecord& campaign);
+  void Insert(const TrialRecord& trial);
   void ReadPoints(std::vector<TrialRecord>& trials);
   void ReadMetrics(std::vector<TrialRecord>& trials);
 

@@ -25,6 +25,7 @@ class LocalRunner : public Runner {
   ~LocalRunner() override;
 
   int Capacity() const override { return workers_; }
+  bool JobsOutliveUs() const override { return false; }
   std::vector<std::string> Submit(std::span<const Job> jobs) override;
   bool Adopt(const Job& job, const std::string& name) override;
   std::vector<FinishedJob> Wait(double seconds) override;

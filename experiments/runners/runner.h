@@ -56,6 +56,9 @@ class Runner {
   // Jobs that may be unfinished at the same time.
   virtual int Capacity() const = 0;
 
+  // Whether jobs go on when this process or its machine ends.
+  virtual bool JobsOutliveUs() const = 0;
+
   // Takes jobs on; those given together may be submitted together. A job that cannot be started is
   // reported by Wait, not thrown. Returns a name for each by which a later process can find it
   // again (a cluster's job number), or "" if that is not possible.

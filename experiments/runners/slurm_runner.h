@@ -26,6 +26,7 @@ class SlurmRunner : public Runner {
   SlurmRunner(const SlurmOptions& options, const std::filesystem::path& campaign);
 
   int Capacity() const override { return options_.max_jobs; }
+  bool JobsOutliveUs() const override { return true; }
   std::vector<std::string> Submit(std::span<const Job> jobs) override;
   bool Adopt(const Job& job, const std::string& name) override;
   std::vector<FinishedJob> Wait(double seconds) override;

@@ -60,6 +60,10 @@ class JournalTest : public ::testing::Test {
     trial.started_utc = UtcNow();
     return trial;
   }
+  static void StartTrial(Journal& journal, std::int64_t id) {
+    const TrialRecord trial = Trial(id);
+    journal.Start({&trial, 1});
+  }
   static void FinishAsOk(Journal& journal, TrialRecord trial, double sad) {
     trial.status = TrialStatus::kOk;
     trial.metrics = {{.name = "sad_mm2", .value = sad, .unit = "mm2", .undefined = ""},
@@ -76,8 +80,8 @@ class JournalTest : public ::testing::Test {
 
 TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   Journal journal = Journal::Create(File(), Campaign());
-  journal.Start(Trial(1));
-  journal.Start(Trial(2));
+  StartTrial(journal, 1);
+  StartTrial(journal, 2);
   FinishAsOk(journal, Trial(2), 1.5);
   journal.AddEvent("warning", 2, "text");
 
@@ -104,7 +108,7 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
 
 TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
   Journal journal = Journal::Create(File(), Campaign());
-  journal.Start(Trial(1));
+  StartTrial(journal, 1);
   FinishAsOk(journal, Trial(1), 1.5);
   Database database(File(), Database::Mode::kReadOnly);
   Statement row = database.Prepare(
@@ -120,7 +124,7 @@ TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
 TEST_F(JournalTest, FinishedTrialsKeepTheirOrder) {
   {
     Journal journal = Journal::Create(File(), Campaign());
-    for (int id = 1; id <= 3; ++id) journal.Start(Trial(id));
+    for (int id = 1; id <= 3; ++id) StartTrial(journal, id);
     FinishAsOk(journal, Trial(3), 1);
     FinishAsOk(journal, Trial(1), 2);
   }
@@ -140,7 +144,7 @@ TEST_F(JournalTest, KilledWhileWritingLosesNothingThatWasFinished) {
   if (child == 0) {
     Journal journal = Journal::Open(File());
     for (int id = 1;; ++id) {
-      journal.Start(Trial(id));
+      StartTrial(journal, id);
       FinishAsOk(journal, Trial(id), id);
       (void)!::write(told[1], &id, sizeof id);
     }
@@ -164,7 +168,7 @@ TEST_F(JournalTest, DamageIsNoticed) {
   {
     Journal journal = Journal::Create(File(), Campaign());
     for (int id = 1; id <= 40; ++id) {
-      journal.Start(Trial(id));
+      StartTrial(journal, id);
       FinishAsOk(journal, Trial(id), 1);
     }
   }
@@ -178,7 +182,7 @@ TEST_F(JournalTest, DamageIsNoticed) {
 
 TEST_F(JournalTest, AnImageThatDoesNotMatchItsChecksumIsNotReturned) {
   Journal journal = Journal::Create(File(), Campaign());
-  journal.Start(Trial(1));
+  StartTrial(journal, 1);
   FinishAsOk(journal, Trial(1), 1);
   Database(File(), Database::Mode::kReadWrite)
       .Execute("UPDATE profiles SET png = x'00' WHERE trial = 1");

@@ -102,7 +102,7 @@ void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path
     record.native = t.values;
     record.seed = t.seed;
     record.started_utc = "2026-01-31T12:00:00Z";
-    journal.Start(record);
+    journal.Start({&record, 1});
     record.status = t.state == TrialState::kDone ? TrialStatus::kOk : TrialStatus::kFailed;
     record.reason = t.reason;
     record.duration_s = t.seconds;
