@@ -119,6 +119,10 @@ fs::path SlurmRunner::BatchFile(std::int64_t batch, const char* ending) const {
   return folder_ / ("batch-" + number + ending);
 }
 
+fs::path SlurmRunner::CancelMark(const Task& task) const {
+  return BatchFile(task.batch, ("-" + std::to_string(task.index) + ".cancelled").c_str());
+}
+
 void SlurmRunner::ReadRecords() {
   for (const auto& entry : fs::directory_iterator(folder_)) {
     if (entry.path().extension() != ".sh") continue;
@@ -235,6 +239,7 @@ bool SlurmRunner::Adopt(const Job& job, const std::string&) {
             .index = static_cast<int>(place - batch->jobs.begin()),
             .array = {},
             .requeues = submissions - 1};
+  task.dropped = fs::exists(CancelMark(task));
   if (!EndOf(job, task.batch, task.index)) {
     task.array = ArrayOf(*batch);
     if (task.array.empty()) return false;
@@ -336,6 +341,9 @@ void SlurmRunner::Report(const Task& task, FinishedJob finished) {
   if (task.cancelled) {
     finished.end = JobEnd::kCancelled;
     finished.reason = "was cancelled";
+  } else if (task.dropped && finished.end == JobEnd::kCancelled) {
+    finished.end = JobEnd::kPreempted;
+    finished.reason = "was dropped by an earlier process";
   }
   tasks_.erase(task.job.id);
   finished_.push_back(std::move(finished));
@@ -346,6 +354,7 @@ void SlurmRunner::Cancel(std::int64_t id) {
   if (found == tasks_.end()) return;
   found->second.cancelled = true;
   if (!found->second.array.empty()) {
+    base::WriteFileAtomically(CancelMark(found->second), "");
     queue_.Cancel(found->second.Name());
     return;
   }

@@ -44,6 +44,7 @@ class SlurmRunner : public Runner {
     int requeues = 0;     // by us
     std::string requeue_reason{};
     bool cancelled = false;
+    bool dropped = false;  // cancelled by an earlier process, not for any fault of the job
     std::optional<SlurmState> ended{};  // what Slurm says, once it is final
     Clock::time_point ended_since{};
 
@@ -51,6 +52,7 @@ class SlurmRunner : public Runner {
   };
 
   std::filesystem::path BatchFile(std::int64_t batch, const char* ending) const;
+  std::filesystem::path CancelMark(const Task& task) const;
   void ReadRecords();
   const Batch* LastRecordOf(const Job& job, int& submissions) const;
   std::string ArrayOf(const Batch& batch) const;

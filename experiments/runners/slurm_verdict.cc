@@ -8,6 +8,10 @@ bool SaysOutOfMemory(const std::string& log) {
          log.find("memory limit") != std::string::npos;
 }
 
+bool SaysOutOfTime(const std::string& log) {
+  return log.find("DUE TO TIME LIMIT") != std::string::npos;
+}
+
 std::string LastLine(std::string text) {
   text.erase(text.find_last_not_of(" \n\r") + 1);
   return text.substr(text.rfind('\n') + 1);  // npos + 1 = 0
@@ -19,7 +23,9 @@ Verdict VerdictOf(const SlurmState& state, const std::string& log) {
   const auto is = [&](const char* name) { return state.name == name; };
   const std::string detail =
       state.reason.empty() || state.reason == "None" ? std::string() : " (" + state.reason + ")";
-  if (is("OUT_OF_MEMORY") || (is("FAILED") && SaysOutOfMemory(log))) {
+  // Of a job that Slurm has forgotten its log is the only witness.
+  const bool by_log = is("FAILED") || is(kLost);
+  if (is("OUT_OF_MEMORY") || (by_log && SaysOutOfMemory(log))) {
     return {.end = JobEnd::kOutOfMemory,
             .reason = "was stopped for using more memory than it had asked Slurm for",
             .requeue = false,
@@ -32,7 +38,7 @@ Verdict VerdictOf(const SlurmState& state, const std::string& log) {
             .requeue = false,
             .await_result = true};
   }
-  if (is("TIMEOUT") || is("DEADLINE")) {
+  if (is("TIMEOUT") || is("DEADLINE") || (is(kLost) && SaysOutOfTime(log))) {
     return {.end = JobEnd::kTimeCap,
             .reason = "was stopped at its time limit in Slurm",
             .requeue = false,

@@ -14,7 +14,8 @@ struct Verdict {
 };
 
 // `log`: what Slurm has written about the job; a cluster that watches memory without cgroups says
-// there, and nowhere else, that a job was over its limit.
+// there, and nowhere else, that a job was over its limit. A cluster without accounting forgets a
+// job some minutes after its end; the log still tells a limit of time or memory from a lost node.
 Verdict VerdictOf(const SlurmState& state, const std::string& log);
 
 }  // namespace talus::experiments

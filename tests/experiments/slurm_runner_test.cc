@@ -262,6 +262,25 @@ TEST_F(SlurmRunnerTest, CancelledJobIsReportedOnceSlurmHasStoppedIt) {
   EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
 }
 
+// Ctrl-C pressed twice, then `talus resume`: the trials are run again, not recorded as failed.
+TEST_F(SlurmRunnerTest, JobsCancelledByAnEarlierProcessMayRunAgain) {
+  Put("hold", "");
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "true")};
+  {
+    SlurmRunner runner(options_, root_ / "campaign");
+    runner.Submit(jobs);
+    runner.Cancel(1);
+  }
+  SlurmRunner runner(options_, root_ / "campaign");
+  for (const Job& job : jobs) EXPECT_TRUE(runner.Adopt(job, ""));
+  Put("queue", "101_0|CANCELLED|None\n101_1|CANCELLED|None\n");
+  const auto finished = Finish(runner, 2);
+  ASSERT_EQ(finished.size(), 2u);
+  EXPECT_EQ(finished[0].end, JobEnd::kPreempted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("was dropped by an earlier process"));
+  EXPECT_EQ(finished[1].end, JobEnd::kCancelled);  // by somebody else, who will have had a reason
+}
+
 TEST_F(SlurmRunnerTest, SlurmIsNotAskedMoreOftenThanAllowed) {
   Put("hold", "");
   options_.poll_interval = 0.5;
@@ -282,6 +301,18 @@ TEST(SlurmVerdict, MemoryKillWithoutCgroupsIsSeenInTheLog) {
   const Verdict failed = VerdictOf({"FAILED", "NonZeroExitCode"}, "a\nmodule: not found\n");
   EXPECT_EQ(failed.end, JobEnd::kSignal);
   EXPECT_THAT(failed.reason, HasSubstr("without a result: module: not found"));
+}
+
+// The lines that Slurm 22.05 writes.
+TEST(SlurmVerdict, LimitsOfAForgottenJobAreSeenInTheLog) {
+  EXPECT_EQ(VerdictOf({kLost, ""},
+                      "slurmstepd: error: *** JOB 12 ON n1 CANCELLED AT 2026-11-21T05:00:00 DUE TO "
+                      "TIME LIMIT ***\n")
+                .end,
+            JobEnd::kTimeCap);
+  EXPECT_EQ(VerdictOf({kLost, ""}, "slurmstepd: error: Detected 1 oom-kill event(s) in step\n").end,
+            JobEnd::kOutOfMemory);
+  EXPECT_EQ(VerdictOf({kLost, ""}, "").end, JobEnd::kNodeFailure);
 }
 
 TEST(SlurmQueue, OnlyStatesThatMayGoOnAreUnfinished) {

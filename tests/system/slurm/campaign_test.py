@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """campaign_test.py TALUS SOURCE_DIR: a campaign of 24 trials on a one-node Slurm ends with the trial
-table of the local runner with one worker, also when its process is killed five times in between."""
+table of the local runner with one worker, also when its process is killed five times in between, when
+its node fails while it is dead, and when its jobs are cancelled with Ctrl-C. Trials that are proposed
+together are one job array, and Slurm is not asked more than once in 5 s."""
 import csv
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -14,18 +17,20 @@ import time
 talus, source = sys.argv[1], pathlib.Path(sys.argv[2])
 cluster = source / "tests/system/slurm/one_node_cluster"
 # A cone of spheres whose height follows the parameters: an engine that takes a few milliseconds.
-DECK = """awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} -v seed={{ seed }} 'BEGIN {
+# It waits while there is a file `hold` beside the campaign.
+DECK = """echo run >>runs
+while [ -e ../../../hold ]; do sleep 0.1; done
+awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} -v seed={{ seed }} 'BEGIN {
   print "x,y,z,r"
   for (x = -4; x <= 4; ++x) for (y = -4; y <= 4; ++y) if (x * x + y * y <= 16)
     for (z = 0.5; z <= 1 + (4 - sqrt(x * x + y * y)) * (0.4 + mu + 0.3 * mr); ++z)
       print x * 1e-3 "," y * 1e-3 "," z * 1e-3 "," (5.1 + seed % 7 / 100) * 1e-4
 }' >heap.csv
-echo run >>runs
 """
 SAME = ("trial", "kind", "status", "seed", "sliding_friction", "rolling_friction", "sad_mm2")
 
 
-def spec(folder, runner):
+def spec(folder, runner, num_trials=24, workers=1):
     (folder / "deck").mkdir(parents=True)
     (folder / "deck/run.sh").write_text(DECK)
     text = {
@@ -38,11 +43,11 @@ def spec(folder, runner):
         "device": {"plate": "disc"},
         "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9},
                        "rolling_friction": {"min": 0.02, "max": 0.6}},
-        "strategy": {"kind": "sobol", "num_points": 22},
-        "budget": {"simulations": 24},
+        "strategy": {"kind": "sobol", "num_points": num_trials - 2},
+        "budget": {"simulations": num_trials},
         "noise": {"replicates": 2},
         "confirm": {"candidates": 0},
-        "workers": 1,
+        "workers": workers,
         "runner": runner,
         "seed": 3,
     }
@@ -80,6 +85,77 @@ def run_killed(root, path, out, kills):
     run("resume", out)
 
 
+def wait_for(what, seconds=60):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.1)
+
+
+def start_held(folder, out, *arguments):
+    """Starts the program and waits until two of its trials run, which do not end by themselves."""
+    (folder / "hold").touch()
+    log = open(folder / "log.txt", "a")
+    process = subprocess.Popen([talus, *map(str, arguments)], stdout=log, stderr=log)
+    wait_for(lambda: len(list(out.glob("trials/*/runs"))) == 2)
+    return process
+
+
+def slurm(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def lose_node():
+    node = slurm("hostname", "-s").strip()
+    slurm("scontrol", "update", "nodename=" + node, "state=down", "reason=test")
+    wait_for(lambda: not slurm("squeue", "--me", "--noheader", "--states=running,completing"))
+    # Refused as long as the node's last state is being dealt with.
+    wait_for(lambda: subprocess.run(["scontrol", "update", "nodename=" + node, "state=resume"],
+                                    capture_output=True).returncode == 0)
+
+
+def run_twice(root, name, interrupt, runner):
+    """Six trials, the first two of which are lost while they run. The campaign runs them again."""
+    folder, out = root / name, root / name / "out"
+    path = spec(folder, runner, num_trials=6, workers=2)
+    process = start_held(folder, out, "calibrate", path, "--out", out)
+    interrupt(process)
+    (folder / "hold").unlink()
+    run("resume", out)
+    runs = [(out / f"trials/{trial:04}/runs").read_text() for trial in range(1, 7)]
+    assert runs == 2 * ["run\nrun\n"] + 4 * ["run\n"], (name, runs)
+    return table(out)
+
+
+def die_and_lose_node(process):
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    lose_node()
+
+
+def press_ctrl_c_twice(process):
+    process.send_signal(signal.SIGINT)
+    time.sleep(0.7)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(60) == 130, process.returncode
+    wait_for(lambda: not slurm("squeue", "--me", "--noheader"))
+
+
+def check_array():
+    """60 trials at once: one sbatch, and squeue at most once in 5 s."""
+    done = subprocess.run([source / "bench/trial_rate", "--slurm", "--trials", "60", "--workers",
+                           "60"], env={**os.environ, "TALUS": talus}, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    calls = dict(re.findall(r"(sbatch|squeue|sacct|scancel) (\d+)", done.stdout))
+    seconds = float(re.search(r"trials in ([\d.]+) s", done.stdout)[1])
+    assert calls["sbatch"] == "1", done.stdout
+    assert int(calls["squeue"]) <= seconds / 5, done.stdout
+    assert int(calls["sacct"]) <= int(calls["squeue"]), done.stdout  # for what squeue has forgotten
+    gap = re.search(r"squeue: ([\d.]+) s", done.stdout)  # missing when there was one call at most
+    # Counted from when the commands start, which a busy machine delays by some milliseconds.
+    assert gap is None or float(gap[1]) > 4.9, done.stdout
+
+
 def main(root):
     run("calibrate", spec(root / "local", {"kind": "local"}), "--out", root / "local/out")
     expected = table(root / "local/out")
@@ -92,6 +168,11 @@ def main(root):
     try:
         run("calibrate", spec(root / "unbroken", {"kind": "slurm"}), "--out", root / "unbroken/out")
         run_killed(root, spec(root / "killed", {"kind": "slurm"}), root / "killed/out", 5)
+        # With --no-requeue it is not Slurm that runs a job again whose node has failed.
+        by_us = {"kind": "slurm", "directives": ["--no-requeue"]}
+        lost = run_twice(root, "lost", die_and_lose_node, by_us)
+        dropped = run_twice(root, "dropped", press_ctrl_c_twice, {"kind": "slurm"})
+        check_array()
     finally:
         subprocess.run([cluster, "stop", root / "slurm"])
     for name in ("unbroken", "killed"):
@@ -99,6 +180,8 @@ def main(root):
         assert got == expected, "\n".join(map(str, [name, *set(got) ^ set(expected)]))
         runs = [file.read_text() for file in (root / name / "out/trials").glob("*/runs")]
         assert len(runs) == 24 and set(runs) == {"run\n"}, runs
+    for got in (lost, dropped):
+        assert got == expected[:6], "\n".join(map(str, set(got) ^ set(expected[:6])))
     print("24 trials each: local, Slurm, and Slurm with five kills agree; none was run twice")
     return 0
 
