@@ -2,6 +2,8 @@
 // once more, in the plane and by other means.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
@@ -86,15 +88,21 @@ Rebound Integrate(const Material& m, double angle, double dt) {
   return {-v_n, v_t, spin};
 }
 
-void ExpectAgreement(const Material& material, double finer, double tolerance) {
-  for (const double degrees : {5.0, 20.0, 35.0, 50.0, 70.0}) {
+struct Comparison {
+  std::vector<double> degrees;  // from the normal
+  double finer;                 // steps of the separate integration, over the engine's
+  double tolerance;             // of all three, over the speed
+};
+
+void ExpectAgreement(const Material& material, const Comparison& c) {
+  for (const double degrees : c.degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     const Scene scene = ObliqueImpact(material, angle);
     const Rebound rebound = Simulate(scene);
-    const Rebound expected = Integrate(material, angle, scene.time_step / finer);
-    EXPECT_NEAR(rebound.normal, expected.normal, tolerance * kSpeed) << degrees;
-    EXPECT_NEAR(rebound.tangential, expected.tangential, tolerance * kSpeed) << degrees;
-    EXPECT_NEAR(rebound.spin, expected.spin, tolerance * kSpeed) << degrees;
+    const Rebound expected = Integrate(material, angle, scene.time_step / c.finer);
+    EXPECT_NEAR(rebound.normal, expected.normal, c.tolerance * kSpeed) << degrees;
+    EXPECT_NEAR(rebound.tangential, expected.tangential, c.tolerance * kSpeed) << degrees;
+    EXPECT_NEAR(rebound.spin, expected.spin, c.tolerance * kSpeed) << degrees;
   }
 }
 
@@ -103,18 +111,30 @@ TEST(ObliqueImpact, StickingAnglesAgreeWithAFinerSeparateIntegration) {
   Material material = testing::Glass();
   material.sliding_friction = 0.5;
   material.restitution = 1;
-  ExpectAgreement(material, 8, 1e-5);
+  ExpectAgreement(material, {{5, 20, 35, 50, 70}, 8, 1e-5});
 }
 
-// With damping the result depends on the step by some percent, whoever integrates: at first contact
-// (T2) divides by k_t = 0, and how large the spring then starts is up to the first step. So the
-// steps are the same here, and what is compared is the law; the first overlap, some 1e-16 m apart
-// in the two, still shows as 4e-5.
-TEST(ObliqueImpact, DampedStickingAgreesWithASeparateIntegrationAtTheSameStep) {
+// An impact with damping begins with the dashpots alone: F_t/F_n = √(k_t/(1.5 k_n)) tan θ. Below
+// μ, up to 29° here, it sticks from the start. Above, (T2) sets the spring to (F_t − η_t u_t)/k_t,
+// the larger the sooner the first step looks, and with small steps the contact then slides the
+// other way for some ((q + 1)/(q − 1))⁴ times the first step, q being F_t/F_n over μ. That is over
+// within a small part of the impact at 50° and 70° (55 and 5 first steps), and the result has a
+// limit; near the boundary it takes thousands of first steps, so that 35° is not among the angles.
+// Both integrations are of first order in the step: 1e-4 apart at 4000 and 64000 steps.
+TEST(ObliqueImpact, DampedImpactsAgreeWithAFinerSeparateIntegration) {
   Material material = testing::Glass();
   material.sliding_friction = 0.5;
   material.restitution = 0.5;
-  ExpectAgreement(material, 1, 1e-4);
+  ExpectAgreement(material, {{5, 20, 50, 70}, 16, 3e-4});
+}
+
+// At every angle the law is the same when the steps are: the first overlap, some 1e-16 m apart in
+// the two, still shows as 4e-5.
+TEST(ObliqueImpact, DampedImpactsAgreeWithASeparateIntegrationAtTheSameStep) {
+  Material material = testing::Glass();
+  material.sliding_friction = 0.5;
+  material.restitution = 0.5;
+  ExpectAgreement(material, {{5, 20, 35, 50, 70}, 1, 1e-4});
 }
 
 }  // namespace
