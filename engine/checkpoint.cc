@@ -96,7 +96,6 @@ void VisitList(Archive& archive, ContactList& list) {
   archive(counts);
   if constexpr (std::is_same_v<Archive, ByteReader>) {
     list.SetCounts(counts);
-    list.PrepareForces();
   }
 }
 
@@ -157,6 +156,7 @@ Simulation Simulation::Restore(std::string_view bytes, int num_threads) {
   VisitState(reader, *state);
   if (!reader.AtEnd()) throw base::Error("the checkpoint is damaged");
   state->num_threads = num_threads;
+  state->list.PrepareForces(num_threads);
   state->SetConstants();
   state->walls.SetTime(state->time(), state->dt);
   return Simulation(std::move(state));

@@ -65,15 +65,12 @@ std::vector<Load> SimulationState::Loads() {
     forces(view, chunk.View());
     chunk.blocks = blocks;
     chunk.touching = touching;
-  }
-  const auto add = [&](Chunk& chunk, std::int64_t i) {
-    const double* row = &chunk.forces[8 * (i - chunk.begin)];
-    loads[i].force += Vec3{row[0], row[1], row[2]};
-    loads[i].torque += Vec3{row[4], row[5], row[6]};
-  };
-  for (Chunk& chunk : list.chunks()) {
-    for (std::int64_t i = chunk.begin; i < chunk.window_end; ++i) add(chunk, i);
-    std::fill(chunk.forces.begin(), chunk.forces.end(), 0.0);
+    for (std::int64_t i = chunk.begin; i < chunk.window_end; ++i) {
+      double* row = chunk.forces + 8 * (i - chunk.begin);
+      loads[i].force += Vec3{row[0], row[1], row[2]};
+      loads[i].torque += Vec3{row[4], row[5], row[6]};
+      std::fill_n(row, 8, 0.0);
+    }
   }
   return loads;
 }

@@ -37,6 +37,7 @@ struct SimulationState {
   ContactList list;
   SkinTuner tuner;
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
+  std::vector<MotionCheck> checks;          // of each chunk
   double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
 
   std::vector<PairConstants> constants;  // of materials a, b at a · materials.size() + b

@@ -61,40 +61,43 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
   wall_moved = 0;
 }
 
+// A particle's forces come from its own chunk and from those before, up to `reach` away. So a chunk
+// moves as soon as its pairs are done, while its rows are in the cache; only the first chunks of a
+// thread wait for the thread before.
 MotionCheck SimulationState::Sweep() {
   const StepView view = View();
   const ForcesFunction forces = Forces();
   std::vector<Chunk>& chunks = list.chunks();
-  MotionCheck all{0, true};
-  const auto finish = [&](Chunk& chunk, const ChunkView& chunk_view) {
-    return kernels->integrate(view, chunk_view, chunk.overhangs.data(),
-                              static_cast<std::int64_t>(chunk.overhangs.size()));
+  const auto num_chunks = static_cast<std::int64_t>(chunks.size());
+  checks.resize(num_chunks);
+  const auto move = [&](std::int64_t c) {
+    checks[c] = kernels->integrate(view, chunks[c].View(), chunks[c].overhangs.data(),
+                                   static_cast<std::int64_t>(chunks[c].overhangs.size()));
   };
-  const auto merge = [&](const MotionCheck& check) {
+  const auto sweep = [&](std::int64_t begin, std::int64_t end, std::int64_t moves_from) {
+    for (std::int64_t c = begin; c < end; ++c) {
+      forces(view, chunks[c].View());
+      if (c >= moves_from) move(c);
+    }
+  };
+  if (num_threads == 1 || num_chunks == 1) {
+    sweep(0, num_chunks, 0);
+  } else {
+#pragma omp parallel num_threads(num_threads)
+    {
+      const std::int64_t threads = omp_get_num_threads(), thread = omp_get_thread_num();
+      const std::int64_t begin = num_chunks * thread / threads;
+      const std::int64_t end = num_chunks * (thread + 1) / threads;
+      const std::int64_t moves_from = thread == 0 ? 0 : std::min(begin + list.reach(), end);
+      sweep(begin, end, moves_from);
+#pragma omp barrier
+      for (std::int64_t c = begin; c < moves_from; ++c) move(c);
+    }
+  }
+  MotionCheck all{0, true};
+  for (const MotionCheck& check : checks) {
     all.max_speed_squared = std::max(all.max_speed_squared, check.max_speed_squared);
     all.sound = all.sound && check.sound;
-  };
-  // A particle's forces come from its own chunk and from those before. So one thread may move a
-  // chunk as soon as its pairs are done, while its rows are in the cache; several wait for all.
-  const auto num_chunks = static_cast<std::int64_t>(chunks.size());
-  if (num_threads == 1 || num_chunks == 1) {
-    for (Chunk& chunk : chunks) {
-      const ChunkView chunk_view = chunk.View();
-      forces(view, chunk_view);
-      merge(finish(chunk, chunk_view));
-    }
-    return all;
-  }
-#pragma omp parallel num_threads(num_threads)
-  {
-#pragma omp for schedule(static)
-    for (std::int64_t c = 0; c < num_chunks; ++c) forces(view, chunks[c].View());
-#pragma omp for schedule(static)
-    for (std::int64_t c = 0; c < num_chunks; ++c) {
-      const MotionCheck check = finish(chunks[c], chunks[c].View());
-#pragma omp critical
-      merge(check);
-    }
   }
   return all;
 }

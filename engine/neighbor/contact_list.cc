@@ -14,7 +14,8 @@ namespace {
 // Small enough that a chunk's rows stay in the second-level cache, large enough that few pairs
 // reach beyond it.
 constexpr std::int64_t kChunkSize = 1024;
-constexpr std::int64_t kMaxChunks = 64;
+constexpr std::int64_t kMaxChunks = 128;
+constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them evenly
 
 // An overlap, in parts of the distance at which surfaces meet, that no contact law is meant for.
 constexpr double kMaxOverlapShare = 0.5;
@@ -31,7 +32,7 @@ ChunkView Chunk::View() {
           .touching = touching.data(),
           .runs = runs.data(),
           .num_runs = static_cast<std::int64_t>(runs.size()),
-          .forces = forces.data()};
+          .forces = forces};
 }
 
 // Calls visit(first, second, block, lane) for each touching pair of the list; `second` of a wall
@@ -89,8 +90,10 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
 }
 
 void ContactList::CutChunks(std::int64_t num_particles) {
-  const std::int64_t num_chunks =
-      std::clamp<std::int64_t>(num_particles / kChunkSize, 1, kMaxChunks);
+  std::int64_t num_chunks = std::clamp<std::int64_t>(num_particles / kChunkSize, 1, kMaxChunks);
+  if (num_chunks > 1) {
+    num_chunks = (num_chunks + kChunksTogether - 1) / kChunksTogether * kChunksTogether;
+  }
   const std::int64_t size = RoundUp((num_particles + num_chunks - 1) / num_chunks);
   chunks_.resize(num_chunks);
   for (std::int64_t c = 0; c < num_chunks; ++c) {
@@ -221,16 +224,31 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch
   chunk.window_end = RoundUp(last + 1);
 }
 
-void ContactList::PrepareForces() {
-  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+void ContactList::PrepareForces(int num_threads) {
+  const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
+  std::int64_t num_rows = 0;
+  reach_ = 0;
+  for (std::int64_t c = 0; c < num_chunks; ++c) {
+    num_rows = std::max(num_rows, chunks_[c].window_end - chunks_[c].begin);
+    chunks_[c].overhangs.clear();
+    chunks_[c].overhangs.reserve(num_chunks);
+    for (std::int64_t before = 0; before < c; ++before) {
+      if (chunks_[before].window_end > chunks_[c].begin) {
+        reach_ = std::max(reach_, c - before);
+      }
+    }
+  }
+  // Rows are free again when the last chunk that they reach into has been moved.
+  const std::int64_t num_sets = num_threads == 1 ? reach_ + 1 : num_chunks;
+  AssignWithRoom(force_rows_, 8 * num_rows * num_sets, 0.0);
+  for (std::int64_t c = 0; c < num_chunks; ++c) {
     Chunk& chunk = chunks_[c];
-    AssignWithRoom(chunk.forces, 8 * (chunk.window_end - chunk.begin), 0.0);
-    chunk.overhangs.clear();
-    for (std::size_t before = 0; before < c; ++before) {
-      Chunk& other = chunks_[before];
+    chunk.forces = force_rows_.data() + 8 * num_rows * (c % num_sets);
+    for (std::int64_t before = std::max<std::int64_t>(c - reach_, 0); before < c; ++before) {
+      const Chunk& other = chunks_[before];
       if (other.window_end <= chunk.begin) continue;
       chunk.overhangs.push_back(
-          {other.forces.data() + 8 * (chunk.begin - other.begin), chunk.begin, other.window_end});
+          {other.forces + 8 * (chunk.begin - other.begin), chunk.begin, other.window_end});
     }
   }
 }
@@ -277,7 +295,7 @@ void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_
   p.Reorder(grid_.order());
   CutChunks(p.num);
   FindAll(input);
-  PrepareForces();
+  PrepareForces(input.num_threads);
 }
 
 }  // namespace talus::engine

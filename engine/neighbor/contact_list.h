@@ -30,7 +30,7 @@ struct Chunk {
   AlignedVector<PairBlock> blocks;
   std::vector<std::uint8_t> touching;
   std::vector<Run> runs;
-  AlignedVector<double> forces;
+  double* forces = nullptr;         // rows of [begin, window_end), zero between two steps
   std::vector<Overhang> overhangs;  // of the chunks before
   ListCounts counts;
 
@@ -57,10 +57,15 @@ class ContactList {
   std::vector<Chunk>& chunks() { return chunks_; }
   const std::vector<Chunk>& chunks() const { return chunks_; }
   ListCounts counts() const { return counts_; }
+
+  // How many chunks after its own a chunk's pairs reach into, at most.
+  std::int64_t reach() const { return reach_; }
   void SetCounts(const ListCounts& counts) { counts_ = counts; }
 
-  // Force rows and overhangs of the chunks as they are now.
-  void PrepareForces();
+  // Force rows and overhangs of the chunks as they are now. One thread computes a chunk and moves
+  // it before it goes to the next: then the chunks share a few sets of rows, which stay in the
+  // cache.
+  void PrepareForces(int num_threads);
 
  private:
   struct OldContact {
@@ -98,6 +103,8 @@ class ContactList {
   std::vector<std::int64_t> old_start_;  // of each particle's contacts in old_
   std::vector<OldContact> old_;
   std::vector<Scratch> scratch_;
+  AlignedVector<double> force_rows_;
+  std::int64_t reach_ = 0;
   std::vector<std::exception_ptr> errors_;  // of each chunk
 };
 

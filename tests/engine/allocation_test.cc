@@ -73,8 +73,8 @@ class Allocation : public ::testing::TestWithParam<Threading> {
     material.surface_energy = 1e-6;
     Scene scene = testing::EmptySpace(material);
     scene.models = {.adhesion = Adhesion::kDmt, .rolling = Rolling::kEpsd};
-    scene.particles = testing::Cloud({.per_side = 13, .speed = 0.5});
-    scene.walls = testing::Box(13 * 2.1e-3);
+    scene.particles = testing::Cloud({.per_side = 13, .spacing = 2.02e-3, .speed = 0.5});
+    scene.walls = testing::Box(13 * 2.02e-3);
     scene.num_threads = GetParam().threads;
     return scene;
   }
@@ -84,7 +84,7 @@ TEST_P(Allocation, NoneInAStepNorInARebuildOnceTheListsHaveRoom) {
   Simulation simulation(LivelyBox());
   const std::int64_t at_start = num_allocations;
   ASSERT_GT(at_start, 0) << "the counting operator new is not used";
-  simulation.Advance(GetParam().steps);
+  simulation.Advance(2 * GetParam().steps);
   const Counted counted = Watch(simulation, GetParam().steps);
   EXPECT_GT(counted.rebuilds, GetParam().steps / 50);
   EXPECT_EQ(counted.allocations_between, 0);
