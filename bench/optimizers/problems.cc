@@ -4,59 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/optimizers/heap_shape.h"
+#include "bench/optimizers/random_numbers.h"
+
 namespace talus::bench {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 using Mat = std::array<Vec, D>;
-
-const Vec kLower = {0.001, 0.001, 1e-6};
-const Vec kUpper = {0.7, 0.7, 40e-5};
-
-// random numbers
-inline std::uint64_t Mix(std::uint64_t z) {  // splitmix64 finaliser
-  z += 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-struct Rng {
-  std::uint64_t s;
-  bool have = false;
-  double spare = 0;
-  explicit Rng(std::uint64_t seed) : s(Mix(seed)) {}
-  std::uint64_t Next() { return s = Mix(s); }
-  double Uniform() { return ((Next() >> 11) + 0.5) * (1.0 / 9007199254740992.0); }
-  double Uniform(double a, double b) { return a + (b - a) * Uniform(); }
-  double Normal() {
-    if (have) {
-      have = false;
-      return spare;
-    }
-    double u = Uniform(), v = Uniform(), r = std::sqrt(-2 * std::log(u));
-    spare = r * std::sin(2 * kPi * v);
-    have = true;
-    return r * std::cos(2 * kPi * v);
-  }
-};
-inline std::uint64_t HashString(const std::string& t) {
-  std::uint64_t h = 1469598103934665603ULL;
-  for (unsigned char c : t) h = (h ^ c) * 1099511628211ULL;
-  return h;
-}
-inline std::uint64_t HashPoint(std::uint64_t h, const Vec& u) {
-  for (double v : u)
-    h = Mix(h ^ static_cast<std::uint64_t>(static_cast<int64_t>(std::llround(v * 1e10))));
-  return h;
-}
-
-// small helpers
-inline double Clamp01(double v) { return std::min(1.0, std::max(0.0, v)); }
-inline Vec ClampUnit(Vec u) {
-  for (double& v : u) v = Clamp01(v);
-  return u;
-}
-inline double SoftPlus(double t) { return t > 30 ? t : std::log1p(std::exp(t)); }
 
 Mat RandomRotation(Rng& rng) {
   Mat q;
@@ -117,103 +71,6 @@ struct CubeWarp {
   }
 };
 
-// heap physics imitation
-// A smooth, nonlinear map of the three parameters on the shape of a heap of fixed volume.
-struct HeapShape {
-  double tan_theta;  // Flank slope
-  double round;      // apex rounding radius
-  double toe;        // width of the toe (run-out)
-  double cohesion;   // saturating cohesion number in [0,1)
-};
-HeapShape ShapeOf(const Vec& u) {
-  double mt = kLower[0] + u[0] * (kUpper[0] - kLower[0]);
-  double mr = kLower[1] + u[1] * (kUpper[1] - kLower[1]);
-  double ga = kLower[2] + u[2] * (kUpper[2] - kLower[2]);
-  double s = mt / (mt + 0.18);    // sliding friction saturates
-  double r = mr / (mr + 0.12);    // rolling friction saturates sooner
-  double c = ga / (ga + 1.5e-4);  // cohesion number
-  HeapShape h;
-  h.tan_theta = 0.10 + 0.95 * s * (0.32 + 0.68 * r) + 0.30 * c * (0.3 + 0.7 * s);
-  h.round = 0.05 + 0.16 * (1 - r) * s + 0.12 * c * c;
-  h.toe = 0.02 + 0.13 * (1 - s) * (1 - 0.5 * c) + 0.05 * (1 - r) * (1 - c);
-  h.cohesion = c;
-  return h;
-}
-
-constexpr int kW = 96, kH = 48;
-constexpr double kXMax = 1.0, kYMax = 0.75, kVolume = 0.22;
-
-// Seed-dependent disturbance of a heap; all zero for the noise-free heap.
-struct HeapNoise {
-  double slope_left = 0, slope_right = 0, shift = 0;
-  std::vector<double> amp, phase;  // rough free surface
-};
-
-double Flank(double r, double L, const HeapShape& s) {
-  double d = std::sqrt(r * r + s.round * s.round) - s.round;
-  return s.tan_theta * s.toe * SoftPlus((L - d) / s.toe);
-}
-double HalfWidth(const HeapShape& s) {  // volume conservation, 2 pi int r h(r) dr = V
-  auto vol = [&](double L) {
-    const int n = 64;
-    const double R = 2.2;
-    double acc = 0;
-    for (int i = 0; i < n; ++i) {
-      double r = R * (i + 0.5) / n;
-      acc += r * Flank(r, L, s);
-    }
-    return 2 * kPi * acc * R / n;
-  };
-  double a = 0.02, b = 2.0;
-  for (int it = 0; it < 44; ++it) {
-    double m = 0.5 * (a + b);
-    (vol(m) < kVolume ? a : b) = m;
-  }
-  return 0.5 * (a + b);
-}
-std::vector<double> HeapProfile(const HeapShape& s, const HeapNoise& n) {
-  std::vector<double> h(kW);
-  HeapShape l = s, r = s;
-  l.tan_theta *= 1 + n.slope_left;
-  r.tan_theta *= 1 + n.slope_right;
-  double L = HalfWidth(s);
-  double apex_left = Flank(0, L, l), apex_right = Flank(0, L, r),
-         apex = 0.5 * (apex_left + apex_right);
-  for (int i = 0; i < kW; ++i) {
-    double x = -kXMax + 2 * kXMax * (i + 0.5) / kW - n.shift;
-    double v = x < 0 ? Flank(-x, L, l) * apex / apex_left : Flank(x, L, r) * apex / apex_right;
-    if (!n.amp.empty()) {
-      double bump = 0;
-      for (size_t k = 0; k < n.amp.size(); ++k)
-        bump += n.amp[k] * std::cos((k + 3) * kPi * x + n.phase[k]);
-      v += bump * std::min(1.0, v / 0.05);
-    }
-    h[i] = std::max(0.0, v);
-  }
-  return h;
-}
-Image Render(const std::vector<double>& h, double blur) {
-  Image im;
-  im.w = kW;
-  im.h = kH;
-  im.px.resize(kW * kH);
-  const double inv = 1 / (blur * std::sqrt(2.0));
-  for (int j = 0; j < kH; ++j) {
-    double y = kYMax * (1 - (j + 0.5) / kH);
-    for (int i = 0; i < kW; ++i) {
-      double t = (h[i] - y) * inv;
-      im.px[j * kW + i] = static_cast<float>(t > 4 ? 1.0 : t < -4 ? 0.0 : 0.5 * (1 + std::erf(t)));
-    }
-  }
-  return im;
-}
-double Sad(const Image& a, const Image& b) {  // mean absolute grey difference, per cent
-  double acc = 0;
-  for (size_t i = 0; i < a.px.size(); ++i) acc += std::fabs(double(a.px[i]) - double(b.px[i]));
-  return 100 * acc / a.px.size();
-}
-
-// problems
 }  // namespace
 
 std::uint64_t Problem::Key() const {
@@ -506,77 +363,6 @@ std::unique_ptr<Problem> MakeProblem(const std::string& name, int instance) {
   p->name = name;
   p->instance = instance;
   return p;
-}
-
-namespace {
-
-// Numerical optimum (only for the problems without a known one): random search, then Nelder-Mead
-// restarts.
-void NumericalOptimum(const Problem& p, Vec& best, double& fbest) {
-  Rng rng(HashString("optimum"));
-  std::vector<std::pair<double, Vec>> pool;
-  for (int i = 0; i < 3000; ++i) {
-    Vec u{rng.Uniform(), rng.Uniform(), rng.Uniform()};
-    pool.push_back({p.Value(u), u});
-  }
-  std::sort(pool.begin(), pool.end(), [](auto& a, auto& b) { return a.first < b.first; });
-  fbest = 1e300;
-  for (int s = 0; s < 8; ++s) {
-    Vec x0 = pool[s * 3].second;
-    for (int round = 0; round < 4; ++round) {
-      double step = 0.12 * std::pow(0.3, round);
-      std::vector<std::pair<double, Vec>> S;
-      S.push_back({p.Value(x0), x0});
-      for (int k = 0; k < D; ++k) {
-        Vec y = x0;
-        y[k] = Clamp01(y[k] + (y[k] > 0.5 ? -step : step));
-        S.push_back({p.Value(y), y});
-      }
-      for (int it = 0; it < 150; ++it) {
-        std::sort(S.begin(), S.end(), [](auto& a, auto& b) { return a.first < b.first; });
-        if (S[D].first - S[0].first < 1e-12) break;
-        Vec c{};
-        for (int i = 0; i < D; ++i)
-          for (int k = 0; k < D; ++k) c[k] += S[i].second[k] / D;
-        auto at = [&](double t) {
-          Vec y;
-          for (int k = 0; k < D; ++k) y[k] = Clamp01(c[k] + t * (S[D].second[k] - c[k]));
-          return y;
-        };
-        Vec r = at(-1);
-        double fr = p.Value(r);
-        if (fr < S[0].first) {
-          Vec e = at(-2);
-          double fe = p.Value(e);
-          S[D] = fe < fr ? std::make_pair(fe, e) : std::make_pair(fr, r);
-        } else if (fr < S[D - 1].first)
-          S[D] = {fr, r};
-        else {
-          Vec k2 = at(fr < S[D].first ? -0.5 : 0.5);
-          double fk = p.Value(k2);
-          if (fk < std::min(fr, S[D].first))
-            S[D] = {fk, k2};
-          else
-            for (int i = 1; i <= D; ++i) {
-              for (int k = 0; k < D; ++k) S[i].second[k] = 0.5 * (S[i].second[k] + S[0].second[k]);
-              S[i].first = p.Value(S[i].second);
-            }
-        }
-      }
-      std::sort(S.begin(), S.end(), [](auto& a, auto& b) { return a.first < b.first; });
-      x0 = S[0].second;
-      if (S[0].first < fbest) {
-        fbest = S[0].first;
-        best = x0;
-      }
-    }
-  }
-}
-
-}  // namespace
-
-void Optimum(const Problem& p, Vec& x, double& f) {
-  if (!p.KnownOptimum(x, f)) NumericalOptimum(p, x, f);
 }
 
 }  // namespace talus::bench

@@ -1,7 +1,10 @@
 // Runs a strategy on the benchmark problems and prints the solved fractions.
 //
 //   optimizer_bench [--strategy surrogate] [--noise 0|1|2] [--instances 1-8] [--problems a,b]
-//                   [--budgets 30,60,100] [--batch 1] [--csv FILE]
+//                   [--budgets 30,60,100] [--batch 1] [--csv FILE] [--seeds 20]
+//
+// --seeds runs one instance from so many seeds instead, and prints the worst, the median, and the
+// median of random search after the first of the budgets.
 //
 // r = (f(recommended) - f*) / R is judged noise-free; the score is the share of (problem, instance,
 // target) with r <= target over the targets 10^-0.5, 10^-1, …, 10^-4.
@@ -10,12 +13,12 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <iostream>
-#include <map>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "bench/optimizers/problems.h"
 #include "optimizer/make_strategy.h"
 
@@ -30,6 +33,7 @@ struct Options {
   std::vector<std::string> problems = ProblemNames();
   std::vector<int> budgets{30, 60, 100};
   int batch = 1;
+  int num_seeds = 0;  // > 0: compare seeds, not instances
   std::string csv;
 };
 
@@ -49,6 +53,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--noise") options.noise = std::stoi(value);
     if (key == "--batch") options.batch = std::stoi(value);
     if (key == "--csv") options.csv = value;
+    if (key == "--seeds") options.num_seeds = std::stoi(value);
     if (key == "--problems") options.problems = Split(value);
     if (key == "--instances") {
       const auto dash = value.find('-');
@@ -92,14 +97,27 @@ std::unique_ptr<optimizer::Strategy> MakeFor(const Options& options, const Probl
   return optimizer::MakeStrategy(strategy, domain, &field, seed);
 }
 
-std::vector<Result> RunOne(const Options& options, const std::string& name, int instance) {
-  const auto problem = MakeProblem(name, instance);
-  Vec best;
-  double lowest = 0;
-  Optimum(*problem, best, lowest);
-  const double scale = problem->Median() - lowest;
-  const auto seed = static_cast<std::uint64_t>(instance);
-  const auto strategy = MakeFor(options, *problem, seed);
+// Regrets of points of one problem, judged noise-free.
+class Judge {
+ public:
+  explicit Judge(const Problem& problem) : problem_(problem) {
+    Vec best;
+    Optimum(problem, best, lowest_);
+    scale_ = problem.Median() - lowest_;
+  }
+  double Regret(const Vec& point) const {
+    return std::max(0.0, (problem_.Value(point) - lowest_) / scale_);
+  }
+
+ private:
+  const Problem& problem_;
+  double lowest_ = 0;
+  double scale_ = 1;
+};
+
+std::vector<Result> RunOne(const Options& options, const Problem& problem, std::uint64_t seed) {
+  const Judge judge(problem);
+  const auto strategy = MakeFor(options, problem, seed);
   std::vector<Result> results;
   int told = 0;
   for (const int budget : options.budgets) {
@@ -107,14 +125,14 @@ std::vector<Result> RunOne(const Options& options, const std::string& name, int 
       for (const auto& proposal : strategy->Ask(std::min(options.batch, budget - told), {})) {
         ++told;
         const std::uint64_t run = 1000 * seed + static_cast<std::uint64_t>(told);
-        const double value = problem->Noisy(ToVec(proposal.point), run, options.noise);
+        const Vec point = ToVec(proposal.point);
         strategy->Tell({.point = proposal.point,
-                        .value = value,
-                        .field = problem->MakeImage(ToVec(proposal.point), run, options.noise).px});
+                        .value = problem.Noisy(point, run, options.noise),
+                        .field = problem.MakeImage(point, run, options.noise).px});
       }
     }
-    const double value = problem->Value(ToVec(strategy->Recommend().point));
-    results.push_back({name, instance, budget, std::max(0.0, (value - lowest) / scale)});
+    const double regret = judge.Regret(ToVec(strategy->Recommend().point));
+    results.push_back({problem.name, problem.instance, budget, regret});
   }
   return results;
 }
@@ -147,13 +165,61 @@ void PrintTable(const Options& options, const std::vector<Result>& results) {
   }
 }
 
+// Regret of the luckiest of `budget` random points, which is what random search recommends.
+double RandomRegret(const Options& options, const Problem& problem, std::uint64_t seed) {
+  base::Random random(seed, base::Stream("random search"));
+  Vec best{};
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int i = 1; i <= options.budgets.front(); ++i) {
+    const Vec point{random.Uniform(), random.Uniform(), random.Uniform()};
+    const double value =
+        problem.Noisy(point, 1000 * seed + static_cast<std::uint64_t>(i), options.noise);
+    if (value >= lowest) continue;
+    lowest = value;
+    best = point;
+  }
+  return Judge(problem).Regret(best);
+}
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+void CompareSeeds(Options options) {
+  options.budgets.resize(1);
+  std::printf("regret after %d evaluations, %d seeds\n%-12s%10s%10s%16s\n", options.budgets.front(),
+              options.num_seeds, "", "worst", "median", "random, median");
+  for (const std::string& name : options.problems) {
+    const auto problem = MakeProblem(name, options.first_instance);
+    std::vector<double> regrets;
+    std::vector<double> random;
+    for (int i = 1; i <= options.num_seeds; ++i) {
+      const auto seed = static_cast<std::uint64_t>(i);
+      regrets.push_back(RunOne(options, *problem, seed).front().regret);
+      random.push_back(RandomRegret(options, *problem, seed));
+    }
+    std::printf("%-12s%10.4f%10.4f%16.4f\n", name.c_str(),
+                *std::max_element(regrets.begin(), regrets.end()), Median(regrets), Median(random));
+    std::fflush(stdout);
+  }
+}
+
 int Main(int argc, char** argv) {
   const Options options = Parse(argc, argv);
+  if (options.num_seeds > 0) {
+    CompareSeeds(options);
+    return 0;
+  }
   std::vector<Result> results;
   const std::clock_t start = std::clock();
   for (const std::string& name : options.problems) {
     for (int i = options.first_instance; i <= options.last_instance; ++i) {
-      for (Result& result : RunOne(options, name, i)) results.push_back(result);
+      const auto problem = MakeProblem(name, i);
+      for (Result& result : RunOne(options, *problem, static_cast<std::uint64_t>(i))) {
+        results.push_back(result);
+      }
     }
   }
   PrintTable(options, results);
