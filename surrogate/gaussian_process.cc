@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "surrogate/map_fit.h"
+#include "surrogate/warp.h"
 
 namespace talus::surrogate {
 namespace {
@@ -33,7 +34,8 @@ GaussianProcess GaussianProcess::Fit(const Eigen::MatrixXd& points, const Eigen:
   const HyperLayout layout{.dimension = points.cols(),
                            .free_trend = options.trend == Trend::kQuadratic,
                            .free_noise = !options.deterministic,
-                           .fixed_noise = std::sqrt(options.noise_floor)};
+                           .fixed_noise = std::sqrt(options.noise_floor),
+                           .free_bend = options.bend_inputs};
   double log_prior = 0;
   if (!options.frozen) {
     const MapFit fit = FitHyperparameters(data, layout, options);
@@ -50,8 +52,15 @@ GaussianProcess::GaussianProcess(PooledData data, GaussianProcessState state, Ke
   Factorise();
 }
 
+Eigen::MatrixXd GaussianProcess::Columns(const Eigen::MatrixXd& points) const {
+  return BendAll(points.transpose(), state_.hyper.bend);
+}
+
 void GaussianProcess::Factorise() {
-  Eigen::MatrixXd k = NoisyCovariance(covariance_, data_);
+  bent_ = BendAll(data_.points, state_.hyper.bend);
+  PooledData seen = data_;
+  seen.points = bent_;
+  Eigen::MatrixXd k = NoisyCovariance(covariance_, seen);
   Eigen::LLT<Eigen::MatrixXd> factor(k);
   const double largest = k.diagonal().maxCoeff();
   jitter_ = 0;
@@ -78,14 +87,18 @@ void GaussianProcess::Add(const Eigen::VectorXd& x, double value) {
 // Rank one: the new last row of L is (L⁻¹ k, √(k(x, x) + n² - |L⁻¹ k|²)).
 void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
   const Eigen::Index size = lower_.rows();
-  const Eigen::MatrixXd k = covariance_.Between(data_.points.leftCols(size), x);
+  const Eigen::VectorXd bent = Columns(x.transpose());
+  const Eigen::MatrixXd k = covariance_.Between(bent_, bent);
   const Eigen::VectorXd row = lower_.triangularView<Eigen::Lower>().solve(k.col(0));
   const double noise2 = state_.hyper.noise * state_.hyper.noise;
-  const double pivot = covariance_.At(x.data(), x.data()) + noise2 + jitter_ - row.squaredNorm();
+  const double prior = covariance_.At(bent.data(), bent.data());
+  const double pivot = prior + noise2 + jitter_ - row.squaredNorm();
   if (!(pivot > 0)) {
     Factorise();
     return;
   }
+  bent_.conservativeResize(Eigen::NoChange, size + 1);
+  bent_.col(size) = bent;
   lower_.conservativeResize(size + 1, size + 1);
   lower_.col(size).setZero();
   lower_.row(size).head(size) = row;
@@ -95,16 +108,17 @@ void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
 }
 
 Prediction GaussianProcess::Predict(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd k = covariance_.Between(data_.points, x).col(0);
+  const Eigen::VectorXd bent = Columns(x.transpose());
+  const Eigen::VectorXd k = covariance_.Between(bent_, bent).col(0);
   const Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
-  const double variance = covariance_.At(x.data(), x.data()) - v.squaredNorm();
+  const double variance = covariance_.At(bent.data(), bent.data()) - v.squaredNorm();
   return {.mean = state_.centre + state_.scale * k.dot(alpha_),
           .variance = state_.scale * state_.scale * std::max(0.0, variance)};
 }
 
 Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
-  const Eigen::MatrixXd columns = points.transpose();
-  Eigen::MatrixXd k = covariance_.Between(data_.points, columns);
+  const Eigen::MatrixXd columns = Columns(points);
+  Eigen::MatrixXd k = covariance_.Between(bent_, columns);
   Predictions result;
   result.mean = state_.centre + state_.scale * (k.transpose() * alpha_).array();
   lower_.triangularView<Eigen::Lower>().solveInPlace(k);
@@ -116,24 +130,30 @@ Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
 }
 
 PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd k = covariance_.Between(data_.points, x).col(0);
-  const Eigen::MatrixXd slope = covariance_.Gradient(x, data_.points);  // d × u
+  const Eigen::VectorXd bent = Columns(x.transpose());
+  const Eigen::VectorXd k = covariance_.Between(bent_, bent).col(0);
+  const Eigen::MatrixXd slope = covariance_.Gradient(bent, bent_);  // d × u
   Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
-  const double variance = covariance_.At(x.data(), x.data()) - v.squaredNorm();
+  const double variance = covariance_.At(bent.data(), bent.data()) - v.squaredNorm();
   lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(v);  // now K⁻¹ k
   PredictionGradient result;
   const double scale2 = state_.scale * state_.scale;
   result.value = {.mean = state_.centre + state_.scale * k.dot(alpha_),
                   .variance = scale2 * std::max(0.0, variance)};
   result.mean = state_.scale * (slope * alpha_);
-  result.variance = scale2 * (covariance_.DiagonalGradient(x) - 2 * (slope * v));
+  result.variance = scale2 * (covariance_.DiagonalGradient(bent) - 2 * (slope * v));
+  for (Eigen::Index i = 0; i < state_.hyper.bend.size(); ++i) {  // from d/dw to d/dx
+    const double factor = BendAt(x[i], state_.hyper.bend[i]).slope;
+    result.mean[i] *= factor;
+    result.variance[i] *= factor;
+  }
   return result;
 }
 
 Eigen::MatrixXd GaussianProcess::Draw(const Eigen::MatrixXd& points, int num_draws,
                                       base::Random random) const {
-  const Eigen::MatrixXd columns = points.transpose();
-  Eigen::MatrixXd v = covariance_.Between(data_.points, columns);
+  const Eigen::MatrixXd columns = Columns(points);
+  Eigen::MatrixXd v = covariance_.Between(bent_, columns);
   const Eigen::VectorXd mean = v.transpose() * alpha_;
   lower_.triangularView<Eigen::Lower>().solveInPlace(v);
   Eigen::MatrixXd posterior = covariance_.Between(columns, columns) - v.transpose() * v;

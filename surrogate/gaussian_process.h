@@ -29,6 +29,7 @@ struct GaussianProcessState {
 struct GaussianProcessOptions {
   Kernel kernel = Kernel::kMatern52;
   Trend trend = Trend::kConstant;
+  bool bend_inputs = false;    // infer a bend of each coordinate (warp.h)
   bool deterministic = false;  // the same point always gives the same value: noise = floor
   double noise_floor = 1e-8;   // least noise variance / variance of the values, > 0
   HyperPriors priors = {};
@@ -87,10 +88,12 @@ class GaussianProcess {
 
  private:
   GaussianProcess(PooledData data, GaussianProcessState state, Kernel kernel);
+  Eigen::MatrixXd Columns(const Eigen::MatrixXd& points) const;  // bent, one a column
   void Factorise();
   void AppendRow(const Eigen::VectorXd& x);
 
-  PooledData data_;  // values scaled
+  PooledData data_;       // values scaled
+  Eigen::MatrixXd bent_;  // points as the covariance sees them, d × u
   GaussianProcessState state_;
   Covariance covariance_;
   Eigen::MatrixXd lower_;  // L, K = L Lᵀ; only the lower triangle is meant

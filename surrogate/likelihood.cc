@@ -5,17 +5,35 @@
 #include <limits>
 #include <numbers>
 
+#include "surrogate/warp.h"
+
 namespace talus::surrogate {
 namespace {
 
 const double kLog2Pi = std::log(2 * std::numbers::pi);
 
+// dw/dc of every coordinate of every point.
+Eigen::MatrixXd BendSlopes(const Eigen::MatrixXd& points, const Eigen::VectorXd& bends) {
+  Eigen::MatrixXd slopes(points.rows(), points.cols());
+  for (Eigen::Index j = 0; j < points.cols(); ++j) {
+    for (Eigen::Index k = 0; k < points.rows(); ++k) {
+      slopes(k, j) = BendAt(points(k, j), bends[k]).bend_slope;
+    }
+  }
+  return slopes;
+}
+
 // ½ Σᵢⱼ Wᵢⱼ ∂Kᵢⱼ/∂θ for symmetric W, over the pairs i < j twice and the diagonal once.
 class TraceSum {
  public:
-  TraceSum(const PooledData& data, Kernel kernel, const Hyperparameters& hyper,
-           const HyperLayout& layout)
-      : data_(data), kernel_(kernel), hyper_(hyper), layout_(layout) {
+  // `data` with bent points; `bend_slopes` of the points before, empty without bends.
+  TraceSum(const PooledData& data, Eigen::MatrixXd bend_slopes, Kernel kernel,
+           const Hyperparameters& hyper, const HyperLayout& layout)
+      : data_(data),
+        bend_slopes_(std::move(bend_slopes)),
+        kernel_(kernel),
+        hyper_(hyper),
+        layout_(layout) {
     inverse_length_ = hyper.length.cwiseInverse();
     squared_.resize(hyper.length.size());
   }
@@ -54,9 +72,31 @@ class TraceSum {
     if (layout_.free_trend) {
       sum[layout_.trend_index()] += 2 * weight * hyper_.trend * hyper_.trend * (p + p * p);
     }
+    if (layout_.free_bend) {
+      AddBends(i, j, {signal2 * rho.slope, weight * hyper_.trend * hyper_.trend * (1 + 2 * p)},
+               sum);
+    }
+  }
+
+  struct PairSlopes {
+    double q = 0;  // dk/dq, weighted
+    double p = 0;  // dk/dp, weighted
+  };
+
+  void AddBends(Eigen::Index i, Eigen::Index j, const PairSlopes& slope, Eigen::VectorXd& sum) {
+    for (Eigen::Index k = 0; k < layout_.dimension; ++k) {
+      const double a = data_.points(k, i);
+      const double b = data_.points(k, j);
+      const double da = bend_slopes_(k, i);
+      const double db = bend_slopes_(k, j);
+      const double dq = 2 * (a - b) * (da - db) * inverse_length_[k] * inverse_length_[k];
+      const double dp = 2 * da * (2 * b - 1) + 2 * db * (2 * a - 1);
+      sum[layout_.bend_index() + k] += slope.q * dq + slope.p * dp;
+    }
   }
 
   const PooledData& data_;
+  Eigen::MatrixXd bend_slopes_;
   Kernel kernel_;
   const Hyperparameters& hyper_;
   const HyperLayout& layout_;
@@ -72,6 +112,7 @@ Hyperparameters HyperLayout::Unpack(const Eigen::VectorXd& theta) const {
   hyper.signal = std::exp(theta[dimension]);
   hyper.trend = free_trend ? std::exp(theta[trend_index()]) : 0;
   hyper.noise = free_noise ? std::exp(theta[noise_index()]) : fixed_noise;
+  if (free_bend) hyper.bend = theta.tail(dimension);
   return hyper;
 }
 
@@ -81,6 +122,7 @@ Eigen::VectorXd HyperLayout::Pack(const Hyperparameters& hyper) const {
   theta[dimension] = std::log(hyper.signal);
   if (free_trend) theta[trend_index()] = std::log(hyper.trend);
   if (free_noise) theta[noise_index()] = std::log(hyper.noise);
+  if (free_bend) theta.tail(dimension) = hyper.bend;
   return theta;
 }
 
@@ -104,9 +146,12 @@ double ScatterTerm(const PooledData& data, double noise_variance) {
                  data.counts.array().log().sum());
 }
 
-double LogLikelihood(const PooledData& data, Kernel kernel, const HyperLayout& layout,
+double LogLikelihood(const PooledData& raw, Kernel kernel, const HyperLayout& layout,
                      const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
   const Covariance covariance(kernel, layout.Unpack(theta));
+  const Eigen::VectorXd& bend = covariance.hyper().bend;
+  PooledData data = raw;
+  data.points = BendAll(raw.points, bend);
   const Eigen::LLT<Eigen::MatrixXd> factor(NoisyCovariance(covariance, data));
   if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
   const Eigen::VectorXd alpha = factor.solve(data.values);
@@ -116,7 +161,9 @@ double LogLikelihood(const PooledData& data, Kernel kernel, const HyperLayout& l
   if (gradient != nullptr) {
     Eigen::MatrixXd w = -factor.solve(Eigen::MatrixXd::Identity(size, size));
     w.noalias() += alpha * alpha.transpose();
-    *gradient = TraceSum(data, kernel, covariance.hyper(), layout).Of(w);
+    const Eigen::MatrixXd slopes =
+        layout.free_bend ? BendSlopes(raw.points, bend) : Eigen::MatrixXd();
+    *gradient = TraceSum(data, slopes, kernel, covariance.hyper(), layout).Of(w);
     if (layout.free_noise) {
       const auto num_extra = static_cast<double>(data.num_values - size);
       (*gradient)[layout.noise_index()] += data.scatter / noise2 - num_extra;
@@ -130,7 +177,8 @@ Eigen::VectorXd PriorMedian(const HyperPriors& priors, const HyperLayout& layout
   return layout.Pack({.length = Eigen::VectorXd::Constant(layout.dimension, priors.length.median),
                       .signal = priors.signal.median,
                       .trend = priors.trend.median,
-                      .noise = priors.noise.median});
+                      .noise = priors.noise.median,
+                      .bend = Eigen::VectorXd::Zero(layout.dimension)});
 }
 
 Eigen::VectorXd PriorSd(const HyperPriors& priors, const HyperLayout& layout) {
@@ -139,6 +187,7 @@ Eigen::VectorXd PriorSd(const HyperPriors& priors, const HyperLayout& layout) {
   sd[layout.dimension] = priors.signal.log_sd;
   if (layout.free_trend) sd[layout.trend_index()] = priors.trend.log_sd;
   if (layout.free_noise) sd[layout.noise_index()] = priors.noise.log_sd;
+  if (layout.free_bend) sd.tail(layout.dimension).setConstant(priors.bend_sd);
   return sd;
 }
 

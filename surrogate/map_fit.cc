@@ -11,6 +11,8 @@
 namespace talus::surrogate {
 namespace {
 
+constexpr double kLargestBend = 5;  // e^5: one end is stretched 150 times as much as the other
+
 struct Start {
   Eigen::VectorXd theta;
   double cost = 0;  // minus the log posterior
@@ -25,6 +27,10 @@ void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) 
   if (layout.free_noise) {
     task.lower[layout.noise_index()] = 0.5 * std::log(noise_floor);
     task.upper[layout.noise_index()] = std::log(3.0);
+  }
+  if (layout.free_bend) {
+    task.lower.tail(layout.dimension).setConstant(-kLargestBend);
+    task.upper.tail(layout.dimension).setConstant(kLargestBend);
   }
 }
 

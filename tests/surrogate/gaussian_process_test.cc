@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "surrogate/warp.h"
 
 namespace talus::surrogate {
 namespace {
@@ -76,6 +77,35 @@ TEST(GaussianProcess, PredictionsEqualTheDenseFormulaWithReplicatesUnpooled) {
     EXPECT_NEAR(all.mean[i], dense.mean, 1e-9);
     EXPECT_NEAR(all.variance[i], dense.variance, 1e-9);
   }
+}
+
+TEST(GaussianProcess, BendingIsFittingAtBentPoints) {
+  const Sample sample = WithReplicates();
+  const GaussianProcessState plain = KnownState(0.1);
+  GaussianProcessState bent = plain;
+  bent.hyper.bend = Eigen::Vector3d(-3, 0, 2);
+  const auto bend = [&](const Eigen::MatrixXd& points) -> Eigen::MatrixXd {
+    return BendAll(points.transpose(), bent.hyper.bend).transpose();
+  };
+  auto process =
+      GaussianProcess::Fit(sample.points.topRows(12), sample.values.head(12), {.frozen = bent});
+  for (int i = 12; i < 16; ++i) process.Add(sample.points.row(i), sample.values[i]);
+  const auto same = GaussianProcess::Fit(bend(sample.points), sample.values, {.frozen = plain});
+  const Eigen::MatrixXd places = RandomPoints(10, 3, 4);
+  const Predictions here = process.PredictAll(places);
+  const Predictions there = same.PredictAll(bend(places));
+  EXPECT_LT((here.mean - there.mean).norm(), 1e-10);
+  EXPECT_LT((here.variance - there.variance).norm(), 1e-10);
+  EXPECT_NEAR(process.LogLikelihood(), same.LogLikelihood(), 1e-8);
+}
+
+// A saturating function of one coordinate, which no single correlation length fits.
+TEST(GaussianProcess, InfersWhichEndOfACoordinateIsStretched) {
+  const Eigen::MatrixXd points = RandomPoints(60, 2, 11);
+  const Eigen::VectorXd values = points.col(0).array() / (0.1 + points.col(0).array());
+  const auto process =
+      GaussianProcess::Fit(points, values, {.bend_inputs = true, .deterministic = true});
+  EXPECT_LT(process.state().hyper.bend[0], -1);  // steep near 0
 }
 
 TEST(GaussianProcess, PooledLikelihoodIsTheDensityOfAllValues) {
