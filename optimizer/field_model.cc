@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/random.h"
+#include "optimizer/acquisition.h"
 
 namespace talus::optimizer {
 namespace {
@@ -14,6 +16,10 @@ constexpr int kModesIfNoisy = 6;
 constexpr int kModesIfDeterministic = 12;
 // A code that loses less than this share of the spread of the objective needs no process for it.
 constexpr double kSmallLoss = 1e-3;
+// Every evaluation brings as many numbers as there are modes, so they may bend more than one number
+// could tell.
+constexpr double kBendSd = 2;
+constexpr double kHopeless = -1e6;  // below every logarithm of an improvement
 
 surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldState* frozen) {
   surrogate::ModeOptions modes;
@@ -21,6 +27,8 @@ surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldSt
   modes.process.trend = surrogate::Trend::kQuadratic;
   modes.process.deterministic = options.deterministic;
   modes.process.seed = options.seed;
+  modes.process.bend_inputs = !options.deterministic;
+  modes.process.priors.bend_sd = kBendSd;
   if (frozen != nullptr) modes.frozen = frozen->modes;
   return modes;
 }
@@ -119,27 +127,42 @@ Moments FieldModel::Predict(const Eigen::MatrixXd& points) const {
   return moments;
 }
 
-double FieldModel::LogImprovementAt(const At& at, double incumbent) const {
-  const Eigen::VectorXd sd = (modes_.modes().basis.cwiseAbs2() * at.variance).cwiseSqrt();
-  // No image differs from the mean one by more than the sum of its columns' differences.
-  const double reach = objective_.metric ? 0 : 4 * objective_.sad_scale * sd.sum();
-  const double center = Value(Vector(at.mean));
-  constexpr double kHopeless = -1e6;
-  if (!objective_.metric && center - reach > incumbent) {
-    return kHopeless - (center - incumbent) / std::max(reach, 1e-300);
-  }
-  const Eigen::ArrayXd gain = incumbent - ValuesOfDraws(at).array();
+double FieldModel::LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const {
+  const Eigen::ArrayXd gain = incumbent - draws.array();
   const double mean_gain = gain.max(0).mean();
   if (mean_gain > 0) return std::log(mean_gain);
   return kHopeless / 2 + gain.maxCoeff() / std::max(std::abs(incumbent), 1e-300);
 }
 
-Eigen::VectorXd FieldModel::LogImprovement(const Eigen::MatrixXd& points, double incumbent) const {
+// What Σ |Δ| over the columns can be at most for draws within four standard deviations: no image
+// differs from the mean one by more.
+double FieldModel::Reach(const At& at) const {
+  const Eigen::VectorXd sd = (modes_.modes().basis.cwiseAbs2() * at.variance).cwiseSqrt();
+  return 4 * objective_.sad_scale * sd.sum();
+}
+
+Eigen::VectorXd FieldModel::LogImprovement(const Eigen::MatrixXd& points, double incumbent,
+                                           double noise) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
-  const Eigen::VectorXd loss = Loss(points).mean;
+  const surrogate::Predictions loss = Loss(points);
   Eigen::VectorXd result(points.rows());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    result[i] = LogImprovementAt({modes.mean.row(i), modes.variance.row(i)}, incumbent - loss[i]);
+    const At at{modes.mean.row(i), modes.variance.row(i)};
+    const double goal = incumbent - loss.mean[i];
+    const double reach = objective_.metric ? std::numeric_limits<double>::infinity() : Reach(at);
+    const double excess = objective_.metric ? 0 : Value(Vector(at.mean)) - goal;
+    if (excess > reach) {
+      result[i] = kHopeless - excess / std::max(reach, 1e-300);
+      continue;
+    }
+    const Eigen::VectorXd draws = ValuesOfDraws(at);
+    if (noise > 0) {
+      const double spread = Spread(draws);
+      const double sd = std::sqrt(spread * spread + loss.variance[i]);
+      result[i] = AugmentedLogExpectedImprovement(draws.mean(), sd, goal, noise).value;
+    } else {
+      result[i] = LogImprovementOfDraws(draws, goal);
+    }
   }
   return result;
 }

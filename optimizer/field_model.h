@@ -52,9 +52,13 @@ class FieldModel : public ObjectiveModel {
   // The objective alone, which costs less than Predict.
   double Mean(const Eigen::VectorXd& x) const;
 
-  // ln E[max(0, incumbent - objective)], by draws; where no draw is better, a number below all that
-  // says by how much it is missed.
-  Eigen::VectorXd LogImprovement(const Eigen::MatrixXd& points, double incumbent) const;
+  // ln E[max(0, incumbent - objective)]. Without scatter by draws; where no draw is better, a
+  // number below all that says by how much it is missed. With scatter, `noise` > 0, from the mean
+  // and standard deviation of the draws and weighted for noise (acquisition.h): a handful of draws
+  // never finds the small chance that a place far off is better, and the search would not leave the
+  // first valley it sees.
+  Eigen::VectorXd LogImprovement(const Eigen::MatrixXd& points, double incumbent,
+                                 double noise) const;
 
   // What evaluations are expected to give, each from the others: scatter included.
   Eigen::VectorXd LeaveOneOut() const;
@@ -75,7 +79,8 @@ class FieldModel : public ObjectiveModel {
   // `scatter`: variance of each element on top of that of the modes; empty for none.
   double Expected(const At& at, const Eigen::VectorXd& scatter) const;
   Eigen::VectorXd ValuesOfDraws(const At& at) const;
-  double LogImprovementAt(const At& at, double incumbent) const;
+  double Reach(const At& at) const;
+  double LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const;
   surrogate::Predictions Loss(const Eigen::MatrixXd& points) const;
 
   std::shared_ptr<const surrogate::FieldCode> code_;

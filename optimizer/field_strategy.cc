@@ -75,16 +75,24 @@ Proposal FieldStrategy::Next(const Points& asked) {
   return scalar_.NotByAccident(ByModel(*model, asked), asked);
 }
 
+// Under noise the incumbent is an evaluated point, as in the scalar strategy; without, the lowest
+// prediction anywhere, since the images can be known far better than the evaluations are spaced.
 Eigen::VectorXd FieldStrategy::ByModel(const FieldModel& model, const Points& asked) const {
-  const Eigen::VectorXd lowest = LowestMean(model);
-  const double incumbent = model.Mean(lowest);
+  Eigen::MatrixXd centers = Centers(model, scalar_.history().points);
+  double noise = 0;
+  if (scalar_.deterministic()) {
+    centers.conservativeResize(centers.rows() + 1, Eigen::NoChange);
+    centers.bottomRows(1) = LowestMean(model).transpose();
+    centers.row(0).swap(centers.row(centers.rows() - 1));
+  } else {
+    noise = model.NoiseSd(centers.row(0));
+  }
+  const double incumbent = model.Mean(centers.row(0));
   FieldModel believed = model;
   for (const Eigen::VectorXd& point : asked) believed.Believe(point);
-  Eigen::MatrixXd centers = Centers(believed, scalar_.history().points);
-  centers.conservativeResize(centers.rows() + 1, Eigen::NoChange);
-  centers.row(centers.rows() - 1) = lowest;
   const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
-    return -believed.LogImprovement(points, incumbent) - scalar_.feasibility().Penalty(points);
+    return -believed.LogImprovement(points, incumbent, noise) -
+           scalar_.feasibility().Penalty(points);
   };
   const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
     return values(x.transpose())[0];

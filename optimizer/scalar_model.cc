@@ -27,7 +27,10 @@ ValueTransform TransformOf(const Eigen::VectorXd& values, double delta_share) {
 }
 
 surrogate::GaussianProcessOptions ProcessOptions(bool deterministic, std::uint64_t seed) {
-  return {.trend = surrogate::Trend::kQuadratic, .deterministic = deterministic, .seed = seed};
+  return {.trend = surrogate::Trend::kQuadratic,
+          .bend_inputs = !deterministic,
+          .deterministic = deterministic,
+          .seed = seed};
 }
 
 surrogate::GaussianProcess FitTransformed(const Eigen::MatrixXd& points,
