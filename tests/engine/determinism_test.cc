@@ -38,18 +38,27 @@ Scene Busy(int per_side) {
   return scene;
 }
 
-TEST(Determinism, ThreadsDoNotChangeTheBits) {
-  Scene scene = Busy(16);  // 4096 spheres, four chunks
+void ExpectSameBitsForAllThreads(int per_side, std::int64_t num_steps) {
+  Scene scene = Busy(per_side);
   std::string one;
-  for (const int threads : {1, 2, 3}) {
+  for (const int threads : {1, 2, 3, 5}) {
     scene.num_threads = threads;
     Simulation simulation(scene);
-    simulation.Advance(200);
+    simulation.Advance(num_steps);
     const std::string bits = simulation.Checkpoint();
     if (threads == 1) one = bits;
     EXPECT_TRUE(bits == one) << threads << " threads";
     EXPECT_GT(simulation.Statistics().num_rebuilds, 2);
   }
+}
+
+TEST(Determinism, ThreadsDoNotChangeTheBits) {
+  ExpectSameBitsForAllThreads(16, 200);  // 4096 spheres, four chunks, more threads than chunks
+}
+
+// A layer of this cloud has more spheres than a chunk: forces reach over two chunks.
+TEST(Determinism, ThreadsDoNotChangeTheBitsWhereChunksReachFar) {
+  ExpectSameBitsForAllThreads(36, 40);
 }
 
 TEST(Determinism, LookingAndStoppingInBetweenChangesNothing) {
