@@ -2,11 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "experiments/campaign/export.h"
 #include "experiments/campaign/status.h"
-#include "tests/experiments/fake_heap.h"
-#include "tests/experiments/scratch_folder.h"
+#include "tests/experiments/campaign_fixture.h"
 
 namespace talus::experiments {
 namespace {
@@ -18,21 +16,7 @@ constexpr const char* kSmall = R"(,
   "strategy": {"kind": "sobol"}, "budget": {"simulations": 12}, "noise": {"replicates": 2},
   "confirm": {"candidates": 2, "replicates": 2}, "workers": 1)";
 
-class CampaignTest : public ::testing::Test {
- protected:
-  fs::path Begin(const std::string& more, const std::string& name = "run") {
-    const fs::path spec = WriteFakeSpec(scratch_.path() / (name + "_in"), more);
-    BeginCampaign(spec, scratch_.path() / name);
-    return scratch_.path() / name;
-  }
-  static std::vector<TrialRecord> Trials(const fs::path& folder) {
-    return Journal::OpenReadOnly(JournalPath(folder)).Trials();
-  }
-  static CampaignResult Result(const fs::path& folder) {
-    return ParseResult(base::ReadFile(folder / "result.json"));
-  }
-  ScratchFolder scratch_;
-};
+using CampaignTest = CampaignFixture;
 
 std::string ErrorOf(const auto& action) {
   try {

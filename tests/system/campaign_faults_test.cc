@@ -1,8 +1,11 @@
 // What may happen to a campaign from outside: after `resume` it has the trials, the numbers and
 // the recommendation of one that nothing has happened to.
 #include <gmock/gmock.h>
+#include <grp.h>
 #include <gtest/gtest.h>
+#include <pwd.h>
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,9 +14,8 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "tests/experiments/fake_heap.h"
-#include "tests/experiments/scratch_folder.h"
+#include "tests/experiments/campaign_fixture.h"
+#include "tests/system/jumping_clock.h"
 
 namespace talus::experiments {
 namespace {
@@ -25,13 +27,9 @@ constexpr const char* kSpec = R"(,
   "strategy": {"kind": "sobol"}, "budget": {"simulations": 20}, "noise": {"replicates": 2},
   "confirm": {"candidates": 1, "replicates": 2}, "workers": 1)";
 
-class CampaignFaults : public ::testing::Test {
+class CampaignFaults : public CampaignFixture {
  protected:
-  fs::path Begin(const std::string& name) {
-    const fs::path folder = scratch_.path() / name;
-    BeginCampaign(WriteFakeSpec(scratch_.path() / "in", kSpec), folder);
-    return folder;
-  }
+  fs::path Begin(const std::string& name) const { return CampaignFixture::Begin(kSpec, name); }
   // What an undisturbed campaign comes to.
   struct Calm {
     std::string table;
@@ -42,12 +40,12 @@ class CampaignFaults : public ::testing::Test {
     RunFake(folder, {});
     return {TrialTable(folder), Recommended(folder)};
   }
+  // All of the result but what it cost, which no two runs share: recommended set, ranges,
+  // candidates.
   static std::string Recommended(const fs::path& folder) {
-    std::string text;
-    for (const auto& p : ParseResult(base::ReadFile(folder / "result.json")).parameters) {
-      text += p.name + " " + std::to_string(p.value) + "\n";
-    }
-    return text;
+    CampaignResult result = Result(folder);
+    result.cost = {};
+    return ResultText(result);
   }
   // A session in a process of its own, so that it can be killed. It exits with the CampaignEnd, or
   // with kThrew.
@@ -75,14 +73,11 @@ class CampaignFaults : public ::testing::Test {
   static void Pause(double seconds) {
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   }
-  static std::size_t NumTrials(const fs::path& folder) {
-    return Journal::OpenReadOnly(JournalPath(folder)).Trials().size();
-  }
+  static std::size_t NumTrials(const fs::path& folder) { return Trials(folder).size(); }
   void ExpectCalm(const fs::path& folder, const Calm& calm) {
     EXPECT_EQ(TrialTable(folder), calm.table);
     EXPECT_EQ(Recommended(folder), calm.recommended);
   }
-  ScratchFolder scratch_;
 };
 
 TEST_F(CampaignFaults, KilledAtManyMoments) {
@@ -146,12 +141,118 @@ TEST_F(CampaignFaults, FullDiskStopsTheCampaignAndIsNotTakenForAFailedTrial) {
   ExpectCalm(folder, calm);
 }
 
+// A file system of a megabyte that the campaign fills, and that is enlarged afterwards.
+class SmallDisk {
+ public:
+  explicit SmallDisk(const fs::path& path) : path_(path) {
+    fs::create_directories(path);
+    mounted_ = ::mount("tmpfs", path.c_str(), "tmpfs", 0, "size=1m") == 0;
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    if (mounted_) ::umount(path_.c_str());
+  }
+  bool mounted() const { return mounted_; }
+  bool Enlarge() const {
+    return ::mount("tmpfs", path_.c_str(), "tmpfs", MS_REMOUNT, "size=64m") == 0;
+  }
+
+ private:
+  fs::path path_;
+  bool mounted_ = false;
+};
+
+TEST_F(CampaignFaults, FullFileSystemStopsTheCampaignAndResumeGoesOnWhenThereIsRoom) {
+  const Calm calm = RunCalm();
+  const SmallDisk disk(scratch_.path() / "disk");
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system needs root";
+  const fs::path folder = Begin("disk/full");
+  EXPECT_EQ(WaitForExit(StartSession(folder)), kThrew);
+  EXPECT_LT(NumTrials(folder), 22u);
+  for (const TrialRecord& trial : Trials(folder)) EXPECT_NE(trial.status, TrialStatus::kFailed);
+  ASSERT_TRUE(disk.Enlarge());
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  ExpectCalm(folder, calm);
+}
+
+// Root may write everywhere, so that under root the session gives up its rights first.
 TEST_F(CampaignFaults, ReadOnlyFolderIsSaidAndChangesNothing) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const fs::path folder = Begin("read_only");
-  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_THROW(RunFake(folder, {}), base::Error);
+  const auto before = fs::last_write_time(JournalPath(folder));
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                              fs::perms::others_exec);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const passwd* nobody = ::getpwnam("nobody");
+    const bool root = ::geteuid() == 0;
+    if (root && (nobody == nullptr || ::setgroups(0, nullptr) != 0 ||
+                 ::setgid(nobody->pw_gid) != 0 || ::setuid(nobody->pw_uid) != 0)) {
+      ::_exit(1);
+    }
+    try {
+      RunFake(folder, {});
+    } catch (const base::Error& error) {
+      ::_exit(std::string(error.what()).find("cannot be written") == std::string::npos ? 2
+                                                                                       : kThrew);
+    }
+    ::_exit(3);
+  }
+  EXPECT_EQ(WaitForExit(child), kThrew);
   fs::permissions(folder, fs::perms::owner_all);
+  EXPECT_EQ(NumTrials(folder), 0u);
+  EXPECT_EQ(fs::last_write_time(JournalPath(folder)), before);
+}
+
+// The wall clock may be set while a campaign runs; only the times that people read may follow it.
+class ClockChange : public CampaignFaults {
+ protected:
+  void TearDown() override { Set(0, false); }
+  static void Set(long jump, bool alternates) {
+    clock_jump = jump;
+    clock_alternates = alternates;
+  }
+};
+
+TEST_F(ClockChange, ChangesNeitherTrialsNorResultNorEndsByTheTimeBudget) {
+  std::string spec = kSpec;
+  const std::string budget = R"("simulations": 20)";
+  spec.replace(spec.find(budget), budget.size(), budget + R"(, "wall_clock": "1 h")");
+  const fs::path undisturbed = CampaignFixture::Begin(spec, "calm");
+  RunFake(undisturbed, {});
+  const Calm calm{TrialTable(undisturbed), Recommended(undisturbed)};
+  constexpr long kYear = 365L * 86400;
+  for (const long jump : {kYear, -kYear}) {
+    const fs::path folder = CampaignFixture::Begin(spec, jump > 0 ? "forwards" : "backwards");
+    const pid_t child = StartSession(folder, {.sleep = 0.02});
+    while (NumTrials(folder) < 6) Pause(0.02);
+    ::kill(child, SIGKILL);
+    WaitForExit(child);
+    Set(jump, false);  // while the campaign lies idle
+    EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+    ExpectCalm(folder, calm);
+    const int year = std::stoi(Trials(folder).back().finished_utc);
+    const int year_before = std::stoi(Trials(folder).front().finished_utc);
+    EXPECT_NEAR(year - year_before, jump > 0 ? 1 : -1, 1) << "the clock was not set";
+    EXPECT_NE(year, year_before) << "the clock was not set";
+    EXPECT_LT(Journal::OpenReadOnly(JournalPath(folder)).Progress().elapsed_s, 3600);
+    Set(0, false);
+  }
+}
+
+TEST_F(ClockChange, EvenBetweenAnyTwoReadings) {
+  const Calm calm = RunCalm();
+  const fs::path folder = Begin("restless");
+  Set(86400, true);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  Set(0, false);
+  EXPECT_GT(clock_readings, 100);
+  ExpectCalm(folder, calm);
+  // What is measured is measured by a clock that only goes forwards.
+  for (const TrialRecord& trial : Trials(folder)) {
+    EXPECT_GE(trial.duration_s, 0) << trial.id;
+    EXPECT_LT(trial.duration_s, 3600) << trial.id;
+  }
 }
 
 TEST_F(CampaignFaults, ATruncatedJournalIsMadeAnewFromTheTrials) {
