@@ -283,6 +283,7 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(sources == 1, "", "needs exactly one of \"photos\", \"runs\" and \"map\"");
   problems.Require(plate_diameter > 0 && plate_diameter < 100, "plate_diameter", plate_diameter,
                    "must be positive and below 100 m");
+  problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(!pattern.empty(), "pattern", "must not be empty");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
   problems.Require(!pixel_size || (*pixel_size > 0 && *pixel_size < plate_diameter / 8),

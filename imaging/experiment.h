@@ -32,6 +32,7 @@ struct ExperimentOptions {
   std::string pattern = "run{run}_view{view}.*";  // of the file names in it
   std::vector<PhotoRun> runs;                     // or the photographs one by one
   std::filesystem::path map;                      // or the grey average, black = powder
+  int map_heaps = 1;                              // so many heaps the map is the average of, > 0
   double plate_diameter = 0;                      // [m], > 0
   std::optional<Frame> frame;                     // where the plate is, instead of finding it
   double tilt = 0;  // of the plate, with `frame` [rad], > 0 if its right end is lower
@@ -50,6 +51,9 @@ struct ExperimentOptions {
                   "anything"});
     visit("runs", self.runs, {.doc = "the photographs of each run, instead of `photos`"});
     visit("map", self.map, {.doc = "a grey average map (black = powder), instead of photographs"});
+    visit("map_heaps", self.map_heaps,
+          {.doc = "of how many heaps (runs, not views) the map is the average, 1 or more: what is "
+                  "not known of the mean heap widens the credible ranges"});
     visit("plate_diameter", self.plate_diameter,
           {.dimension = Dimension::kLength, .required = true, .doc = "plate diameter, > 0"});
     visit("frame", self.frame, {.doc = "where the plate is, instead of finding it in the images"});

@@ -92,8 +92,8 @@ Eigen::MatrixXd DrawPlaces(const ObjectiveModel& model, const Domain& domain,
 }
 
 // One minimiser of each posterior draw, a row each.
-Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Eigen::MatrixXd& places,
-                               const AnswerOptions& options) {
+Eigen::MatrixXd MinimisersAmong(const ObjectiveModel& model, const Eigen::MatrixXd& places,
+                                const AnswerOptions& options) {
   const Eigen::MatrixXd draws = model.Draw(
       places, options.num_draws, base::Random(options.seed, base::Stream("answer draws")));
   Eigen::MatrixXd minimisers(draws.rows(), places.cols());
@@ -101,6 +101,41 @@ Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Eigen::MatrixX
     Eigen::Index lowest = 0;
     draws.row(i).minCoeff(&lowest);
     minimisers.row(i) = places.row(lowest);
+  }
+  return minimisers;
+}
+
+// New places where minimisers have been found: each is one of these, moved by half the difference
+// of two others, so that the places follow the shape of the cloud, however thin or bent it is.
+Eigen::MatrixXd Among(const Eigen::MatrixXd& minimisers, int count, base::Random random) {
+  const auto any = [&] {
+    return static_cast<Eigen::Index>(random.Below(static_cast<std::uint64_t>(minimisers.rows())));
+  };
+  Eigen::MatrixXd places(count, minimisers.cols());
+  for (int i = 0; i < count; ++i) {
+    const Eigen::RowVectorXd from = minimisers.row(any());
+    const Eigen::RowVectorXd step = minimisers.row(any()) - minimisers.row(any());
+    const double reach = 0.5 * random.Normal();
+    for (Eigen::Index k = 0; k < places.cols(); ++k) {
+      const double jitter = 1e-3 * random.Normal();  // where the cloud is a point or a line
+      places(i, k) = std::clamp(from[k] + reach * step[k] + jitter, 0.0, 1.0);
+    }
+  }
+  return places;
+}
+
+// The first places are everywhere the minimum may be, too far from each other to tell where in
+// there the minimisers lie. So most of them are moved to where minimisers were found, twice.
+Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Domain& domain,
+                               const Eigen::MatrixXd& first, const AnswerOptions& options) {
+  constexpr int kRounds = 3;
+  Eigen::MatrixXd minimisers = MinimisersAmong(model, first, options);
+  for (int round = 1; round < kRounds; ++round) {
+    const base::Random random(options.seed, base::Stream("answer places"),
+                              static_cast<std::uint64_t>(round));
+    const Eigen::MatrixXd moved = Inside(
+        domain, Among(minimisers, static_cast<int>(first.rows() - first.rows() / 4), random));
+    minimisers = MinimisersAmong(model, Stack(FewOf(first, first.rows() / 4), moved), options);
   }
   return minimisers;
 }
@@ -199,7 +234,7 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
       Inside(domain, Stack(Lattice(options.num_places, domain.num_parameters, options.seed),
                            Around(point, options.num_places / 2, options.seed)));
   const Eigen::MatrixXd minimisers =
-      DrawMinimisers(model, DrawPlaces(model, domain, places, answer, options), options);
+      DrawMinimisers(model, domain, DrawPlaces(model, domain, places, answer, options), options);
   answer.credible = CredibleRanges(minimisers, point, options.confidence);
   answer.correlation = Correlation(minimisers);
   DescribeTies(model, domain, places, options, answer);

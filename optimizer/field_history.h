@@ -20,6 +20,7 @@ class FieldHistory {
   FieldHistory(const FieldObjective& objective, bool always, std::uint64_t seed);
 
   void Add(const Observation& observation);
+  bool has_metric() const { return static_cast<bool>(objective_.metric); }
   int size() const { return static_cast<int>(values_.size()); }
 
   // A model of all evaluations; none while there are too few, or where a process of the values

@@ -45,6 +45,7 @@ class FieldModel : public ObjectiveModel {
 
   int num_parameters() const override;
   Moments Predict(const Eigen::MatrixXd& points) const override;
+  // Draws of the objective to a target that is drawn too, within what is not known of it.
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
                        base::Random random) const override;
   double NoiseSd(const Eigen::VectorXd& x) const override;
@@ -75,6 +76,8 @@ class FieldModel : public ObjectiveModel {
     Eigen::VectorXd variance;
   };
   Eigen::VectorXd Vector(const Eigen::VectorXd& coefficients) const;
+  // The same as an image of the target's kind, the mean of several heaps.
+  Eigen::VectorXd MeanVector(const Eigen::VectorXd& coefficients) const;
   double Value(const Eigen::VectorXd& vector) const;
   // `scatter`: variance of each element on top of that of the modes; empty for none.
   double Expected(const At& at, const Eigen::VectorXd& scatter) const;
@@ -82,12 +85,19 @@ class FieldModel : public ObjectiveModel {
   double Reach(const At& at) const;
   double LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const;
   surrogate::Predictions Loss(const Eigen::MatrixXd& points) const;
+  // What the target may be off by, a draw a row; empty where it is exact. `nearest`: the
+  // coefficients that fit the target best.
+  Eigen::MatrixXd TargetErrors(const At& nearest, int num_draws, base::Random random) const;
+  At Nearest(const surrogate::ModeMoments& modes) const;
 
   std::shared_ptr<const surrogate::FieldCode> code_;
   FieldObjective objective_;
   surrogate::ModeProcess modes_;
   std::optional<surrogate::GaussianProcess> loss_;
-  Eigen::MatrixXd normals_;  // draws, one a row, one mode a column: the same at every point
+  Eigen::MatrixXd residuals_;  // what the modes leave of each evaluation, a row each
+  Eigen::VectorXd blur_;       // variance of each element among the target's heaps; may be empty
+  Eigen::VectorXd target_;     // as the code writes it; empty without a target
+  Eigen::MatrixXd normals_;    // draws, one a row, one mode a column: the same at every point
 };
 
 }  // namespace talus::optimizer

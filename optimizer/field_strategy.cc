@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <numeric>
 
+#include "base/random.h"
 #include "optimizer/answer.h"
+#include "optimizer/lattice.h"
 #include "optimizer/model_search.h"
 
 namespace talus::optimizer {
@@ -44,7 +46,8 @@ FieldStrategy::FieldStrategy(const Domain& domain, const FieldObjective& objecti
     : domain_(domain),
       options_(options),
       scalar_(domain, options),
-      fields_(objective, always, options.seed) {}
+      fields_(objective, always, options.seed),
+      has_exact_target_(objective.num_target_heaps == 0) {}
 
 void FieldStrategy::Tell(const Observation& observation) {
   scalar_.Tell(observation);
@@ -72,7 +75,39 @@ Proposal FieldStrategy::Next(const Points& asked) {
   if (const auto first = scalar_.BeforeModel(asked)) return *first;
   const std::optional<FieldModel>& model = Model();
   if (!model) return scalar_.Ask(1, asked).front();
-  return scalar_.NotByAccident(ByModel(*model, asked), asked);
+  const bool explores = !has_exact_target_ && !scalar_.deterministic() &&
+                        (scalar_.history().size() + static_cast<int>(asked.size())) % 2 == 0;
+  return scalar_.NotByAccident(explores ? ByDraw(*model, asked) : ByModel(*model, asked), asked);
+}
+
+// The minimiser of one draw of what is not known. Expected improvement crowds round one of several
+// sets that tie; every other evaluation goes where another of them may be, which is what tells how
+// well the parameters are known.
+Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& asked) const {
+  constexpr int kNumEven = 300;
+  constexpr int kNumNear = 100;
+  const auto index = static_cast<std::uint64_t>(fields_.size()) + asked.size();
+  base::Random random(options_.seed, base::Stream("explored draw"), index);
+  const Eigen::VectorXd lowest = LowestMean(model);
+  std::vector<Eigen::VectorXd> kept{lowest};
+  const Eigen::MatrixXd even = Lattice(kNumEven, domain_.num_parameters, options_.seed + index);
+  for (int i = 0; i < kNumEven + kNumNear; ++i) {
+    Eigen::VectorXd place = i < kNumEven ? Eigen::VectorXd(even.row(i)) : lowest;
+    const double reach = i < kNumEven ? 0 : 0.2 * random.Uniform();
+    for (double& x : place) x = std::clamp(x + reach * random.Normal(), 0.0, 1.0);
+    if (domain_.Contains(place)) kept.push_back(place);
+  }
+  Eigen::MatrixXd places(static_cast<Eigen::Index>(kept.size()), domain_.num_parameters);
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    places.row(i) = kept[static_cast<std::size_t>(i)];
+  }
+  const History& history = scalar_.history();
+  const double spread = history.values.maxCoeff() - history.values.minCoeff();
+  const Eigen::VectorXd values = model.Draw(places, 1, random).row(0).transpose() -
+                                 spread * scalar_.feasibility().Penalty(places);
+  Eigen::Index best = 0;
+  values.minCoeff(&best);
+  return places.row(best);
 }
 
 // Under noise the incumbent is an evaluated point, as in the scalar strategy; without, the lowest
@@ -160,14 +195,32 @@ std::optional<std::string> FieldStrategy::StopReason() {
          Number(options_.stop_multiple) + " x the scatter of one evaluation, " + Number(noise);
 }
 
+// A process of the values does not know what an error of the target would change; the ties give an
+// idea of it.
+Answer FieldStrategy::RecommendByValues() {
+  Answer answer = scalar_.Recommend();
+  if (!has_exact_target_) {
+    for (std::size_t k = 0; k < answer.credible.size(); ++k) {
+      Range& range = answer.credible[k];
+      for (const Eigen::VectorXd& tied : answer.tied) {
+        range.low = std::min(range.low, tied[static_cast<Eigen::Index>(k)]);
+        range.high = std::max(range.high, tied[static_cast<Eigen::Index>(k)]);
+      }
+    }
+  }
+  return answer;
+}
+
 Answer FieldStrategy::Recommend() {
-  if (!Model()) return scalar_.Recommend();
-  // Each place costs an image, so there are fewer than a scalar model is asked at.
+  if (!Model()) return RecommendByValues();
+  // Each place costs an image, so there are fewer than a scalar model is asked at; and fewer still
+  // where a metric other than the sum of differences is measured on each.
+  const bool slow = fields_.has_metric();
   Answer answer = DescribeMinimum(*model_, domain_, LowestMean(*model_),
-                                  {.num_places = 800,
-                                   .num_draw_places = 150,
-                                   .num_draws = 150,
-                                   .num_sobol = 128,
+                                  {.num_places = slow ? 300 : 800,
+                                   .num_draw_places = slow ? 80 : 300,
+                                   .num_draws = slow ? 100 : 200,
+                                   .num_sobol = slow ? 32 : 128,
                                    .seed = options_.seed});
   answer.model = "modes of the images of " + std::to_string(fields_.size()) + " evaluations, " +
                  (scalar_.deterministic() ? "deterministic" : "noisy") + "; " + fields_.verdict();

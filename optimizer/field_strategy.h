@@ -29,12 +29,15 @@ class FieldStrategy : public Strategy {
   const std::optional<FieldModel>& Model();
   Proposal Next(const Points& asked);
   Eigen::VectorXd ByModel(const FieldModel& model, const Points& asked) const;
+  Eigen::VectorXd ByDraw(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd LowestMean(const FieldModel& model) const;
+  Answer RecommendByValues();
 
   Domain domain_;
   ScalarOptions options_;
   ScalarStrategy scalar_;
   FieldHistory fields_;
+  bool has_exact_target_ = true;
   std::optional<FieldModel> model_;
   bool is_current_ = false;  // model_ knows all that was told
 };

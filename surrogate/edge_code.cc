@@ -29,6 +29,16 @@ std::vector<float> EdgeCode::Decode(const Eigen::VectorXd& vector) const {
   return Render(Edges(vector), size_);
 }
 
+// Φ(y / w) blurred by a normal distribution of variance v is Φ(y / √(w² + v)).
+Eigen::VectorXd EdgeCode::MeanOfImages(const Eigen::VectorXd& vector,
+                                       const Eigen::VectorXd& variance) const {
+  const Eigen::ArrayXd width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kMinWidth);
+  Eigen::VectorXd mean = vector;
+  mean.tail(size_.width) =
+      kWidthWeight * (width.square() + variance.head(size_.width).array()).sqrt();
+  return mean;
+}
+
 double EdgeCode::Sad(const Eigen::VectorXd& vector) const { return sad_->Of(Edges(vector)); }
 
 double EdgeCode::ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const {

@@ -19,6 +19,10 @@ class FieldCode {
   virtual Eigen::VectorXd Encode(std::span<const float> field) const = 0;
   virtual std::vector<float> Decode(const Eigen::VectorXd& vector) const = 0;
 
+  // The mean of images whose vectors scatter about `vector` with this variance of each element.
+  virtual Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
+                                       const Eigen::VectorXd& variance) const = 0;
+
   // Σ |pixel - target| [px] of the decoded image: itself, and expected when each element of the
   // vector is normal with this variance. Wants a target.
   virtual double Sad(const Eigen::VectorXd& vector) const = 0;
@@ -36,6 +40,9 @@ class EdgeCode : public FieldCode {
   std::string name() const override { return "column heights"; }
   Eigen::VectorXd Encode(std::span<const float> field) const override;
   std::vector<float> Decode(const Eigen::VectorXd& vector) const override;
+  // Edges that move up and down make a wider edge.
+  Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
+                               const Eigen::VectorXd& variance) const override;
   double Sad(const Eigen::VectorXd& vector) const override;
   double ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const override;
 
@@ -55,6 +62,10 @@ class PixelCode : public FieldCode {
   std::string name() const override { return "pixels"; }
   Eigen::VectorXd Encode(std::span<const float> field) const override;
   std::vector<float> Decode(const Eigen::VectorXd& vector) const override;
+  Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
+                               const Eigen::VectorXd&) const override {
+    return vector;
+  }
   double Sad(const Eigen::VectorXd& vector) const override;
   double ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const override;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -37,6 +38,11 @@ imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
   return {.left = left, .top = top, .width = right - left, .height = bottom - top};
 }
 
+// Of an angle of repose, 1 to 3.
+int MethodOf(Objective objective) {
+  return 1 + static_cast<int>(objective) - static_cast<int>(Objective::kAor1);
+}
+
 }  // namespace
 
 std::string MetricOf(Objective objective) {
@@ -55,26 +61,32 @@ std::string MetricOf(Objective objective) {
   return {};
 }
 
-Reference::Reference(imaging::Profile aehp, imaging::MetricOptions options, Objective objective)
+Reference::Reference(imaging::Profile aehp, ReferenceOptions options)
     : aehp_{.profile = std::move(aehp), .parts = {}},
       options_(std::move(options)),
-      objective_(objective),
       region_(RegionThatMatters(aehp_.profile)) {
-  if (!IsAngle(objective)) return;
-  const auto metrics = imaging::CompareProfiles(aehp_, aehp_, options_);
-  const imaging::Measured angle = imaging::FindMetric(metrics, MetricOf(objective)).value;
+  if (!IsAngle(options_.objective)) return;
+  const imaging::Measured angle = AngleOf(aehp_.profile.image);
   if (!angle.defined()) {
-    throw base::ConfigError("objective: the experiment's " + std::string(base::NameOf(objective)) +
-                            " is not defined, because " + angle.not_defined +
-                            "; use \"sad\" or \"rmse\"");
+    throw base::ConfigError(
+        "objective: the experiment's " + std::string(base::NameOf(options_.objective)) +
+        " is not defined, because " + angle.not_defined + "; use \"sad\" or \"rmse\"");
   }
   angle_ = angle.value;
+}
+
+imaging::Measured Reference::AngleOf(const imaging::GrayImage& image) const {
+  const auto angles = imaging::MeasureRepose(image, frame(), options_.metrics.repose);
+  imaging::Measured angle =
+      angles.at(static_cast<std::size_t>(MethodOf(options_.objective)) - 1).mean;
+  angle.value *= 180 / std::numbers::pi;
+  return angle;
 }
 
 std::vector<MetricRecord> Reference::Measure(const imaging::GrayImage& profile) const {
   std::vector<MetricRecord> records;
   const imaging::HeapImages heap{.profile = {.image = profile, .frame = frame()}, .parts = {}};
-  for (const imaging::Metric& metric : imaging::CompareProfiles(heap, aehp_, options_)) {
+  for (const imaging::Metric& metric : imaging::CompareProfiles(heap, aehp_, options_.metrics)) {
     records.push_back({.name = metric.name,
                        .value = metric.value.value,
                        .unit = metric.unit,
@@ -84,19 +96,20 @@ std::vector<MetricRecord> Reference::Measure(const imaging::GrayImage& profile) 
 }
 
 std::optional<double> Reference::Value(const TrialRecord& trial) const {
-  const std::optional<double> value = trial.Metric(MetricOf(objective_));
-  if (!value || !IsAngle(objective_)) return value;
+  const std::optional<double> value = trial.Metric(MetricOf(options_.objective));
+  if (!value || !IsAngle(options_.objective)) return value;
   return std::abs(*value - angle_);
 }
 
 std::string Reference::unit() const {
-  if (IsAngle(objective_)) return "°";
-  return objective_ == Objective::kSad ? "mm²" : "grey levels";
+  if (IsAngle(options_.objective)) return "°";
+  return options_.objective == Objective::kSad ? "mm²" : "grey levels";
 }
 
 std::string Reference::key() const {
-  return IsAngle(objective_) ? std::string(base::NameOf(objective_)) + "_difference_deg"
-                             : MetricOf(objective_);
+  const Objective objective = options_.objective;
+  return IsAngle(objective) ? std::string(base::NameOf(objective)) + "_difference_deg"
+                            : MetricOf(objective);
 }
 
 std::vector<float> Reference::Field(const imaging::GrayImage& profile) const {
@@ -117,8 +130,9 @@ optimizer::FieldObjective Reference::MakeFieldObjective() const {
                                       .height = region_.height,
                                       .target = Field(aehp_.profile.image),
                                       .sad_scale = pixel_mm * pixel_mm,
-                                      .metric = {}};
-  if (objective_ != Objective::kSad) {
+                                      .metric = {},
+                                      .num_target_heaps = options_.num_heaps};
+  if (options_.objective != Objective::kSad) {
     objective.metric = [self = *this](std::span<const float> field) {
       return self.ValueOfField(field);
     };
@@ -126,8 +140,7 @@ optimizer::FieldObjective Reference::MakeFieldObjective() const {
   return objective;
 }
 
-// The objective of a predicted field, as it would be measured on its image.
-double Reference::ValueOfField(std::span<const float> field) const {
+imaging::GrayImage Reference::ImageOf(std::span<const float> field) const {
   imaging::GrayImage image{.width = frame().width, .height = frame().height, .pixels = {}};
   image.pixels.assign(aehp_.profile.image.pixels.size(), 255);
   std::size_t i = 0;
@@ -138,10 +151,21 @@ double Reference::ValueOfField(std::span<const float> field) const {
           static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
     }
   }
+  return image;
+}
+
+// The objective of a predicted field, as it would be measured on its image. Only what is asked for
+// is measured, since a search asks thousands of times.
+double Reference::ValueOfField(std::span<const float> field) const {
+  const imaging::GrayImage image = ImageOf(field);
+  if (IsAngle(options_.objective)) {
+    const imaging::Measured angle = AngleOf(image);
+    constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
+    return angle.defined() ? std::abs(angle.value - angle_) : kWorst;
+  }
   TrialRecord trial;
   trial.metrics = Measure(image);
-  constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
-  return Value(trial).value_or(kWorst);
+  return Value(trial).value();
 }
 
 }  // namespace talus::experiments

@@ -13,10 +13,16 @@
 
 namespace talus::experiments {
 
+struct ReferenceOptions {
+  imaging::MetricOptions metrics = {};
+  Objective objective = Objective::kSad;
+  int num_heaps = 1;  // that the experiment's profile is the mean of
+};
+
 class Reference {
  public:
   // Throws ConfigError when the experiment has no such angle of repose.
-  Reference(imaging::Profile aehp, imaging::MetricOptions options, Objective objective);
+  Reference(imaging::Profile aehp, ReferenceOptions options);
 
   const imaging::Frame& frame() const { return aehp_.profile.frame; }
 
@@ -36,10 +42,11 @@ class Reference {
 
  private:
   double ValueOfField(std::span<const float> field) const;
+  imaging::Measured AngleOf(const imaging::GrayImage& image) const;  // in degrees
+  imaging::GrayImage ImageOf(std::span<const float> field) const;
 
   imaging::HeapImages aehp_;
-  imaging::MetricOptions options_;
-  Objective objective_;
+  ReferenceOptions options_;
   imaging::Region region_;
   double angle_ = 0;  // of the experiment, for an angle objective [deg]
 };

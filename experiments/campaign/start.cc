@@ -99,12 +99,15 @@ CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) 
   }
   record.frame_json = base::ToJson(experiment.aehp.frame).dump();
   record.nebp_px = imaging::Nebp(experiment.aehp.image);
+  record.num_heaps = experiment.runs.empty() ? spec.experiment.map_heaps
+                                             : static_cast<int>(experiment.runs.size());
   if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
   for (const imaging::Metric& metric : experiment.metrics) {
     record.reference.push_back({.name = metric.name,
                                 .value = metric.value.value,
                                 .unit = metric.unit,
-                                .undefined = metric.value.not_defined});
+                                .undefined = metric.value.not_defined,
+                                .standard_error = metric.value.standard_error});
   }
   ReferenceOf(record, spec);  // throws where the experiment does not have what is to be met
   return record;
@@ -147,7 +150,9 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
 Reference ReferenceOf(const CampaignRecord& record, const CampaignSpec& spec) {
   return Reference({.image = imaging::DecodeGrayImage(record.aehp_png, "the journal's AEHP"),
                     .frame = ParseRecord<imaging::Frame>(record.frame_json, "the journal's frame")},
-                   spec.experiment.metrics, spec.objective);
+                   {.metrics = spec.experiment.metrics,
+                    .objective = spec.objective,
+                    .num_heaps = record.num_heaps});
 }
 
 std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,

@@ -136,6 +136,9 @@ ObjectiveFinding FindFor(const Evidence& evidence, const ObjectiveInfo& info) {
   const auto column = MetricColumn(evidence, info.metric);
   if (column && info.is_angle && *column < evidence.reference.metrics.size()) {
     finding.reference = evidence.reference.metrics[*column];
+    if (*column < evidence.reference.errors.size()) {
+      finding.reference_error = evidence.reference.errors[*column];
+    }
   }
   const auto measured = column ? MeasurementsOf(evidence, *column) : std::vector<Measurement>{};
   finding.absent = WhyAbsent(info, finding.reference, column.has_value(), !measured.empty());

@@ -45,9 +45,10 @@ struct ModelFinding {
 
 struct ObjectiveFinding {
   ObjectiveInfo info;
-  double reference = kUndefined;  // the experiment's angle
-  double noise_sd = kUndefined;   // scatter of one evaluation of the quantity
-  std::string absent;             // why nothing can be said; empty when there is an answer
+  double reference = kUndefined;        // the experiment's angle
+  double reference_error = kUndefined;  // its standard error, of several runs
+  double noise_sd = kUndefined;         // scatter of one evaluation of the quantity
+  std::string absent;                   // why nothing can be said; empty when there is an answer
   TrialFinding from_trials;
   std::optional<ModelFinding> from_model;  // needs some more trials than none
 

@@ -52,6 +52,7 @@ std::string ComparisonJson(const ComparedCampaign& compared) {
       json["absent"] = f.absent;
     } else {
       json["reference"] = Number(f.reference);
+      json["reference_standard_error"] = Number(f.reference_error);
       json["noise_sd"] = Number(f.noise_sd);
       json["from_trials"] = TrialsJson(compared.evidence, f.from_trials);
       if (f.from_model) json["from_model"] = ModelJson(compared.evidence, *f.from_model);

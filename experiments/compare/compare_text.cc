@@ -16,6 +16,13 @@ std::string Number(double x, int digits = 4) {
 
 using Row = TextRow;
 
+std::string Experiment(const ObjectiveFinding& f) {
+  if (!f.info.is_angle) return "-";
+  const std::string error =
+      std::isfinite(f.reference_error) ? " ± " + Number(f.reference_error, 2) : "";
+  return Number(f.reference) + error + " " + std::string(f.info.unit);
+}
+
 Row Head(const Evidence& evidence, const std::string& first, const Row& more) {
   Row row{first, "measured", "experiment"};
   for (const ParameterInfo& p : evidence.parameters) {
@@ -27,8 +34,7 @@ Row Head(const Evidence& evidence, const std::string& first, const Row& more) {
 
 Row SetRow(const ObjectiveFinding& f, const std::string& measured,
            const std::vector<double>& values) {
-  Row row{std::string(f.info.title), measured + " " + std::string(f.info.unit),
-          f.info.is_angle ? Number(f.reference) + " " + std::string(f.info.unit) : "-"};
+  Row row{std::string(f.info.title), measured + " " + std::string(f.info.unit), Experiment(f)};
   for (const double value : values) row.push_back(Number(value, 3));
   return row;
 }

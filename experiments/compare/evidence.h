@@ -52,6 +52,7 @@ struct TrialEvidence {
 struct ReferenceEvidence {
   imaging::Profile aehp;
   std::vector<double> metrics;      // of the AEHP itself, in the order of Evidence::metrics
+  std::vector<double> errors;       // standard errors of these, from run to run
   double noise_floor = kUndefined;  // leave-one-run-out SAD [mm²]; kUndefined for a lone map
 };
 

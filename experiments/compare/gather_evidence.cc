@@ -96,6 +96,9 @@ void AddTrials(Evidence& evidence, const CampaignRecord& record,
     trial.metrics.resize(evidence.metrics.size(), kUndefined);
   }
   evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
+  std::vector<MetricRecord> errors = record.reference;
+  for (MetricRecord& metric : errors) metric.value = metric.standard_error;
+  evidence.reference.errors = InColumns(errors, evidence.metrics);
   if (!trials.empty()) evidence.scale_factor = trials.front().scale_factor;
 }
 

@@ -164,10 +164,10 @@ void Journal::InsertCampaign(const CampaignRecord& c) {
   database_
       .Prepare(
           "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, "
-          "?13, 'running', '', 0, '')")
+          "?13, 'running', '', 0, '', ?14)")
       .Bind(c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
             c.created_utc, c.objective, Blob{c.aehp_png}, Blob{c.aehp_sd_png}, c.frame_json,
-            c.nebp_px, c.noise_mm2.value_or(std::nan("")))
+            c.nebp_px, c.noise_mm2.value_or(std::nan("")), static_cast<std::int64_t>(c.num_heaps))
       .Finish();
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const ParameterRecord& p = c.parameters[i];
@@ -177,8 +177,8 @@ void Journal::InsertCampaign(const CampaignRecord& c) {
   }
   for (std::size_t i = 0; i < c.reference.size(); ++i) {
     const MetricRecord& m = c.reference[i];
-    database_.Prepare("INSERT INTO reference_metrics VALUES (?1, ?2, ?3, ?4, ?5)")
-        .Bind(static_cast<std::int64_t>(i), m.name, m.value, m.unit, m.undefined)
+    database_.Prepare("INSERT INTO reference_metrics VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
+        .Bind(static_cast<std::int64_t>(i), m.name, m.value, m.unit, m.undefined, m.standard_error)
         .Finish();
   }
 }
@@ -205,8 +205,8 @@ CampaignRecord Journal::Campaign() {
   Statement row = database_.Prepare(
       "SELECT name, spec_path, spec_text, spec_json, spec_hash, talus_version, created_utc, "
       "objective, "
-      "aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, experimental_noise_floor_mm2 FROM "
-      "campaign");
+      "aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, num_heaps, "
+      "experimental_noise_floor_mm2 FROM campaign");
   if (!row.Step()) throw base::Error("the journal holds no campaign");
   CampaignRecord c;
   int column = 0;
@@ -216,6 +216,7 @@ CampaignRecord Journal::Campaign() {
     *text = row.Bytes(column++);
   }
   c.nebp_px = row.Real(column++);
+  c.num_heaps = static_cast<int>(row.Integer(column++));
   if (!row.IsNull(column)) c.noise_mm2 = row.Real(column);
   Statement list =
       database_.Prepare("SELECT name, low, high, scale, unit FROM parameters ORDER BY position");
@@ -227,12 +228,14 @@ CampaignRecord Journal::Campaign() {
                             .unit = list.Text(4)});
   }
   Statement metrics = database_.Prepare(
-      "SELECT name, value, unit, undefined FROM reference_metrics ORDER BY position");
+      "SELECT name, value, unit, undefined, standard_error FROM reference_metrics ORDER BY "
+      "position");
   while (metrics.Step()) {
     c.reference.push_back({.name = metrics.Text(0),
                            .value = metrics.Real(1),
                            .unit = metrics.Text(2),
-                           .undefined = metrics.Text(3)});
+                           .undefined = metrics.Text(3),
+                           .standard_error = metrics.Real(4)});
   }
   return c;
 }

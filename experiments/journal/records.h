@@ -68,6 +68,8 @@ struct MetricRecord {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string unit;       // "mm2", "deg", "-"
   std::string undefined;  // empty when the value is
+  // Of the value, from run to run: known of an experiment of several runs only.
+  double standard_error = std::numeric_limits<double>::quiet_NaN();
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -75,6 +77,7 @@ struct MetricRecord {
     visit("value", self.value);
     visit("unit", self.unit);
     visit("undefined", self.undefined);
+    visit("standard_error", self.standard_error);
   }
 };
 
@@ -94,6 +97,7 @@ struct CampaignRecord {
   std::string aehp_sd_png;          // its standard deviation image; empty for a map without runs
   std::string frame_json;           // the profile's frame, as imaging::Frame is written
   double nebp_px = 0;               // of the AEHP, equivalent black pixels
+  int num_heaps = 1;                // that the AEHP is the mean of: runs, not views
   std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
 
   // All but the images.
@@ -111,6 +115,7 @@ struct CampaignRecord {
     visit("reference", self.reference);
     visit("frame_json", self.frame_json);
     visit("nebp_px", self.nebp_px);
+    visit("num_heaps", self.num_heaps);
     visit("experimental_noise_floor_mm2", self.noise_mm2);
   }
 };

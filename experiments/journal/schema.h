@@ -96,6 +96,11 @@ CREATE TABLE events (
 );
 )sql";
 
-inline constexpr std::array kSchemaSteps{kSchemaVersion1};
+inline constexpr const char* kSchemaVersion2 = R"sql(
+ALTER TABLE campaign ADD COLUMN num_heaps INTEGER NOT NULL DEFAULT 1;  -- the AEHP is the mean of
+ALTER TABLE reference_metrics ADD COLUMN standard_error REAL;          -- NULL when nothing tells it
+)sql";
+
+inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2};
 
 }  // namespace talus::experiments

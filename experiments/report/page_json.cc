@@ -127,6 +127,7 @@ Json FindingJson(const ObjectiveFinding& f) {
             {"unit", f.info.unit},
             {"is_angle", f.info.is_angle},
             {"reference", Number(f.reference)},
+            {"reference_error", Number(f.reference_error)},
             {"noise_sd", Number(f.noise_sd)},
             {"absent", f.absent},
             {"trials",

@@ -10,6 +10,8 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "experiments/journal/database.h"
+#include "experiments/journal/schema.h"
 
 namespace talus::experiments {
 namespace {
@@ -74,9 +76,33 @@ class JournalTest : public ::testing::Test {
     journal.Finish(trial, "image");
   }
 
+  // As the first version of the schema wrote it, with what may not be NULL.
+  void WriteVersion1() const {
+    Database database(File(), Database::Mode::kCreate);
+    database.Execute(kSchemaVersion1);
+    database.Execute(
+        "INSERT INTO campaign VALUES (1, 'old', '', '', '', '', '', '', 'sad', '', '', '{}', 1, "
+        "NULL, 'finished', '', 0, '');"
+        "INSERT INTO reference_metrics VALUES (0, 'nebp_px', 7, 'px', '');"
+        "PRAGMA application_id = " +
+        std::to_string(kJournalApplicationId) + "; PRAGMA user_version = 1");
+  }
+
   std::filesystem::path folder_;
   std::filesystem::path File() const { return JournalPath(folder_); }
 };
+
+TEST_F(JournalTest, OneOfTheFirstVersionIsBroughtUpToDateWhenItIsOpened) {
+  WriteVersion1();
+  EXPECT_THROW(Journal::OpenReadOnly(File()), base::Error);  // what is only read is not changed
+  { Journal::Open(File()); }
+  const CampaignRecord campaign = Journal::OpenReadOnly(File()).Campaign();
+  EXPECT_EQ(campaign.name, "old");
+  EXPECT_EQ(campaign.num_heaps, 1);
+  ASSERT_EQ(campaign.reference.size(), 1u);
+  EXPECT_EQ(campaign.reference[0].value, 7);
+  EXPECT_TRUE(std::isnan(campaign.reference[0].standard_error));
+}
 
 TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   Journal journal = Journal::Create(File(), Campaign());

@@ -10,6 +10,13 @@ function section(id, title, lead, parts) {
 }
 const card = (figure) => element("div", {class: "card"}, figure);
 
+// The charts know the trials' numbers; the answer may stand on their images.
+const modelNote = () => D.headline && D.headline.model.startsWith("modes")
+  ? " This is a model of the numbers alone, drawn because it is quick to ask. The recommended set, its " +
+    "ranges and the sensitivities come from a model of the images, which knows more: where the two " +
+    "differ, believe that one."
+  : "";
+
 function build() {
   const o = D.campaign.objective;
   document.getElementById("name").textContent = D.campaign.name;
@@ -19,7 +26,7 @@ function build() {
   section("space-section", "Parameter space", "", doneTrials().length ? [card(spaceChart())] : []);
   section("model", "Model", "What a Gaussian process of " + o.title + " says between the trials. The slices " +
     "pass through the " + (D.headline ? "recommended set" : "model's best set") + ", with 90\u00a0% bands; the pairs show the " +
-    "chance that a set ties with the best, averaged over the other parameters.", D.slices.length ? [
+    "chance that a set ties with the best, averaged over the other parameters." + modelNote(), D.slices.length ? [
       element("div", {class: "grid three"}, D.slices.map((s, k) => card(sliceChart(s, k)))),
       element("div", {class: "grid three", style: "margin-top:18px"}, D.pairs.map((p, k) => card(pairChart(p, k)))),
       element("div", {style: "margin-top:18px"}, sensitivityTable())] : []);

@@ -96,6 +96,10 @@ const shareBar = (x) => x === null || x === undefined ? "–" : element("span", 
   element("span", {class: "bar", "aria-hidden": "true"},
     element("i", {style: `width:${Math.min(100, Math.max(0, 100 * x))}%`})));
 
+// The experiment's angle, with its standard error from run to run.
+const experimentOf = (o) => !o.is_angle ? "–" : formatUnit(o.reference, o.unit, 4) +
+  (o.reference_error === null ? "" : " ± " + format(o.reference_error, 2));
+
 function comparisonSection() {
   const answered = D.objectives.filter((o) => !o.absent);
   const columns = [{title: "Objective", text: true}, {title: "Measured"}, {title: "Experiment"},
@@ -103,13 +107,13 @@ function comparisonSection() {
     {title: "Tied volume"}];
   const first = answered.map((o) => {
     const b = o.trials.best[0];
-    return [o.title, formatUnit(b.quantity, o.unit, 4), o.is_angle ? formatUnit(o.reference, o.unit, 4) : "–",
+    return [o.title, formatUnit(b.quantity, o.unit, 4), experimentOf(o),
       ...b.values.map((x) => format(x)), o.trials.num_tied + " of " + o.trials.num_sets,
       shareBar(o.trials.tied_volume)];
   });
   const second = answered.filter((o) => o.model).map((o) => [o.title,
     formatUnit(o.model.quantity, o.unit, 4) + " ± " + format(o.model.sd, 2),
-    o.is_angle ? formatUnit(o.reference, o.unit, 4) : "–",
+    experimentOf(o),
     ...o.model.values.map((x) => format(x)), shareBar(o.model.tied_volume)]);
   const parts = [
     element("p", {class: "lead"}, "The best set by each objective, and how much of the searched volume " +
