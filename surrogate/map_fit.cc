@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kLargestBend = 5;  // e^5: one end is stretched 150 times as much as the other
 
+// So many points leave the posterior one maximum worth finding, and each step of a search costs the
+// cube of their number: one search, and a shorter one.
+constexpr Eigen::Index kManyPoints = 100;
+constexpr int kShortSearch = 40;
+
 struct Start {
   Eigen::VectorXd theta;
   double cost = 0;  // minus the log posterior
@@ -78,7 +83,10 @@ MapFit FitHyperparameters(const PooledData& data, const HyperLayout& layout,
   SetBounds(layout, options.noise_floor, task);
   const std::vector<Start> starts = TrialStarts(cost, task, layout, options);
   Start best = starts.front();
-  const int num_searches = std::min<int>(options.num_starts, static_cast<int>(starts.size()));
+  const bool many = data.values.size() > kManyPoints;
+  if (many) task.max_evaluations = std::min(task.max_evaluations, kShortSearch);
+  const int num_searches =
+      std::min<int>(many ? 1 : options.num_starts, static_cast<int>(starts.size()));
   for (int i = 0; i < num_searches; ++i) {
     task.start = starts[static_cast<std::size_t>(i)].theta;
     const Minimum found = Minimize(cost, task);

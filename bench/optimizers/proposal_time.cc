@@ -48,14 +48,14 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
   Optimum(*problem, best, lowest);
   base::Random random(1, base::Stream("proposal time"));
   std::vector<double> proposals;
+  Vec point{};
   for (int i = 0; i < num_trials + 3; ++i) {
     if (i >= num_trials) {
       const std::clock_t start = std::clock();
       strategy->Ask(1, {});
       proposals.push_back(Seconds(start));
     }
-    Vec point;
-    for (std::size_t k = 0; k < point.size(); ++k) {
+    for (std::size_t k = 0; k < point.size() && i != 1; ++k) {  // 1 repeats 0: it scatters
       point[k] =
           i % 2 == 0 ? random.Uniform() : std::clamp(best[k] + 0.05 * random.Normal(), 0.0, 1.0);
     }
