@@ -11,10 +11,11 @@ namespace talus::engine {
 
 namespace {
 
-// Small enough that a chunk's rows stay in the second-level cache, large enough that few pairs
-// reach beyond it.
+// Chunks are small in a small scene, for the threads to share. In a large one they must be larger
+// than a layer of the grid's cells, so that forces reach into the next chunk only: what is added
+// across chunks costs more than what the second-level cache saves.
 constexpr std::int64_t kChunkSize = 1024;
-constexpr std::int64_t kMaxChunks = 128;
+constexpr std::int64_t kMaxChunks = 24;
 constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them evenly
 
 // An overlap, in parts of the distance at which surfaces meet, that no contact law is meant for.

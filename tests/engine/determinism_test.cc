@@ -38,8 +38,7 @@ Scene Busy(int per_side) {
   return scene;
 }
 
-void ExpectSameBitsForAllThreads(int per_side, std::int64_t num_steps) {
-  Scene scene = Busy(per_side);
+void ExpectSameBitsForAllThreads(Scene scene, std::int64_t num_steps) {
   std::string one;
   for (const int threads : {1, 2, 3, 5}) {
     scene.num_threads = threads;
@@ -53,12 +52,18 @@ void ExpectSameBitsForAllThreads(int per_side, std::int64_t num_steps) {
 }
 
 TEST(Determinism, ThreadsDoNotChangeTheBits) {
-  ExpectSameBitsForAllThreads(16, 200);  // 4096 spheres, four chunks, more threads than chunks
+  ExpectSameBitsForAllThreads(Busy(16),
+                              200);  // 4096 spheres, four chunks, more threads than chunks
 }
 
-// A layer of this cloud has more spheres than a chunk: forces reach over two chunks.
+// One large sphere makes the cells large: a layer of them holds more spheres than a chunk, and
+// forces reach over several chunks.
 TEST(Determinism, ThreadsDoNotChangeTheBitsWhereChunksReachFar) {
-  ExpectSameBitsForAllThreads(36, 40);
+  Scene scene = Busy(22);
+  scene.particles.push_back({.id = static_cast<std::int64_t>(scene.particles.size()),
+                             .radius = 5e-3,
+                             .position = {0.02, 0.02, 0.06}});
+  ExpectSameBitsForAllThreads(scene, 60);
 }
 
 TEST(Determinism, LookingAndStoppingInBetweenChangesNothing) {
