@@ -1,11 +1,14 @@
 // Every number that two profiles are compared by, in one list.
 //
-// a, b = 1 − I/255, the share of the views with powder, of the heap and of its reference:
-//   sad       Σ|a − b|               [px] equivalent black pixels, [mm²], and / NEBP of the
-//   reference rmse      255 √mean((a − b)²)    [grey levels], over the canvas or a region of it iou
-//   Σ min(a,b) / Σ max(a,b) nebp      Σ a                    [px], number of equivalent black
-//   pixels triangle  angle of the isosceles triangle on the plate of the same area, tan θ = 4 A /
-//   D² cohesive  ∫|h − h_triangle| dx / A, how far the outline is from that triangle
+// With a, b = 1 − I/255, the share of the views with powder, of the heap and of its reference:
+//
+//   sad       Σ|a − b| in px (equivalent black pixels), in mm², and over the reference's NEBP
+//   rmse      255 √mean((a − b)²) in grey levels, over the canvas or a region of it
+//   iou       Σ min(a, b) / Σ max(a, b)
+//   nebp      Σ a in px, the number of equivalent black pixels, and in mm²
+//   triangle  angle of the isosceles triangle on the plate of the same area, tan θ = 4 A / D²
+//   cohesive  ∫|h − h_triangle| dx / A, how far the outline is from that triangle
+//
 // and the angles of repose (repose_angle.h).
 #pragma once
 
