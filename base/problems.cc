@@ -19,6 +19,9 @@ void Problems::Add(std::string_view path, std::string message) {
 
 void Problems::Require(bool ok, std::string_view path, double value, std::string_view rule) {
   if (ok) return;
+  const bool known = std::any_of(list_.begin(), list_.end(),
+                                 [full = FullPath(path)](const auto& p) { return p.path == full; });
+  if (known) return;
   std::ostringstream text;
   text << "is " << value << ", " << rule;
   Add(path, text.str());

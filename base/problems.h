@@ -31,7 +31,8 @@ class Problems {
   // Adds a problem with the value at `path`, taken relative to the enclosing Within.
   void Add(std::string_view path, std::string message);
 
-  // Adds "is VALUE, RULE" unless `ok`; state what must hold, so that NaN fails too.
+  // Adds "is VALUE, RULE" unless `ok`; state what must hold, so that NaN fails too. Says nothing of
+  // a value that has a problem already: one that could not be read still has its default.
   void Require(bool ok, std::string_view path, double value, std::string_view rule);
   void Require(bool ok, std::string_view path, std::string_view message);
 

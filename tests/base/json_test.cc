@@ -18,6 +18,7 @@ struct Names<Color> {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Inner {
   double diameter = 1e-3;
@@ -49,6 +50,19 @@ struct Outer {
     visit("position", self.position, {.dimension = Dimension::kLength});
     visit("color", self.color);
     visit("name", self.name, {.required = true});
+  }
+};
+
+// The default breaks the rule, so that a value must be given.
+struct Powder {
+  double mass = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("mass", self.mass, {.dimension = Dimension::kMass, .required = true});
+  }
+  void Validate(Problems& problems) const {
+    problems.Require(mass > 0, "mass", mass, "must be positive");
   }
 };
 
@@ -90,6 +104,17 @@ TEST(Json, ReportsEveryProblemWithItsPathLineAndColumn) {
   EXPECT_THAT(error, HasSubstr("spec.json:4:11: mass: \"3 m\" has the unit \"m\""));
   EXPECT_THAT(error, HasSubstr("spec.json:5:12: color: must be one of \"red\", \"blue\""));
   EXPECT_THAT(error, HasSubstr("name: is missing"));
+}
+
+TEST(Json, ValueThatCannotBeReadIsReportedOnce) {
+  for (const char* text : {"{}", R"({"mass": "3 m"})", R"({"mass": true})"}) {
+    try {
+      LoadOptions<Powder>(ParseJson(text, "spec.json"));
+      ADD_FAILURE() << text;
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n"))) << text;
+    }
+  }
 }
 
 TEST(Json, SyntaxErrorsAndDoubleKeysNameTheirPlace) {
