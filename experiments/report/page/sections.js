@@ -5,7 +5,10 @@ function standing() {
   const c = D.campaign, failed = D.trials.state.filter((s) => s === "failed").length;
   const running = D.trials.state.filter((s) => s === "running").length;
   const done = D.trials.state.filter((s) => s === "done").length;
-  const parts = [done + " simulations" + (c.budget ? " of at most " + c.budget : "")];
+  const confirming = D.trials.state.filter(
+    (s, i) => s === "done" && D.trials.purpose[i] === "confirm").length;
+  const parts = [done - confirming + " simulations" + (c.budget ? " of at most " + c.budget : "")];
+  if (confirming) parts.push(confirming + " confirming");
   if (failed) parts.push(failed + " failed");
   if (running) parts.push(running + " running");
   if (c.core_hours !== null) parts.push(format(c.core_hours) + " core-hours");
