@@ -109,9 +109,14 @@ def lose_node():
     node = slurm("hostname", "-s").strip()
     slurm("scontrol", "update", "nodename=" + node, "state=down", "reason=test")
     wait_for(lambda: not slurm("squeue", "--me", "--noheader", "--states=running,completing"))
-    # Refused as long as the node's last state is being dealt with.
-    wait_for(lambda: subprocess.run(["scontrol", "update", "nodename=" + node, "state=resume"],
-                                    capture_output=True).returncode == 0)
+    # Resuming is refused as long as the node's last state is being dealt with, and also when it has
+    # come back by itself: what counts is the state it is in.
+    def is_back():
+        subprocess.run(["scontrol", "update", "nodename=" + node, "state=resume"],
+                       capture_output=True)
+        return slurm("sinfo", "--noheader", "--format=%t").split() in (["idle"], ["mix"], ["alloc"])
+
+    wait_for(is_back)
 
 
 def run_twice(root, name, interrupt, runner):
