@@ -6,18 +6,11 @@
 
 #include "base/random.h"
 #include "optimizer/lattice.h"
+#include "optimizer/places.h"
 #include "optimizer/sobol_indices.h"
 
 namespace talus::optimizer {
 namespace {
-
-Eigen::MatrixXd Inside(const Domain& domain, const Eigen::MatrixXd& points) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    if (domain.Contains(points.row(i))) kept.push_back(i);
-  }
-  return points(kept, Eigen::all);
-}
 
 // Places round `point` at distances from 3e-5 to 0.3, since the minimum may be known that well.
 Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t seed) {
@@ -30,12 +23,6 @@ Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t se
     }
   }
   return places;
-}
-
-Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom) {
-  Eigen::MatrixXd both(top.rows() + bottom.rows(), top.cols());
-  both << top, bottom;
-  return both;
 }
 
 struct Box {

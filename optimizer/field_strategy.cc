@@ -8,6 +8,7 @@
 #include "optimizer/answer.h"
 #include "optimizer/lattice.h"
 #include "optimizer/model_search.h"
+#include "optimizer/places.h"
 
 namespace talus::optimizer {
 namespace {
@@ -89,18 +90,13 @@ Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& ask
   const auto index = static_cast<std::uint64_t>(fields_.size()) + asked.size();
   base::Random random(options_.seed, base::Stream("explored draw"), index);
   const Eigen::VectorXd lowest = LowestMean(model);
-  std::vector<Eigen::VectorXd> kept{lowest};
-  const Eigen::MatrixXd even = Lattice(kNumEven, domain_.num_parameters, options_.seed + index);
-  for (int i = 0; i < kNumEven + kNumNear; ++i) {
-    Eigen::VectorXd place = i < kNumEven ? Eigen::VectorXd(even.row(i)) : lowest;
-    const double reach = i < kNumEven ? 0 : 0.2 * random.Uniform();
-    for (double& x : place) x = std::clamp(x + reach * random.Normal(), 0.0, 1.0);
-    if (domain_.Contains(place)) kept.push_back(place);
-  }
-  Eigen::MatrixXd places(static_cast<Eigen::Index>(kept.size()), domain_.num_parameters);
+  Eigen::MatrixXd places = Stack(Lattice(kNumEven, domain_.num_parameters, options_.seed + index),
+                                 lowest.transpose().replicate(kNumNear, 1));
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
-    places.row(i) = kept[static_cast<std::size_t>(i)];
+    const double reach = i < kNumEven ? 0 : 0.2 * random.Uniform();
+    for (double& x : places.row(i)) x = std::clamp(x + reach * random.Normal(), 0.0, 1.0);
   }
+  places = Stack(lowest.transpose(), Inside(domain_, places));
   const History& history = scalar_.history();
   const double spread = history.values.maxCoeff() - history.values.minCoeff();
   const Eigen::VectorXd values = model.Draw(places, 1, random).row(0).transpose() -

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "optimizer/lattice.h"
+#include "optimizer/places.h"
 #include "surrogate/nlopt_minimize.h"
 
 namespace talus::optimizer {
@@ -19,27 +20,18 @@ Eigen::MatrixXd Candidates(const Domain& domain, const Eigen::MatrixXd& centers,
                            const SearchOptions& options) {
   const int dimension = domain.num_parameters;
   base::Random random(options.seed, base::Stream("model search"));
-  std::vector<Eigen::VectorXd> kept;
-  for (Eigen::Index i = 0; i < centers.rows(); ++i) kept.emplace_back(centers.row(i));
   const int num_even = centers.rows() > 0 ? options.num_candidates / 2 : options.num_candidates;
-  const Eigen::MatrixXd even = Lattice(num_even, dimension, options.seed);
-  for (int i = 0; i < options.num_candidates; ++i) {
-    Eigen::VectorXd point(dimension);
-    if (i < num_even) {
-      point = even.row(i);
-    } else {
-      const auto center = static_cast<Eigen::Index>(i) % centers.rows();
-      const double radius = 0.3 * std::pow(10.0, -2.5 * random.Uniform());
-      for (int k = 0; k < dimension; ++k) {
-        point[k] = std::clamp(centers(center, k) + radius * random.Normal(), 0.0, 1.0);
-      }
+  Eigen::MatrixXd places(options.num_candidates, dimension);
+  places.topRows(num_even) = Lattice(num_even, dimension, options.seed);
+  for (int i = num_even; i < options.num_candidates; ++i) {
+    const auto center = static_cast<Eigen::Index>(i) % centers.rows();
+    const double radius = 0.3 * std::pow(10.0, -2.5 * random.Uniform());
+    for (int k = 0; k < dimension; ++k) {
+      places(i, k) = std::clamp(centers(center, k) + radius * random.Normal(), 0.0, 1.0);
     }
-    if (domain.Contains(point)) kept.push_back(point);
   }
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(kept.size()), dimension);
-  for (Eigen::Index i = 0; i < result.rows(); ++i)
-    result.row(i) = kept[static_cast<std::size_t>(i)];
-  return result;
+  places = Inside(domain, places);
+  return centers.rows() > 0 ? Stack(centers, places) : places;
 }
 
 // The best candidates, none within 0.02 of a better one in every coordinate, so that the local
