@@ -33,15 +33,14 @@ void SearchOn(const Arguments& arguments) {
   }
 }
 
-std::string StrategyComparison(const Arguments& arguments,
-                               const std::vector<ObjectiveFinding>& findings) {
+std::string StrategyComparison(const Arguments& arguments, const ComparedCampaign& compared) {
   std::vector<std::string> names{arguments.campaign};
   names.insert(names.end(), arguments.with.begin(), arguments.with.end());
-  std::vector<Evidence> all;
-  for (const std::string& name : names) all.push_back(GatherEvidence(name));
+  std::vector<Evidence> all{compared.evidence};
+  for (const std::string& name : arguments.with) all.push_back(GatherEvidence(name));
   const auto runs = CompareStrategies(names, all);
   double margin = 0;
-  for (const ObjectiveFinding& f : findings) {
+  for (const ObjectiveFinding& f : compared.findings) {
     if (f.info.key == all.front().objective) margin = f.margin();
   }
   base::WriteFileAtomically(arguments.out / "strategies.csv", StrategiesCsv(runs));
@@ -72,7 +71,7 @@ void RunCompare(Arguments arguments) {
   if (error) throw base::Error(arguments.out.string() + ": cannot be made: " + error.message());
   WriteComparison(compared, arguments.out);
   std::string text = ComparisonText(compared) + "\n";
-  if (!arguments.with.empty()) text += StrategyComparison(arguments, findings);
+  if (!arguments.with.empty()) text += StrategyComparison(arguments, compared);
   base::WriteFileAtomically(arguments.out / "compare.txt", text);
   std::cout << text << "  Tables and pictures are in " << arguments.out.string() << '\n';
 }
