@@ -1,4 +1,4 @@
-// engine_scaling [LARGEST_SIDE]
+// engine_scaling [LARGEST_SIDE [BLOCKS]]
 // Cost of a particle step and memory of a particle, from 4 thousand to a million spheres: cubes of
 // spheres that touch all six neighbours, in a box, so that every size has the same contacts.
 #include <algorithm>
@@ -48,40 +48,60 @@ engine::Scene Cube(int side) {
   return scene;
 }
 
-// The same steps of every size: as they go on, the cubes shake less and the list lasts longer. The
-// fastest of some blocks is what the work costs; others share the machine.
-constexpr int kWarmSteps = 60;
-constexpr int kBlocks = 6;
-constexpr int kSteps = 20;
+// One cube, and the fastest of its blocks of steps: others share the machine.
+class Sample {
+ public:
+  explicit Sample(int side) : simulation_(Cube(side)) { simulation_.Advance(kWarmSteps); }
 
-void Measure(int side) {
-  engine::Simulation simulation(Cube(side));
-  const auto num = simulation.num_particles();
-  simulation.Advance(kWarmSteps);
-  const auto rebuilds = simulation.Statistics().num_rebuilds;
-  double used = INFINITY;
-  for (int block = 0; block < kBlocks; ++block) {
+  // As they go on, the cubes shake less and the list lasts longer, so all of them do the same
+  // steps.
+  void Advance() {
     const double cpu = bench::CpuSeconds();
-    simulation.Advance(kSteps);
-    used = std::min(used, bench::CpuSeconds() - cpu);
+    simulation_.Advance(kSteps);
+    used_ = std::min(used_, bench::CpuSeconds() - cpu);
   }
-  const engine::ListStatistics list = simulation.Statistics();
-  const auto per_particle = [&](double count) { return count / static_cast<double>(num); };
-  std::printf(
-      "%8lld spheres  %6.1f ns a particle step  %5.0f B a particle  contacts %.2f  pairs %.2f  "
-      "rebuilds %lld\n",
-      static_cast<long long>(num), per_particle(used / kSteps) * 1e9,
-      per_particle(bench::PeakMegabytes() * 1048576),
-      per_particle(static_cast<double>(list.num_contacts)),
-      per_particle(static_cast<double>(list.num_pairs)),
-      static_cast<long long>(list.num_rebuilds - rebuilds));
-}
+  double Nanoseconds() const { return PerParticle(used_ / kSteps) * 1e9; }  // a particle step
+
+  void Print(double nanoseconds_of_smallest) const {
+    const engine::ListStatistics list = simulation_.Statistics();
+    std::printf(
+        "%8lld spheres  %6.1f ns a particle step  %.2f of the smallest  contacts %.2f  pairs "
+        "%.2f  lists %lld\n",
+        static_cast<long long>(simulation_.num_particles()), Nanoseconds(),
+        Nanoseconds() / nanoseconds_of_smallest,
+        PerParticle(static_cast<double>(list.num_contacts)),
+        PerParticle(static_cast<double>(list.num_pairs)),
+        static_cast<long long>(list.num_rebuilds));
+  }
+  double PerParticle(double value) const {
+    return value / static_cast<double>(simulation_.num_particles());
+  }
+
+ private:
+  static constexpr int kWarmSteps = 60;
+  static constexpr int kSteps = 20;
+
+  engine::Simulation simulation_;
+  double used_ = INFINITY;  // CPU time of the fastest block [s]
+};
 
 }  // namespace
 
+// The largest first: so far the peak of the memory is its own. Then all sizes in turn, so that the
+// machine's good and bad moments are shared.
 int main(int argc, char** argv) {
   const int largest = argc > 1 ? std::atoi(argv[1]) : 100;
-  for (const int side : {16, 32, 46, 64, 100}) {
-    if (side <= largest) Measure(side);
+  const int blocks = argc > 2 ? std::atoi(argv[2]) : 6;
+  std::vector<Sample> samples;
+  for (const int side : {100, 64, 46, 32, 16}) {
+    if (side > largest) continue;
+    samples.emplace_back(side);
+    if (samples.size() > 1) continue;
+    std::printf("%.0f B a particle of the largest\n",
+                samples[0].PerParticle(bench::PeakMegabytes() * 1048576));
   }
+  for (int block = 0; block < blocks; ++block) {
+    for (Sample& sample : samples) sample.Advance();
+  }
+  for (const Sample& sample : samples) sample.Print(samples.back().Nanoseconds());
 }

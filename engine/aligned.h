@@ -21,16 +21,20 @@ struct CacheLineAllocator {
   bool operator==(const CacheLineAllocator&) const = default;
 };
 
-// Makes `list` count copies of `value`. Grows by half when it must, so that counts that wander a
-// little do not allocate again and again.
+// Lengthens `list` to `count` elements with copies of `value`. Takes half as much again when it
+// must grow, so that counts that wander a little do not allocate again and again.
+template <class List>
+void ExtendWithRoom(List& list, std::int64_t count, const typename List::value_type& value) {
+  const auto size = static_cast<std::size_t>(count);
+  if (size > list.capacity()) list.reserve(size + size / 2);
+  list.resize(size, value);
+}
+
+// Makes `list` count copies of `value`, with room as above.
 template <class List>
 void AssignWithRoom(List& list, std::int64_t count, const typename List::value_type& value) {
-  const auto size = static_cast<std::size_t>(count);
-  if (size > list.capacity()) {
-    list.clear();
-    list.reserve(size + size / 2);
-  }
-  list.assign(size, value);
+  list.clear();
+  ExtendWithRoom(list, count, value);
 }
 
 template <class T>

@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 1;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 2;  // raised with every change of what is written
 
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};
@@ -88,6 +88,7 @@ void VisitList(Archive& archive, ContactList& list) {
     archive(chunk.begin);
     archive(chunk.end);
     archive(chunk.window_end);
+    archive(chunk.panels);
     archive(chunk.blocks);
     archive(chunk.touching);
     archive(chunk.runs);
@@ -155,8 +156,8 @@ Simulation Simulation::Restore(std::string_view bytes, int num_threads) {
   ByteReader reader(bytes);
   VisitState(reader, *state);
   if (!reader.AtEnd()) throw base::Error("the checkpoint is damaged");
-  state->num_threads = num_threads;
-  state->list.PrepareForces(num_threads);
+  state->SetThreads(num_threads);
+  state->list.PrepareForces(state->team->size());
   state->SetConstants();
   state->walls.SetTime(state->time(), state->dt);
   return Simulation(std::move(state));

@@ -62,7 +62,7 @@ std::vector<Load> SimulationState::Loads() {
   for (Chunk& chunk : list.chunks()) {
     const auto blocks = chunk.blocks;
     const auto touching = chunk.touching;
-    forces(view, chunk.View());
+    for (const Panel& panel : chunk.panels) forces(view, chunk.View(panel));
     chunk.blocks = blocks;
     chunk.touching = touching;
     for (std::int64_t i = chunk.begin; i < chunk.window_end; ++i) {

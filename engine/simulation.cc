@@ -37,7 +37,7 @@ std::unique_ptr<SimulationState> Start(const Scene& scene) {
   scene.Validate(problems);
   problems.ThrowIfAny();
   auto state = std::make_unique<SimulationState>();
-  state->num_threads = scene.num_threads;
+  state->SetThreads(scene.num_threads);
   state->materials = scene.materials;
   state->models = scene.models;
   state->gravity = scene.gravity;

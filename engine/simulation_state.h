@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/neighbor/skin_tuner.h"
 #include "engine/particle_store.h"
 #include "engine/simulation.h"
+#include "engine/team.h"
 #include "engine/wall_set.h"
 
 namespace talus::engine {
@@ -22,7 +24,7 @@ struct Load {
 
 struct SimulationState {
   const KernelTable* kernels = &ChooseKernels();
-  int num_threads = 1;
+  std::unique_ptr<Team> team;
 
   std::vector<Material> materials;
   ContactModels models;
@@ -37,7 +39,6 @@ struct SimulationState {
   ContactList list;
   SkinTuner tuner;
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
-  std::vector<MotionCheck> checks;          // of each chunk
   double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
 
   std::vector<PairConstants> constants;  // of materials a, b at a · materials.size() + b
@@ -47,6 +48,9 @@ struct SimulationState {
   StepView View();
   ForcesFunction Forces() const;  // the kernel of the models
 
+  // Makes the team; more threads than chunks would have nothing to do.
+  void SetThreads(int num_threads);
+
   // After a change of materials.
   void SetConstants();
 
@@ -54,8 +58,9 @@ struct SimulationState {
   void Rebuild(std::span<const std::int32_t> alive);
   void RebuildAll();
 
-  void Advance();                // one step
-  MotionCheck Sweep();           // forces and motion of all chunks
+  void Advance();       // one step
+  MotionCheck Sweep();  // forces and motion of all chunks
+  void Move(const StepView& view, Chunk& chunk, const PanelView& panel);
   void Watch(double max_speed);  // rebuilds the list when something may have moved too far
 
   // Forces at the present positions, by particle index, as the next step will find them. Changes

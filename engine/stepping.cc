@@ -1,6 +1,4 @@
 // The step: forces, motion, walls, and the list when it is due.
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,6 +8,15 @@
 #include "engine/simulation_state.h"
 
 namespace talus::engine {
+
+namespace {
+
+void Add(const MotionCheck& part, MotionCheck& all) {
+  all.max_speed_squared = std::max(all.max_speed_squared, part.max_speed_squared);
+  all.sound = all.sound && part.sound;
+}
+
+}  // namespace
 
 StepView SimulationState::View() {
   return {.motion = particles.motion.data(),
@@ -23,6 +30,10 @@ StepView SimulationState::View() {
 
 ForcesFunction SimulationState::Forces() const {
   return kernels->forces[static_cast<int>(models.adhesion)][static_cast<int>(models.rolling)];
+}
+
+void SimulationState::SetThreads(int num_threads) {
+  team = std::make_unique<Team>(std::min(num_threads, kMaxChunks));
 }
 
 void SimulationState::SetConstants() {
@@ -51,7 +62,7 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
                   .walls = walls,
                   .reach = tuner.skin() + adhesion_gap,
                   .num_materials = static_cast<std::int64_t>(materials.size()),
-                  .num_threads = num_threads},
+                  .team = *team},
                  alive);
   } catch (const base::Error& error) {
     throw base::Error(StepText(*this) + error.what());
@@ -61,44 +72,37 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
   wall_moved = 0;
 }
 
-// A particle's forces come from its own chunk and from those before, up to `reach` away. So a chunk
-// moves as soon as its pairs are done, while its rows are in the cache; only the first chunks of a
-// thread wait for the thread before.
+void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& panel) {
+  const auto num_overhangs = static_cast<std::int64_t>(chunk.overhangs.size());
+  Add(kernels->integrate(view, panel, chunk.overhangs.data(), num_overhangs), chunk.check);
+}
+
+// A particle's forces come from its own panel, from those before it, and from the chunks before, up
+// to `reach` away. So a panel moves as soon as its pairs are done, while its rows are in the cache;
+// only the first chunks of a member wait for the members before.
 MotionCheck SimulationState::Sweep() {
   const StepView view = View();
   const ForcesFunction forces = Forces();
   std::vector<Chunk>& chunks = list.chunks();
-  const auto num_chunks = static_cast<std::int64_t>(chunks.size());
-  checks.resize(num_chunks);
-  const auto move = [&](std::int64_t c) {
-    checks[c] = kernels->integrate(view, chunks[c].View(), chunks[c].overhangs.data(),
-                                   static_cast<std::int64_t>(chunks[c].overhangs.size()));
-  };
-  const auto sweep = [&](std::int64_t begin, std::int64_t end, std::int64_t moves_from) {
+  team->Run([&](int member) {
+    const auto [begin, end] = team->ShareOf(member, static_cast<std::int64_t>(chunks.size()));
+    const std::int64_t moves_from = member == 0 ? 0 : std::min(begin + list.reach(), end);
     for (std::int64_t c = begin; c < end; ++c) {
-      forces(view, chunks[c].View());
-      if (c >= moves_from) move(c);
+      chunks[c].check = {0, true};
+      for (const Panel& part : chunks[c].panels) {
+        const PanelView panel = chunks[c].View(part);
+        forces(view, panel);
+        if (c >= moves_from) Move(view, chunks[c], panel);
+      }
     }
-  };
-  if (num_threads == 1 || num_chunks == 1) {
-    sweep(0, num_chunks, 0);
-  } else {
-#pragma omp parallel num_threads(num_threads)
-    {
-      const std::int64_t threads = omp_get_num_threads(), thread = omp_get_thread_num();
-      const std::int64_t begin = num_chunks * thread / threads;
-      const std::int64_t end = num_chunks * (thread + 1) / threads;
-      const std::int64_t moves_from = thread == 0 ? 0 : std::min(begin + list.reach(), end);
-      sweep(begin, end, moves_from);
-#pragma omp barrier
-      for (std::int64_t c = begin; c < moves_from; ++c) move(c);
+    team->FinishFirstPart(member);
+    team->AwaitFirstPartsBefore(member);
+    for (std::int64_t c = begin; c < moves_from; ++c) {
+      for (const Panel& part : chunks[c].panels) Move(view, chunks[c], chunks[c].View(part));
     }
-  }
+  });
   MotionCheck all{0, true};
-  for (const MotionCheck& check : checks) {
-    all.max_speed_squared = std::max(all.max_speed_squared, check.max_speed_squared);
-    all.sound = all.sound && check.sound;
-  }
+  for (const Chunk& chunk : chunks) Add(chunk.check, all);
   return all;
 }
 

@@ -1,4 +1,4 @@
-// Forces of one chunk: eight pairs at a time, all of one run with the same two materials.
+// Forces of one panel: eight pairs at a time, all of one run with the same two materials.
 //
 // Each block is loaded, answered by the law and added to the force rows in list order, so that the
 // sums do not depend on who computes what. Pairs out of reach cost the distance test only.
@@ -85,7 +85,7 @@ TALUS_INLINE Response<Lanes> Answer(const PairConstants& constants, const StepVi
 }
 
 template <class NormalLaw, class RollingLaw>
-TALUS_INLINE void SpherePart(const StepView& step, const ChunkView& chunk,
+TALUS_INLINE void SpherePart(const StepView& step, const PanelView& panel,
                              const PairConstants& constants, const Part& part) {
   const Positions pi = LoadPositions(step, part.first());
   const Positions pj = LoadPositions(step, part.second());
@@ -105,14 +105,14 @@ TALUS_INLINE void SpherePart(const StepView& step, const ChunkView& chunk,
                                              i.radius * j.radius * inverse_radii, surface, i, j);
   const Response<Lanes> on_i =
       Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
-  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, chunk.forces, part.first(),
-                   chunk.begin);
-  AddToRows<true>(on_i.force, on_i.rolling - j.radius * on_i.lever, chunk.forces, part.second(),
-                  chunk.begin);
+  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, part.first(),
+                   panel.begin);
+  AddToRows<true>(on_i.force, on_i.rolling - j.radius * on_i.lever, panel.forces, part.second(),
+                  panel.begin);
 }
 
 template <class NormalLaw, class RollingLaw>
-TALUS_INLINE void WallPart(const StepView& step, const ChunkView& chunk,
+TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
                            const PairConstants& constants, const WallView& wall, const Part& part) {
   const Positions p = LoadPositions(step, part.first());
   const NearestPoint<Lanes> nearest = Nearest(wall, p.at);
@@ -127,28 +127,28 @@ TALUS_INLINE void WallPart(const StepView& step, const ChunkView& chunk,
       MakeContact(nearest.normal, overlap, i.radius, i.radius * i.angular_velocity, i, j);
   const Response<Lanes> on_i =
       Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
-  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, chunk.forces, part.first(),
-                   chunk.begin);
+  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, part.first(),
+                   panel.begin);
 }
 
-// Asks for what the sweep will come to soon. A chunk's pairs reach `window` particles beyond their
+// Asks for what the sweep will come to soon. A panel's pairs reach `window` particles beyond their
 // first one, so the rows come up one after the other, as do the blocks.
 class Ahead {
  public:
-  TALUS_INLINE Ahead(const StepView& step, const ChunkView& chunk)
-      : step_(step), chunk_(chunk), next_row_(chunk.begin) {}
+  TALUS_INLINE Ahead(const StepView& step, const PanelView& panel)
+      : step_(step), panel_(panel), next_row_(panel.fresh) {}
 
   TALUS_INLINE void Block(const PairBlock* block) const {
     const auto* line = reinterpret_cast<const char*>(block);
     for (std::size_t at = 0; at < sizeof(PairBlock); at += 64) _mm_prefetch(line + at, _MM_HINT_T0);
   }
   TALUS_INLINE void Rows(std::int64_t first) {
-    const std::int64_t wanted = first + (chunk_.window_end - chunk_.end) + kRowsAhead;
-    const std::int64_t last = wanted < chunk_.window_end ? wanted : chunk_.window_end;
+    const std::int64_t wanted = first + (panel_.window_end - panel_.end) + kRowsAhead;
+    const std::int64_t last = wanted < panel_.window_end ? wanted : panel_.window_end;
     for (; next_row_ < last; ++next_row_) {
       _mm_prefetch(reinterpret_cast<const char*>(step_.motion + 8 * next_row_), _MM_HINT_T0);
       _mm_prefetch(reinterpret_cast<const char*>(step_.spin + 4 * next_row_), _MM_HINT_T0);
-      _mm_prefetch(reinterpret_cast<const char*>(chunk_.forces + 8 * (next_row_ - chunk_.begin)),
+      _mm_prefetch(reinterpret_cast<const char*>(panel_.forces + 8 * (next_row_ - panel_.begin)),
                    _MM_HINT_T0);
     }
   }
@@ -156,28 +156,28 @@ class Ahead {
  private:
   static constexpr std::int64_t kRowsAhead = 16;
   const StepView& step_;
-  const ChunkView& chunk_;
+  const PanelView& panel_;
   std::int64_t next_row_;
 };
 
 template <class NormalLaw, class RollingLaw>
-void Forces(const StepView& step, const ChunkView& chunk) {
-  Ahead ahead(step, chunk);
-  for (std::int64_t r = 0; r < chunk.num_runs; ++r) {
-    const Run run = chunk.runs[r];
+void Forces(const StepView& step, const PanelView& panel) {
+  Ahead ahead(step, panel);
+  for (std::int64_t r = 0; r < panel.num_runs; ++r) {
+    const Run run = panel.runs[r];
     const PairConstants constants = step.constants[run.constants];
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;
-      ahead.Block(chunk.blocks + at + 3);
-      ahead.Rows(chunk.blocks[at].first[0]);
+      ahead.Block(panel.blocks + at + 3);
+      ahead.Rows(panel.blocks[at].first[0]);
       for (int lane = 0; lane < kBlock; lane += Lanes::kWidth) {
         const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
-        const Part part{chunk.blocks[at], chunk.touching[at], lane, Lanes::Iota() < Lanes(left)};
+        const Part part{panel.blocks[at], panel.touching[at], lane, Lanes::Iota() < Lanes(left)};
         if (run.wall < 0) {
-          SpherePart<NormalLaw, RollingLaw>(step, chunk, constants, part);
+          SpherePart<NormalLaw, RollingLaw>(step, panel, constants, part);
         } else {
-          WallPart<NormalLaw, RollingLaw>(step, chunk, constants, step.walls[run.wall], part);
+          WallPart<NormalLaw, RollingLaw>(step, panel, constants, step.walls[run.wall], part);
         }
       }
     }

@@ -1,4 +1,4 @@
-// One step of the leapfrog (M3) for the particles of a chunk, once all their forces are there.
+// One step of the leapfrog (M3) for the particles of a panel, once all their forces are there.
 #pragma once
 
 #include "engine/kernel/simd.h"
@@ -45,14 +45,14 @@ TALUS_INLINE Lanes Advance(const StepView& step, std::int64_t at, const Load6& l
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-MotionCheck Integrate(const StepView& step, const ChunkView& chunk, const Overhang* overhangs,
+MotionCheck Integrate(const StepView& step, const PanelView& panel, const Overhang* overhangs,
                       std::int64_t num_overhangs) {
   const std::int32_t index[kBlock] = {0, 1, 2, 3, 4, 5, 6, 7};
   const Lanes limit(step.speed_limit * step.speed_limit);
   Lanes fastest(0.0);
   unsigned sound = (1u << Lanes::kWidth) - 1u;
-  for (std::int64_t at = chunk.begin; at < chunk.end; at += Lanes::kWidth) {
-    double* rows = chunk.forces + 8 * (at - chunk.begin);
+  for (std::int64_t at = panel.begin; at < panel.end; at += Lanes::kWidth) {
+    double* rows = panel.forces + 8 * (at - panel.begin);
     Load6 load = LoadForces(rows, index);
     for (std::int64_t o = 0; o < num_overhangs; ++o) {
       const Overhang& over = overhangs[o];

@@ -56,9 +56,10 @@ struct StepView {
 };
 
 // The particles [begin, end) and the pairs whose first particle is among them. Force rows
-// {fx, fy, fz, 0, tx, ty, tz, 0} exist for [begin, window_end), which holds all second ones.
-struct ChunkView {
-  std::int64_t begin, end, window_end;
+// {fx, fy, fz, 0, tx, ty, tz, 0} exist for [begin, window_end), which holds all second ones; those
+// before `fresh` have been in use a moment ago.
+struct PanelView {
+  std::int64_t begin, end, window_end, fresh;
   PairBlock* blocks;
   std::uint8_t* touching;  // of each block: lanes with δ > 0 at the last evaluation
   const Run* runs;
@@ -104,13 +105,13 @@ struct Displacements {
   double second_squared;   // [m²]
 };
 
-using ForcesFunction = void (*)(const StepView&, const ChunkView&);
+using ForcesFunction = void (*)(const StepView&, const PanelView&);
 
 struct KernelTable {
   const char* name;
   int width;  // doubles in a vector
   ForcesFunction forces[kNumNormalLaws][kNumRollingLaws];
-  MotionCheck (*integrate)(const StepView&, const ChunkView&, const Overhang*, std::int64_t);
+  MotionCheck (*integrate)(const StepView&, const PanelView&, const Overhang*, std::int64_t);
   void (*search)(const CloudView&, const SearchQuery&, SearchLists&);
   Displacements (*displacements)(const CloudView&, const double* motion, std::int64_t begin,
                                  std::int64_t end);

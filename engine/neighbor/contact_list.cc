@@ -1,7 +1,5 @@
 #include "engine/neighbor/contact_list.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <string>
 
@@ -15,8 +13,11 @@ namespace {
 // than a layer of the grid's cells, so that forces reach into the next chunk only: what is added
 // across chunks costs more than what the second-level cache saves.
 constexpr std::int64_t kChunkSize = 1024;
-constexpr std::int64_t kMaxChunks = 24;
 constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them evenly
+
+// Rows and blocks of so many particles stay in the second-level cache while their touching pairs,
+// their other pairs, their walls and their motion come one after the other.
+constexpr std::int64_t kPanelSize = 1024;
 
 // An overlap, in parts of the distance at which surfaces meet, that no contact law is meant for.
 constexpr double kMaxOverlapShare = 0.5;
@@ -25,15 +26,16 @@ std::int64_t RoundUp(std::int64_t count) { return (count + kBlock - 1) / kBlock 
 
 }  // namespace
 
-ChunkView Chunk::View() {
-  return {.begin = begin,
-          .end = end,
-          .window_end = window_end,
+PanelView Chunk::View(const Panel& panel) {
+  return {.begin = panel.begin,
+          .end = panel.end,
+          .window_end = panel.window_end,
+          .fresh = panel.fresh,
           .blocks = blocks.data(),
           .touching = touching.data(),
-          .runs = runs.data(),
-          .num_runs = static_cast<std::int64_t>(runs.size()),
-          .forces = forces};
+          .runs = runs.data() + panel.first_run,
+          .num_runs = panel.num_runs,
+          .forces = forces + 8 * (panel.begin - begin)};
 }
 
 // Calls visit(first, second, block, lane) for each touching pair of the list; `second` of a wall
@@ -90,6 +92,16 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
   old_start_[0] = 0;
 }
 
+void ContactList::CutPanels(Chunk& chunk) {
+  const std::int64_t num = std::max<std::int64_t>((chunk.end - chunk.begin) / kPanelSize, 1);
+  const std::int64_t size = RoundUp((chunk.end - chunk.begin + num - 1) / num);
+  chunk.panels.resize(num);
+  for (std::int64_t p = 0; p < num; ++p) {
+    chunk.panels[p].begin = std::min(chunk.begin + p * size, chunk.end);
+    chunk.panels[p].end = std::min(chunk.begin + (p + 1) * size, chunk.end);
+  }
+}
+
 void ContactList::CutChunks(std::int64_t num_particles) {
   std::int64_t num_chunks = std::clamp<std::int64_t>(num_particles / kChunkSize, 1, kMaxChunks);
   if (num_chunks > 1) {
@@ -100,14 +112,15 @@ void ContactList::CutChunks(std::int64_t num_particles) {
   for (std::int64_t c = 0; c < num_chunks; ++c) {
     chunks_[c].begin = std::min(c * size, RoundUp(num_particles));
     chunks_[c].end = std::min((c + 1) * size, RoundUp(num_particles));
+    CutPanels(chunks_[c]);
   }
 }
 
-void ContactList::FindSpheres(const RebuildInput& input, const Chunk& chunk, Scratch& scratch) {
+void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch) {
   const ParticleStore& p = input.particles;
   const CloudView cloud{p.old_x.data(), p.old_y.data(), p.old_z.data(), p.radius.data()};
   const std::int64_t num_materials = input.num_materials;
-  for (std::int64_t i = chunk.begin; i < std::min(chunk.end, p.num); ++i) {
+  for (std::int64_t i = panel.begin; i < std::min(panel.end, p.num); ++i) {
     const auto ranges = grid_.LaterNeighbors(i);
     std::int64_t room = kBlock;
     for (const IndexRange& range : ranges)
@@ -140,18 +153,18 @@ void ContactList::FindSpheres(const RebuildInput& input, const Chunk& chunk, Scr
   }
 }
 
-void ContactList::FindWalls(const RebuildInput& input, const Chunk& chunk, Scratch& scratch) {
+void ContactList::FindWalls(const RebuildInput& input, const Panel& panel, Scratch& scratch) {
   const ParticleStore& p = input.particles;
   const auto num_materials = static_cast<std::int32_t>(input.num_materials);
   StepView view{};
   view.motion = input.particles.motion.data();
   view.walls = input.walls.views().data();
-  scratch.gaps.resize(chunk.end - chunk.begin);
+  scratch.gaps.resize(panel.end - panel.begin);
   for (std::int32_t w = 0; w < input.walls.size(); ++w) {
     if (input.walls.Removed(w)) continue;
-    input.kernels.wall_gaps(view, w, chunk.begin, chunk.end, scratch.gaps.data());
-    for (std::int64_t i = chunk.begin; i < std::min(chunk.end, p.num); ++i) {
-      const double gap = scratch.gaps[i - chunk.begin];
+    input.kernels.wall_gaps(view, w, panel.begin, panel.end, scratch.gaps.data());
+    for (std::int64_t i = panel.begin; i < std::min(panel.end, p.num); ++i) {
+      const double gap = scratch.gaps[i - panel.begin];
       if (!(gap < input.reach)) continue;
       if (!(gap > -kMaxOverlapShare * p.Radius(i))) {
         throw base::Error("sphere " + std::to_string(p.ids[i]) + " goes through the wall \"" +
@@ -174,8 +187,10 @@ void ContactList::Remember(PairBlock& block, int lane, const Candidate& candidat
   }
 }
 
-// One run for each key that occurs, and where its pairs go. Returns the number of blocks.
-std::int64_t ContactList::LayOutRuns(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
+// Appends one run for each key that occurs to the chunk's, with empty blocks for its pairs, and
+// notes where these go.
+void ContactList::LayOutRuns(const RebuildInput& input, Chunk& chunk, Panel& panel,
+                             Scratch& scratch) {
   const std::int64_t num_materials = input.num_materials;
   const std::int64_t num_keys = num_materials * (num_materials + input.walls.size());
   scratch.count_of_key.assign(num_keys, 0);
@@ -183,8 +198,8 @@ std::int64_t ContactList::LayOutRuns(const RebuildInput& input, Chunk& chunk, Sc
   for (const auto* list : {&scratch.touching, &scratch.near}) {
     for (const Candidate& candidate : *list) ++scratch.count_of_key[candidate.key];
   }
-  chunk.runs.clear();
-  std::int64_t num_blocks = 0;
+  panel.first_run = static_cast<std::int64_t>(chunk.runs.size());
+  auto num_blocks = static_cast<std::int64_t>(chunk.blocks.size());
   for (std::int64_t key = 0; key < num_keys; ++key) {
     const std::int64_t count = scratch.count_of_key[key];
     if (count == 0) continue;
@@ -196,19 +211,19 @@ std::int64_t ContactList::LayOutRuns(const RebuildInput& input, Chunk& chunk, Sc
     scratch.next_of_key[key] = kBlock * num_blocks;
     num_blocks += (count + kBlock - 1) / kBlock;
   }
-  return num_blocks;
+  panel.num_runs = static_cast<std::int64_t>(chunk.runs.size()) - panel.first_run;
+  PairBlock empty{};
+  std::fill(std::begin(empty.first), std::end(empty.first), static_cast<std::int32_t>(panel.begin));
+  std::fill(std::begin(empty.second), std::end(empty.second),
+            static_cast<std::int32_t>(panel.begin));
+  ExtendWithRoom(chunk.blocks, num_blocks, empty);
+  ExtendWithRoom(chunk.touching, num_blocks, 0);
 }
 
 // In each run the touching pairs first, so that the blocks of the others are passed over.
-void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
-  const std::int64_t num_blocks = LayOutRuns(input, chunk, scratch);
-  PairBlock empty{};
-  std::fill(std::begin(empty.first), std::end(empty.first), static_cast<std::int32_t>(chunk.begin));
-  std::fill(std::begin(empty.second), std::end(empty.second),
-            static_cast<std::int32_t>(chunk.begin));
-  AssignWithRoom(chunk.blocks, num_blocks, empty);
-  AssignWithRoom(chunk.touching, num_blocks, 0);
-  std::int64_t last = chunk.end - 1;
+void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Scratch& scratch) {
+  LayOutRuns(input, chunk, panel, scratch);
+  std::int64_t last = panel.end - 1;
   for (const auto* list : {&scratch.touching, &scratch.near}) {
     for (const Candidate& candidate : *list) {
       const std::int64_t place = scratch.next_of_key[candidate.key]++;
@@ -222,7 +237,7 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch
       chunk.touching[place / kBlock] |= static_cast<std::uint8_t>(1 << lane);
     }
   }
-  chunk.window_end = RoundUp(last + 1);
+  panel.window_end = RoundUp(last + 1);
 }
 
 void ContactList::PrepareForces(int num_threads) {
@@ -255,30 +270,41 @@ void ContactList::PrepareForces(int num_threads) {
 }
 
 void ContactList::Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch) {
-  scratch.touching.clear();
-  scratch.near.clear();
-  FindSpheres(input, chunk, scratch);
-  FindWalls(input, chunk, scratch);
-  Fill(input, chunk, scratch);
+  chunk.blocks.clear();
+  chunk.touching.clear();
+  chunk.runs.clear();
+  chunk.counts = {};
+  chunk.window_end = chunk.begin;
+  for (Panel& panel : chunk.panels) {
+    panel.fresh = chunk.window_end;
+    scratch.touching.clear();
+    scratch.near.clear();
+    FindSpheres(input, panel, scratch);
+    FindWalls(input, panel, scratch);
+    Fill(input, chunk, panel, scratch);
+    const auto touching = static_cast<std::int64_t>(scratch.touching.size());
+    chunk.counts.pairs += touching + static_cast<std::int64_t>(scratch.near.size());
+    chunk.counts.touching += touching;
+    chunk.window_end = std::max(chunk.window_end, panel.window_end);
+  }
 }
 
 // Chunks know nothing of each other here. The error reported is that of the first chunk that has
 // one.
 void ContactList::FindAll(const RebuildInput& input) {
   const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
-  scratch_.resize(input.num_threads);
+  scratch_.resize(input.team.size());
   errors_.assign(num_chunks, nullptr);
-#pragma omp parallel for num_threads(input.num_threads) schedule(static) if (input.num_threads > 1)
-  for (std::int64_t c = 0; c < num_chunks; ++c) {
-    Scratch& scratch = scratch_[omp_get_thread_num()];
-    try {
-      Find(input, chunks_[c], scratch);
-      const auto touching = static_cast<std::int64_t>(scratch.touching.size());
-      chunks_[c].counts = {touching + static_cast<std::int64_t>(scratch.near.size()), touching};
-    } catch (const base::Error&) {
-      errors_[c] = std::current_exception();
+  input.team.Run([&](int member) {
+    const auto [begin, end] = input.team.ShareOf(member, num_chunks);
+    for (std::int64_t c = begin; c < end; ++c) {
+      try {
+        Find(input, chunks_[c], scratch_[member]);
+      } catch (const base::Error&) {
+        errors_[c] = std::current_exception();
+      }
     }
-  }
+  });
   counts_ = {};
   for (std::int64_t c = 0; c < num_chunks; ++c) {
     if (errors_[c]) std::rethrow_exception(errors_[c]);
@@ -296,7 +322,7 @@ void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_
   p.Reorder(grid_.order());
   CutChunks(p.num);
   FindAll(input);
-  PrepareForces(input.num_threads);
+  PrepareForces(input.team.size());
 }
 
 }  // namespace talus::engine

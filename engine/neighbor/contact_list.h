@@ -4,7 +4,7 @@
 // The particles are cut into chunks, whose number depends on that of the particles only. A pair
 // belongs to the chunk of its first particle; its second one is always a later particle, in the
 // same chunk or in the overhang of the chunk's force rows. So chunks can be computed at once, and
-// every sum has one order.
+// every sum has one order. A large chunk is computed in panels, one after the other.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,36 @@
 #include "engine/kernel/kernel.h"
 #include "engine/neighbor/grid.h"
 #include "engine/particle_store.h"
+#include "engine/team.h"
 #include "engine/wall_set.h"
 
 namespace talus::engine {
+
+inline constexpr int kMaxChunks = 24;
 
 struct ListCounts {
   std::int64_t pairs = 0;     // listed
   std::int64_t touching = 0;  // of them, when the list was made
 };
 
+// A part of a chunk so small that its rows stay in the cache until it moves.
+struct Panel {
+  std::int64_t begin = 0, end = 0, window_end = 0, fresh = 0;  // see PanelView
+  std::int64_t first_run = 0, num_runs = 0;
+};
+
 struct Chunk {
-  std::int64_t begin = 0, end = 0, window_end = 0;  // see ChunkView
+  std::int64_t begin = 0, end = 0, window_end = 0;  // as of a panel
+  std::vector<Panel> panels;
   AlignedVector<PairBlock> blocks;
   std::vector<std::uint8_t> touching;
   std::vector<Run> runs;
   double* forces = nullptr;         // rows of [begin, window_end), zero between two steps
   std::vector<Overhang> overhangs;  // of the chunks before
   ListCounts counts;
+  MotionCheck check{0, true};  // of the last step
 
-  ChunkView View();
+  PanelView View(const Panel& panel);
 };
 
 // What a rebuild needs besides the list itself.
@@ -44,7 +55,7 @@ struct RebuildInput {
   const WallSet& walls;
   double reach = 0;                // pairs with a smaller gap are listed [m]
   std::int64_t num_materials = 1;  // PairConstants of materials a, b stand at a · num_materials + b
-  int num_threads = 1;
+  Team& team;
 };
 
 class ContactList {
@@ -87,13 +98,14 @@ class ContactList {
   template <class Visitor>
   void VisitTouching(Visitor&& visit) const;
   void SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num);
+  static void CutPanels(Chunk& chunk);
   void CutChunks(std::int64_t num_particles);
   void FindAll(const RebuildInput& input);
   void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
-  void FindSpheres(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
-  void FindWalls(const RebuildInput& input, const Chunk& chunk, Scratch& scratch);
-  static std::int64_t LayOutRuns(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
-  void Fill(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
+  void FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch);
+  void FindWalls(const RebuildInput& input, const Panel& panel, Scratch& scratch);
+  static void LayOutRuns(const RebuildInput& input, Chunk& chunk, Panel& panel, Scratch& scratch);
+  void Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Scratch& scratch);
   void Remember(PairBlock& block, int lane, const Candidate& candidate) const;
 
   Grid grid_;

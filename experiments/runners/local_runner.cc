@@ -119,8 +119,8 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
   return pointers;
 }
 
-// Ours, with OpenMP told to keep to its share and to sleep while it waits: a spinning thread would
-// take the core of another trial.
+// Ours, with OpenMP, which foreign engines use, told to keep to its share and to sleep while it
+// waits: a spinning thread would take the core of another trial.
 std::vector<std::string> Environment(int threads) {
   std::vector<std::string> list;
   for (char** entry = environ; *entry != nullptr; ++entry) {

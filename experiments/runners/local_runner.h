@@ -16,7 +16,7 @@ namespace talus::experiments {
 
 struct LocalRunnerOptions {
   int workers = 0;          // at the same time, >= 0; 0: as many as cores
-  int threads_per_job = 1;  // for OpenMP inside a job, >= 1
+  int threads_per_job = 1;  // of a foreign engine that uses OpenMP, >= 1
 };
 
 class LocalRunner : public Runner {

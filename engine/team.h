@@ -1,0 +1,93 @@
+// Threads that share a task, thousands of times a second.
+//
+// Who waits spins for a moment and then sleeps: between two steps the wait is shorter than falling
+// asleep takes. But where there are more threads than free cores, the member waited for may not be
+// running at all, and spinning keeps it from running; so who has spun in vain spins less often.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace talus::engine {
+
+// Whether spinning has been of use to one member lately.
+class alignas(64) Patience {
+ public:
+  // Whether to spin this time: always, or after n spins in vain every 2ⁿth time.
+  bool SpinNow();
+  void Spun(bool in_vain) { num_skips_ = in_vain ? std::min(2 * num_skips_ + 1, kMostSkips) : 0; }
+
+ private:
+  static constexpr int kMostSkips = 63;
+  int num_skips_ = 0;
+  int num_skipped_ = 0;
+};
+
+// A number that only grows, and that one thread raises for others to wait on.
+class Milestone {
+ public:
+  void Reach(std::int64_t number);
+  // What was written before Reach(number) is visible afterwards.
+  void Await(std::int64_t number, Patience& patience);
+
+ private:
+  bool Spin(std::int64_t number) const;  // whether the number was reached
+  void Sleep(std::int64_t number);
+
+  alignas(64) std::atomic<std::int64_t> reached_ = 0;
+  std::atomic<int> num_sleepers_ = 0;
+  std::mutex mutex_;
+  std::condition_variable raised_;
+};
+
+class Team {
+ public:
+  explicit Team(int size);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  int size() const { return static_cast<int>(halves_.size()); }
+
+  // Calls task(member) of members 0 … size − 1 at once, the first on this thread, and returns when
+  // all are done. The task must not throw.
+  template <class Task>
+  void Run(const Task& task) {
+    RunPlain([](const void* whole, int member) { (*static_cast<const Task*>(whole))(member); },
+             &task);
+  }
+
+  // The member's part of `count` things in a row: the first member has the first ones.
+  struct Share {
+    std::int64_t begin, end;
+  };
+  Share ShareOf(int member, std::int64_t count) const {
+    return {count * member / size(), count * (member + 1) / size()};
+  }
+
+  // Within a task: the member is through its first part; wait until all before `member` are.
+  void FinishFirstPart(int member) { halves_[member].Reach(num_tasks_); }
+  void AwaitFirstPartsBefore(int member);
+
+ private:
+  using PlainTask = void (*)(const void* task, int member);
+
+  void RunPlain(PlainTask call, const void* task);
+  void Work(int member);
+
+  PlainTask call_ = nullptr;  // null: the team breaks up
+  const void* task_ = nullptr;
+  std::int64_t num_tasks_ = 0;
+  Milestone given_;                 // number of the last task
+  std::vector<Milestone> halves_;   // of each member, the last task that it did the first part of
+  std::vector<Milestone> done_;     // … and that it did
+  std::vector<Patience> patience_;  // of each member
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace talus::engine

@@ -1,0 +1,89 @@
+// Threads that share a task: everyone is called, nobody goes on too early, nobody sleeps for ever.
+#include "engine/team.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <numeric>
+
+namespace talus::engine {
+namespace {
+
+// One alone, two, and more than most machines have cores.
+class TeamOf : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Sizes, TeamOf, ::testing::Values(1, 2, 3, 8));
+
+// Thousands of tasks: a wake-up that gets lost once in a while hangs the test.
+TEST_P(TeamOf, EveryMemberDoesEveryTaskBeforeRunReturns) {
+  Team team(GetParam());
+  std::vector<int> num_done(team.size());  // plain numbers: Run itself must make them visible
+  for (int task = 1; task <= 5000; ++task) {
+    team.Run([&](int member) { ++num_done[member]; });
+    for (const int done : num_done) ASSERT_EQ(done, task);
+  }
+}
+
+TEST_P(TeamOf, SecondPartsSeeTheFirstPartsOfAllMembersBefore) {
+  Team team(GetParam());
+  std::vector<int> first(team.size()), seen(team.size());
+  for (int task = 1; task <= 2000; ++task) {
+    team.Run([&](int member) {
+      first[member] = task;
+      team.FinishFirstPart(member);
+      team.AwaitFirstPartsBefore(member);
+      seen[member] = std::accumulate(first.begin(), first.begin() + member, 0);
+    });
+    for (int member = 0; member < team.size(); ++member) ASSERT_EQ(seen[member], member * task);
+  }
+}
+
+// Long enough between the tasks, and within them, for all waits to end in sleep.
+TEST_P(TeamOf, SleepersWakeUp) {
+  using namespace std::chrono_literals;
+  Team team(GetParam());
+  std::vector<int> num_done(team.size());
+  for (int task = 0; task < 5; ++task) {
+    std::this_thread::sleep_for(2ms);
+    team.Run([&](int member) {
+      if (member == 0) std::this_thread::sleep_for(2ms);
+      team.FinishFirstPart(member);
+      team.AwaitFirstPartsBefore(member);
+      ++num_done[member];
+    });
+  }
+  for (const int done : num_done) EXPECT_EQ(done, 5);
+}
+
+TEST_P(TeamOf, SharesFollowEachOtherAndDifferByOneAtMost) {
+  const Team team(GetParam());
+  for (const std::int64_t count : {0, 1, 4, 7, 24}) {
+    std::int64_t end = 0;
+    for (int member = 0; member < team.size(); ++member) {
+      const Team::Share share = team.ShareOf(member, count);
+      EXPECT_EQ(share.begin, end);
+      EXPECT_GE(share.end - share.begin, count / team.size());
+      EXPECT_LE(share.end - share.begin, count / team.size() + 1);
+      end = share.end;
+    }
+    EXPECT_EQ(end, count);
+  }
+}
+
+TEST(Patience, WhoSpinsInVainSpinsLessOftenUntilItHelpsAgain) {
+  Patience patience;
+  const auto spins_of = [&](int num_waits, bool in_vain) {
+    int num_spins = 0;
+    for (int wait = 0; wait < num_waits; ++wait) {
+      if (!patience.SpinNow()) continue;
+      ++num_spins;
+      patience.Spun(in_vain);
+    }
+    return num_spins;
+  };
+  EXPECT_EQ(spins_of(100, false), 100);
+  EXPECT_LT(spins_of(1000, true), 25);  // six until every 64th wait, then 15
+  EXPECT_GT(spins_of(100, false), 30);  // the 64th at the latest, then all
+}
+
+}  // namespace
+}  // namespace talus::engine
