@@ -87,15 +87,17 @@ MotionCheck SimulationState::Sweep() {
   team->Run([&](int member) {
     const auto [begin, end] = team->ShareOf(member, static_cast<std::int64_t>(chunks.size()));
     const std::int64_t moves_from = member == 0 ? 0 : std::min(begin + list.reach(), end);
+    const Panel* last = begin < end ? &chunks[end - 1].panels.back() : nullptr;
     for (std::int64_t c = begin; c < end; ++c) {
       chunks[c].check = {0, true};
       for (const Panel& part : chunks[c].panels) {
         const PanelView panel = chunks[c].View(part);
         forces(view, panel);
+        if (&part == last) team->FinishFirstPart(member);
         if (c >= moves_from) Move(view, chunks[c], panel);
       }
     }
-    team->FinishFirstPart(member);
+    if (last == nullptr) team->FinishFirstPart(member);
     team->AwaitFirstPartsBefore(member);
     for (std::int64_t c = begin; c < moves_from; ++c) {
       for (const Panel& part : chunks[c].panels) Move(view, chunks[c], chunks[c].View(part));

@@ -23,7 +23,7 @@ class alignas(64) Patience {
   void Spun(bool in_vain) { num_skips_ = in_vain ? std::min(2 * num_skips_ + 1, kMostSkips) : 0; }
 
  private:
-  static constexpr int kMostSkips = 63;
+  static constexpr int kMostSkips = 15;
   int num_skips_ = 0;
   int num_skipped_ = 0;
 };

@@ -81,8 +81,8 @@ TEST(Patience, WhoSpinsInVainSpinsLessOftenUntilItHelpsAgain) {
     return num_spins;
   };
   EXPECT_EQ(spins_of(100, false), 100);
-  EXPECT_LT(spins_of(1000, true), 25);  // six until every 64th wait, then 15
-  EXPECT_GT(spins_of(100, false), 30);  // the 64th at the latest, then all
+  EXPECT_LT(spins_of(1000, true), 80);  // every 16th wait in the end
+  EXPECT_GT(spins_of(100, false), 80);  // the 16th at the latest, then all
 }
 
 }  // namespace
