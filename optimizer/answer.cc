@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/random.h"
+#include "optimizer/credible_ranges.h"
 #include "optimizer/lattice.h"
 #include "optimizer/places.h"
 #include "optimizer/sobol_indices.h"
@@ -127,21 +128,12 @@ Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Domain& domain
   return minimisers;
 }
 
-std::vector<Range> CredibleRanges(const Eigen::MatrixXd& minimisers, const Eigen::VectorXd& point,
-                                  double confidence) {
-  std::vector<Range> ranges;
-  for (Eigen::Index k = 0; k < minimisers.cols(); ++k) {
-    Eigen::VectorXd sorted = minimisers.col(k);
-    std::sort(sorted.begin(), sorted.end());
-    const auto quantile = [&](double share) {
-      return sorted[static_cast<Eigen::Index>(
-          std::lround(share * static_cast<double>(sorted.size() - 1)))];
-    };
-    // A skewed posterior may leave the minimiser of the mean out; the range is meant to hold it.
-    ranges.push_back({.low = std::min(quantile((1 - confidence) / 2), point[k]),
-                      .high = std::max(quantile((1 + confidence) / 2), point[k])});
+// A skewed posterior may leave the minimiser of the mean out; the ranges are meant to hold it.
+void Include(const Eigen::VectorXd& point, std::vector<Range>& ranges) {
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const double x = point[static_cast<Eigen::Index>(k)];
+    ranges[k] = {.low = std::min(ranges[k].low, x), .high = std::max(ranges[k].high, x)};
   }
-  return ranges;
 }
 
 Eigen::MatrixXd Correlation(const Eigen::MatrixXd& sample) {
@@ -222,7 +214,8 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
                            Around(point, options.num_places / 2, options.seed)));
   const Eigen::MatrixXd minimisers =
       DrawMinimisers(model, domain, DrawPlaces(model, domain, places, answer, options), options);
-  answer.credible = CredibleRanges(minimisers, point, options.confidence);
+  answer.credible = CredibleRanges(minimisers, options.confidence);
+  Include(point, answer.credible);
   answer.correlation = Correlation(minimisers);
   DescribeTies(model, domain, places, options, answer);
   SobolIndices indices = EstimateSobolIndices(

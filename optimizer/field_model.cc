@@ -18,12 +18,13 @@ constexpr int kModesIfDeterministic = 12;
 constexpr double kSmallLoss = 1e-3;
 // Every evaluation brings as many numbers as there are modes, so they may bend more than one number
 // could tell.
-constexpr double kBendSd = 2;
+constexpr surrogate::HyperPriors kNoisyPriors{.length = {.median = 0.7, .log_sd = 0.4},
+                                              .bend_sd = 2};
 constexpr double kHopeless = -1e6;  // below every logarithm of an improvement
 // Draws lie so many times farther from the mean than the processes say. These take their
 // hyper-parameters for known and the scatter for the same everywhere, and evaluations crowd where
 // they were too hopeful. Found on synthetic heaps, by bench/optimizers/range_coverage.cc.
-constexpr double kCaution = 1.75;
+constexpr double kCaution = 1.25;
 
 surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldState* frozen) {
   surrogate::ModeOptions modes;
@@ -32,7 +33,7 @@ surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldSt
   modes.process.deterministic = options.deterministic;
   modes.process.seed = options.seed;
   modes.process.bend_inputs = !options.deterministic;
-  modes.process.priors.bend_sd = kBendSd;
+  if (!options.deterministic) modes.process.priors = kNoisyPriors;
   if (frozen != nullptr) modes.frozen = frozen->modes;
   return modes;
 }

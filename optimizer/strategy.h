@@ -41,7 +41,7 @@ struct Answer {
   double predicted_value = 0;         // posterior mean there
   double predicted_sd = 0;            // posterior standard deviation of that mean
   double noise_sd = 0;                // scatter of one evaluation there; 0 when deterministic
-  std::vector<Range> credible;        // 90 %, one a parameter
+  std::vector<Range> credible;        // one a parameter, 90 % for all of them together
   Eigen::MatrixXd correlation;        // between parameters, of the posterior of the minimiser
   std::vector<Eigen::VectorXd> tied;  // points that tie with `point` within the noise
   double tied_volume = 0;             // their share of the unit cube, in [0, 1]

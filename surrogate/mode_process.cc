@@ -6,10 +6,25 @@
 namespace talus::surrogate {
 namespace {
 
+double SpreadOf(const Eigen::VectorXd& values) {
+  return std::sqrt((values.array() - values.mean()).square().mean());
+}
+
+// The strongest mode left out is nearly all scatter, and one evaluation scatters about as much along
+// every mode, somewhat more along the strong ones. Without this the weak modes, seen a few times,
+// pass for signal.
+LogNormal NoisePrior(double next_sd, const Eigen::VectorXd& coefficients) {
+  constexpr double kStronger = 1.5;
+  constexpr double kMost = 0.8;  // of the spread: a mode is kept for some signal
+  constexpr double kLogSd = 0.7;
+  return {.median = std::min(kStronger * next_sd / SpreadOf(coefficients), kMost),
+          .log_sd = kLogSd};
+}
+
 // A state for a weak mode: the correlation of a stronger one at its own scale.
 GaussianProcessState Rescaled(GaussianProcessState state, const Eigen::VectorXd& values) {
   state.centre = values.mean();
-  state.scale = std::sqrt((values.array() - state.centre).square().mean());
+  state.scale = SpreadOf(values);
   if (!(state.scale > 0)) state.scale = 1;
   return state;
 }
@@ -27,6 +42,7 @@ ModeProcess ModeProcess::Fit(const Eigen::MatrixXd& points, const Eigen::MatrixX
   const Eigen::MatrixXd coefficients = (vectors.rowwise() - modes.mean.transpose()) * modes.basis;
   for (Eigen::Index k = 0; k < coefficients.cols(); ++k) {
     GaussianProcessOptions one = options.process;
+    if (modes.next_sd > 0) one.priors.noise = NoisePrior(modes.next_sd, coefficients.col(k));
     if (options.frozen) {
       one.frozen = options.frozen->processes[static_cast<std::size_t>(k)];
     } else if (k >= options.num_own) {

@@ -21,6 +21,10 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes) {
          eigenvalues[size - 1 - count] > kRounding * total) {
     ++count;
   }
+  if (count < size) {
+    modes.next_sd = std::sqrt(std::max(0.0, eigenvalues[size - 1 - count]) /
+                              static_cast<double>(size));
+  }
   modes.basis.resize(vectors.cols(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::Index from = size - 1 - k;

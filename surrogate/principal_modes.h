@@ -11,6 +11,7 @@ struct PrincipalModes {
   Eigen::VectorXd mean;       // m
   Eigen::MatrixXd basis;      // m × k, orthonormal columns, the strongest first
   Eigen::VectorXd discarded;  // m: variance of each element that the modes leave out
+  double next_sd = 0;         // standard deviation of the strongest mode left out; 0 where none is
 
   Eigen::VectorXd Coefficients(const Eigen::VectorXd& vector) const {
     return basis.transpose() * (vector - mean);

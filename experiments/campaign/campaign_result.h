@@ -17,8 +17,8 @@ struct ResultParameter {
   std::string name;
   std::string unit;
   double value = 0;
-  double credible_low = kNotKnown;   // 90 %
-  double credible_high = kNotKnown;  // 90 %
+  double credible_low = kNotKnown;   // 90 %, for all parameters together
+  double credible_high = kNotKnown;
   double sobol_first = kNotKnown;
   double sobol_total = kNotKnown;
 

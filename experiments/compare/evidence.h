@@ -59,7 +59,7 @@ struct ReferenceEvidence {
 // One parameter of the recommended set.
 struct RecommendedValue {
   double value = 0;  // SI
-  double low = 0;    // 90 % credible range
+  double low = 0;    // credible range: 90 %, all together
   double high = 0;
 };
 
