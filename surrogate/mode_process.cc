@@ -10,15 +10,18 @@ double SpreadOf(const Eigen::VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
 }
 
-// The strongest mode left out is nearly all scatter, and one evaluation scatters about as much along
-// every mode, somewhat more along the strong ones. Without this the weak modes, seen a few times,
-// pass for signal.
+// The strongest mode left out is nearly all scatter, and one evaluation scatters about as much
+// along every mode, somewhat more along the strong ones. Without this the weak modes, seen a few
+// times, pass for signal.
 LogNormal NoisePrior(double next_sd, const Eigen::VectorXd& coefficients) {
   constexpr double kStronger = 1.5;
-  constexpr double kMost = 0.8;  // of the spread: a mode is kept for some signal
+  // Of the spread. Scatter may also be of few dimensions, all of them among the modes kept; and a
+  // mode is kept for some signal.
+  constexpr double kLeast = 0.1;
+  constexpr double kMost = 0.8;
   constexpr double kLogSd = 0.7;
-  return {.median = std::min(kStronger * next_sd / SpreadOf(coefficients), kMost),
-          .log_sd = kLogSd};
+  const double expected = kStronger * next_sd / SpreadOf(coefficients);
+  return {.median = std::clamp(expected, kLeast, kMost), .log_sd = kLogSd};
 }
 
 // A state for a weak mode: the correlation of a stronger one at its own scale.

@@ -22,8 +22,8 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes) {
     ++count;
   }
   if (count < size) {
-    modes.next_sd = std::sqrt(std::max(0.0, eigenvalues[size - 1 - count]) /
-                              static_cast<double>(size));
+    modes.next_sd =
+        std::sqrt(std::max(0.0, eigenvalues[size - 1 - count]) / static_cast<double>(size));
   }
   modes.basis.resize(vectors.cols(), count);
   for (Eigen::Index k = 0; k < count; ++k) {

@@ -17,7 +17,7 @@ struct ResultParameter {
   std::string name;
   std::string unit;
   double value = 0;
-  double credible_low = kNotKnown;   // 90 %, for all parameters together
+  double credible_low = kNotKnown;  // 90 %, for all parameters together
   double credible_high = kNotKnown;
   double sobol_first = kNotKnown;
   double sobol_total = kNotKnown;

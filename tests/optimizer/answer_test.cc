@@ -44,7 +44,8 @@ class KnownBowl : public ObjectiveModel {
 const Eigen::Vector2d kMinimum(0.4, 0.55);
 
 // Both coordinates of 90 % of normal pairs lie within 1.95 sd: 0.9 = 0.9487². 400 draws give a
-// quantile so far out to 0.13 sd, and minimisers fall on 400 places, which costs about as much again.
+// quantile so far out to 0.13 sd, and minimisers fall on 400 places, which costs about as much
+// again.
 TEST(Answer, CredibleRangesAreThoseOfTheMinimiser) {
   const KnownBowl model(kMinimum, Eigen::Vector2d(0.05, 0.02), 0);
   const Answer answer = DescribeMinimum(model, {.num_parameters = 2}, kMinimum, {});
