@@ -14,55 +14,50 @@ Points Inside(const Domain& domain, const Points& points) {
   return inside;
 }
 
-Points WithGuesses(const Domain& domain, const Points& points) {
-  Points all = domain.guesses;
-  for (const Eigen::VectorXd& point : Inside(domain, points)) all.push_back(point);
-  return all;
-}
-
 }  // namespace
 
 DesignStrategy::DesignStrategy(const Domain& domain, const Points& points, std::string name)
-    : domain_(domain),
-      points_(WithGuesses(domain, points)),
-      name_(std::move(name)),
-      is_told_(points_.size(), false) {}
+    : domain_(domain), name_(std::move(name)) {
+  Append(domain.guesses);
+  Append(Inside(domain, points));
+}
+
+void DesignStrategy::Append(const Points& points) {
+  for (const Eigen::VectorXd& point : points) {
+    const bool is_told = std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
+      return SamePoint(seen.point, point);
+    });
+    places_.push_back({point, is_told});
+  }
+}
 
 void DesignStrategy::Tell(const Observation& observation) {
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (!is_told_[i]) is_told_[i] = SamePoint(points_[i], observation.point);
+  for (Place& place : places_) {
+    if (!place.is_told) place.is_told = SamePoint(place.point, observation.point);
   }
   told_.push_back(observation);
 }
 
-bool DesignStrategy::WasTold(const Eigen::VectorXd& point) const {
-  return std::any_of(told_.begin(), told_.end(),
-                     [&](const Observation& o) { return SamePoint(o.point, point); });
+bool DesignStrategy::IsDone() const {
+  return std::all_of(places_.begin(), places_.end(),
+                     [](const Place& place) { return place.is_told; });
 }
 
-std::vector<Proposal> DesignStrategy::Next(const Points& points, int count,
-                                           std::span<const Eigen::VectorXd> pending) const {
+std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
   std::vector<Proposal> proposals;
-  for (const Eigen::VectorXd& point : points) {
+  for (const Place& place : places_) {
     if (static_cast<int>(proposals.size()) >= count) break;
-    const bool runs = std::any_of(pending.begin(), pending.end(),
-                                  [&](const Eigen::VectorXd& p) { return SamePoint(p, point); });
-    if (!runs && !WasTold(point)) proposals.push_back({point, Origin::kDesign});
+    const bool runs = std::any_of(pending.begin(), pending.end(), [&](const Eigen::VectorXd& p) {
+      return SamePoint(p, place.point);
+    });
+    if (!runs && !place.is_told) proposals.push_back({place.point, Origin::kDesign});
   }
   return proposals;
 }
 
-std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
-  Points left;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (!is_told_[i]) left.push_back(points_[i]);
-  }
-  return Next(left, count, pending);
-}
-
 std::optional<std::string> DesignStrategy::StopReason() {
-  if (std::find(is_told_.begin(), is_told_.end(), false) != is_told_.end()) return std::nullopt;
-  return "all " + std::to_string(points_.size()) + " points of " + name_ + " are evaluated";
+  if (!IsDone()) return std::nullopt;
+  return "all " + std::to_string(places_.size()) + " points of " + name_ + " are evaluated";
 }
 
 Answer DesignStrategy::Recommend() { return BestObserved(told_, domain_, name_); }
@@ -72,9 +67,14 @@ GridStrategy::GridStrategy(const Domain& domain, const Sweep& sweep)
       sweep_(sweep),
       grid_(Inside(domain, FullFactorial(sweep.levels))) {}
 
-bool GridStrategy::SweepIsDone() const {
-  return std::all_of(grid_.begin(), grid_.end(),
-                     [&](const Eigen::VectorXd& point) { return WasTold(point); });
+// While the last points of the sweep run, nobody knows yet which ones are best.
+void GridStrategy::Tell(const Observation& observation) {
+  DesignStrategy::Tell(observation);
+  if (is_refined_ || !IsDone()) return;
+  const Points refinement = Refinement();
+  num_refined_ = refinement.size();
+  Append(refinement);
+  is_refined_ = true;
 }
 
 Points GridStrategy::Refinement() const {
@@ -93,21 +93,10 @@ Points GridStrategy::Refinement() const {
   return Inside(domain_, HalfStepNeighbours(sweep_.levels, centers));
 }
 
-std::vector<Proposal> GridStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
-  // While the last points of the sweep run, nobody knows yet which ones are best.
-  if (!SweepIsDone()) return DesignStrategy::Ask(count, pending);
-  return Next(Refinement(), count, pending);
-}
-
 std::optional<std::string> GridStrategy::StopReason() {
-  if (!SweepIsDone()) return std::nullopt;
-  const Points refinement = Refinement();
-  if (!std::all_of(refinement.begin(), refinement.end(),
-                   [&](const Eigen::VectorXd& point) { return WasTold(point); })) {
-    return std::nullopt;
-  }
+  if (!IsDone()) return std::nullopt;
   return "all " + std::to_string(grid_.size()) + " points of the grid and " +
-         std::to_string(refinement.size()) + " half-step neighbours of its best are evaluated";
+         std::to_string(num_refined_) + " half-step neighbours of its best are evaluated";
 }
 
 }  // namespace talus::optimizer

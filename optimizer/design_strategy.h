@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "optimizer/design.h"
 #include "optimizer/domain.h"
@@ -23,17 +24,20 @@ class DesignStrategy : public Strategy {
 
  protected:
   const std::vector<Observation>& told() const { return told_; }
-  bool WasTold(const Eigen::VectorXd& point) const;
-  // Up to `count` of `points` that were neither told nor are pending.
-  std::vector<Proposal> Next(const Points& points, int count,
-                             std::span<const Eigen::VectorXd> pending) const;
+  bool IsDone() const;  // all points are told
+  // Points to go on with after those there are.
+  void Append(const Points& points);
 
   const Domain domain_;
 
  private:
-  const Points points_;
+  struct Place {
+    Eigen::VectorXd point;
+    bool is_told = false;
+  };
+
+  std::vector<Place> places_;
   const std::string name_;
-  std::vector<bool> is_told_;  // of each point: to look it up among all told ones takes too long
   std::vector<Observation> told_;
 };
 
@@ -46,15 +50,16 @@ class GridStrategy : public DesignStrategy {
   };
   GridStrategy(const Domain& domain, const Sweep& sweep);
 
-  std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
+  void Tell(const Observation& observation) override;
   std::optional<std::string> StopReason() override;
 
  private:
-  bool SweepIsDone() const;
-  Points Refinement() const;  // only when the sweep is done
+  Points Refinement() const;  // of the best told so far
 
   const Sweep sweep_;
   const Points grid_;
+  bool is_refined_ = false;
+  std::size_t num_refined_ = 0;
 };
 
 }  // namespace talus::optimizer
