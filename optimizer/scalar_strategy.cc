@@ -10,7 +10,9 @@
 #include "optimizer/best_observed.h"
 #include "optimizer/design.h"
 #include "optimizer/lattice.h"
+#include "optimizer/local_step.h"
 #include "optimizer/model_step.h"
+#include "optimizer/step_choice.h"
 #include "optimizer/trust_region.h"
 
 namespace talus::optimizer {
@@ -135,8 +137,8 @@ Proposal ScalarStrategy::ByModel(const Points& asked) {
   if (history_.size() < 2) {
     return NotByAccident(MostFeasible(domain_, feasibility_, seed), asked);
   }
-  if (repeats_.deterministic && index % 2 == 0) {
-    if (const auto step = ByTrustRegion(asked)) return {*step, Origin::kModel};
+  if (repeats_.deterministic) {
+    if (const auto step = NearBest(asked, seed)) return {*step, Origin::kModel};
   }
   surrogate::GaussianProcess believed = Fit().process;
   const double incumbent = TransformedModel(believed).Predict(history_.points).mean.minCoeff();
@@ -147,10 +149,22 @@ Proposal ScalarStrategy::ByModel(const Points& asked) {
   return NotByAccident(MostExpectedImprovement(view, incumbent, noise), asked);
 }
 
-std::optional<Eigen::VectorXd> ScalarStrategy::ByTrustRegion(const Points& asked) const {
-  const auto step = TrustRegionStep(history_, domain_);
-  if (!step || WasEvaluated(*step, asked) || feasibility_.Probability(*step) < 0.7)
+std::optional<Eigen::VectorXd> ScalarStrategy::NearBest(const Points& asked,
+                                                        std::uint64_t seed) const {
+  std::optional<Eigen::VectorXd> step;
+  switch (NextStep(history_.values, size_of_design() + 1, static_cast<int>(asked.size()))) {
+    case Step::kGlobal:
+      break;
+    case Step::kQuadratic:
+      step = TrustRegionStep(history_, domain_);
+      break;
+    case Step::kLocal:
+      step = LocalStep(history_, domain_, seed);
+      break;
+  }
+  if (!step || WasEvaluated(*step, asked) || feasibility_.Probability(*step) < 0.7) {
     return std::nullopt;
+  }
   return step;
 }
 

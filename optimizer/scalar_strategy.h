@@ -2,7 +2,8 @@
 // that says where the next evaluation is worth most.
 //
 //   design → repeat of the best point, which tells noisy from deterministic →
-//   deterministic: steps by expected improvement and by a quadratic trust region, in turn
+//   deterministic: steps by expected improvement, over the domain or in a region round the best
+//                  point, and by a quadratic in such a region: the kind that has paid lately
 //   noisy:         steps by noise-aware expected improvement
 //
 // Batches and pending points by the kriging believer: points under way are taken to give what the
@@ -56,7 +57,8 @@ class ScalarStrategy : public Strategy {
   std::optional<Eigen::VectorXd> NextOfDesign(const Points& asked) const;
   std::optional<Eigen::VectorXd> FirstRepeat(const Points& asked) const;
   Proposal ByModel(const Points& asked);
-  std::optional<Eigen::VectorXd> ByTrustRegion(const Points& asked) const;
+  // A step near the best point, where the next one is to be one; not a failing or evaluated point.
+  std::optional<Eigen::VectorXd> NearBest(const Points& asked, std::uint64_t seed) const;
   bool HasFailed(const Eigen::VectorXd& point) const;
   bool WasEvaluated(const Eigen::VectorXd& point, const Points& asked) const;
   const ScalarFit& Fit();

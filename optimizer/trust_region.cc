@@ -3,10 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <vector>
 
+#include "optimizer/neighbours.h"
 #include "surrogate/nlopt_minimize.h"
 
 namespace talus::optimizer {
@@ -24,33 +22,18 @@ struct Quadratic {
   }
 };
 
-std::vector<Eigen::Index> Nearest(const History& history, Eigen::Index center, int count) {
-  std::vector<Eigen::Index> order;
-  for (Eigen::Index i = 0; i < history.values.size(); ++i) {
-    if (!SamePoint(history.points.row(i), history.points.row(center))) order.push_back(i);
-  }
-  const auto distance = [&](Eigen::Index i) {
-    return (history.points.row(i) - history.points.row(center)).squaredNorm();
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return distance(a) < distance(b); });
-  if (static_cast<int>(order.size()) > count) order.resize(static_cast<std::size_t>(count));
-  return order;
-}
-
 // Weighted least squares with a slight preference for a small Hessian, which decides what too few
 // or badly placed neighbours leave open.
-Quadratic Fit(const History& history, Eigen::Index center,
-              const std::vector<Eigen::Index>& neighbours, double radius) {
+Quadratic Fit(const History& history, const Neighbours& near, double radius) {
   constexpr double kRidge = 1e-4;
   const auto dimension = history.points.cols();
   const auto num_terms = dimension + dimension * (dimension + 1) / 2;
-  const auto rows = static_cast<Eigen::Index>(neighbours.size());
+  const auto rows = static_cast<Eigen::Index>(near.others.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows + num_terms - dimension, num_terms);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(a.rows());
   for (Eigen::Index r = 0; r < rows; ++r) {
-    const Eigen::Index i = neighbours[static_cast<std::size_t>(r)];
-    const Eigen::VectorXd s = (history.points.row(i) - history.points.row(center)) / radius;
+    const Eigen::Index i = near.others[static_cast<std::size_t>(r)];
+    const Eigen::VectorXd s = (history.points.row(i) - near.middle.transpose()) / radius;
     const double weight = 1 / (0.05 + std::pow(s.squaredNorm(), 1.5));
     a.row(r).head(dimension) = weight * s;
     Eigen::Index column = dimension;
@@ -59,7 +42,7 @@ Quadratic Fit(const History& history, Eigen::Index center,
         a(r, column++) = weight * s[j] * s[k] * (j == k ? 0.5 : 1.0);
       }
     }
-    b[r] = weight * (history.values[i] - history.values[center]);
+    b[r] = weight * (history.values[i] - history.values[near.best]);
   }
   for (Eigen::Index k = dimension; k < num_terms; ++k) a(rows + k - dimension, k) = kRidge;
   const Eigen::VectorXd terms = a.completeOrthogonalDecomposition().solve(b);
@@ -78,23 +61,15 @@ Quadratic Fit(const History& history, Eigen::Index center,
 std::optional<Eigen::VectorXd> TrustRegionStep(const History& history, const Domain& domain) {
   const auto dimension = static_cast<int>(history.points.cols());
   const int num_terms = dimension + dimension * (dimension + 1) / 2;
-  if (history.size() < dimension + 2) return std::nullopt;
-  Eigen::Index center = 0;
-  history.values.minCoeff(&center);
-  const std::vector<Eigen::Index> neighbours = Nearest(history, center, num_terms + dimension + 2);
-  if (static_cast<int>(neighbours.size()) < dimension + 1) return std::nullopt;
-  const Eigen::VectorXd middle = history.points.row(center);
-  const auto distance = [&](int rank) {
-    const auto at = std::min(neighbours.size() - 1, static_cast<std::size_t>(rank));
-    return (history.points.row(neighbours[at]).transpose() - middle).norm();
-  };
-  const double radius = distance(num_terms);
-  const Quadratic model = Fit(history, center, neighbours, radius);
-  const double reach = std::min(1.0, distance(2 * dimension) / radius);
+  const Neighbours near = NeighboursOfBest(history, num_terms + dimension + 2);
+  if (static_cast<int>(near.others.size()) < dimension + 1) return std::nullopt;
+  const double radius = near.DistanceOf(num_terms);
+  const Quadratic model = Fit(history, near, radius);
+  const double reach = std::min(1.0, near.DistanceOf(2 * dimension) / radius);
   // The box of the region, within the cube.
   surrogate::SearchTask task{.algorithm = surrogate::SearchAlgorithm::kLbfgs,
-                             .lower = (-middle / radius).cwiseMax(-reach),
-                             .upper = ((1 - middle.array()).matrix() / radius).cwiseMin(reach),
+                             .lower = (-near.middle / radius).cwiseMax(-reach),
+                             .upper = ((1 - near.middle.array()).matrix() / radius).cwiseMin(reach),
                              .max_evaluations = 100,
                              .absolute_tolerance = 1e-9};
   Eigen::VectorXd best = Eigen::VectorXd::Zero(dimension);
@@ -111,7 +86,7 @@ std::optional<Eigen::VectorXd> TrustRegionStep(const History& history, const Dom
       best = found.point;
     }
   }
-  const Eigen::VectorXd point = (middle + radius * best).cwiseMax(0.0).cwiseMin(1.0);
+  const Eigen::VectorXd point = (near.middle + radius * best).cwiseMax(0.0).cwiseMin(1.0);
   if (!(best.norm() > 1e-4) || !domain.Contains(point)) return std::nullopt;
   return point;
 }
