@@ -1,10 +1,12 @@
 // Runs a strategy on the benchmark problems and prints the solved fractions.
 //
 //   optimizer_bench [--strategy surrogate] [--noise 0|1|2] [--instances 1-8] [--problems a,b]
-//                   [--budgets 30,60,100] [--batch 1] [--csv FILE] [--seeds 20]
+//                   [--budgets 30,60,100] [--batch 1] [--csv FILE] [--stop 0.75] [--seeds 20]
 //
+// --stop lets the strategy end a run when less than this times the scatter is left to gain; its
+// last recommendation then counts for the larger budgets, and the median end is printed.
 // --seeds runs one instance from so many seeds instead, and prints the worst, the median, and the
-// median of random search after the first of the budgets.
+// median of random search after each of the budgets.
 //
 // r = (f(recommended) - f*) / R is judged noise-free; the score is the share of (problem, instance,
 // target) with r <= target over the targets 10^-0.5, 10^-1, …, 10^-4.
@@ -14,6 +16,7 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,7 +36,8 @@ struct Options {
   std::vector<std::string> problems = ProblemNames();
   std::vector<int> budgets{30, 60, 100};
   int batch = 1;
-  int num_seeds = 0;  // > 0: compare seeds, not instances
+  double stop_multiple = 0;  // 0: the whole budget is spent, whatever is left to gain
+  int num_seeds = 0;         // > 0: compare seeds, not instances
   std::string csv;
 };
 
@@ -53,6 +57,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--noise") options.noise = std::stoi(value);
     if (key == "--batch") options.batch = std::stoi(value);
     if (key == "--csv") options.csv = value;
+    if (key == "--stop") options.stop_multiple = std::stod(value);
     if (key == "--seeds") options.num_seeds = std::stoi(value);
     if (key == "--problems") options.problems = Split(value);
     if (key == "--instances") {
@@ -73,6 +78,7 @@ struct Result {
   std::string problem;
   int instance = 0;
   int budget = 0;
+  int num_used = 0;  // evaluations, at most the budget
   double regret = 0;
 };
 
@@ -82,7 +88,7 @@ Vec ToVec(const Eigen::VectorXd& point) { return {point[0], point[1], point[2]};
 std::unique_ptr<optimizer::Strategy> MakeFor(const Options& options, const Problem& problem,
                                              std::uint64_t seed) {
   optimizer::StrategyOptions strategy;
-  strategy.stop_multiple = 0;  // the whole budget is spent, whatever is left to gain
+  strategy.stop_multiple = options.stop_multiple;
   for (const auto& [name, kind] : base::Names<optimizer::StrategyKind>::kList) {
     if (name == options.strategy) strategy.kind = kind;
   }
@@ -121,7 +127,7 @@ std::vector<Result> RunOne(const Options& options, const Problem& problem, std::
   std::vector<Result> results;
   int told = 0;
   for (const int budget : options.budgets) {
-    while (told < budget) {
+    while (told < budget && !strategy->StopReason()) {
       for (const auto& proposal : strategy->Ask(std::min(options.batch, budget - told), {})) {
         ++told;
         const std::uint64_t run = 1000 * seed + static_cast<std::uint64_t>(told);
@@ -132,7 +138,7 @@ std::vector<Result> RunOne(const Options& options, const Problem& problem, std::
       }
     }
     const double regret = judge.Regret(ToVec(strategy->Recommend().point));
-    results.push_back({problem.name, problem.instance, budget, regret});
+    results.push_back({problem.name, problem.instance, budget, told, regret});
   }
   return results;
 }
@@ -166,11 +172,12 @@ void PrintTable(const Options& options, const std::vector<Result>& results) {
 }
 
 // Regret of the luckiest of `budget` random points, which is what random search recommends.
-double RandomRegret(const Options& options, const Problem& problem, std::uint64_t seed) {
+double RandomRegret(const Options& options, const Problem& problem, int budget,
+                    std::uint64_t seed) {
   base::Random random(seed, base::Stream("random search"));
   Vec best{};
   double lowest = std::numeric_limits<double>::infinity();
-  for (int i = 1; i <= options.budgets.front(); ++i) {
+  for (int i = 1; i <= budget; ++i) {
     const Vec point{random.Uniform(), random.Uniform(), random.Uniform()};
     const double value =
         problem.Noisy(point, 1000 * seed + static_cast<std::uint64_t>(i), options.noise);
@@ -187,23 +194,35 @@ double Median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-void CompareSeeds(Options options) {
-  options.budgets.resize(1);
-  std::printf("regret after %d evaluations, %d seeds\n%-12s%10s%10s%16s\n", options.budgets.front(),
-              options.num_seeds, "", "worst", "median", "random, median");
+void CompareSeeds(const Options& options) {
+  std::printf("regrets of %d seeds\n%-12s%8s%10s%10s%16s\n", options.num_seeds, "", "budget",
+              "worst", "median", "random, median");
   for (const std::string& name : options.problems) {
     const auto problem = MakeProblem(name, options.first_instance);
-    std::vector<double> regrets;
-    std::vector<double> random;
+    std::map<int, std::vector<double>> regrets;  // by budget
+    std::map<int, std::vector<double>> random;
     for (int i = 1; i <= options.num_seeds; ++i) {
       const auto seed = static_cast<std::uint64_t>(i);
-      regrets.push_back(RunOne(options, *problem, seed).front().regret);
-      random.push_back(RandomRegret(options, *problem, seed));
+      for (const Result& result : RunOne(options, *problem, seed)) {
+        regrets[result.budget].push_back(result.regret);
+        random[result.budget].push_back(RandomRegret(options, *problem, result.budget, seed));
+      }
     }
-    std::printf("%-12s%10.4f%10.4f%16.4f\n", name.c_str(),
-                *std::max_element(regrets.begin(), regrets.end()), Median(regrets), Median(random));
+    for (const auto& [budget, seen] : regrets) {
+      std::printf("%-12s%8d%10.2g%10.2g%16.2g\n", name.c_str(), budget,
+                  *std::max_element(seen.begin(), seen.end()), Median(seen),
+                  Median(random[budget]));
+    }
     std::fflush(stdout);
   }
+}
+
+void PrintStops(const Options& options, const std::vector<Result>& results) {
+  std::vector<double> ends;
+  for (const Result& result : results) {
+    if (result.budget == options.budgets.back()) ends.push_back(result.num_used);
+  }
+  std::printf("median end after %g evaluations\n", Median(ends));
 }
 
 int Main(int argc, char** argv) {
@@ -223,6 +242,7 @@ int Main(int argc, char** argv) {
     }
   }
   PrintTable(options, results);
+  if (options.stop_multiple > 0) PrintStops(options, results);
   std::printf("%.1f s of processor time\n",
               static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   if (!options.csv.empty()) {
