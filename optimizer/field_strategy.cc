@@ -76,9 +76,18 @@ Proposal FieldStrategy::Next(const Points& asked) {
   if (const auto first = scalar_.BeforeModel(asked)) return *first;
   const std::optional<FieldModel>& model = Model();
   if (!model) return scalar_.Ask(1, asked).front();
-  const bool explores = !has_exact_target_ && !scalar_.deterministic() &&
-                        (scalar_.history().size() + static_cast<int>(asked.size())) % 2 == 0;
-  return scalar_.NotByAccident(explores ? ByDraw(*model, asked) : ByModel(*model, asked), asked);
+  return scalar_.NotByAccident(NextByModel(*model, asked), asked);
+}
+
+// An exact target has one answer, so every third noisy evaluation goes to what the answer would be
+// now. Of a target that is not exact the ranges are wanted too, so every other one explores.
+Eigen::VectorXd FieldStrategy::NextByModel(const FieldModel& model, const Points& asked) const {
+  const int turn = scalar_.history().size() + static_cast<int>(asked.size());
+  if (!scalar_.deterministic()) {
+    if (has_exact_target_ && turn % 3 == 0) return LowestMean(model);
+    if (!has_exact_target_ && turn % 2 == 0) return ByDraw(model, asked);
+  }
+  return ByImprovement(model, asked);
 }
 
 // The minimiser of one draw of what is not known. Expected improvement crowds round one of several
@@ -108,7 +117,7 @@ Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& ask
 
 // Under noise the incumbent is an evaluated point, as in the scalar strategy; without, the lowest
 // prediction anywhere, since the images can be known far better than the evaluations are spaced.
-Eigen::VectorXd FieldStrategy::ByModel(const FieldModel& model, const Points& asked) const {
+Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Points& asked) const {
   Eigen::MatrixXd centers = Centers(model, scalar_.history().points);
   double noise = 0;
   if (scalar_.deterministic()) {

@@ -28,7 +28,8 @@ class FieldStrategy : public Strategy {
 
   const std::optional<FieldModel>& Model();
   Proposal Next(const Points& asked);
-  Eigen::VectorXd ByModel(const FieldModel& model, const Points& asked) const;
+  Eigen::VectorXd NextByModel(const FieldModel& model, const Points& asked) const;
+  Eigen::VectorXd ByImprovement(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd ByDraw(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd LowestMean(const FieldModel& model) const;
   Answer RecommendByValues();

@@ -116,6 +116,15 @@ class ReportInABrowser(unittest.TestCase):
         self.check_charts()
         self.check_log()
 
+    def test_campaign_of_ten_thousand_trials(self):
+        self.open_report("many", 10000, 3, "running")
+        self.check_charts()
+        self.driver.find_element(By.ID, "trial-filter").send_keys("state=failed")
+        self.assertEqual(set(self.column("state")), {"failed"})
+        self.assertIn("1 to 50 of ", self.driver.find_element(By.ID, "trial-count").text)
+        self.check_log()
+        self.keep_screenshot("many")
+
     def test_colouring_by_another_objective_redraws(self):
         self.open_report("three", 60, 3, "finished")
         self.check_charts()
