@@ -33,6 +33,16 @@ double MeasureSpeed(HeapCase heap_case, std::int64_t num_grains) {
   return (rig.state().particle_steps - before) / seconds;
 }
 
+double GrainSteps(const HeapSize& size) {
+  return static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
+}
+
+HeapCase ConfirmingCase(const CampaignSpec& spec, HeapCase heap_case) {
+  double& factor = heap_case.coarse_graining.scale_factor;
+  factor = spec.confirm.scale_factor.value_or(factor);
+  return heap_case;
+}
+
 }  // namespace
 
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
@@ -44,12 +54,15 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   e.time_step = size.time_step;
   e.num_steps = size.simulated_time / size.time_step;
   e.grain_steps_per_s = MeasureSpeed(heap_case, size.num_grains);
-  e.trial_time = static_cast<double>(e.num_grains) * e.num_steps / e.grain_steps_per_s;
-  e.num_trials = spec.budget.simulations + spec.confirm.candidates * spec.confirm.replicates;
+  e.trial_time = GrainSteps(size) / e.grain_steps_per_s;
+  e.confirm_time = GrainSteps(EstimateHeap(ConfirmingCase(spec, heap_case))) / e.grain_steps_per_s;
+  const int num_confirming = spec.confirm.candidates * spec.confirm.replicates;
+  e.num_trials = spec.budget.simulations + num_confirming;
   e.num_workers = spec.workers > 0
                       ? spec.workers
                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  e.campaign_time = e.trial_time * e.num_trials / e.num_workers;
+  e.campaign_time =
+      (e.trial_time * spec.budget.simulations + e.confirm_time * num_confirming) / e.num_workers;
   return e;
 }
 
@@ -59,9 +72,11 @@ std::string EstimateText(const CampaignEstimate& e) {
          " steps of " + NumberText4(1e6 * e.time_step) + " us\n  this machine      " +
          NumberText4(1e-6 * e.grain_steps_per_s) +
          " million grain steps a second on a core\n  time              about " +
-         DurationText(e.trial_time) + " a trial, " + DurationText(e.campaign_time) + " for " +
-         std::to_string(e.num_trials) + " trials, " + std::to_string(e.num_workers) +
-         " at a time\n";
+         DurationText(e.trial_time) + " a trial, " +
+         (e.confirm_time == e.trial_time ? ""
+                                         : DurationText(e.confirm_time) + " a confirming one, ") +
+         DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) + " trials, " +
+         std::to_string(e.num_workers) + " at a time\n";
 }
 
 }  // namespace talus::experiments

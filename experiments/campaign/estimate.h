@@ -15,6 +15,7 @@ struct CampaignEstimate {
   double num_steps = 0;          // of a trial
   double grain_steps_per_s = 0;  // of one core, measured here
   double trial_time = 0;         // [s]
+  double confirm_time = 0;       // [s], of a trial that confirms, maybe of finer grains
   int num_trials = 0;            // at most: noise, search and confirmation
   int num_workers = 0;
   double campaign_time = 0;  // [s], at most
