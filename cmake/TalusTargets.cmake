@@ -18,9 +18,12 @@ target_compile_features(talus_compile_options INTERFACE cxx_std_20)
 target_compile_options(talus_compile_options INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor;-fno-math-errno;-ffp-contract=off>
   $<BUILD_INTERFACE:$<$<BOOL:${TALUS_WARNINGS_AS_ERRORS}>:-Werror>>)
+# Checks that double the time to compile are left out where the address sanitizer finds what comes of
+# the mistake.
 if(TALUS_SANITIZE)
   target_compile_options(talus_compile_options INTERFACE
-    $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
+    $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize=null,alignment,object-size,pointer-overflow>
+    $<BUILD_INTERFACE:-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
   target_link_options(talus_compile_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
@@ -51,12 +54,21 @@ function(talus_add_test path)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;ARGUMENTS" ${ARGN})
   string(REPLACE "/" "_" target ${path})
   add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${path}.cc)
+  if(TALUS_SANITIZE)  # what takes long to run is in the libraries, or slow and left out
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/${path}.cc PROPERTIES COMPILE_OPTIONS -O0)
+    if("slow" IN_LIST ARG_LABELS)
+      set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    endif()
+  endif()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${target} PRIVATE TALUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TALUS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
+  endif()
+  if(TALUS_SANITIZE)
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
   add_test(NAME ${path} COMMAND ${target})
   set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")

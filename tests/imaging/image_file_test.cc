@@ -149,7 +149,7 @@ std::string Bmp() {
   constexpr std::uint32_t kStride = (37 * 3 + 3) / 4 * 4;
   std::string bytes = "BM" + number(54 + kStride * 21, 4) + number(0, 4) + number(54, 4) +
                       number(40, 4) + number(37, 4) + number(21, 4) + number(1, 2) + number(24, 2) +
-                      number(0, 4) + number(kStride * 21, 4) + number(0, 16);
+                      number(0, 4) + number(kStride * 21, 4) + std::string(16, '\0');
   for (int y = 20; y >= 0; --y) {
     for (int x = 0; x < 37; ++x) bytes += std::string(3, static_cast<char>(ramp.at(x, y)));
     bytes += std::string(kStride - 37 * 3, '\0');

@@ -212,6 +212,9 @@ TEST(ScalarStrategy, StopsInWordsOnceTheScatterHidesWhatIsLeft) {
 
 // Processor time, so that other work on the machine does not count. The limit is one second.
 TEST(ScalarStrategy, ProposesWithinASecondAfterTwoHundredEvaluations) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "sanitized, it takes several times as long";
+#endif
   for (const bool noisy : {false, true}) {
     ScalarStrategy strategy = Fresh();
     const Eigen::MatrixXd points = Lattice(199, 3, 1);
