@@ -34,7 +34,7 @@ struct StrategyOptions {
   StrategyKind kind = StrategyKind::kSurrogate;
   int num_initial = 0;  // of surrogates: size of the initial design, in [0, 100]; 0: 2 d + 3
   double stop_multiple =
-      1;                   // of surrogates: stop when less than this × the scatter is left to gain
+      0.7;                 // of surrogates: stop when less than this × the scatter is left to gain
   int max_replicates = 5;  // of surrogates: deliberate repeats beside the first, in [0, 1000]
   int num_points = 60;     // of lhs and sobol, in [1, 10000]
   std::vector<int> levels = {};  // of grid, one a parameter, each >= 1; empty: 8 each

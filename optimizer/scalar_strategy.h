@@ -25,9 +25,9 @@
 namespace talus::optimizer {
 
 struct ScalarOptions {
-  int num_initial = 0;       // evaluations of the design; 0: 2 d + 3
-  double stop_multiple = 1;  // ends when less than this × the scatter is left to gain; 0: never
-  int max_replicates = 5;    // deliberate repeats beside the first, in all
+  int num_initial = 0;         // evaluations of the design; 0: 2 d + 3
+  double stop_multiple = 0.7;  // ends when less than this × the scatter is left to gain; 0: never
+  int max_replicates = 5;      // deliberate repeats beside the first, in all
   std::uint64_t seed = 1;
 };
 

@@ -1,13 +1,18 @@
 #include "optimizer/step_choice.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <vector>
 
 namespace talus::optimizer {
 namespace {
 
 constexpr int kNumKinds = 3;
-constexpr double kMemory = 0.85;        // weight of a step relative to the one after it
+constexpr double kMemory = 0.85;  // weight of a step relative to the one after it
+// A smaller gain, as a share of the spread of the first values, is none: a step that polishes what
+// is found would keep all others from looking elsewhere.
+constexpr double kLeastGain = 1e-6;
 constexpr double kExpectedShare = 0.3;  // of a kind of which nothing is remembered
 
 struct Record {
@@ -16,6 +21,15 @@ struct Record {
 
   double Share() const { return (improvements + kExpectedShare) / (steps + 1); }
 };
+
+// What an improvement must at least be. Of the first values alone, so that it stays the same.
+double LeastGain(const Eigen::VectorXd& values, int num_before) {
+  if (values.size() == 0) return 0;
+  std::vector<double> first(values.begin(),
+                            values.begin() + std::min<Eigen::Index>(num_before, values.size()));
+  std::sort(first.begin(), first.end());
+  return kLeastGain * (first[first.size() / 2] - first.front());
+}
 
 // The largest share; of equals the first after `last`, in turn.
 int MostPromising(const std::array<Record, kNumKinds>& records, int last) {
@@ -35,6 +49,7 @@ int MostPromising(const std::array<Record, kNumKinds>& records, int last) {
 Step NextStep(const Eigen::VectorXd& values, int num_before, int num_pending) {
   std::array<Record, kNumKinds> records;
   int kind = 0;
+  const double least_gain = LeastGain(values, num_before);
   double lowest = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < values.size() + num_pending; ++i) {
     const double value = i < values.size() ? values[i] : lowest;
@@ -45,7 +60,7 @@ Step NextStep(const Eigen::VectorXd& values, int num_before, int num_pending) {
       }
       Record& taken = records[static_cast<std::size_t>(kind)];
       taken.steps += 1;
-      taken.improvements += value < lowest ? 1 : 0;
+      taken.improvements += lowest - value > least_gain ? 1 : 0;
       kind = MostPromising(records, kind);
     }
     lowest = std::min(lowest, value);

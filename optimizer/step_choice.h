@@ -1,8 +1,9 @@
 // Which kind of step to take next without noise: the one that has paid lately.
 //
 // Each problem, and each phase of it, has another kind that finds improvements while the others
-// find none. The share of its latest steps that improved on the best value is followed for each
-// kind, old steps counting less and less, so that one not tried for long is tried again.
+// find none. The share of its latest steps that improved on the best value by more than a trifle is
+// followed for each kind, old steps counting less and less, so that one not tried for long is tried
+// again.
 #pragma once
 
 #include <Eigen/Core>

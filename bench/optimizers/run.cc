@@ -121,8 +121,8 @@ class Judge {
   double scale_ = 1;
 };
 
-std::vector<Result> RunOne(const Options& options, const Problem& problem, std::uint64_t seed) {
-  const Judge judge(problem);
+std::vector<Result> RunOne(const Options& options, const Problem& problem, const Judge& judge,
+                           std::uint64_t seed) {
   const auto strategy = MakeFor(options, problem, seed);
   std::vector<Result> results;
   int told = 0;
@@ -172,20 +172,19 @@ void PrintTable(const Options& options, const std::vector<Result>& results) {
 }
 
 // Regret of the luckiest of `budget` random points, which is what random search recommends.
-double RandomRegret(const Options& options, const Problem& problem, int budget,
+double RandomRegret(const Problem& problem, const Judge& judge, int noise, int budget,
                     std::uint64_t seed) {
   base::Random random(seed, base::Stream("random search"));
   Vec best{};
   double lowest = std::numeric_limits<double>::infinity();
   for (int i = 1; i <= budget; ++i) {
     const Vec point{random.Uniform(), random.Uniform(), random.Uniform()};
-    const double value =
-        problem.Noisy(point, 1000 * seed + static_cast<std::uint64_t>(i), options.noise);
+    const double value = problem.Noisy(point, 1000 * seed + static_cast<std::uint64_t>(i), noise);
     if (value >= lowest) continue;
     lowest = value;
     best = point;
   }
-  return Judge(problem).Regret(best);
+  return judge.Regret(best);
 }
 
 double Median(std::vector<double> values) {
@@ -199,13 +198,15 @@ void CompareSeeds(const Options& options) {
               "worst", "median", "random, median");
   for (const std::string& name : options.problems) {
     const auto problem = MakeProblem(name, options.first_instance);
+    const Judge judge(*problem);  // once: finding the optimum may take longer than a run
     std::map<int, std::vector<double>> regrets;  // by budget
     std::map<int, std::vector<double>> random;
     for (int i = 1; i <= options.num_seeds; ++i) {
       const auto seed = static_cast<std::uint64_t>(i);
-      for (const Result& result : RunOne(options, *problem, seed)) {
+      for (const Result& result : RunOne(options, *problem, judge, seed)) {
         regrets[result.budget].push_back(result.regret);
-        random[result.budget].push_back(RandomRegret(options, *problem, result.budget, seed));
+        random[result.budget].push_back(
+            RandomRegret(*problem, judge, options.noise, result.budget, seed));
       }
     }
     for (const auto& [budget, seen] : regrets) {
@@ -236,7 +237,8 @@ int Main(int argc, char** argv) {
   for (const std::string& name : options.problems) {
     for (int i = options.first_instance; i <= options.last_instance; ++i) {
       const auto problem = MakeProblem(name, i);
-      for (Result& result : RunOne(options, *problem, static_cast<std::uint64_t>(i))) {
+      for (Result& result :
+           RunOne(options, *problem, Judge(*problem), static_cast<std::uint64_t>(i))) {
         results.push_back(result);
       }
     }

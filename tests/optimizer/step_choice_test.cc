@@ -42,5 +42,13 @@ TEST(NextStep, TakesTheKindsInTurnWhileNoneImproves) {
   EXPECT_EQ(NextStep(values, 3, 1), Step::kLocal);
 }
 
+// The first values spread by 1: a gain of 1e-7 is less than a millionth of that.
+TEST(NextStep, TakesPolishingForNoImprovement) {
+  std::vector<double> values{5, 3, 4, 3 - 1e-7};
+  EXPECT_EQ(NextStep(Eigen::Map<Eigen::Vector4d>(values.data()), 3, 0), Step::kQuadratic);
+  values.back() = 3 - 1e-5;
+  EXPECT_EQ(NextStep(Eigen::Map<Eigen::Vector4d>(values.data()), 3, 0), Step::kGlobal);
+}
+
 }  // namespace
 }  // namespace talus::optimizer
