@@ -24,7 +24,7 @@ constexpr double kHopeless = -1e6;  // below every logarithm of an improvement
 // Draws lie so many times farther from the mean than the processes say. These take their
 // hyper-parameters for known and the scatter for the same everywhere, and evaluations crowd where
 // they were too hopeful. Found on synthetic heaps, by bench/optimizers/range_coverage.cc.
-constexpr double kCaution = 1.25;
+constexpr double kCaution = 1.5;
 
 surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldState* frozen) {
   surrogate::ModeOptions modes;
