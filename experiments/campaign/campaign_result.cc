@@ -20,6 +20,7 @@ std::string ParameterLines(const CampaignResult& result) {
     text += "  " + Padded(p.name, 18) + Padded(NumberText4(p.value) + " " + p.unit, 18) +
             "90 % in " + NumberText4(p.credible_low) + " … " + NumberText4(p.credible_high) + "\n";
   }
+  if (result.parameters.size() > 1) text += "  (90 % for all of them together)\n";
   return text;
 }
 

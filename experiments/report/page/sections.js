@@ -26,7 +26,7 @@ function valueTile(p, v) {
     element("div", {class: "what"}, p.symbol + " ", element("span", {}, p.title)),
     element("div", {class: "number"}, format(v.value), " ", element("small", {}, p.unit)),
     element("div", {class: "range"}, ranged
-      ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit)
+      ? "90\u00a0% range" + (D.parameters.length > 1 ? ", all together, " : " ") + format(v.low) + " to " + formatUnit(v.high, p.unit)
       : "no range: the strategy has no model"),
     element("div", {class: "track", "aria-hidden": "true"},
       ranged ? element("div", {class: "band", style: `left:${from}%;width:${to - from}%`}) : null,
