@@ -5,15 +5,32 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
 
 namespace talus::experiments {
+namespace {
+
+// A process that is killed while it starts a worker leaves its lock to the worker, until this
+// begins to run its own program a moment later. So the lock is tried for a second.
+bool Acquire(int file) {
+  constexpr int kTries = 50;
+  constexpr std::chrono::milliseconds kPause{20};
+  for (int i = 0; i < kTries; ++i) {
+    if (i > 0) std::this_thread::sleep_for(kPause);
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::filesystem::path CampaignFolder::trial(std::int64_t id) const {
   char name[32];
@@ -25,7 +42,7 @@ CampaignLock::CampaignLock(const std::filesystem::path& root) {
   const std::string path = (root / "campaign.lock").string();
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw base::Error(path + ": cannot be written: " + std::strerror(errno));
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+  if (!Acquire(file_)) {
     char owner[32] = "";
     if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
     ::close(file_);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <thread>
 
 #include "base/error.h"
@@ -61,7 +62,8 @@ class CampaignFaults : public CampaignFixture {
     }
     try {
       ::_exit(static_cast<int>(RunFake(folder, engine)));
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "a session ended by: %s\n", error.what());
       ::_exit(kThrew);
     }
   }
