@@ -6,9 +6,12 @@
 
 #include "base/random.h"
 #include "optimizer/acquisition.h"
+#include "surrogate/spread.h"
 
 namespace talus::optimizer {
 namespace {
+
+using surrogate::Spread;
 
 constexpr int kNumDraws = 16;  // half of them the mirror images of the others
 // Without scatter every mode that is more than rounding is signal; with it the weak ones are noise.
@@ -36,10 +39,6 @@ surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldSt
   if (!options.deterministic) modes.process.priors = kNoisyPriors;
   if (frozen != nullptr) modes.frozen = frozen->modes;
   return modes;
-}
-
-double Spread(const Eigen::VectorXd& values) {
-  return std::sqrt((values.array() - values.mean()).square().mean());
 }
 
 std::optional<surrogate::GaussianProcess> FitLoss(const CodedFields& data,

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "surrogate/map_fit.h"
+#include "surrogate/spread.h"
 #include "surrogate/warp.h"
 
 namespace talus::surrogate {
@@ -15,7 +16,7 @@ namespace {
 // Mean and standard deviation of the values, with a standard deviation that is safe to divide by.
 GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
   const double centre = values.mean();
-  const double sd = std::sqrt((values.array() - centre).square().mean());
+  const double sd = Spread(values);
   const bool constant = !(sd > 1e-12 * std::abs(centre)) || sd == 0;
   return {
       .hyper = {}, .centre = centre, .scale = constant ? std::max(1e-12, std::abs(centre)) : sd};

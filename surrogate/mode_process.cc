@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "surrogate/spread.h"
+
 namespace talus::surrogate {
 namespace {
-
-double SpreadOf(const Eigen::VectorXd& values) {
-  return std::sqrt((values.array() - values.mean()).square().mean());
-}
 
 // The strongest mode left out is nearly all scatter, and one evaluation scatters about as much
 // along every mode, somewhat more along the strong ones. Without this the weak modes, seen a few
@@ -20,14 +18,14 @@ LogNormal NoisePrior(double next_sd, const Eigen::VectorXd& coefficients) {
   constexpr double kLeast = 0.1;
   constexpr double kMost = 0.8;
   constexpr double kLogSd = 0.7;
-  const double expected = kStronger * next_sd / SpreadOf(coefficients);
+  const double expected = kStronger * next_sd / Spread(coefficients);
   return {.median = std::clamp(expected, kLeast, kMost), .log_sd = kLogSd};
 }
 
 // A state for a weak mode: the correlation of a stronger one at its own scale.
 GaussianProcessState Rescaled(GaussianProcessState state, const Eigen::VectorXd& values) {
   state.centre = values.mean();
-  state.scale = SpreadOf(values);
+  state.scale = Spread(values);
   if (!(state.scale > 0)) state.scale = 1;
   return state;
 }
@@ -45,11 +43,12 @@ ModeProcess ModeProcess::Fit(const Eigen::MatrixXd& points, const Eigen::MatrixX
   const Eigen::MatrixXd coefficients = (vectors.rowwise() - modes.mean.transpose()) * modes.basis;
   for (Eigen::Index k = 0; k < coefficients.cols(); ++k) {
     GaussianProcessOptions one = options.process;
-    if (modes.next_sd > 0) one.priors.noise = NoisePrior(modes.next_sd, coefficients.col(k));
     if (options.frozen) {
       one.frozen = options.frozen->processes[static_cast<std::size_t>(k)];
     } else if (k >= options.num_own) {
       one.frozen = Rescaled(process.processes_.back().state(), coefficients.col(k));
+    } else if (modes.next_sd > 0) {
+      one.priors.noise = NoisePrior(modes.next_sd, coefficients.col(k));
     }
     process.processes_.push_back(GaussianProcess::Fit(points, coefficients.col(k), one));
     process.state_.processes.push_back(process.processes_.back().state());

@@ -9,26 +9,19 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_lock.h"
 
 namespace talus::experiments {
 namespace {
 
 // A process that is killed while it starts a worker leaves its lock to the worker, until this
-// begins to run its own program a moment later. So the lock is tried for a second.
-bool Acquire(int file) {
-  constexpr int kTries = 50;
-  constexpr std::chrono::milliseconds kPause{20};
-  for (int i = 0; i < kTries; ++i) {
-    if (i > 0) std::this_thread::sleep_for(kPause);
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
-  }
-  return false;
-}
+// begins to run its own program a moment later.
+constexpr std::chrono::milliseconds kPatience{1000};
+constexpr std::chrono::milliseconds kPause{20};
 
 }  // namespace
 
@@ -42,7 +35,7 @@ CampaignLock::CampaignLock(const std::filesystem::path& root) {
   const std::string path = (root / "campaign.lock").string();
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw base::Error(path + ": cannot be written: " + std::strerror(errno));
-  if (!Acquire(file_)) {
+  if (!base::LockWithin(file_, kPatience, kPause)) {
     char owner[32] = "";
     if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
     ::close(file_);

@@ -1,19 +1,18 @@
 #include "experiments/runners/slurm_runner.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <chrono>
 #include <ctime>
 #include <fstream>
 #include <random>
-#include <thread>
 #include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_lock.h"
 #include "experiments/runners/slurm_verdict.h"
 
 namespace talus::experiments {
@@ -47,10 +46,7 @@ class InheritedLock {
     if (descriptor_ < 0) throw base::Error(file.string() + ": cannot be opened");
     // sbatch gives up after a minute (RunTool's cap); a file system without locks is not waited
     // for.
-    for (int tries = 0; ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && tries < 700; ++tries) {
-      if (errno != EWOULDBLOCK && errno != EINTR) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
+    base::LockWithin(descriptor_, std::chrono::seconds(70), std::chrono::milliseconds(100));
   }
   InheritedLock(const InheritedLock&) = delete;
   InheritedLock& operator=(const InheritedLock&) = delete;
