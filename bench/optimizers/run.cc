@@ -77,6 +77,7 @@ Options Parse(int argc, char** argv) {
 struct Result {
   std::string problem;
   int instance = 0;
+  std::uint64_t seed = 0;
   int budget = 0;
   int num_used = 0;  // evaluations, at most the budget
   double regret = 0;
@@ -138,7 +139,7 @@ std::vector<Result> RunOne(const Options& options, const Problem& problem, const
       }
     }
     const double regret = judge.Regret(ToVec(strategy->Recommend().point));
-    results.push_back({problem.name, problem.instance, budget, told, regret});
+    results.push_back({problem.name, problem.instance, seed, budget, told, regret});
   }
   return results;
 }
@@ -193,7 +194,19 @@ double Median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+void WriteCsv(const Options& options, const std::vector<Result>& results) {
+  if (options.csv.empty()) return;
+  std::ofstream csv(options.csv);
+  csv << "method,problem,instance,seed,noise,budget,regret\n";
+  for (const Result& result : results) {
+    csv << options.strategy << ',' << result.problem << ',' << result.instance << ','
+        << result.seed << ',' << options.noise << ',' << result.budget << ',' << result.regret
+        << '\n';
+  }
+}
+
 void CompareSeeds(const Options& options) {
+  std::vector<Result> results;
   std::printf("regrets of %d seeds\n%-12s%8s%10s%10s%16s\n", options.num_seeds, "", "budget",
               "worst", "median", "random, median");
   for (const std::string& name : options.problems) {
@@ -204,6 +217,7 @@ void CompareSeeds(const Options& options) {
     for (int i = 1; i <= options.num_seeds; ++i) {
       const auto seed = static_cast<std::uint64_t>(i);
       for (const Result& result : RunOne(options, *problem, judge, seed)) {
+        results.push_back(result);
         regrets[result.budget].push_back(result.regret);
         random[result.budget].push_back(
             RandomRegret(*problem, judge, options.noise, result.budget, seed));
@@ -216,6 +230,7 @@ void CompareSeeds(const Options& options) {
     }
     std::fflush(stdout);
   }
+  WriteCsv(options, results);
 }
 
 void PrintStops(const Options& options, const std::vector<Result>& results) {
@@ -247,14 +262,7 @@ int Main(int argc, char** argv) {
   if (options.stop_multiple > 0) PrintStops(options, results);
   std::printf("%.1f s of processor time\n",
               static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-  if (!options.csv.empty()) {
-    std::ofstream csv(options.csv);
-    csv << "method,problem,instance,noise,budget,regret\n";
-    for (const Result& result : results) {
-      csv << options.strategy << ',' << result.problem << ',' << result.instance << ','
-          << options.noise << ',' << result.budget << ',' << result.regret << '\n';
-    }
-  }
+  WriteCsv(options, results);
   return 0;
 }
 
