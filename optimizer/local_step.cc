@@ -1,5 +1,6 @@
 #include "optimizer/local_step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,7 +15,7 @@ namespace {
 
 struct LocalFit {
   std::optional<surrogate::GaussianProcess> process;  // of coordinates as FitNeighbours says
-  double incumbent = 0;                               // least of the fitted values
+  double incumbent = 0;                               // least of the fitted and believed values
   double log_posterior = -std::numeric_limits<double>::infinity();
 };
 
@@ -55,6 +56,17 @@ LocalFit FitNeighbours(const History& history, const Neighbours& near, std::uint
   return best;
 }
 
+// Takes the predictions at pending points for evaluations. The incumbent follows, or the next step
+// would land beside the most promising of them.
+void Believe(std::span<const Eigen::VectorXd> pending, const Neighbours& near, LocalFit& fit) {
+  for (const Eigen::VectorXd& point : pending) {
+    const Eigen::VectorXd u = ((point - near.middle) / (2 * near.distances.back())).array() + 0.5;
+    const double mean = fit.process->Predict(u).mean;
+    fit.process->Add(u, mean);
+    fit.incumbent = std::min(fit.incumbent, mean);
+  }
+}
+
 // Minus the logarithm of the expected improvement, of the region stretched to the unit cube;
 // `share` is its part of the process's cube.
 CheapFunction NegativeImprovement(const LocalFit& fit, double share) {
@@ -87,6 +99,7 @@ CheapFunction NegativeImprovement(const LocalFit& fit, double share) {
 }  // namespace
 
 std::optional<Eigen::VectorXd> LocalStep(const History& history, const Domain& domain,
+                                         std::span<const Eigen::VectorXd> pending,
                                          std::uint64_t seed) {
   const auto dimension = static_cast<int>(history.points.cols());
   const Neighbours near = NeighboursOfBest(history, 10 * dimension - 1);
@@ -98,7 +111,8 @@ std::optional<Eigen::VectorXd> LocalStep(const History& history, const Domain& d
   const Domain region{.num_parameters = dimension, .feasible = [&](const Eigen::VectorXd& u) {
                         return domain.Contains(to_cube(u));
                       }};
-  const LocalFit fit = FitNeighbours(history, near, seed);
+  LocalFit fit = FitNeighbours(history, near, seed);
+  Believe(pending, near, fit);
   const Eigen::VectorXd found =
       SearchCube(NegativeImprovement(fit, reach / near.distances.back()), region,
                  Eigen::MatrixXd::Constant(1, dimension, 0.5), {.seed = seed})

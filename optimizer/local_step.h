@@ -12,14 +12,17 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "optimizer/domain.h"
 #include "optimizer/history.h"
 
 namespace talus::optimizer {
 
-// Of a deterministic objective. No point when there are too few evaluations.
+// Of a deterministic objective. `pending` points are taken to give what the process predicts. No
+// point when there are too few evaluations.
 std::optional<Eigen::VectorXd> LocalStep(const History& history, const Domain& domain,
+                                         std::span<const Eigen::VectorXd> pending,
                                          std::uint64_t seed);
 
 }  // namespace talus::optimizer

@@ -141,8 +141,12 @@ Proposal ScalarStrategy::ByModel(const Points& asked) {
     if (const auto step = NearBest(asked, seed)) return {*step, Origin::kModel};
   }
   surrogate::GaussianProcess believed = Fit().process;
-  const double incumbent = TransformedModel(believed).Predict(history_.points).mean.minCoeff();
-  for (const Eigen::VectorXd& point : asked) believed.Add(point, believed.Predict(point).mean);
+  double incumbent = believed.PredictAll(history_.points).mean.minCoeff();
+  for (const Eigen::VectorXd& point : asked) {
+    const double mean = believed.Predict(point).mean;
+    believed.Add(point, mean);
+    incumbent = std::min(incumbent, mean);  // or the next one would land beside it
+  }
   const TransformedModel model(std::move(believed));
   const ModelView view{model, feasibility_, domain_, history_.points, seed};
   const double noise = repeats_.deterministic ? 0 : model.NoiseSd(history_.points.row(0));
@@ -159,7 +163,7 @@ std::optional<Eigen::VectorXd> ScalarStrategy::NearBest(const Points& asked,
       step = TrustRegionStep(history_, domain_);
       break;
     case Step::kLocal:
-      step = LocalStep(history_, domain_, seed);
+      step = LocalStep(history_, domain_, asked, seed);
       break;
   }
   if (!step || WasEvaluated(*step, asked) || feasibility_.Probability(*step) < 0.7) {

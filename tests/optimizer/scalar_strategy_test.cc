@@ -64,6 +64,21 @@ TEST(ScalarStrategy, DesignThenOneRepeatOfTheBestThenTheModel) {
   EXPECT_EQ(strategy.Ask(1, {}).at(0).origin, Origin::kModel);
 }
 
+// The incumbent of the second is what the first is believed to give; were it the best evaluation,
+// the second would land beside the first, within 1e-3 of it.
+TEST(ScalarStrategy, SpreadsABatch) {
+  for (const bool noisy : {false, true}) {
+    ScalarStrategy strategy = Fresh();
+    RunStrategy(strategy, 14, noisy);
+    const auto batch = strategy.Ask(4, {});
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_GT((batch[i].point - batch[j].point).norm(), 0.02) << i << ' ' << j;
+      }
+    }
+  }
+}
+
 // A smooth bowl without noise is known to 1e-4 of a range after 40 evaluations; with scatter 0.03,
 // a tenth of the bowl's depth at the walls, to the few per cent that the curvature allows.
 TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
