@@ -14,8 +14,7 @@ namespace {
 using surrogate::Spread;
 
 constexpr int kNumDraws = 16;  // half of them the mirror images of the others
-// Without scatter every mode that is more than rounding is signal; with it the weak ones are noise.
-constexpr int kModesIfNoisy = 6;
+// Without scatter every mode that is more than rounding is signal.
 constexpr int kModesIfDeterministic = 12;
 // A code that loses less than this share of the spread of the objective needs no process for it.
 constexpr double kSmallLoss = 1e-3;
@@ -29,9 +28,20 @@ constexpr double kHopeless = -1e6;  // below every logarithm of an improvement
 // they were too hopeful. Found on synthetic heaps, by bench/optimizers/range_coverage.cc.
 constexpr double kCaution = 1.5;
 
-surrogate::ModeOptions OptionsOf(const FieldModelOptions& options, const FieldState* frozen) {
+// With scatter the weak modes are noise, until there are evaluations enough to tell.
+int ModesIfNoisy(Eigen::Index num_evaluations) {
+  constexpr int kFewest = 6;
+  constexpr int kMost = 10;
+  constexpr int kEnoughForFewest = 40;  // evaluations; one more mode for every ten beyond
+  return std::clamp(kFewest + static_cast<int>(num_evaluations - kEnoughForFewest) / 10, kFewest,
+                    kMost);
+}
+
+surrogate::ModeOptions OptionsOf(const CodedFields& data, const FieldModelOptions& options,
+                                 const FieldState* frozen) {
   surrogate::ModeOptions modes;
-  modes.max_modes = options.deterministic ? kModesIfDeterministic : kModesIfNoisy;
+  modes.max_modes =
+      options.deterministic ? kModesIfDeterministic : ModesIfNoisy(data.values.size());
   modes.process.trend = surrogate::Trend::kQuadratic;
   modes.process.deterministic = options.deterministic;
   modes.process.seed = options.seed;
@@ -72,7 +82,8 @@ FieldModel::FieldModel(std::shared_ptr<const surrogate::FieldCode> code,
                        const FieldModelOptions& options, const FieldState* frozen)
     : code_(std::move(code)),
       objective_(objective),
-      modes_(surrogate::ModeProcess::Fit(data.points, data.vectors, OptionsOf(options, frozen))),
+      modes_(
+          surrogate::ModeProcess::Fit(data.points, data.vectors, OptionsOf(data, options, frozen))),
       loss_(FitLoss(data, options, frozen)),
       residuals_(data.vectors.rowwise() - modes_.modes().mean.transpose()),
       normals_(MirroredNormals(modes_.modes().basis.cols(), options.seed)) {

@@ -199,9 +199,8 @@ void WriteCsv(const Options& options, const std::vector<Result>& results) {
   std::ofstream csv(options.csv);
   csv << "method,problem,instance,seed,noise,budget,regret\n";
   for (const Result& result : results) {
-    csv << options.strategy << ',' << result.problem << ',' << result.instance << ','
-        << result.seed << ',' << options.noise << ',' << result.budget << ',' << result.regret
-        << '\n';
+    csv << options.strategy << ',' << result.problem << ',' << result.instance << ',' << result.seed
+        << ',' << options.noise << ',' << result.budget << ',' << result.regret << '\n';
   }
 }
 
