@@ -68,6 +68,7 @@ class FieldModel : public ObjectiveModel {
   void Believe(const Eigen::VectorXd& x);
 
   FieldState state() const;
+  int num_modes() const { return static_cast<int>(modes_.modes().basis.cols()); }
 
  private:
   // Normal coefficients of the modes at one point.

@@ -227,7 +227,8 @@ Answer FieldStrategy::Recommend() {
                                    .num_draws = slow ? 100 : 200,
                                    .num_sobol = slow ? 32 : 128,
                                    .seed = options_.seed});
-  answer.model = "modes of the images of " + std::to_string(fields_.size()) + " evaluations, " +
+  answer.model = std::to_string(model_->num_modes()) + " modes of the images of " +
+                 std::to_string(fields_.size()) + " evaluations, " +
                  (scalar_.deterministic() ? "deterministic" : "noisy") + "; " + fields_.verdict();
   return answer;
 }

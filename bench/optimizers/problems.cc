@@ -73,6 +73,11 @@ struct CubeWarp {
 
 }  // namespace
 
+double NoiseFactor(int level) {
+  constexpr double kAsSimulated = 2.1;  // docs/optimizers.md has the scatter of simulated heaps
+  return level == 1 ? 1 : level == 2 ? 3 : kAsSimulated;
+}
+
 std::uint64_t Problem::Key() const {
   return Mix(HashString(name) ^ Mix(static_cast<std::uint64_t>(instance)));
 }
@@ -103,8 +108,7 @@ double Problem::Noisy(const Vec& u, std::uint64_t seed, int level) const {
   double fs = 0;
   KnownOptimum(x, fs);
   Rng rng(HashPoint(Mix(Key() ^ Mix(seed ^ 0x5eedULL)), u));
-  double k = level == 1 ? 1 : 3;
-  double sd = k * (0.03 * (Median() - fs) + 0.05 * std::fabs(f - fs));
+  double sd = NoiseFactor(level) * (0.03 * (Median() - fs) + 0.05 * std::fabs(f - fs));
   return f + sd * rng.Normal();
 }
 
@@ -276,7 +280,7 @@ struct HeapBase : Problem {
     HeapNoise n;
     double blur = 0.014 + 0.012 * s.cohesion;
     if (level > 0) {
-      double k = level == 1 ? 0.4 : 1.2;
+      double k = 0.4 * NoiseFactor(level);
       Rng rng(HashPoint(Mix(Key() ^ Mix(seed ^ 0x5eedULL)), u));
       double grow = k * (1 + 1.0 * s.cohesion);
       n.slope_left = 0.030 * grow * rng.Normal();

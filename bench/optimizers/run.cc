@@ -1,6 +1,6 @@
 // Runs a strategy on the benchmark problems and prints the solved fractions.
 //
-//   optimizer_bench [--strategy surrogate] [--noise 0|1|2] [--instances 1-8] [--problems a,b]
+//   optimizer_bench [--strategy surrogate] [--noise 0|1|2|3] [--instances 1-8] [--problems a,b]
 //                   [--budgets 30,60,100] [--batch 1] [--csv FILE] [--stop 0.75] [--seeds 20]
 //
 // --stop lets the strategy end a run when less than this times the scatter is left to gain; its

@@ -75,6 +75,17 @@ TEST(FieldStrategy, FindsTheHeapOfANoiseFreeSimulationInFewRuns) {
   EXPECT_THAT(answer.model, HasSubstr("deterministic"));
 }
 
+// Weak modes are noise until there are evaluations enough to tell: the fit of the first 53 of 60 is
+// the first with a seventh.
+TEST(FieldStrategy, ModelsMoreModesAsEvaluationsGrow) {
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(StrategyKind::kSurrogate, objective);
+  RunFor(*strategy, objective, Noisy, 30);
+  EXPECT_THAT(strategy->Recommend().model, HasSubstr("6 modes of the images of 30 evaluations"));
+  RunFor(*strategy, objective, Noisy, 30);
+  EXPECT_THAT(strategy->Recommend().model, HasSubstr("7 modes of the images of 60 evaluations"));
+}
+
 TEST(FieldStrategy, SeesThroughTheScatterOfSingleRuns) {
   const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
   const auto strategy = Make(StrategyKind::kSurrogate, objective);
