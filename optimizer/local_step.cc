@@ -56,11 +56,14 @@ LocalFit FitNeighbours(const History& history, const Neighbours& near, std::uint
   return best;
 }
 
-// Takes the predictions at pending points for evaluations. The incumbent follows, or the next step
-// would land beside the most promising of them.
+// Takes the predictions at pending points among the neighbours for evaluations. The incumbent
+// follows, or the next step would land beside the most promising of them. What the process would
+// say of points farther off means nothing.
 void Believe(std::span<const Eigen::VectorXd> pending, const Neighbours& near, LocalFit& fit) {
+  const double radius = near.distances.back();
   for (const Eigen::VectorXd& point : pending) {
-    const Eigen::VectorXd u = ((point - near.middle) / (2 * near.distances.back())).array() + 0.5;
+    if ((point - near.middle).norm() > radius) continue;
+    const Eigen::VectorXd u = ((point - near.middle) / (2 * radius)).array() + 0.5;
     const double mean = fit.process->Predict(u).mean;
     fit.process->Add(u, mean);
     fit.incumbent = std::min(fit.incumbent, mean);
