@@ -56,13 +56,13 @@ LocalFit FitNeighbours(const History& history, const Neighbours& near, std::uint
   return best;
 }
 
-// Takes the predictions at pending points among the neighbours for evaluations. The incumbent
+// Takes the predictions at pending points in the process's cube for evaluations. The incumbent
 // follows, or the next step would land beside the most promising of them. What the process would
 // say of points farther off means nothing.
 void Believe(std::span<const Eigen::VectorXd> pending, const Neighbours& near, LocalFit& fit) {
   const double radius = near.distances.back();
   for (const Eigen::VectorXd& point : pending) {
-    if ((point - near.middle).norm() > radius) continue;
+    if ((point - near.middle).lpNorm<Eigen::Infinity>() > radius) continue;
     const Eigen::VectorXd u = ((point - near.middle) / (2 * radius)).array() + 0.5;
     const double mean = fit.process->Predict(u).mean;
     fit.process->Add(u, mean);
