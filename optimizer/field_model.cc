@@ -286,7 +286,7 @@ Eigen::VectorXd FieldModel::LeaveOneOut() const {
 
 void FieldModel::Believe(const Eigen::VectorXd& x) {
   modes_.Add(x, Vector(modes_.Predict(x.transpose()).mean.row(0).transpose()));
-  if (loss_) loss_->Add(x, loss_->Predict(x).mean);
+  if (loss_) loss_->Believe(x);
 }
 
 }  // namespace talus::optimizer

@@ -64,9 +64,7 @@ void Believe(std::span<const Eigen::VectorXd> pending, const Neighbours& near, L
   for (const Eigen::VectorXd& point : pending) {
     if ((point - near.middle).lpNorm<Eigen::Infinity>() > radius) continue;
     const Eigen::VectorXd u = ((point - near.middle) / (2 * radius)).array() + 0.5;
-    const double mean = fit.process->Predict(u).mean;
-    fit.process->Add(u, mean);
-    fit.incumbent = std::min(fit.incumbent, mean);
+    fit.incumbent = std::min(fit.incumbent, fit.process->Believe(u));
   }
 }
 

@@ -143,9 +143,7 @@ Proposal ScalarStrategy::ByModel(const Points& asked) {
   surrogate::GaussianProcess believed = Fit().process;
   double incumbent = believed.PredictAll(history_.points).mean.minCoeff();
   for (const Eigen::VectorXd& point : asked) {
-    const double mean = believed.Predict(point).mean;
-    believed.Add(point, mean);
-    incumbent = std::min(incumbent, mean);  // or the next one would land beside it
+    incumbent = std::min(incumbent, believed.Believe(point));  // or the next would land beside it
   }
   const TransformedModel model(std::move(believed));
   const ModelView view{model, feasibility_, domain_, history_.points, seed};

@@ -85,6 +85,12 @@ void GaussianProcess::Add(const Eigen::VectorXd& x, double value) {
   }
 }
 
+double GaussianProcess::Believe(const Eigen::VectorXd& x) {
+  const double mean = Predict(x).mean;
+  Add(x, mean);
+  return mean;
+}
+
 // Rank one: the new last row of L is (L⁻¹ k, √(k(x, x) + n² - |L⁻¹ k|²)).
 void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
   const Eigen::Index size = lower_.rows();

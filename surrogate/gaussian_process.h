@@ -76,6 +76,8 @@ class GaussianProcess {
 
   // Adds one evaluation in O(n²); hyper-parameters, centre and scale stay.
   void Add(const Eigen::VectorXd& x, double value);
+  // Takes the prediction at x for an evaluation, and says what it is (the kriging believer).
+  double Believe(const Eigen::VectorXd& x);
 
   double noise_variance() const;  // of one evaluation
   double LogLikelihood() const;   // of the values, in their own units

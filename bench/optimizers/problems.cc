@@ -71,12 +71,13 @@ struct CubeWarp {
   }
 };
 
-}  // namespace
-
+// Of levels 1, 2 and 3; docs/optimizers.md has the scatter of simulated heaps.
 double NoiseFactor(int level) {
-  constexpr double kAsSimulated = 2.1;  // docs/optimizers.md has the scatter of simulated heaps
-  return level == 1 ? 1 : level == 2 ? 3 : kAsSimulated;
+  static constexpr std::array<double, 3> kFactors{1, 3, 2.1};
+  return kFactors.at(static_cast<std::size_t>(level - 1));
 }
+
+}  // namespace
 
 std::uint64_t Problem::Key() const {
   return Mix(HashString(name) ^ Mix(static_cast<std::uint64_t>(instance)));

@@ -23,8 +23,6 @@ struct Image {
 // All points are in the unit cube. `level` of the noise: 0 none, 1 standard, 2 three times, 3 as
 // much as heaps of 524 simulated grains scatter; noise is a function of problem, instance, point
 // and seed.
-double NoiseFactor(int level);  // relative to level 1
-
 struct Problem {
   std::string name;
   int instance = 1;

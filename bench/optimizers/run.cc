@@ -204,7 +204,7 @@ void WriteCsv(const Options& options, const std::vector<Result>& results) {
   }
 }
 
-void CompareSeeds(const Options& options) {
+std::vector<Result> CompareSeeds(const Options& options) {
   std::vector<Result> results;
   std::printf("regrets of %d seeds\n%-12s%8s%10s%10s%16s\n", options.num_seeds, "", "budget",
               "worst", "median", "random, median");
@@ -229,7 +229,7 @@ void CompareSeeds(const Options& options) {
     }
     std::fflush(stdout);
   }
-  WriteCsv(options, results);
+  return results;
 }
 
 void PrintStops(const Options& options, const std::vector<Result>& results) {
@@ -243,7 +243,7 @@ void PrintStops(const Options& options, const std::vector<Result>& results) {
 int Main(int argc, char** argv) {
   const Options options = Parse(argc, argv);
   if (options.num_seeds > 0) {
-    CompareSeeds(options);
+    WriteCsv(options, CompareSeeds(options));
     return 0;
   }
   std::vector<Result> results;
