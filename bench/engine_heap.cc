@@ -12,8 +12,8 @@
 
 #include "bench/peer_heap.h"
 #include "bench/timing.h"
+#include "engine/run/state_file.h"
 #include "engine/simulation.h"
-#include "engine/state_file.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "imaging/projection.h"
+#include "imaging/spheres/projection.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/aligned.h"
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace talus::engine {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "engine/blow_up.h"
+#include "engine/run/blow_up.h"
 #include "engine/simulation_state.h"
 
 namespace talus::engine {

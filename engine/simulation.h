@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/scene.h"
+#include "engine/scene/scene.h"
 
 namespace talus::engine {
 

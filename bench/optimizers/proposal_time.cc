@@ -11,7 +11,7 @@
 
 #include "base/random.h"
 #include "bench/optimizers/problems.h"
-#include "optimizer/make_strategy.h"
+#include "optimizer/strategies/make_strategy.h"
 
 namespace talus::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "engine/laws/response.h"
-#include "engine/material.h"
+#include "engine/scene/material.h"
 
 namespace talus::engine {
 

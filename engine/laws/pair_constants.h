@@ -2,7 +2,7 @@
 // that do not change from contact to contact multiplied in.
 #pragma once
 
-#include "engine/material.h"
+#include "engine/scene/material.h"
 
 namespace talus::engine {
 

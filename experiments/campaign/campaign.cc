@@ -9,8 +9,8 @@
 #include "experiments/campaign/conclude.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/campaign/start.h"
-#include "experiments/simulate/run_log.h"
-#include "imaging/image_file.h"
+#include "experiments/trials/simulate/run_log.h"
+#include "imaging/formats/image_file.h"
 
 namespace talus::experiments {
 namespace {

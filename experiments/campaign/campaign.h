@@ -18,10 +18,10 @@
 #include "experiments/campaign/interrupt.h"
 #include "experiments/campaign/planner.h"
 #include "experiments/campaign/reference.h"
-#include "experiments/engines/trial_engine.h"
+#include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
 #include "experiments/runners/runner.h"
-#include "experiments/spec/campaign_spec.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::experiments {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/cli/commands.h"
-#include "imaging/projection.h"
+#include "experiments/app/commands.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::experiments {
 namespace {

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "experiments/campaign/console.h"
-#include "experiments/heap/heap_rig.h"
-#include "experiments/simulate/run_log.h"
+#include "experiments/rigs/lifted_tube/heap_rig.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::experiments {
 namespace {

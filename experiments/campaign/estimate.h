@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "experiments/spec/campaign_spec.h"
+#include "experiments/campaign/spec/campaign_spec.h"
 
 namespace talus::experiments {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "experiments/engines/command_engine.h"
-#include "experiments/engines/talus_engine.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/slurm_runner.h"
+#include "experiments/trials/engines/command_engine.h"
+#include "experiments/trials/engines/talus_engine.h"
 
 namespace talus::experiments {
 

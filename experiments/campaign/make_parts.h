@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "experiments/engines/trial_engine.h"
+#include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/runners/runner.h"
-#include "experiments/spec/campaign_spec.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::experiments {
 

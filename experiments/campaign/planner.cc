@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/random.h"
-#include "optimizer/design.h"
+#include "optimizer/designs/design.h"
 
 namespace talus::experiments {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "experiments/campaign/reference.h"
+#include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
-#include "experiments/spec/campaign_spec.h"
-#include "optimizer/strategy.h"
+#include "optimizer/strategies/strategy.h"
 
 namespace talus::experiments {
 

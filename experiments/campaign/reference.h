@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "experiments/campaign/spec/objective.h"
 #include "experiments/journal/records.h"
-#include "experiments/spec/objective.h"
-#include "imaging/metrics.h"
-#include "optimizer/field_objective.h"
+#include "imaging/heap/metrics.h"
+#include "optimizer/models/field_objective.h"
 
 namespace talus::experiments {
 

@@ -6,10 +6,10 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "experiments/app/commands.h"
 #include "experiments/campaign/repair.h"
-#include "experiments/cli/commands.h"
 #include "experiments/journal/record_json.h"
-#include "imaging/image_file.h"
+#include "imaging/formats/image_file.h"
 
 namespace talus::experiments {
 namespace {

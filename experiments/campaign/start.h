@@ -8,7 +8,7 @@
 #include <string>
 
 #include "experiments/campaign/campaign.h"
-#include "imaging/experiment.h"
+#include "imaging/photos/experiment.h"
 
 namespace talus::experiments {
 

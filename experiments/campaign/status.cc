@@ -10,7 +10,7 @@
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/campaign/console.h"
 #include "experiments/campaign/start.h"
-#include "experiments/simulate/run_log.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::experiments {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/filling.h"
+#include "engine/scene/filling.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/size_distribution.h"
+#include "engine/scene/size_distribution.h"
 
 namespace talus::engine {
 namespace {

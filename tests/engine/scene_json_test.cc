@@ -1,4 +1,4 @@
-#include "engine/scene_json.h"
+#include "engine/scene/scene_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "engine/scene_run.h"
+#include "engine/run/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "engine/scene_json.h"
+#include "engine/scene/scene_json.h"
 
 namespace talus::engine {
 namespace {

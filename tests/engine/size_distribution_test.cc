@@ -1,4 +1,4 @@
-#include "engine/size_distribution.h"
+#include "engine/scene/size_distribution.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "engine/state_file.h"
+#include "engine/run/state_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

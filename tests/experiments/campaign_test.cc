@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "experiments/campaign/export.h"
+#include "experiments/analysis/export/export.h"
 #include "experiments/campaign/status.h"
 #include "tests/experiments/campaign_fixture.h"
 

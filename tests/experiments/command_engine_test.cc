@@ -1,4 +1,4 @@
-#include "experiments/engines/command_engine.h"
+#include "experiments/trials/engines/command_engine.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "experiments/engines/case_values.h"
-#include "experiments/engines/command_result.h"
 #include "experiments/runners/local_runner.h"
-#include "imaging/image_file.h"
+#include "experiments/trials/engines/case_values.h"
+#include "experiments/trials/engines/command_result.h"
+#include "imaging/formats/image_file.h"
 
 namespace talus::experiments {
 namespace {

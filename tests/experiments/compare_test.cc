@@ -1,12 +1,12 @@
-#include "experiments/compare/compare.h"
+#include "experiments/analysis/compare/compare.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "base/error.h"
+#include "experiments/analysis/compare/strategy_runs.h"
 #include "experiments/campaign/reference.h"
-#include "experiments/compare/strategy_runs.h"
 #include "tests/experiments/synthetic_campaign.h"
 
 namespace talus::experiments {

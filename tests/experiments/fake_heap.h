@@ -13,7 +13,7 @@
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/start.h"
 #include "experiments/runners/local_runner.h"
-#include "imaging/image_file.h"
+#include "imaging/formats/image_file.h"
 
 namespace talus::experiments {
 

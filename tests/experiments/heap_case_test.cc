@@ -1,4 +1,4 @@
-#include "experiments/heap/heap_case.h"
+#include "experiments/rigs/lifted_tube/heap_case.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_schema.h"
-#include "experiments/heap/heap_result.h"
-#include "experiments/heap/heap_scene.h"
+#include "experiments/rigs/lifted_tube/heap_result.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
 
 namespace talus::experiments {
 namespace {

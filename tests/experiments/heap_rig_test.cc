@@ -1,10 +1,10 @@
-#include "experiments/heap/heap_rig.h"
+#include "experiments/rigs/lifted_tube/heap_rig.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "experiments/heap/heap_result.h"
+#include "experiments/rigs/lifted_tube/heap_result.h"
 
 namespace talus::experiments {
 namespace {

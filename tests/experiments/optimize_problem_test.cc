@@ -1,4 +1,4 @@
-#include "experiments/optimize/optimize_problem.h"
+#include "experiments/trials/optimize/optimize_problem.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_schema.h"
-#include "experiments/spec/campaign_spec.h"
+#include "experiments/campaign/spec/campaign_spec.h"
 
 namespace talus::experiments {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "imaging/metrics.h"
-#include "optimizer/design.h"
+#include "imaging/heap/metrics.h"
+#include "optimizer/designs/design.h"
 
 namespace talus::experiments::test {
 namespace {

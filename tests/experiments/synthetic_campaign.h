@@ -2,7 +2,7 @@
 // seed to seed and some failures, compared with the heap of a known set by the real metrics.
 #pragma once
 
-#include "experiments/compare/evidence.h"
+#include "experiments/analysis/compare/evidence.h"
 
 namespace talus::experiments::test {
 

@@ -3,7 +3,7 @@
 #include "base/json_writer.h"
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/journal/journal.h"
-#include "imaging/image_file.h"
+#include "imaging/formats/image_file.h"
 
 namespace talus::experiments::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "experiments/compare/evidence.h"
+#include "experiments/analysis/compare/evidence.h"
 
 namespace talus::experiments::test {
 

@@ -1,4 +1,4 @@
-#include "experiments/engines/template_text.h"
+#include "experiments/trials/engines/template_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "imaging/experiment.h"
+#include "imaging/photos/experiment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "imaging/image_file.h"
-#include "imaging/projection.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/spheres/projection.h"
 #include "tests/imaging/synthetic_photo.h"
 
 namespace talus::imaging {

@@ -1,4 +1,4 @@
-#include "imaging/image_file.h"
+#include "imaging/formats/image_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

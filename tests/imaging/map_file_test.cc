@@ -1,4 +1,4 @@
-#include "imaging/map_file.h"
+#include "imaging/formats/map_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "imaging/experiment.h"
-#include "imaging/image_file.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/photos/experiment.h"
 
 namespace talus::imaging {
 namespace {

@@ -1,4 +1,4 @@
-#include "imaging/mass_study.h"
+#include "imaging/heap/mass_study.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

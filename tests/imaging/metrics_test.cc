@@ -1,4 +1,4 @@
-#include "imaging/metrics.h"
+#include "imaging/heap/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "imaging/difference_map.h"
+#include "imaging/heap/difference_map.h"
 
 namespace talus::imaging {
 namespace {

@@ -1,4 +1,4 @@
-#include "imaging/photo_set.h"
+#include "imaging/photos/photo_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "imaging/experiment.h"
-#include "imaging/projection.h"
+#include "imaging/photos/experiment.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::imaging {
 namespace {

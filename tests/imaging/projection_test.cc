@@ -1,4 +1,4 @@
-#include "imaging/projection.h"
+#include "imaging/spheres/projection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "imaging/repose_angle.h"
+#include "imaging/heap/repose_angle.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <string>
 
-#include "imaging/experiment.h"
-#include "imaging/image_file.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/photos/experiment.h"
 #include "tests/imaging/synthetic_photo.h"
 
 namespace talus::imaging {

@@ -1,4 +1,4 @@
-#include "imaging/sphere_files.h"
+#include "imaging/formats/sphere_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

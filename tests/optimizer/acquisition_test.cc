@@ -1,4 +1,4 @@
-#include "optimizer/acquisition.h"
+#include "optimizer/acquisition/acquisition.h"
 
 #include <gtest/gtest.h>
 

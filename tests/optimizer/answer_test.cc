@@ -1,12 +1,12 @@
-#include "optimizer/answer.h"
+#include "optimizer/answer/answer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "optimizer/lattice.h"
-#include "optimizer/scalar_model.h"
-#include "optimizer/sobol_indices.h"
+#include "optimizer/answer/sobol_indices.h"
+#include "optimizer/designs/lattice.h"
+#include "optimizer/models/scalar_model.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimizer/credible_ranges.h"
+#include "optimizer/answer/credible_ranges.h"
 
 #include <gtest/gtest.h>
 

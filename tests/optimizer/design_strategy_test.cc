@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "optimizer/make_strategy.h"
+#include "optimizer/strategies/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimizer/design.h"
+#include "optimizer/designs/design.h"
 
 #include <gtest/gtest.h>
 

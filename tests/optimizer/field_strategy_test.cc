@@ -1,4 +1,4 @@
-#include "optimizer/field_strategy.h"
+#include "optimizer/strategies/field_strategy.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "optimizer/lattice.h"
-#include "optimizer/make_strategy.h"
-#include "surrogate/column_edges.h"
+#include "optimizer/designs/lattice.h"
+#include "optimizer/strategies/make_strategy.h"
+#include "surrogate/images/column_edges.h"
 
 namespace talus::optimizer {
 namespace {

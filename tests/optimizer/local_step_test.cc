@@ -1,11 +1,11 @@
-#include "optimizer/local_step.h"
+#include "optimizer/acquisition/local_step.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "optimizer/lattice.h"
-#include "optimizer/neighbours.h"
+#include "optimizer/designs/lattice.h"
+#include "optimizer/space/neighbours.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimizer/parameter_space.h"
+#include "optimizer/space/parameter_space.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

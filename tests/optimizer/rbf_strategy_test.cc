@@ -1,9 +1,9 @@
-#include "optimizer/rbf_strategy.h"
+#include "optimizer/strategies/rbf_strategy.h"
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "optimizer/make_strategy.h"
+#include "optimizer/strategies/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {

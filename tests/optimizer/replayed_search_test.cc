@@ -1,9 +1,9 @@
-#include "optimizer/replayed_search.h"
+#include "optimizer/strategies/replayed_search.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "optimizer/make_strategy.h"
+#include "optimizer/strategies/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimizer/scalar_strategy.h"
+#include "optimizer/strategies/scalar_strategy.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/random.h"
-#include "optimizer/lattice.h"
+#include "optimizer/designs/lattice.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimizer/step_choice.h"
+#include "optimizer/acquisition/step_choice.h"
 
 #include <gtest/gtest.h>
 

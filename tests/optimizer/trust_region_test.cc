@@ -1,8 +1,8 @@
-#include "optimizer/trust_region.h"
+#include "optimizer/acquisition/trust_region.h"
 
 #include <gtest/gtest.h>
 
-#include "optimizer/lattice.h"
+#include "optimizer/designs/lattice.h"
 
 namespace talus::optimizer {
 namespace {

@@ -15,11 +15,11 @@ MAY_INCLUDE = {
 }
 FENCES = [  # (include, files that may have it)
     (r"nlopt", r"(surrogate|optimizer)/nlopt_\w+\.cc$"),
-    (r"ceres/", r"(surrogate|imaging)/\w+\.cc$"),
+    (r"ceres/", r"(surrogate|imaging)/[\w/]+\.cc$"),
     (r"sqlite3\.h", r"experiments/journal/\w+\.cc$"),
-    (r"(pugixml|zlib)", r"imaging/vtk_xml\w*\.cc$"),
-    (r"(png|jpeglib|tiffio)\.h", r"imaging/image_codec_\w+\.cc$"),
-    (r"opencv2/", r"imaging/\w+\.cc$"),
+    (r"(pugixml|zlib)", r"imaging/formats/vtk_xml\w*\.cc$"),
+    (r"(png|jpeglib|tiffio)\.h", r"imaging/formats/image_codec_\w+\.cc$"),
+    (r"opencv2/", r"imaging/[\w/]+\.cc$"),
     (r"(hwy/|experimental/simd|immintrin)", r"engine/"),
     (r"Eigen/", r"(surrogate|optimizer|imaging|experiments)/"),
     (r"CLI/", r"experiments/"),

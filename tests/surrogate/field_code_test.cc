@@ -1,11 +1,11 @@
-#include "surrogate/field_code.h"
+#include "surrogate/images/field_code.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/random.h"
-#include "surrogate/normal_table.h"
+#include "surrogate/images/normal_table.h"
 
 namespace talus::surrogate {
 namespace {

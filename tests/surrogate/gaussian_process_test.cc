@@ -1,4 +1,4 @@
-#include "surrogate/gaussian_process.h"
+#include "surrogate/process/gaussian_process.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "surrogate/warp.h"
+#include "surrogate/process/warp.h"
 
 namespace talus::surrogate {
 namespace {

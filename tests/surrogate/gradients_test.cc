@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "base/random.h"
-#include "surrogate/covariance.h"
-#include "surrogate/gaussian_process.h"
-#include "surrogate/likelihood.h"
-#include "surrogate/warp.h"
+#include "surrogate/process/covariance.h"
+#include "surrogate/process/gaussian_process.h"
+#include "surrogate/process/likelihood.h"
+#include "surrogate/process/warp.h"
 
 namespace talus::surrogate {
 namespace {

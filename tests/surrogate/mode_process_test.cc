@@ -1,4 +1,4 @@
-#include "surrogate/mode_process.h"
+#include "surrogate/images/mode_process.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "surrogate/radial_basis.h"
+#include "surrogate/process/radial_basis.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 
 #include "base/file.h"
 #include "experiments/campaign/campaign_result.h"
-#include "imaging/image_file.h"
-#include "imaging/projection.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/spheres/projection.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::experiments {

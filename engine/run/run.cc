@@ -1,0 +1,48 @@
+#include "engine/run/run.h"
+
+#include <charconv>
+#include <sstream>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace talus::engine {
+namespace {
+
+constexpr std::string_view kMagic = "talus run 1\n";
+
+}  // namespace
+
+// Magic; checksum of the rest; input hash, times and state, each on a line; the engine's bytes.
+std::string Pack(const RunCheckpoint& checkpoint) {
+  std::ostringstream times;
+  times.precision(17);
+  times << checkpoint.timing.wall_time << ' ' << checkpoint.timing.cpu_time;
+  const std::string rest = base::Hex(checkpoint.input_hash) + "\n" + times.str() + "\n" +
+                           checkpoint.state + "\n" + checkpoint.simulation;
+  return std::string(kMagic) + base::Hex(base::Checksum(rest)) + "\n" + rest;
+}
+
+RunCheckpoint Unpack(const std::string& bytes) {
+  constexpr std::size_t kDigits = 16;
+  const std::size_t header = kMagic.size() + kDigits + 1;
+  if (!bytes.starts_with(kMagic)) throw base::Error("is not a checkpoint of this version");
+  const std::string_view rest =
+      bytes.size() < header ? std::string_view() : std::string_view(bytes).substr(header);
+  const std::string expected = base::Hex(base::Checksum(rest)) + "\n";
+  if (bytes.compare(kMagic.size(), kDigits + 1, expected) != 0) {
+    throw base::Error("is damaged or cut off: its checksum does not fit");
+  }
+  const std::size_t times_end = rest.find('\n', kDigits + 1);
+  const std::size_t state_end = rest.find('\n', times_end + 1);
+  RunCheckpoint checkpoint;
+  std::from_chars(rest.data(), rest.data() + kDigits, checkpoint.input_hash, 16);
+  std::istringstream times(std::string(rest.substr(kDigits + 1, times_end - kDigits - 1)));
+  times >> checkpoint.timing.wall_time >> checkpoint.timing.cpu_time;
+  checkpoint.state = rest.substr(times_end + 1, state_end - times_end - 1);
+  checkpoint.simulation = rest.substr(state_end + 1);
+  return checkpoint;
+}
+
+}  // namespace talus::engine

@@ -1,0 +1,166 @@
+#include "engine/run/scene_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/file.h"
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+#include "engine/run/state_file.h"
+#include "engine/scene/scene_json.h"
+
+namespace talus::engine {
+namespace {
+
+// Looks a hold time: often enough to end soon after it, seldom enough to cost nothing.
+std::int64_t CheckSteps(const StopSpec& stop, double time_step) {
+  constexpr int kLooks = 5;
+  return std::max<std::int64_t>(1, std::llround(stop.hold_time / kLooks / time_step));
+}
+
+constexpr std::int64_t kDomainSteps = 100;  // between two looks at who has left the domain
+
+StateFormats Formats(const OutputSpec& outputs) { return {outputs.vtp, outputs.csv}; }
+
+}  // namespace
+
+SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::path folder)
+    : spec_(spec),
+      folder_(std::move(folder)),
+      simulation_(scene),
+      states_(folder_, spec.outputs.times, Formats(spec.outputs)),
+      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {}
+
+SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,
+                   const RunCheckpoint& checkpoint)
+    : spec_(spec),
+      folder_(std::move(folder)),
+      simulation_(Simulation::Restore(checkpoint.simulation, spec.threads)),
+      states_(folder_, spec.outputs.times, Formats(spec.outputs)),
+      state_(base::LoadOptions<SceneRunState>(base::ParseJson(checkpoint.state, "checkpoint"))),
+      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
+  states_.SkipUntil(simulation_.time());
+}
+
+bool SceneRun::Advance() {
+  if (!state_.stop_reason.empty()) return false;
+  states_.Write(simulation_);  // the one at time 0
+  const std::int64_t steps = NextSteps();
+  simulation_.Advance(steps);
+  state_.particle_steps +=
+      static_cast<double>(steps) * static_cast<double>(simulation_.num_particles());
+  CheckDomain();
+  states_.Write(simulation_);
+  CheckStop();
+  return state_.stop_reason.empty();
+}
+
+void SceneRun::CheckDomain() {
+  if (!spec_.domain || simulation_.step() % kDomainSteps != 0) return;
+  state_.num_left +=
+      simulation_.RemoveIf([&](const Particle& p) { return !spec_.domain->Contains(p.position); });
+}
+
+// Up to whatever comes first: the end, a state to write, a look at the energy or the domain, the
+// slice's end.
+std::int64_t SceneRun::NextSteps() const {
+  const double until = std::min(spec_.stop.time.value_or(std::numeric_limits<double>::infinity()),
+                                states_.NextTime());
+  const double to_go = std::ceil((until - simulation_.time()) / simulation_.time_step());
+  std::int64_t steps = SliceSteps(simulation_.num_particles());
+  if (spec_.stop.steps) steps = std::min(steps, *spec_.stop.steps - simulation_.step());
+  if (spec_.stop.energy_fraction) {
+    steps = std::min(steps, check_steps_ - simulation_.step() % check_steps_);
+  }
+  if (spec_.domain) steps = std::min(steps, kDomainSteps - simulation_.step() % kDomainSteps);
+  if (to_go < static_cast<double>(steps)) steps = static_cast<std::int64_t>(to_go);
+  return std::max<std::int64_t>(1, steps);
+}
+
+void SceneRun::CheckStop() {
+  const StopSpec& stop = spec_.stop;
+  if (stop.energy_fraction && simulation_.step() % check_steps_ == 0 && AtRest()) {
+    state_.stop_reason = "at_rest";
+  } else if (stop.steps && simulation_.step() >= *stop.steps) {
+    state_.stop_reason = "steps";
+  } else if (stop.time && simulation_.time() >= *stop.time) {
+    state_.stop_reason = "time";
+  }
+  if (!state_.stop_reason.empty()) messages_.push_back("ended by stop." + state_.stop_reason);
+}
+
+bool SceneRun::AtRest() {
+  double kinetic = 0;
+  double weight = 0;
+  const double gravity = Norm(spec_.gravity);
+  for (const Particle& p : simulation_.Particles()) {
+    const double density = spec_.materials[static_cast<std::size_t>(p.material)].material.density;
+    const double cube = density * p.radius * p.radius * p.radius;
+    kinetic += cube * Dot(p.velocity, p.velocity) / 2;
+    weight += cube * gravity * 2 * p.radius;
+  }
+  state_.energy_ratio = weight > 0 ? kinetic / weight : 0;
+  const bool quiet = kinetic < *spec_.stop.energy_fraction * weight;
+  state_.quiet_steps = quiet ? state_.quiet_steps + check_steps_ : 0;
+  const auto held = static_cast<double>(state_.quiet_steps - check_steps_);
+  return quiet && held * simulation_.time_step() >= spec_.stop.hold_time * (1 - 1e-9);
+}
+
+RunProgress SceneRun::Progress() const {
+  const double dt = simulation_.time_step();
+  double end = std::numeric_limits<double>::infinity();
+  if (spec_.stop.time) end = *spec_.stop.time;
+  if (spec_.stop.steps) end = std::min(end, static_cast<double>(*spec_.stop.steps) * dt);
+  return {.phase = "running",
+          .time = simulation_.time(),
+          .end_time = end,
+          .num_particles = simulation_.num_particles(),
+          .step = simulation_.step(),
+          .particle_steps = state_.particle_steps};
+}
+
+std::vector<std::string> SceneRun::TakeMessages() { return std::exchange(messages_, {}); }
+
+std::string SceneRun::Checkpoint(const RunTiming& timing) const {
+  return Pack({.input_hash = SceneHash(spec_),
+               .timing = timing,
+               .state = base::ToJson(state_).dump(),
+               .simulation = simulation_.Checkpoint()});
+}
+
+void SceneRun::WriteResults(const RunTiming& timing) const {
+  const std::vector<Particle> particles = simulation_.Particles();
+  const double time = simulation_.time();
+  if (spec_.outputs.vtp) base::WriteFileAtomically(folder_ / "final.vtp", VtpOf(particles, time));
+  if (spec_.outputs.csv) base::WriteFileAtomically(folder_ / "final.csv", CsvOf(particles));
+  const EnergySums energies = simulation_.Energies();
+  nlohmann::ordered_json result;
+  result["kind"] = "scene";
+  result["status"] = "ok";
+  result["input_hash"] = base::Hex(SceneHash(spec_));
+  result["reason"] = state_.stop_reason;
+  result["num_particles"] = particles.size();
+  result["num_left_domain"] = state_.num_left;
+  result["num_steps"] = simulation_.step();
+  result["time_step_s"] = simulation_.time_step();
+  result["simulated_time_s"] = time;
+  result["energies"] = {{"translational_j", energies.translational},
+                        {"rotational_j", energies.rotational},
+                        {"potential_j", energies.potential}};
+  result["timing"] = {{"wall_time_s", timing.wall_time},
+                      {"cpu_time_s", timing.cpu_time},
+                      {"particle_steps", state_.particle_steps},
+                      {"threads", spec_.threads}};
+  base::WriteFileAtomically(folder_ / "result.json", result.dump(2) + "\n");
+}
+
+std::uint64_t SceneHash(const SceneSpec& spec) {
+  SceneSpec relevant = spec;
+  relevant.threads = 1;
+  relevant.checkpoint_interval = 0;
+  return base::Checksum(SceneText(relevant));
+}
+
+}  // namespace talus::engine

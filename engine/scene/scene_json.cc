@@ -1,0 +1,53 @@
+#include "engine/scene/scene_json.h"
+
+#include <algorithm>
+
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+
+namespace talus::engine {
+namespace {
+
+// The solver knows of particles; in the file they are spheres, in order, and then fills.
+std::string PathInFile(const std::string& path, std::size_t num_spheres) {
+  constexpr std::string_view kParticles = "particles[";
+  if (!path.starts_with(kParticles)) return path;
+  const std::size_t index = std::stoul(path.substr(kParticles.size()));
+  if (index >= num_spheres) return "fills";
+  std::string in_file = "spheres[" + path.substr(kParticles.size());
+  constexpr std::string_view kRadius = ".radius";
+  if (in_file.ends_with(kRadius)) {
+    in_file.replace(in_file.size() - kRadius.size(), kRadius.size(), ".diameter");
+  }
+  return in_file;
+}
+
+}  // namespace
+
+LoadedScene LoadScene(const std::filesystem::path& path) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  LoadedScene loaded{.spec = base::LoadOptions<SceneSpec>(file), .scene = {}};
+  for (FillSpec& fill : loaded.spec.fills) ReadSizeFile(fill.sizes);
+  base::Problems problems(path.string(), file.source);
+  try {
+    loaded.scene = BuildScene(loaded.spec);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(path.string() + ": " + error.what());
+  }
+  base::Problems found;
+  loaded.scene.Validate(found);
+  constexpr std::size_t kMost = 50;  // overlapping spheres may be many
+  for (std::size_t i = 0; i < std::min(kMost, found.list().size()); ++i) {
+    const base::Problem& problem = found.list()[i];
+    problems.Add(PathInFile(problem.path, loaded.spec.spheres.size()), problem.message);
+  }
+  if (found.list().size() > kMost) {
+    problems.Add("", std::to_string(found.list().size() - kMost) + " more problems like these");
+  }
+  problems.ThrowIfAny();
+  return loaded;
+}
+
+std::string SceneText(const SceneSpec& spec) { return base::ToJson(spec).dump(2) + "\n"; }
+
+}  // namespace talus::engine

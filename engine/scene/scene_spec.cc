@@ -1,0 +1,150 @@
+#include "engine/scene/scene_spec.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace talus::engine {
+namespace {
+
+void RequirePositive(base::Problems& problems, const std::string& key, double value) {
+  problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
+}
+
+// Index of the material called `name`, or the first for no name; -1 if there is none.
+int MaterialIndex(const SceneSpec& spec, const std::string& name) {
+  if (name.empty()) return 0;
+  for (std::size_t i = 0; i < spec.materials.size(); ++i) {
+    if (spec.materials[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+template <class T>
+void RequireMaterials(const SceneSpec& spec, const std::vector<T>& list, const std::string& key,
+                      base::Problems& problems) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (MaterialIndex(spec, list[i].material) < 0) {
+      problems.Add(key + "[" + std::to_string(i) + "].material",
+                   "\"" + list[i].material + "\" is not the name of a material");
+    }
+  }
+}
+
+void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
+  const FillSpec& fill = spec.fills[index];
+  const int material = MaterialIndex(spec, fill.material);
+  const double density = spec.materials[static_cast<std::size_t>(material)].material.density;
+  std::vector<double> radii = DrawDiameters(SizeCurve(fill.sizes), fill.mass / density);
+  for (double& r : radii) r /= 2;
+  // Two like fills differ.
+  const std::uint64_t seed = base::Random(spec.seed, base::Stream("fills"), index).Next();
+  radii = Shuffled(std::move(radii), seed);
+  const FillRequest request{
+      .region = fill.region, .solid_fraction = fill.solid_fraction, .seed = seed};
+  const Filling filling = Fill(radii, request);
+  if (filling.max_overlap > request.max_overlap) {
+    throw base::ConfigError(
+        "fills[" + std::to_string(index) +
+        "].region: is too small for the mass; enlarge it or leave its height out");
+  }
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    scene.particles.push_back({.id = static_cast<std::int64_t>(scene.particles.size()),
+                               .material = material,
+                               .radius = radii[i],
+                               .position = filling.positions[i],
+                               .velocity = {},
+                               .angular_velocity = {}});
+  }
+}
+
+}  // namespace
+
+void SphereSpec::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "diameter", diameter);
+  problems.Require(base::IsFinite(position), "position", "must be finite");
+  problems.Require(base::IsFinite(velocity), "velocity", "must be finite");
+  problems.Require(base::IsFinite(angular_velocity), "angular_velocity", "must be finite");
+}
+
+void FillSpec::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "mass", mass);
+  problems.Require(solid_fraction > 0 && solid_fraction <= 0.6, "solid_fraction", solid_fraction,
+                   "must be in (0, 0.6]");
+}
+
+void StopSpec::Validate(base::Problems& problems) const {
+  if (time) RequirePositive(problems, "time", *time);
+  if (steps) RequirePositive(problems, "steps", static_cast<double>(*steps));
+  if (energy_fraction) RequirePositive(problems, "energy_fraction", *energy_fraction);
+  RequirePositive(problems, "hold_time", hold_time);
+  problems.Require(time || steps, "", "must have time or steps, so that the run ends");
+}
+
+void OutputSpec::Validate(base::Problems& problems) const {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    problems.Require(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
+                     "times[" + std::to_string(i) + "]", times[i],
+                     "must not be negative, and above the one before");
+  }
+}
+
+void DomainSpec::Validate(base::Problems& problems) const {
+  problems.Require(base::IsFinite(low) && base::IsFinite(high), "", "must be finite");
+  problems.Require(low.x < high.x && low.y < high.y && low.z < high.z, "low",
+                   "must be below high in each coordinate");
+}
+
+bool DomainSpec::Contains(const Vec3& point) const {
+  return point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y &&
+         point.z >= low.z && point.z <= high.z;
+}
+
+void SceneSpec::Validate(base::Problems& problems) const {
+  problems.Require(!materials.empty(), "materials", "must have one entry at least");
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const int first = MaterialIndex(*this, materials[i].name);
+    problems.Require(first == static_cast<int>(i) && !materials[i].name.empty(),
+                     "materials[" + std::to_string(i) + "].name", "must be given once, not empty");
+  }
+  RequireMaterials(*this, spheres, "spheres", problems);
+  RequireMaterials(*this, fills, "fills", problems);
+  RequireMaterials(*this, walls, "walls", problems);
+  problems.Require(!spheres.empty() || !fills.empty(), "", "must have spheres or fills");
+  for (std::size_t i = 0; domain && i < spheres.size(); ++i) {
+    problems.Require(domain->Contains(spheres[i].position),
+                     "spheres[" + std::to_string(i) + "].position", "is outside the domain");
+  }
+  problems.Require(base::IsFinite(gravity), "gravity", "must be finite");
+  if (time_step) RequirePositive(problems, "time_step", *time_step);
+  problems.Require(threads >= 1, "threads", threads, "must be at least 1");
+  problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
+                   "checkpoint_interval", checkpoint_interval, "must not be negative");
+}
+
+Scene BuildScene(const SceneSpec& spec) {
+  Scene scene;
+  for (const NamedMaterial& material : spec.materials) scene.materials.push_back(material.material);
+  scene.models = spec.models;
+  for (const SphereSpec& sphere : spec.spheres) {
+    scene.particles.push_back({.id = static_cast<std::int64_t>(scene.particles.size()),
+                               .material = MaterialIndex(spec, sphere.material),
+                               .radius = sphere.diameter / 2,
+                               .position = sphere.position,
+                               .velocity = sphere.velocity,
+                               .angular_velocity = sphere.angular_velocity});
+  }
+  for (std::size_t i = 0; i < spec.fills.size(); ++i) AddFill(spec, i, scene);
+  for (const WallSpec& wall : spec.walls) {
+    scene.walls.push_back(wall.Build(MaterialIndex(spec, wall.material)));
+  }
+  scene.gravity = spec.gravity;
+  scene.time_step = spec.time_step.value_or(0);
+  scene.rayleigh_fraction = spec.rayleigh_fraction;
+  scene.num_threads = spec.threads;
+  return scene;
+}
+
+}  // namespace talus::engine

@@ -1,0 +1,273 @@
+// Size distributions as laser-diffraction instruments export them: some lines of head, then columns
+// of which one is a diameter and one a share, cumulative or of each class.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/units.h"
+#include "engine/scene/size_distribution.h"
+
+namespace talus::engine {
+namespace {
+
+using Row = std::vector<std::string>;
+
+struct Table {
+  std::string head;  // all lines above the numbers, in lower case
+  Row titles;        // of the columns, in lower case; units of a line below appended
+  std::vector<std::vector<double>> rows;
+};
+
+[[noreturn]] void Refuse(const std::filesystem::path& path, const std::string& why) {
+  throw base::ConfigError(path.string() + ": " + why);
+}
+
+// Lower case, and the micro signs of Latin-1 and Unicode as u.
+std::string Plain(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+    if ((byte == 0xC2 && next == 0xB5) || (byte == 0xCE && next == 0xBC)) {
+      plain += 'u';
+      ++i;
+    } else if (byte == 0xB5) {
+      plain += 'u';
+    } else {
+      plain += static_cast<char>(std::tolower(byte));
+    }
+  }
+  return plain;
+}
+
+Row Split(std::string_view line, char separator) {
+  Row fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == separator && !quoted) {
+      fields.emplace_back();
+    } else if (c != '\r') {
+      fields.back() += c;
+    }
+  }
+  for (std::string& field : fields) {
+    field.erase(0, field.find_first_not_of(' '));
+    field.erase(field.find_last_not_of(' ') + 1);
+  }
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+// A number with a point or a decimal comma; NaN for anything else.
+double Number(std::string field) {
+  std::replace(field.begin(), field.end(), ',', '.');
+  if (!field.empty() && field.back() == '%') field.pop_back();
+  double value = 0;
+  const char* end = field.data() + field.size();
+  const auto result = std::from_chars(field.data(), end, value);
+  return result.ec == std::errc() && result.ptr == end && !field.empty() ? value : std::nan("");
+}
+
+char SeparatorOf(std::string_view text) {
+  const auto count = [&](char c) { return std::count(text.begin(), text.end(), c); };
+  if (count(';') > 0) return ';';
+  return count('\t') > 0 ? '\t' : ',';
+}
+
+std::vector<std::string> Lines(std::string_view text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      lines.emplace_back();
+    } else {
+      lines.back() += c;
+    }
+  }
+  return lines;
+}
+
+// The first block of lines that hold two numbers or more, and the line of titles above it.
+Table ReadTable(const std::filesystem::path& path) {
+  std::string text = base::ReadFile(path);
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    Refuse(path, "is UTF-16; export or save it as UTF-8");
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  const std::string plain = Plain(text);
+  const char separator = SeparatorOf(plain);
+  Table table;
+  std::vector<Row> above;
+  for (const std::string& line : Lines(plain)) {
+    const Row fields = Split(line, separator);
+    std::vector<double> numbers;
+    for (const std::string& field : fields) numbers.push_back(Number(field));
+    const auto num_valid =
+        std::count_if(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+    if (num_valid >= 2 && std::isfinite(numbers[0])) {
+      table.rows.push_back(std::move(numbers));
+    } else if (!table.rows.empty()) {
+      break;
+    } else {
+      table.head += line + '\n';
+      if (fields.size() >= 2) above.push_back(fields);
+    }
+  }
+  if (table.rows.size() < 2) Refuse(path, "has no table of diameters and shares");
+  const std::size_t num_columns = table.rows.front().size();
+  table.titles.resize(num_columns);
+  const std::size_t first = above.size() > 2 ? above.size() - 2 : 0;
+  for (std::size_t i = first; i < above.size(); ++i) {
+    for (std::size_t c = 0; c < std::min(num_columns, above[i].size()); ++c) {
+      table.titles[c] += above[i][c] + ' ';
+    }
+  }
+  return table;
+}
+
+bool HasAny(const std::string& text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+double UnitOf(const std::filesystem::path& path, const std::string& title,
+              const std::string& head) {
+  for (const std::string& text : {title, head}) {
+    for (const char* unit : {"um", "nm", "mm", "micron"}) {
+      const auto at = text.find(unit);
+      const auto bounded = [&](std::size_t i) {
+        return i >= text.size() || !std::isalpha(static_cast<unsigned char>(text[i]));
+      };
+      const std::string name = std::string(unit) == "micron" ? "um" : unit;
+      const bool whole = at != std::string::npos && (at == 0 || bounded(at - 1));
+      if (whole && (name != unit || bounded(at + 2))) {
+        return base::ParseQuantity("1 " + name, base::Dimension::kLength);
+      }
+    }
+    if (HasAny(text, {"(m)", "[m]", "/m "})) return 1;
+  }
+  Refuse(path,
+         "does not say in which unit the diameters are; write it into the head of their "
+         "column, such as \"diameter (um)\"");
+}
+
+struct Columns {
+  std::size_t diameter = 0;
+  std::size_t share = 1;
+  bool cumulative = false;
+};
+
+Columns Find(const std::filesystem::path& path, const Table& table) {
+  const auto find = [&](auto&& fits) {
+    std::size_t c = 0;
+    while (c < table.titles.size() && !fits(table.titles[c])) ++c;
+    return c;
+  };
+  const std::size_t num_columns = table.titles.size();
+  Columns columns;
+  columns.diameter = find([](const std::string& t) {
+    return HasAny(t, {"size", "diameter", "particle", "channel", "x0", "xu", "d ", "x ", "d[", "x[",
+                      "d(", "x(", "d/", "x/"});
+  });
+  if (columns.diameter == num_columns) columns.diameter = 0;
+  const auto is_share = [&](const std::string& t) { return &t != &table.titles[columns.diameter]; };
+  columns.share = find([&](const std::string& t) {
+    return is_share(t) && !HasAny(t, {"over", ">", "retained", "coarser"}) &&
+           HasAny(t, {"under", "cum", "passing", "finer", "<", "q3 ", "q3/", "q0/", "sum"});
+  });
+  columns.cumulative = columns.share != num_columns;
+  if (!columns.cumulative) {
+    columns.share = find([&](const std::string& t) {
+      return is_share(t) && !HasAny(t, {"over", ">", "retained", "coarser"});
+    });
+  }
+  if (columns.share == num_columns) {
+    Refuse(path,
+           "has only a cumulative share of what is coarser; export what is finer, or the "
+           "share of each class");
+  }
+  return columns;
+}
+
+// Without a word in the title: a column that never falls and ends at 1 or 100 is cumulative.
+bool LooksCumulative(const std::vector<double>& shares) {
+  return std::is_sorted(shares.begin(), shares.end()) &&
+         (std::abs(shares.back() - 100) < 0.5 || std::abs(shares.back() - 1) < 0.005);
+}
+
+// Edges of the classes that `diameters` stand for.
+std::vector<double> EdgesOf(const std::vector<double>& d, const std::string& title) {
+  const std::size_t n = d.size();
+  std::vector<double> edges;
+  if (HasAny(title, {"lower", "low "})) {
+    edges = d;
+    edges.push_back(d[n - 1] * d[n - 1] / d[n - 2]);
+  } else if (HasAny(title, {"upper", "xu", "xo"})) {
+    edges = d;
+    edges.insert(edges.begin(), d[0] * d[0] / d[1]);
+  } else {  // the classes' middles, on the logarithmic scale of these instruments
+    for (std::size_t i = 1; i < n; ++i) edges.push_back(std::sqrt(d[i - 1] * d[i]));
+    edges.insert(edges.begin(), d[0] * d[0] / edges.front());
+    edges.push_back(d[n - 1] * d[n - 1] / edges.back());
+  }
+  return edges;
+}
+
+// Drops the classes or points at both ends that hold nothing, so that they do not widen the curve.
+void Trim(SizeDistribution& sizes) {
+  auto& d = sizes.diameters;
+  auto& s = sizes.shares;
+  const bool classes = sizes.kind == SizeKind::kClasses;
+  while (s.size() > 2 && (classes ? s[0] == 0 : s[1] == s[0])) {
+    s.erase(s.begin());
+    d.erase(d.begin());
+  }
+  while (s.size() > 2 && (classes ? s.back() == 0 : s[s.size() - 2] == s.back())) {
+    s.pop_back();
+    d.pop_back();
+  }
+}
+
+}  // namespace
+
+void ReadSizeFile(SizeDistribution& sizes) {
+  if (sizes.kind != SizeKind::kFile || !sizes.file) return;
+  const std::filesystem::path path = *sizes.file;
+  const Table table = ReadTable(path);
+  const Columns columns = Find(path, table);
+  const std::string& title = table.titles[columns.diameter];
+  const double unit = UnitOf(path, title, table.head);
+  std::vector<std::pair<double, double>> points;
+  for (const auto& row : table.rows) {
+    if (row.size() <= columns.diameter || !(row[columns.diameter] > 0)) continue;
+    const double share = row.size() > columns.share ? row[columns.share] : 0;
+    points.emplace_back(row[columns.diameter] * unit, std::isfinite(share) ? share : 0);
+  }
+  std::sort(points.begin(), points.end());  // some instruments list the coarse end first
+  if (points.size() < 2) Refuse(path, "has less than two diameters above zero");
+  std::vector<double> diameters;
+  sizes.shares.clear();
+  for (const auto& [diameter, share] : points) {
+    diameters.push_back(diameter);
+    sizes.shares.push_back(share);
+  }
+  const bool cumulative = columns.cumulative || LooksCumulative(sizes.shares);
+  sizes.kind = cumulative ? SizeKind::kCumulative : SizeKind::kClasses;
+  sizes.diameters = cumulative ? diameters : EdgesOf(diameters, title);
+  const std::string& share_title = table.titles[columns.share];
+  if (HasAny(share_title, {"number", "q0"})) sizes.by = Weighting::kNumber;
+  if (HasAny(share_title, {"volume", "q3"})) sizes.by = Weighting::kVolume;
+  sizes.file.reset();
+  Trim(sizes);
+  base::Problems problems(path.string(), {});
+  sizes.Validate(problems);
+  problems.ThrowIfAny();
+}
+
+}  // namespace talus::engine

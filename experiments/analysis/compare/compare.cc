@@ -1,0 +1,177 @@
+#include "experiments/analysis/compare/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace talus::experiments {
+namespace {
+
+constexpr int kVolumeSample = 4096;  // a share of 1 % is then known to ± 0.2 %
+
+struct Measurement {
+  const TrialEvidence* trial = nullptr;
+  double quantity = 0;
+};
+
+std::vector<Measurement> MeasurementsOf(const Evidence& evidence, std::size_t column) {
+  std::vector<Measurement> found;
+  for (const TrialEvidence& trial : evidence.trials) {
+    if (trial.state != TrialState::kDone || std::isnan(trial.metrics[column])) continue;
+    if (trial.scale_factor != evidence.scale_factor) continue;  // another simulation of the set
+    found.push_back({&trial, trial.metrics[column]});
+  }
+  return found;
+}
+
+// Best first; sets that are equal stay in the order of their first trial.
+std::vector<ComparedSet> RankedSets(const std::vector<Measurement>& measured,
+                                    const ObjectiveInfo& info, double reference) {
+  std::map<std::vector<double>, std::size_t> index;
+  std::vector<ComparedSet> sets;
+  for (const Measurement& m : measured) {
+    const auto [place, is_new] = index.try_emplace(m.trial->values, sets.size());
+    if (is_new) sets.push_back({.trials = {}, .point = m.trial->point, .values = m.trial->values});
+    ComparedSet& set = sets[place->second];
+    set.trials.push_back(m.trial->id);
+    set.quantity += m.quantity;
+  }
+  for (ComparedSet& set : sets) {
+    set.quantity /= static_cast<double>(set.trials.size());
+    set.objective = info.Value(set.quantity, reference);
+  }
+  std::stable_sort(sets.begin(), sets.end(), [](const ComparedSet& a, const ComparedSet& b) {
+    return a.objective < b.objective;
+  });
+  return sets;
+}
+
+// The scatter between trials of one set, pooled over the sets; kUndefined without repeats.
+double PooledScatter(const std::vector<Measurement>& measured) {
+  struct Sums {
+    double count = 0, sum = 0, squares = 0;
+  };
+  std::map<std::vector<double>, Sums> groups;
+  const double shift = measured.front().quantity;  // keeps the squares' cancellation harmless
+  for (const Measurement& m : measured) {
+    Sums& group = groups[m.trial->values];
+    const double x = m.quantity - shift;
+    group.count += 1;
+    group.sum += x;
+    group.squares += x * x;
+  }
+  double squares = 0, freedom = 0;
+  for (const auto& [values, group] : groups) {
+    squares += std::max(0.0, group.squares - group.sum * group.sum / group.count);
+    freedom += group.count - 1;
+  }
+  return freedom > 0 ? std::sqrt(squares / freedom) : kUndefined;
+}
+
+// The share of the cube whose nearest set ties: trials crowd where they are good, so their own
+// share says nothing.
+double NearestVolume(const std::vector<ComparedSet>& sets, std::size_t num_tied) {
+  const Eigen::Index dimension = sets.front().point.size();
+  Eigen::MatrixXd points(dimension, static_cast<Eigen::Index>(sets.size()));
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    points.col(static_cast<Eigen::Index>(i)) = sets[i].point;
+  }
+  const Eigen::MatrixXd sample = EvenSample(kVolumeSample, dimension).transpose();
+  int tied = 0;
+  for (Eigen::Index i = 0; i < sample.cols(); ++i) {
+    Eigen::Index nearest = 0;
+    (points.colwise() - sample.col(i)).colwise().squaredNorm().minCoeff(&nearest);
+    if (nearest < static_cast<Eigen::Index>(num_tied)) ++tied;
+  }
+  return static_cast<double>(tied) / kVolumeSample;
+}
+
+TrialFinding FindFromTrials(std::vector<ComparedSet> sets, double margin) {
+  TrialFinding finding;
+  finding.num_sets = sets.size();
+  const double limit = sets.front().objective + margin;
+  finding.num_tied = static_cast<std::size_t>(std::count_if(
+      sets.begin(), sets.end(), [&](const ComparedSet& set) { return set.objective <= limit; }));
+  finding.tied_volume = NearestVolume(sets, finding.num_tied);
+  sets.resize(std::min(sets.size(), kNumBest));
+  finding.best = std::move(sets);
+  return finding;
+}
+
+std::vector<double> ToValues(const Evidence& evidence, const Eigen::VectorXd& point) {
+  std::vector<double> values;
+  for (Eigen::Index k = 0; k < point.size(); ++k) {
+    values.push_back(evidence.parameters[static_cast<std::size_t>(k)].range.ToNative(point(k)));
+  }
+  return values;
+}
+
+ModelFinding FindFromModel(const Evidence& evidence, ObjectiveModel model,
+                           const Eigen::VectorXd& start, double margin) {
+  ModelFinding finding{.model = std::move(model), .point = {}, .values = {}, .there = {}};
+  finding.point = finding.model.Minimiser(start);
+  finding.values = ToValues(evidence, finding.point);
+  finding.there = finding.model.Predict(finding.point.transpose()).front();
+  const auto sample = finding.model.Predict(EvenSample(kVolumeSample, start.size()));
+  const double limit = finding.there.objective + margin;
+  const auto tied = std::count_if(sample.begin(), sample.end(), [&](const ObjectivePrediction& p) {
+    return p.objective <= limit;
+  });
+  finding.tied_volume = static_cast<double>(tied) / kVolumeSample;
+  return finding;
+}
+
+// Why an objective cannot be judged; empty when it can.
+std::string WhyAbsent(const ObjectiveInfo& info, double reference, bool has_column,
+                      bool has_measurement) {
+  if (!has_column) return "the trials were not measured by it";
+  if (info.is_angle && std::isnan(reference))
+    return "it is not defined on the experiment's profile";
+  if (!has_measurement) return "no trial has a value of it yet";
+  return "";
+}
+
+ObjectiveFinding FindFor(const Evidence& evidence, const ObjectiveInfo& info) {
+  ObjectiveFinding finding{.info = info, .absent = {}, .from_trials = {}, .from_model = {}};
+  const auto column = MetricColumn(evidence, info.metric);
+  if (column && info.is_angle && *column < evidence.reference.metrics.size()) {
+    finding.reference = evidence.reference.metrics[*column];
+    if (*column < evidence.reference.errors.size()) {
+      finding.reference_error = evidence.reference.errors[*column];
+    }
+  }
+  const auto measured = column ? MeasurementsOf(evidence, *column) : std::vector<Measurement>{};
+  finding.absent = WhyAbsent(info, finding.reference, column.has_value(), !measured.empty());
+  if (!finding.absent.empty()) return finding;
+
+  auto sets = RankedSets(measured, info, finding.reference);
+  finding.noise_sd = PooledScatter(measured);
+  const Eigen::VectorXd start = sets.front().point;
+  std::optional<ObjectiveModel> model;
+  if (sets.size() >= ObjectiveModel::kFewestPoints) {
+    std::vector<ModelPoint> points;
+    for (const Measurement& m : measured) points.push_back({m.trial->point, m.quantity});
+    model = ObjectiveModel::Fit(points, start, info, finding.reference);
+    if (std::isnan(finding.noise_sd)) finding.noise_sd = model->noise_sd();
+  }
+  finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
+  if (model) finding.from_model = FindFromModel(evidence, *model, start, finding.margin());
+  return finding;
+}
+
+}  // namespace
+
+std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_view metric) {
+  for (std::size_t i = 0; i < evidence.metrics.size(); ++i) {
+    if (evidence.metrics[i].name == metric) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence) {
+  std::vector<ObjectiveFinding> findings;
+  for (const ObjectiveInfo& info : kObjectives) findings.push_back(FindFor(evidence, info));
+  return findings;
+}
+
+}  // namespace talus::experiments

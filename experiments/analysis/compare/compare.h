@@ -1,0 +1,61 @@
+// For each objective: which sets it prefers, how far it can tell them apart, and so how unique its
+// answer is. Once from the trials alone, once from a model of the measured quantity.
+//
+// Two sets tie when their objectives differ by no more than kTieMargin times the scatter of one
+// evaluation, as in the optimiser's own answer. The tied region's volume is its share of the unit
+// cube of the parameters.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/compare/evidence.h"
+#include "experiments/analysis/compare/objective.h"
+#include "experiments/analysis/compare/objective_model.h"
+
+namespace talus::experiments {
+
+inline constexpr double kTieMargin = 1;
+inline constexpr std::size_t kNumBest = 10;
+
+// One set of parameters with all its trials: repeats count as one set with a better mean.
+struct ComparedSet {
+  std::vector<int> trials;     // ids
+  Eigen::VectorXd point;       // unit cube
+  std::vector<double> values;  // SI
+  double quantity = 0;         // mean of the metric over the trials
+  double objective = 0;        // of that mean
+};
+
+struct TrialFinding {
+  std::size_t num_sets = 0;
+  std::vector<ComparedSet> best;  // best first, at most kNumBest
+  std::size_t num_tied = 0;       // sets that tie with the best, itself included
+  double tied_volume = 0;         // of the points whose nearest set ties
+};
+
+struct ModelFinding {
+  ObjectiveModel model;
+  Eigen::VectorXd point;       // where the predicted objective is least, unit cube
+  std::vector<double> values;  // SI
+  ObjectivePrediction there;
+  double tied_volume = 0;  // of the points whose prediction ties with that
+};
+
+struct ObjectiveFinding {
+  ObjectiveInfo info;
+  double reference = kUndefined;        // the experiment's angle
+  double reference_error = kUndefined;  // its standard error, of several runs
+  double noise_sd = kUndefined;         // scatter of one evaluation of the quantity
+  std::string absent;                   // why nothing can be said; empty when there is an answer
+  TrialFinding from_trials;
+  std::optional<ModelFinding> from_model;  // needs some more trials than none
+
+  double margin() const { return noise_sd > 0 ? kTieMargin * noise_sd : 0; }
+};
+
+// Findings for kObjectives, in their order.
+std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence);
+
+}  // namespace talus::experiments

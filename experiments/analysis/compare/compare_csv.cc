@@ -1,0 +1,53 @@
+#include "experiments/analysis/compare/compare_tables.h"
+#include "experiments/analysis/compare/csv.h"
+
+namespace talus::experiments {
+namespace {
+
+void ParameterHeads(Csv& csv, const Evidence& evidence) {
+  for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(parameter.column);
+}
+
+}  // namespace
+
+std::string ObjectivesCsv(const ComparedCampaign& compared) {
+  Csv csv;
+  csv.Cell("objective").Cell("from").Cell("metric").Cell("quantity").Cell("reference");
+  csv.Cell("objective_value").Cell("noise_sd");
+  ParameterHeads(csv, compared.evidence);
+  csv.Cell("tied_sets").Cell("sets").Cell("tied_volume_fraction").EndRow();
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (!f.absent.empty()) continue;
+    const ComparedSet& best = f.from_trials.best.front();
+    csv.Cell(f.info.key).Cell("trials").Cell(f.info.metric).Cell(best.quantity);
+    csv.Cell(f.reference).Cell(best.objective).Cell(f.noise_sd).Cells(best.values);
+    csv.Cell(static_cast<double>(f.from_trials.num_tied));
+    csv.Cell(static_cast<double>(f.from_trials.num_sets));
+    csv.Cell(f.from_trials.tied_volume).EndRow();
+    if (!f.from_model) continue;
+    const ModelFinding& model = *f.from_model;
+    csv.Cell(f.info.key).Cell("model").Cell(f.info.metric).Cell(model.there.quantity);
+    csv.Cell(f.reference).Cell(model.there.objective).Cell(f.noise_sd).Cells(model.values);
+    csv.Cell("").Cell("").Cell(model.tied_volume).EndRow();
+  }
+  return csv.Take();
+}
+
+std::string TenBestCsv(const ComparedCampaign& compared) {
+  Csv csv;
+  csv.Cell("objective").Cell("rank").Cell("quantity").Cell("objective_value");
+  ParameterHeads(csv, compared.evidence);
+  csv.Cell("trials").EndRow();
+  for (const ObjectiveFinding& f : compared.findings) {
+    double rank = 0;
+    for (const ComparedSet& set : f.from_trials.best) {
+      std::string ids;
+      for (const int id : set.trials) ids += (ids.empty() ? "" : " ") + std::to_string(id);
+      csv.Cell(f.info.key).Cell(++rank).Cell(set.quantity).Cell(set.objective);
+      csv.Cells(set.values).Cell(ids).EndRow();
+    }
+  }
+  return csv.Take();
+}
+
+}  // namespace talus::experiments

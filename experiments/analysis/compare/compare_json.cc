@@ -1,0 +1,68 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/analysis/compare/compare_tables.h"
+
+namespace talus::experiments {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json ValuesJson(const Evidence& evidence, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    json[evidence.parameters[k].column] = Number(values[k]);
+  }
+  return json;
+}
+
+Json SetJson(const Evidence& evidence, const ComparedSet& set) {
+  return {{"trials", set.trials},
+          {"values", ValuesJson(evidence, set.values)},
+          {"quantity", Number(set.quantity)},
+          {"objective", Number(set.objective)}};
+}
+
+Json TrialsJson(const Evidence& evidence, const TrialFinding& finding) {
+  Json best = Json::array();
+  for (const ComparedSet& set : finding.best) best.push_back(SetJson(evidence, set));
+  return {{"num_sets", finding.num_sets},
+          {"num_tied_sets", finding.num_tied},
+          {"tied_volume_fraction", finding.tied_volume},
+          {"best", best}};
+}
+
+Json ModelJson(const Evidence& evidence, const ModelFinding& finding) {
+  return {{"values", ValuesJson(evidence, finding.values)},
+          {"quantity", Number(finding.there.quantity)},
+          {"quantity_sd", Number(finding.there.sd)},
+          {"objective", Number(finding.there.objective)},
+          {"tied_volume_fraction", finding.tied_volume}};
+}
+
+}  // namespace
+
+std::string ComparisonJson(const ComparedCampaign& compared) {
+  Json objectives = Json::array();
+  for (const ObjectiveFinding& f : compared.findings) {
+    Json json{{"objective", f.info.key}, {"metric", f.info.metric}};
+    if (!f.absent.empty()) {
+      json["absent"] = f.absent;
+    } else {
+      json["reference"] = Number(f.reference);
+      json["reference_standard_error"] = Number(f.reference_error);
+      json["noise_sd"] = Number(f.noise_sd);
+      json["from_trials"] = TrialsJson(compared.evidence, f.from_trials);
+      if (f.from_model) json["from_model"] = ModelJson(compared.evidence, *f.from_model);
+    }
+    objectives.push_back(json);
+  }
+  const Json json{{"name", compared.evidence.name},
+                  {"tie_margin_in_noise_sd", kTieMargin},
+                  {"objectives", objectives}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,122 @@
+// What a campaign knows so far, as plain data: comparison and report are functions of it, and only
+// gather_evidence.cc knows how a campaign keeps it.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+#include "imaging/heap/profile.h"
+#include "optimizer/space/parameter_space.h"
+
+namespace talus::experiments {
+
+inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+struct ParameterInfo {
+  optimizer::Parameter range;  // name, low, high, scale
+  std::string symbol;          // for axes: "μ_r"
+  std::string unit;            // SI: "J/m²"; empty for a pure number
+  std::string column;          // name with unit, for tables: "surface_energy_J_per_m2"
+};
+
+struct MetricInfo {
+  std::string name;  // with its unit: "sad_mm2"
+  std::string unit;  // "mm2", "deg", "-"
+};
+
+enum class TrialState { kDone, kFailed, kRunning };
+
+struct TrialEvidence {
+  int id = 0;
+  TrialState state = TrialState::kDone;
+  std::string purpose;         // why it was run: "noise", "design", "search", "confirm"
+  Eigen::VectorXd point;       // unit cube
+  std::vector<double> values;  // in the order of Evidence::parameters, SI
+  std::int64_t seed = 0;
+  double scale_factor = 1;
+  std::vector<double> metrics;  // in the order of Evidence::metrics; kUndefined where it has none
+  std::string reason;           // why it failed
+  double seconds = kUndefined;  // wall time of its simulation [s]
+  double cpu_seconds = kUndefined;  // [s]
+};
+
+// The experiment that the trials are compared with.
+struct ReferenceEvidence {
+  imaging::Profile aehp;
+  std::vector<double> metrics;      // of the AEHP itself, in the order of Evidence::metrics
+  std::vector<double> errors;       // standard errors of these, from run to run
+  double noise_floor = kUndefined;  // leave-one-run-out SAD [mm²]; kUndefined for a lone map
+};
+
+// One parameter of the recommended set.
+struct RecommendedValue {
+  double value = 0;  // SI
+  double low = 0;    // credible range: 90 %, all together
+  double high = 0;
+};
+
+// What the campaign itself concludes.
+struct Conclusion {
+  std::string objective{};  // key of one of kObjectives
+  std::vector<RecommendedValue> values{};
+  double predicted = kUndefined;     // the objective there, by the campaign's model
+  double predicted_sd = kUndefined;  // of that mean
+  double confirmed = kUndefined;     // mean over the confirming trials
+  int num_confirmed = 0;
+  double noise_sd = kUndefined;  // scatter of one evaluation
+  double tied_volume = kUndefined;
+  std::vector<double> sobol_first{};  // one a parameter, or empty
+  std::vector<double> sobol_total{};
+  std::vector<std::string> warnings{};
+  std::vector<std::string> conditions{};  // what the calibrated set holds for
+  std::string model{};                    // which surrogate answered and how well it predicts
+};
+
+struct NamedText {
+  std::string name;
+  std::string text;
+};
+
+struct StageTime {
+  std::string name;
+  double seconds = 0;
+};
+
+struct Evidence {
+  std::string name;
+  std::string state;        // "running", "finished", "interrupted"
+  std::string stop_reason;  // empty while running
+  double scale_factor = 1;  // of the search
+  std::string objective;    // key of one of kObjectives: the latest search's
+  std::string strategy;     // its kind
+  int max_simulations = 0;  // the budget; 0: none
+  std::vector<ParameterInfo> parameters;
+  std::vector<MetricInfo> metrics;
+  std::vector<TrialEvidence> trials;
+  ReferenceEvidence reference;
+  std::optional<Conclusion> conclusion;                         // none before there is one
+  std::vector<StageTime> stages;                                // where the time went
+  std::vector<NamedText> versions;                              // of talus and what it stands on
+  std::string spec;                                             // the text of the spec's file
+  std::function<std::optional<imaging::Profile>(int)> profile;  // ANHP of a trial by its id
+};
+
+// Column of a metric; nothing when no trial has it.
+std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_view metric);
+
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::TrialState> {
+  using S = talus::experiments::TrialState;
+  static constexpr std::array kList{std::pair{"done", S::kDone}, std::pair{"failed", S::kFailed},
+                                    std::pair{"running", S::kRunning}};
+};

@@ -1,0 +1,67 @@
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/compare/objective.h"
+#include "experiments/campaign/campaign_result.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string Number(double x) {
+  std::ostringstream text;
+  text.precision(4);
+  text << x;
+  return text.str();
+}
+
+std::vector<std::string> ConditionTexts(const ResultConditions& c) {
+  std::vector<std::string> texts{
+      "Young's modulus of the grains " + Number(c.youngs_modulus / 1e6) + " MPa",
+      "lift velocity " + Number(c.lift_velocity * 100) + " cm/s",
+      "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
+  texts.push_back(c.scale_factor == 1
+                      ? "grains at their true size"
+                      : "grains " + Number(c.scale_factor) +
+                            " times their true size, surface energy scaled with exponent " +
+                            Number(c.surface_energy_exponent));
+  return texts;
+}
+
+// A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
+std::string ObjectiveKey(const std::string& result_key) {
+  for (const ObjectiveInfo& info : kObjectives) {
+    if (result_key == info.metric || result_key == std::string(info.key) + "_difference_deg") {
+      return std::string(info.key);
+    }
+  }
+  throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
+}
+
+}  // namespace
+
+Conclusion ConclusionOf(const std::string& result_json) {
+  const CampaignResult result = ParseResult(result_json);
+  Conclusion conclusion{.objective = ObjectiveKey(result.objective),
+                        .predicted = result.predicted,
+                        .predicted_sd = result.predicted_sd,
+                        .noise_sd = result.noise_sd,
+                        .tied_volume = result.tied_volume,
+                        .warnings = result.warnings,
+                        .conditions = ConditionTexts(result.conditions),
+                        .model = result.model};
+  for (const ResultParameter& p : result.parameters) {
+    conclusion.values.push_back({p.value, p.credible_low, p.credible_high});
+    if (std::isnan(p.sobol_total)) continue;
+    conclusion.sobol_first.push_back(p.sobol_first);
+    conclusion.sobol_total.push_back(p.sobol_total);
+  }
+  if (!result.confirmed.empty()) {  // the recommended set comes first
+    conclusion.confirmed = result.confirmed.front().mean;
+    conclusion.num_confirmed = result.confirmed.front().num_trials;
+  }
+  return conclusion;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,169 @@
+#include "experiments/analysis/compare/gather_evidence.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json_file.h"
+#include "base/json_reader.h"
+#include "experiments/analysis/report/labels.h"
+#include "experiments/app/commands.h"
+#include "experiments/journal/journal.h"
+#include "imaging/formats/image_file.h"
+
+namespace talus::experiments {
+namespace {
+
+TrialState StateOf(TrialStatus status) {
+  switch (status) {
+    case TrialStatus::kOk:
+      return TrialState::kDone;
+    case TrialStatus::kFailed:
+      return TrialState::kFailed;
+    case TrialStatus::kRunning:
+      return TrialState::kRunning;
+  }
+  return TrialState::kRunning;
+}
+
+ParameterInfo InfoOf(const ParameterRecord& record) {
+  ParameterInfo info;
+  info.range.name = record.name;
+  info.range.low = record.low;
+  info.range.high = record.high;
+  info.range.scale = record.scale == "log" ? optimizer::Scale::kLog : optimizer::Scale::kLinear;
+  info.symbol = SymbolOf(record.name);
+  info.unit = PrettyUnit(record.unit);
+  info.column = ColumnName(record);
+  return info;
+}
+
+// The value of each known metric, in their order; new ones are added to the list.
+std::vector<double> InColumns(const std::vector<MetricRecord>& records,
+                              std::vector<MetricInfo>& columns) {
+  std::vector<double> values(columns.size(), kUndefined);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const auto same = [&](const MetricInfo& info) { return info.name == records[i].name; };
+    // Nearly always the list is the same for all.
+    const auto found = i < columns.size() && same(columns[i])
+                           ? columns.begin() + static_cast<std::ptrdiff_t>(i)
+                           : std::find_if(columns.begin(), columns.end(), same);
+    if (found == columns.end()) {
+      columns.push_back({records[i].name, records[i].unit});
+      values.push_back(records[i].value);
+    } else {
+      values[static_cast<std::size_t>(found - columns.begin())] = records[i].value;
+    }
+  }
+  return values;
+}
+
+TrialEvidence EvidenceOf(const TrialRecord& record, std::vector<MetricInfo>& columns) {
+  TrialEvidence trial;
+  trial.id = static_cast<int>(record.id);
+  trial.state = StateOf(record.status);
+  trial.purpose = base::NameOf(record.kind);
+  trial.point = Eigen::Map<const Eigen::VectorXd>(record.unit.data(),
+                                                  static_cast<Eigen::Index>(record.unit.size()));
+  trial.values = record.native;
+  trial.seed = record.seed;
+  trial.scale_factor = record.scale_factor;
+  trial.metrics = InColumns(record.metrics, columns);
+  if (trial.state == TrialState::kFailed) trial.reason = record.reason;
+  if (trial.state != TrialState::kRunning) {
+    trial.seconds = record.duration_s;
+    trial.cpu_seconds = record.cpu_s;
+  }
+  return trial;
+}
+
+imaging::Profile ReadReference(const CampaignRecord& record) {
+  imaging::Profile aehp;
+  base::Problems problems("the journal's frame", {});
+  base::ReadOptions(base::ParseJson(record.frame_json, "frame").root, aehp.frame, {problems, {}});
+  problems.ThrowIfAny();
+  aehp.image = imaging::DecodeGrayImage(record.aehp_png, "the journal's AEHP");
+  return aehp;
+}
+
+void AddTrials(Evidence& evidence, const CampaignRecord& record,
+               const std::vector<TrialRecord>& trials) {
+  evidence.reference.metrics = InColumns(record.reference, evidence.metrics);
+  for (const TrialRecord& trial : trials) {
+    evidence.trials.push_back(EvidenceOf(trial, evidence.metrics));
+  }
+  for (TrialEvidence& trial : evidence.trials) {
+    trial.metrics.resize(evidence.metrics.size(), kUndefined);
+  }
+  evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
+  std::vector<MetricRecord> errors = record.reference;
+  for (MetricRecord& metric : errors) metric.value = metric.standard_error;
+  evidence.reference.errors = InColumns(errors, evidence.metrics);
+  if (!trials.empty()) evidence.scale_factor = trials.front().scale_factor;
+}
+
+void AddTimes(Evidence& evidence, double elapsed) {
+  double wall = 0;
+  double cpu = 0;
+  for (const TrialEvidence& trial : evidence.trials) {
+    if (trial.state == TrialState::kRunning) continue;
+    wall += trial.seconds;
+    cpu += trial.cpu_seconds;
+  }
+  evidence.stages = {{"the campaign, from start to now or to its end", elapsed},
+                     {"all simulations, one after the other", wall},
+                     {"their processor time", cpu}};
+}
+
+void AddSpec(Evidence& evidence, const CampaignRecord& record) {
+  evidence.spec = record.spec_text;
+  const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
+  if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
+  if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
+}
+
+}  // namespace
+
+Evidence GatherEvidence(const std::filesystem::path& campaign) {
+  if (!std::filesystem::exists(JournalPath(campaign))) {
+    throw base::ConfigError(campaign.string() + ": holds no campaign (" +
+                            JournalPath(campaign).filename().string() +
+                            " is missing); name the folder that `talus calibrate` wrote");
+  }
+  const auto journal = std::make_shared<Journal>(Journal::OpenReadOnly(JournalPath(campaign)));
+  const CampaignRecord record = journal->Campaign();
+  const ProgressRecord progress = journal->Progress();
+
+  Evidence evidence;
+  evidence.name = record.name;
+  evidence.state = progress.state;
+  evidence.stop_reason = progress.stop_reason;
+  evidence.objective = record.objective;
+  AddSpec(evidence, record);
+  for (const ParameterRecord& parameter : record.parameters) {
+    evidence.parameters.push_back(InfoOf(parameter));
+  }
+  AddTrials(evidence, record, journal->Trials());
+  evidence.reference.aehp = ReadReference(record);
+  evidence.reference.noise_floor = record.noise_mm2.value_or(kUndefined);
+  if (!progress.result_json.empty()) {
+    evidence.conclusion = ConclusionOf(progress.result_json);
+    evidence.objective = evidence.conclusion->objective;
+  }
+  AddTimes(evidence, progress.elapsed_s);
+  evidence.versions = {{"talus that started the campaign", record.talus_version},
+                       {"talus that wrote this report", Version()},
+                       {"started", record.created_utc},
+                       {"strategy", evidence.strategy},
+                       {"spec", record.spec_path},
+                       {"hash of the spec", record.spec_hash}};
+  evidence.profile =
+      [journal, frame = evidence.reference.aehp.frame](int id) -> std::optional<imaging::Profile> {
+    const std::string png = journal->ProfilePng(id);
+    if (png.empty()) return std::nullopt;
+    return imaging::Profile{imaging::DecodeGrayImage(png, "the profile of a trial"), frame};
+  };
+  return evidence;
+}
+
+}  // namespace talus::experiments

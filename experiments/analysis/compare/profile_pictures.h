@@ -1,0 +1,37 @@
+// The heaps that objectives prefer, as pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/compare/compare.h"
+
+namespace talus::experiments {
+
+// A trial worth a look, and why.
+struct ShownTrial {
+  const TrialEvidence* trial = nullptr;
+  std::string why;  // "best by SAD, RMSE"
+};
+
+// The first trial of the best set by each objective, and the first confirming one; each once.
+std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
+                                     const std::vector<ObjectiveFinding>& findings);
+
+struct Picture {
+  std::string name;  // of the file, without ending: "signed_map_trial_12"
+  std::string title;
+  std::string caption;  // may be empty
+  int width = 0;        // [px]
+  int height = 0;       // [px]
+  std::string png;
+};
+
+// The AEHP, then the ANHP and the signed difference map of each trial that has an image.
+std::vector<Picture> ProfilePictures(const Evidence& evidence,
+                                     const std::vector<ShownTrial>& shown);
+
+// AEHP, ANHPs and differences on one sheet, with titles; no PNG when no trial has an image.
+Picture SideBySide(const Evidence& evidence, const std::vector<ShownTrial>& shown);
+
+}  // namespace talus::experiments

@@ -1,0 +1,195 @@
+#include "experiments/analysis/report/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "experiments/analysis/report/svg_chart.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string WithUnit(std::string_view title, std::string_view unit) {
+  return std::string(title) + (unit.empty() ? "" : " (" + std::string(unit) + ")");
+}
+
+SvgAxis AxisOf(const ParameterInfo& p) {
+  return {.title = WithUnit(p.symbol, p.unit),
+          .low = p.range.low,
+          .high = p.range.high,
+          .log = p.range.scale == optimizer::Scale::kLog};
+}
+
+struct Valued {
+  const TrialEvidence* trial = nullptr;
+  double objective = 0;
+};
+
+std::vector<Valued> ValuedTrials(const ReportData& data) {
+  std::vector<Valued> valued;
+  const auto column = MetricColumn(data.evidence, data.own().info.metric);
+  if (!column) return valued;
+  for (const TrialEvidence& t : data.evidence.trials) {
+    if (t.state != TrialState::kDone || std::isnan(t.metrics[*column])) continue;
+    valued.push_back({&t, data.own().info.Value(t.metrics[*column], data.own().reference)});
+  }
+  return valued;
+}
+
+std::string Convergence(const ReportData& data, const std::vector<Valued>& valued) {
+  const ObjectiveInfo& info = data.own().info;
+  double top = 0;
+  for (const Valued& v : valued) top = std::max(top, v.objective);
+  const double last = data.evidence.trials.back().id;
+  SvgChart chart({.title = "trial", .low = 0, .high = std::max(1.0, last)},
+                 {.title = WithUnit(info.title, info.unit), .low = 0, .high = 1.05 * top});
+  std::map<std::string, std::vector<SvgPoint>> by_purpose;
+  std::vector<SvgPoint> best, low, high;
+  const double noise = std::isnan(data.own().noise_sd) ? 0 : data.own().noise_sd;
+  const auto extend = [&](double x, double y) {
+    best.push_back({x, y});
+    low.push_back({x, std::max(0.0, y - noise)});
+    high.push_back({x, y + noise});
+  };
+  for (const Valued& v : valued) {
+    const double id = v.trial->id;
+    by_purpose[v.trial->purpose].push_back({id, v.objective});
+    if (!best.empty()) extend(id, best.back().y);
+    if (best.empty() || v.objective < best.back().y) extend(id, v.objective);
+  }
+  if (noise > 0) {
+    chart.Band(low, high, {.color = "#9fb3c0", .opacity = 0.4}, "± scatter of one simulation");
+  }
+  std::size_t k = 0;
+  for (const auto& [purpose, points] : by_purpose) {
+    chart.Points(points, {.color = SvgColor(k++), .width = 6, .opacity = 0.8}, purpose);
+  }
+  chart.Line(best, {.width = 2}, "best so far");
+  const double floor = data.evidence.reference.noise_floor;
+  if (info.key == "sad" && std::isfinite(floor)) {
+    chart.Line({{0, floor}, {last, floor}}, {.color = "#55626d", .dashed = true},
+               "noise floor of the experiment");
+  }
+  return chart.Text();
+}
+
+std::string Outlines(const ReportData& data) {
+  double reach = data.evidence.reference.aehp.frame.plate_diameter / 2;
+  double top = 0;
+  for (const OutlineCurve& outline : data.outlines) {
+    for (std::size_t i = 0; i < outline.x.size(); ++i) {
+      reach = std::max(reach, std::abs(outline.x[i]));
+      top = std::max(top, outline.height[i]);
+    }
+  }
+  SvgChart chart({.title = "distance from the plate's centre (mm)",
+                  .low = -1.05e3 * reach,
+                  .high = 1.05e3 * reach},
+                 {.title = "height (mm)", .low = 0, .high = std::max(1.08e3 * top, 1e-3)}, true);
+  for (std::size_t k = 0; k < data.outlines.size(); ++k) {
+    std::vector<SvgPoint> points;
+    for (std::size_t i = 0; i < data.outlines[k].x.size(); ++i) {
+      points.push_back({1e3 * data.outlines[k].x[i], 1e3 * data.outlines[k].height[i]});
+    }
+    const SvgStyle style{.color = k == 0 ? "#1d2730" : SvgColor(k - 1), .width = k == 0 ? 3 : 1.5};
+    chart.Line(points, style, data.outlines[k].title);
+  }
+  return chart.Text();
+}
+
+std::string Slice(const ReportData& data, const ModelSlice& slice) {
+  const ParameterInfo& parameter = data.evidence.parameters[slice.parameter];
+  const ObjectiveInfo& info = data.own().info;
+  std::vector<SvgPoint> mean, low, high;
+  double top = 0;
+  for (std::size_t i = 0; i < slice.x.size(); ++i) {
+    const ObjectivePrediction& p = slice.predicted[i];
+    mean.push_back({slice.x[i], p.objective});
+    low.push_back({slice.x[i], std::max(0.0, p.low)});
+    high.push_back({slice.x[i], p.high});
+    top = std::max(top, p.high);
+  }
+  SvgChart chart(AxisOf(parameter),
+                 {.title = WithUnit(info.title, info.unit), .low = 0, .high = 1.05 * top});
+  chart.Band(low, high, {.color = SvgColor(0), .opacity = 0.2}, "90 % band of the mean");
+  chart.Line(mean, {.color = SvgColor(0), .width = 2}, "model");
+  if (data.evidence.conclusion) {
+    const double x = data.evidence.conclusion->values[slice.parameter].value;
+    chart.Line({{x, 0}, {x, 1.05 * top}}, {.color = "#c1121f"}, "recommended");
+  }
+  return chart.Text();
+}
+
+// From white to dark blue.
+std::string Shade(double share) {
+  char text[8];
+  const auto mix = [&](int dark) { return static_cast<int>(255 + share * (dark - 255)); };
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", mix(7), mix(64), mix(94));
+  return text;
+}
+
+void AddStar(const ReportData& data, std::size_t i, std::size_t j, SvgChart& chart) {
+  if (!data.evidence.conclusion) return;
+  const auto& values = data.evidence.conclusion->values;
+  chart.Star({values[i].value, values[j].value}, "recommended");
+}
+
+std::string Chances(const ReportData& data, const PairChance& pair) {
+  SvgChart chart(AxisOf(data.evidence.parameters[pair.i]),
+                 AxisOf(data.evidence.parameters[pair.j]));
+  const std::size_t num_x = pair.x_edges.size() - 1;
+  const double top = *std::max_element(pair.chance.begin(), pair.chance.end());
+  for (std::size_t cell = 0; cell < pair.chance.size(); ++cell) {
+    const std::size_t x = cell % num_x;
+    const std::size_t y = cell / num_x;
+    chart.Cell({.from = {pair.x_edges[x], pair.y_edges[y]},
+                .to = {pair.x_edges[x + 1], pair.y_edges[y + 1]}},
+               Shade(top > 0 ? pair.chance[cell] / top : 0));
+  }
+  AddStar(data, pair.i, pair.j, chart);
+  return chart.Text();
+}
+
+std::string Scatter(const ReportData& data, const PairChance& pair) {
+  SvgChart chart(AxisOf(data.evidence.parameters[pair.i]),
+                 AxisOf(data.evidence.parameters[pair.j]));
+  std::vector<SvgPoint> all;
+  for (const TrialEvidence& t : data.evidence.trials) {
+    if (t.state == TrialState::kDone) all.push_back({t.values[pair.i], t.values[pair.j]});
+  }
+  chart.Points(all, {.color = "#9aa5ad", .width = 5}, "trials");
+  for (std::size_t k = 0; k < data.findings.size(); ++k) {
+    std::vector<SvgPoint> best;
+    for (const ComparedSet& set : data.findings[k].from_trials.best) {
+      best.push_back({set.values[pair.i], set.values[pair.j]});
+    }
+    if (best.empty()) continue;
+    // Smaller from one objective to the next, so that sets that several prefer show all of them.
+    const SvgStyle style{.color = SvgColor(k), .width = 13 - 2 * static_cast<double>(k)};
+    chart.Points(best, style, "ten best by " + std::string(data.findings[k].info.title));
+  }
+  AddStar(data, pair.i, pair.j, chart);
+  return chart.Text();
+}
+
+}  // namespace
+
+std::vector<NamedText> ReportFigures(const ReportData& data) {
+  std::vector<NamedText> figures;
+  const std::vector<Valued> valued = ValuedTrials(data);
+  if (!valued.empty()) figures.push_back({"convergence", Convergence(data, valued)});
+  figures.push_back({"outlines", Outlines(data)});
+  const auto& parameters = data.evidence.parameters;
+  for (const ModelSlice& slice : data.slices) {
+    figures.push_back({"slice_" + parameters[slice.parameter].range.name, Slice(data, slice)});
+  }
+  for (const PairChance& pair : data.pairs) {
+    const std::string names = parameters[pair.i].range.name + "_" + parameters[pair.j].range.name;
+    figures.push_back({"trials_" + names, Scatter(data, pair)});
+    figures.push_back({"tie_chance_" + names, Chances(data, pair)});
+  }
+  return figures;
+}
+
+}  // namespace talus::experiments

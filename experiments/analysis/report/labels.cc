@@ -1,0 +1,63 @@
+#include "experiments/analysis/report/labels.h"
+
+#include <array>
+#include <utility>
+
+namespace talus::experiments {
+namespace {
+
+using Entry = std::pair<std::string_view, std::string_view>;
+
+template <std::size_t N>
+std::string Find(const std::array<Entry, N>& list, std::string_view key) {
+  for (const auto& [name, text] : list) {
+    if (name == key) return std::string(text);
+  }
+  return std::string(key);
+}
+
+}  // namespace
+
+std::string SymbolOf(std::string_view parameter) {
+  static constexpr std::array kSymbols{
+      Entry{"sliding_friction", "μ_t"}, Entry{"rolling_friction", "μ_r"},
+      Entry{"surface_energy", "γ"},     Entry{"restitution", "e"},
+      Entry{"youngs_modulus", "Y"},     Entry{"poisson_ratio", "ν"},
+      Entry{"rolling_damping", "η_r"},
+  };
+  return Find(kSymbols, parameter);
+}
+
+std::string MetricTitle(std::string_view metric) {
+  static constexpr std::array kTitles{
+      Entry{"sad_mm2", "SAD"},
+      Entry{"sad_relative", "SAD / NEBP"},
+      Entry{"sad_px", "SAD"},
+      Entry{"rmse_gray", "RMSE"},
+      Entry{"iou", "IoU"},
+      Entry{"nebp_px", "NEBP"},
+      Entry{"nebp_mm2", "NEBP"},
+      Entry{"triangle_angle_deg", "Triangle angle"},
+      Entry{"static_cohesive_index", "Static cohesive index"},
+      Entry{"repose_angle_1_left_deg", "AOR 1 left"},
+      Entry{"repose_angle_1_right_deg", "AOR 1 right"},
+      Entry{"repose_angle_1_mean_deg", "AOR 1"},
+      Entry{"repose_angle_2_left_deg", "AOR 2 left"},
+      Entry{"repose_angle_2_right_deg", "AOR 2 right"},
+      Entry{"repose_angle_2_mean_deg", "AOR 2"},
+      Entry{"repose_angle_3_left_deg", "AOR 3 left"},
+      Entry{"repose_angle_3_right_deg", "AOR 3 right"},
+      Entry{"repose_angle_3_mean_deg", "AOR 3"},
+  };
+  return Find(kTitles, metric);
+}
+
+std::string PrettyUnit(std::string_view unit) {
+  static constexpr std::array kUnits{
+      Entry{"mm2", "mm²"},          Entry{"deg", "°"},      Entry{"-", ""},
+      Entry{"gray", "grey levels"}, Entry{"J/m^2", "J/m²"}, Entry{"kg/m^3", "kg/m³"},
+  };
+  return Find(kUnits, unit);
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,61 @@
+#include "experiments/analysis/report/page.h"
+
+#include <string_view>
+
+#include "page_files.h"  // made by talus_embed
+
+namespace talus::experiments {
+namespace {
+
+void Replace(std::string& text, std::string_view what, std::string_view with) {
+  text.replace(text.find(what), what.size(), with);
+}
+
+std::string EscapedHtml(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '<') {
+      escaped += "&lt;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+// JSON inside a script element: a `<` could end it.
+std::string EscapedJson(std::string_view json) {
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      escaped += "\\u003c";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace
+
+std::string ReportPage(const ReportData& data) {
+  std::string page(page_files::kPageHtml);
+  const std::string scripts =
+      std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
+      std::string(page_files::kSearchChartsJs) + std::string(page_files::kSpaceChartsJs) +
+      std::string(page_files::kProfileChartsJs) + std::string(page_files::kTrialTableJs) +
+      std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
+  // The data come last: what they hold is never searched for a placeholder.
+  Replace(page, "{{title}}", EscapedHtml(data.evidence.name) + " – calibration report");
+  Replace(page, "{{css}}", page_files::kPageCss);
+  Replace(page, "{{js}}", scripts);
+  Replace(page, "{{echarts}}", page_files::kEchartsMinJs);
+  Replace(page, "{{echarts_gl}}", page_files::kEchartsGlMinJs);
+  Replace(page, "{{data}}", EscapedJson(PageJson(data)));
+  return page;
+}
+
+}  // namespace talus::experiments

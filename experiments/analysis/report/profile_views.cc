@@ -1,0 +1,46 @@
+#include "experiments/analysis/report/profile_views.h"
+
+#include "experiments/analysis/compare/profile_pictures.h"
+#include "imaging/heap/outline.h"
+
+namespace talus::experiments {
+namespace {
+
+// The highest powder of each column, from foot to foot.
+OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profile) {
+  const imaging::Frame& frame = profile.frame;
+  const imaging::Outline outline = imaging::FindOutline(profile.image, frame);
+  OutlineCurve curve{.title = title, .x = {}, .height = {}};
+  if (outline.empty()) return curve;
+  const auto at = [&](double column, double height) {
+    curve.x.push_back((column - frame.center_x) * frame.pixel_size);
+    curve.height.push_back(height * frame.pixel_size);
+  };
+  at(outline.rows.front().left, 0);
+  for (std::size_t column = 0; column < outline.height.size(); ++column) {
+    if (outline.height[column] > 0) {
+      at(static_cast<double>(column) + 0.5, outline.height[column]);
+    }
+  }
+  at(outline.rows.front().right, 0);
+  return curve;
+}
+
+}  // namespace
+
+void AddProfileViews(ReportData& data) {
+  const ReferenceEvidence& reference = data.evidence.reference;
+  const std::vector<ShownTrial> shown = TrialsToShow(data.evidence, data.findings);
+  data.measures.push_back({"experiment", "AEHP", reference.metrics});
+  data.outlines.push_back(MakeOutline("experiment (AEHP)", reference.aehp));
+  for (const ShownTrial& s : shown) {
+    const std::string name = "trial " + std::to_string(s.trial->id);
+    data.measures.push_back({name, s.why, s.trial->metrics});
+    if (const auto profile = data.evidence.profile(s.trial->id)) {
+      data.outlines.push_back(MakeOutline(name + ", " + s.why, *profile));
+    }
+  }
+  data.pictures = ProfilePictures(data.evidence, shown);
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,12 @@
+// What a report shows of profiles: outlines, measures and pictures.
+#pragma once
+
+#include "experiments/analysis/report/report_data.h"
+
+namespace talus::experiments {
+
+// Fills the report's measures, outlines and pictures: the experiment's and those of the best set by
+// each objective, each trial once.
+void AddProfileViews(ReportData& data);
+
+}  // namespace talus::experiments

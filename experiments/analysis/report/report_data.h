@@ -1,0 +1,43 @@
+// Everything that a report shows, worked out once: the page, the figures and the tables are only
+// ways to write it down.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/compare/compare.h"
+#include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/report/model_views.h"
+
+namespace talus::experiments {
+
+// The outline of a profile at half intensity.
+struct OutlineCurve {
+  std::string title;
+  std::vector<double> x;       // from the plate's centre [m]
+  std::vector<double> height;  // above the plate [m]
+};
+
+// A profile's metrics, in the order of Evidence::metrics.
+struct MeasuredProfile {
+  std::string title;  // "trial 12"
+  std::string note;   // "best by SAD"
+  std::vector<double> metrics;
+};
+
+struct ReportData {
+  Evidence evidence;
+  std::vector<ObjectiveFinding> findings;
+  std::size_t objective = 0;  // index into findings: the campaign's own
+  std::vector<ModelSlice> slices;
+  std::vector<PairChance> pairs;
+  std::vector<MeasuredProfile> measures;
+  std::vector<OutlineCurve> outlines;  // the experiment's first
+  std::vector<Picture> pictures;
+
+  const ObjectiveFinding& own() const { return findings[objective]; }
+};
+
+ReportData MakeReportData(Evidence evidence);
+
+}  // namespace talus::experiments

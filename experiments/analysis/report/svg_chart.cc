@@ -1,0 +1,202 @@
+#include "experiments/analysis/report/svg_chart.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace talus::experiments {
+namespace {
+
+// [px]
+constexpr double kWidth = 640;
+constexpr double kLeft = 72;
+constexpr double kRight = 18;
+constexpr double kBottom = 56;
+constexpr double kPlotWidth = kWidth - kLeft - kRight;
+constexpr double kPlotHeight = 340;
+constexpr double kLegendLine = 20;
+
+constexpr const char* kFont = "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\"";
+
+std::string Number(double x, int digits = 6) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
+  return text;
+}
+
+std::string Pixel(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", x);
+  return text;
+}
+
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
+  }
+  return escaped;
+}
+
+std::string LineStyle(const SvgStyle& style) {
+  return " fill=\"none\" stroke=\"" + style.color + "\" stroke-width=\"" + Number(style.width) +
+         "\"" + (style.dashed ? " stroke-dasharray=\"6 4\"" : "");
+}
+
+std::string Words(double x, double y, const std::string& anchor, const std::string& text) {
+  return "<text x=\"" + Pixel(x) + "\" y=\"" + Pixel(y) + "\" text-anchor=\"" + anchor + "\">" +
+         Escaped(text) + "</text>\n";
+}
+
+// Powers of ten within a logarithmic axis, else about five round values.
+std::vector<double> TicksOf(const SvgAxis& axis) {
+  std::vector<double> ticks;
+  if (axis.log) {
+    const double first = std::ceil(std::log10(axis.low) - 1e-9);
+    for (double power = first; power <= std::log10(axis.high) + 1e-9; ++power) {
+      ticks.push_back(std::pow(10.0, power));
+    }
+    return ticks;
+  }
+  const double rough = (axis.high - axis.low) / 5;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double factor = rough / power;
+  const double step = power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10);
+  for (double k = std::ceil(axis.low / step - 1e-9); k * step <= axis.high + 1e-9 * step; ++k) {
+    ticks.push_back(k * step + 0.0);  // no "-0"
+  }
+  return ticks;
+}
+
+double Share(const SvgAxis& axis, double value) {
+  if (axis.log) return std::log(value / axis.low) / std::log(axis.high / axis.low);
+  return (value - axis.low) / (axis.high - axis.low);
+}
+
+std::string StarPath(double x, double y, double radius) {
+  std::string path;
+  for (int k = 0; k < 10; ++k) {
+    const double angle = -M_PI / 2 + k * M_PI / 5;
+    const double r = k % 2 == 0 ? radius : 0.4 * radius;
+    path += (k == 0 ? "M" : "L") + Pixel(x + r * std::cos(angle)) + " " +
+            Pixel(y + r * std::sin(angle));
+  }
+  return "<path d=\"" + path + "Z\" fill=\"#c1121f\" stroke=\"#fff\"/>\n";
+}
+
+}  // namespace
+
+const std::string& SvgColor(std::size_t index) {
+  static const std::array<std::string, 7> kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                  "#E69F00", "#56B4E9", "#6b6b6b"};
+  return kColors[index % kColors.size()];
+}
+
+SvgChart::SvgChart(SvgAxis x, SvgAxis y, bool equal_scale)
+    : x_(std::move(x)), y_(std::move(y)), plot_height_(kPlotHeight) {
+  if (equal_scale) plot_height_ = kPlotWidth * (y_.high - y_.low) / (x_.high - x_.low);
+}
+
+double SvgChart::PixelX(double x) const { return kPlotWidth * Share(x_, x); }
+double SvgChart::PixelY(double y) const { return plot_height_ * (1 - Share(y_, y)); }
+
+bool SvgChart::Inside(const SvgPoint& point) const {
+  const double x = Share(x_, point.x);
+  const double y = Share(y_, point.y);
+  return x >= -1e-9 && x <= 1 + 1e-9 && y >= -1e-9 && y <= 1 + 1e-9;
+}
+
+std::string SvgChart::Path(const std::vector<SvgPoint>& points) const {
+  std::string path;
+  for (const SvgPoint& point : points) {
+    path += (path.empty() ? "M" : "L") + Pixel(PixelX(point.x)) + " " + Pixel(PixelY(point.y));
+  }
+  return path;
+}
+
+void SvgChart::Line(const std::vector<SvgPoint>& points, const SvgStyle& style,
+                    const std::string& name) {
+  body_ += "<path d=\"" + Path(points) + "\"" + LineStyle(style) + "/>\n";
+  if (!name.empty()) legend_.push_back({name, "<path d=\"M-9 0H9\"" + LineStyle(style) + "/>"});
+}
+
+void SvgChart::Band(const std::vector<SvgPoint>& low, const std::vector<SvgPoint>& high,
+                    const SvgStyle& style, const std::string& name) {
+  std::vector<SvgPoint> around = low;
+  around.insert(around.end(), high.rbegin(), high.rend());
+  const std::string fill =
+      " fill=\"" + style.color + "\" fill-opacity=\"" + Number(style.opacity) + "\"";
+  body_ += "<path d=\"" + Path(around) + "Z\"" + fill + "/>\n";
+  if (!name.empty()) {
+    legend_.push_back({name, "<rect x=\"-9\" y=\"-5\" width=\"18\" height=\"10\"" + fill + "/>"});
+  }
+}
+
+void SvgChart::Points(const std::vector<SvgPoint>& points, const SvgStyle& style,
+                      const std::string& name) {
+  const std::string end = "\" r=\"" + Number(style.width / 2) + "\" fill=\"" + style.color +
+                          "\" fill-opacity=\"" + Number(style.opacity) + "\"/>";
+  for (const SvgPoint& point : points) {
+    if (!Inside(point)) continue;
+    body_ +=
+        "<circle cx=\"" + Pixel(PixelX(point.x)) + "\" cy=\"" + Pixel(PixelY(point.y)) + end + "\n";
+  }
+  if (!name.empty()) legend_.push_back({name, "<circle cx=\"0\" cy=\"0" + end});
+}
+
+void SvgChart::Star(const SvgPoint& point, const std::string& name) {
+  if (Inside(point)) body_ += StarPath(PixelX(point.x), PixelY(point.y), 10);
+  if (!name.empty()) legend_.push_back({name, StarPath(0, 0, 7)});
+}
+
+void SvgChart::Cell(const SvgBox& box, const std::string& color) {
+  const double left = PixelX(box.from.x);
+  const double top = PixelY(box.to.y);
+  body_ += "<rect x=\"" + Pixel(left) + "\" y=\"" + Pixel(top) + "\" width=\"" +
+           Pixel(PixelX(box.to.x) - left + 0.3) + "\" height=\"" +
+           Pixel(PixelY(box.from.y) - top + 0.3) + "\" fill=\"" + color + "\"/>\n";
+}
+
+std::string SvgChart::AxesText() const {
+  std::string text = "<path d=\"M0 0V" + Pixel(plot_height_) + "H" + Pixel(kPlotWidth) +
+                     "\" fill=\"none\" stroke=\"#1d2730\"/>\n";
+  for (const double tick : TicksOf(x_)) {
+    const double x = PixelX(tick);
+    text += "<path d=\"M" + Pixel(x) + " " + Pixel(plot_height_) + "v5\" stroke=\"#1d2730\"/>\n" +
+            Words(x, plot_height_ + 20, "middle", Number(tick, 4));
+  }
+  for (const double tick : TicksOf(y_)) {
+    const double y = PixelY(tick);
+    text += "<path d=\"M0 " + Pixel(y) + "h-5\" stroke=\"#1d2730\"/>\n" +
+            Words(-9, y + 5, "end", Number(tick, 4));
+  }
+  text += Words(kPlotWidth / 2, plot_height_ + 44, "middle", x_.title);
+  return text + "<g transform=\"translate(-56 " + Pixel(plot_height_ / 2) + ") rotate(-90)\">" +
+         Words(0, 0, "middle", y_.title) + "</g>\n";
+}
+
+std::string SvgChart::LegendText() const {
+  std::string text;
+  double y = 14;
+  for (const Entry& entry : legend_) {
+    text += "<g transform=\"translate(" + Pixel(kLeft + 12) + " " + Pixel(y) + ")\">" + entry.mark +
+            "</g>\n" + Words(kLeft + 28, y + 5, "start", entry.name);
+    y += kLegendLine;
+  }
+  return text;
+}
+
+std::string SvgChart::Text() const {
+  const double top = 14 + kLegendLine * static_cast<double>(legend_.size());
+  const std::string height = Pixel(top + plot_height_ + kBottom);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Pixel(kWidth) + "\" height=\"" +
+         height + "\" viewBox=\"0 0 " + Pixel(kWidth) + " " + height + "\" " + kFont +
+         " fill=\"#1d2730\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
+         LegendText() + "<clipPath id=\"plot\"><rect width=\"" + Pixel(kPlotWidth) +
+         "\" height=\"" + Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" +
+         Pixel(kLeft) + " " + Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ +
+         "</g>\n" + AxesText() + "</g>\n</svg>\n";
+}
+
+}  // namespace talus::experiments

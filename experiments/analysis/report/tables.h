@@ -1,0 +1,13 @@
+// The report's tables as CSV, SI units and those of the metrics in the heads.
+#pragma once
+
+#include <vector>
+
+#include "experiments/analysis/report/report_data.h"
+
+namespace talus::experiments {
+
+// {name of the file without ending, content}: trials, objectives, ten_best, measures, outlines.
+std::vector<NamedText> ReportTables(const ReportData& data);
+
+}  // namespace talus::experiments

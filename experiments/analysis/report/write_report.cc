@@ -1,0 +1,26 @@
+#include "experiments/analysis/report/write_report.h"
+
+#include "base/file.h"
+#include "experiments/analysis/report/figures.h"
+#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/tables.h"
+
+namespace talus::experiments {
+
+std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "figures");
+  std::filesystem::create_directories(folder / "tables");
+  for (const Picture& picture : data.pictures) {
+    base::WriteFileAtomically(folder / "figures" / (picture.name + ".png"), picture.png);
+  }
+  for (const NamedText& figure : ReportFigures(data)) {
+    base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.text);
+  }
+  for (const NamedText& table : ReportTables(data)) {
+    base::WriteFileAtomically(folder / "tables" / (table.name + ".csv"), table.text);
+  }
+  base::WriteFileAtomically(folder / "report.html", ReportPage(data));
+  return folder / "report.html";
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,14 @@
+// The report of a campaign as files.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/analysis/report/report_data.h"
+
+namespace talus::experiments {
+
+// report.html, figures/*.svg and *.png, and tables/*.csv under `folder`, each written atomically.
+// Returns the page's path.
+std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder);
+
+}  // namespace talus::experiments

@@ -1,0 +1,55 @@
+// talus calibrate, talus resume
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "experiments/app/commands.h"
+#include "experiments/app/go_on.h"
+#include "experiments/campaign/start.h"
+
+namespace talus::experiments {
+
+void AddCalibrateCommand(CLI::App& app) {
+  struct Arguments {
+    std::string spec;
+    std::string out;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Find the parameters whose simulated heap looks like the photographed one");
+  command->add_option("SPEC", arguments->spec, "the campaign as a JSON file (docs/campaigns.md)")
+      ->required();
+  command->add_option("--out", arguments->out,
+                      "folder for all it writes; default: the spec's name without .json");
+  command->callback([arguments] {
+    const std::filesystem::path folder = arguments->out.empty()
+                                             ? std::filesystem::path(arguments->spec).stem()
+                                             : std::filesystem::path(arguments->out);
+    BeginCampaign(arguments->spec, folder);
+    GoOn(folder, {});
+  });
+}
+
+void AddResumeCommand(CLI::App& app) {
+  struct Arguments {
+    std::string folder;
+    ResumeOptions options;
+    std::string spec;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("resume", "Go on with a campaign that was interrupted, or extend it");
+  command->add_option("DIR", arguments->folder, "the campaign's folder")->required();
+  command
+      ->add_option("--add-simulations", arguments->options.add_simulations,
+                   "so many more than the budget, or than it has when it is finished")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--spec", arguments->spec,
+                      "the changed spec; default: the file it began with, if it is still there");
+  command->callback([arguments] {
+    arguments->options.spec = arguments->spec;
+    GoOn(arguments->folder, arguments->options);
+  });
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,105 @@
+// talus compare
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/analysis/compare/compare_tables.h"
+#include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/compare/strategy_runs.h"
+#include "experiments/app/commands.h"
+#include "experiments/app/go_on.h"
+
+namespace talus::experiments {
+namespace {
+
+struct Arguments {
+  std::string campaign;
+  std::filesystem::path out;
+  std::string objective;
+  int add_simulations = 20;
+  std::vector<std::string> with;
+};
+
+void SearchOn(const Arguments& arguments) {
+  for (const auto& [name, objective] : base::Names<Objective>::kList) {
+    if (name != arguments.objective) continue;
+    GoOn(arguments.campaign,
+         {.add_simulations = arguments.add_simulations, .objective = objective});
+    return;
+  }
+}
+
+std::string StrategyComparison(const Arguments& arguments, const ComparedCampaign& compared) {
+  std::vector<std::string> names{arguments.campaign};
+  names.insert(names.end(), arguments.with.begin(), arguments.with.end());
+  std::vector<Evidence> all{compared.evidence};
+  for (const std::string& name : arguments.with) all.push_back(GatherEvidence(name));
+  const auto runs = CompareStrategies(names, all);
+  double margin = 0;
+  for (const ObjectiveFinding& f : compared.findings) {
+    if (f.info.key == all.front().objective) margin = f.margin();
+  }
+  base::WriteFileAtomically(arguments.out / "strategies.csv", StrategiesCsv(runs));
+  return StrategiesText(runs, margin) + "\n";
+}
+
+void WriteComparison(const ComparedCampaign& compared, const std::filesystem::path& out) {
+  const auto shown = TrialsToShow(compared.evidence, compared.findings);
+  std::vector<Picture> pictures = ProfilePictures(compared.evidence, shown);
+  pictures.push_back(SideBySide(compared.evidence, shown));
+  for (const Picture& picture : pictures) {
+    if (picture.png.empty()) continue;
+    base::WriteFileAtomically(out / (picture.name + ".png"), picture.png);
+  }
+  base::WriteFileAtomically(out / "objectives.csv", ObjectivesCsv(compared));
+  base::WriteFileAtomically(out / "ten_best.csv", TenBestCsv(compared));
+  base::WriteFileAtomically(out / "compare.json", ComparisonJson(compared));
+}
+
+void RunCompare(Arguments arguments) {
+  if (!arguments.objective.empty()) SearchOn(arguments);
+  if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
+  const Evidence evidence = GatherEvidence(arguments.campaign);
+  const std::vector<ObjectiveFinding> findings = CompareObjectives(evidence);
+  const ComparedCampaign compared{evidence, findings};
+  std::error_code error;
+  std::filesystem::create_directories(arguments.out, error);
+  if (error) throw base::Error(arguments.out.string() + ": cannot be made: " + error.message());
+  WriteComparison(compared, arguments.out);
+  std::string text = ComparisonText(compared) + "\n";
+  if (!arguments.with.empty()) text += StrategyComparison(arguments, compared);
+  base::WriteFileAtomically(arguments.out / "compare.txt", text);
+  std::cout << text << "  Tables and pictures are in " << arguments.out.string() << '\n';
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Which set each objective prefers, and how unique its answer is");
+  command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
+      ->required();
+  command->add_option("--out", arguments->out, "folder to write into; default: DIR/compare");
+  std::vector<std::string> objectives;
+  for (const auto& [name, objective] : base::Names<Objective>::kList) objectives.emplace_back(name);
+  CLI::Option* objective =
+      command
+          ->add_option("--objective", arguments->objective,
+                       "first search on by this objective, from all the trials there are")
+          ->check(CLI::IsMember(objectives));
+  command
+      ->add_option("--add-simulations", arguments->add_simulations,
+                   "so many more for --objective; default: 20")
+      ->check(CLI::PositiveNumber)
+      ->needs(objective);
+  command->add_option("--with", arguments->with,
+                      "other campaigns on the same experiment, to compare their strategies");
+  command->callback([arguments] { RunCompare(*arguments); });
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,124 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "experiments/app/commands.h"
+#include "experiments/trials/measure/measure_request.h"
+#include "imaging/formats/profile_file.h"
+
+namespace talus::experiments {
+namespace {
+
+// The flags as they are typed; lengths and angles carry their units.
+struct MeasureFlags {
+  std::vector<std::string> inputs;
+  std::string out;
+  std::string plate_diameter;
+  std::string pattern;
+  std::string frame;
+  std::string tilt;
+  std::string pixel_size;
+  std::string like;
+  std::string length_unit;
+  std::optional<double> threshold{};
+  int views = 16;
+  bool map = false;
+  bool allow_missing_views = false;
+  bool choose_mass = false;
+};
+
+double Quantity(const std::string& flag, const std::string& text, base::Dimension dimension) {
+  try {
+    return base::ParseQuantity(text, dimension);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(flag + ": " + error.what());
+  }
+}
+
+imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
+  using base::Dimension;
+  imaging::ExperimentOptions options;
+  if (!flags.plate_diameter.empty()) {
+    options.plate_diameter = Quantity("--plate-diameter", flags.plate_diameter, Dimension::kLength);
+  }
+  if (!flags.pattern.empty()) options.pattern = flags.pattern;
+  if (!flags.frame.empty()) {
+    options.frame = imaging::ReadFrame(flags.frame);
+    if (flags.plate_diameter.empty()) options.plate_diameter = options.frame->plate_diameter;
+  }
+  if (!flags.tilt.empty()) options.tilt = Quantity("--tilt", flags.tilt, Dimension::kAngle);
+  if (!flags.pixel_size.empty()) {
+    options.pixel_size = Quantity("--pixel-size", flags.pixel_size, Dimension::kLength);
+  }
+  options.threshold = flags.threshold;
+  options.allow_missing_views = flags.allow_missing_views;
+  if (options.plate_diameter == 0 && flags.like.empty()) {
+    throw base::ConfigError("--plate-diameter is missing; give it with its unit: 10mm");
+  }
+  return options;
+}
+
+void Measure(const MeasureFlags& flags) {
+  MeasureRequest request{.inputs = {flags.inputs.begin(), flags.inputs.end()},
+                         .out = flags.out,
+                         .experiment = Experiment(flags),
+                         .is_map = flags.map,
+                         .like = flags.like,
+                         .num_views = flags.views,
+                         .length_unit = std::nullopt};
+  if (!flags.length_unit.empty()) {
+    request.length_unit =
+        Quantity("--length-unit", "1 " + flags.length_unit, base::Dimension::kLength);
+  }
+  if (!flags.like.empty()) {
+    MeasureSpheres(request, std::cout);
+  } else if (flags.choose_mass) {
+    MeasureMasses(request, std::cout);
+  } else {
+    MeasurePhotos(request, std::cout);
+  }
+}
+
+void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
+  verb.add_option("--plate-diameter", flags.plate_diameter,
+                  "diameter of the plate with its unit, such as 10mm");
+  verb.add_option("--pattern", flags.pattern,
+                  "file names in a folder: {run}, {view}, * (default: run{run}_view{view}.*)");
+  verb.add_flag("--map", flags.map, "the input is a grey average map, black = powder");
+  verb.add_option("--frame", flags.frame,
+                  "JSON file with the plate's place, instead of finding it (see docs/imaging.md)");
+  verb.add_option("--tilt", flags.tilt, "with --frame: tilt of the plate, such as 0.5deg");
+  verb.add_option("--pixel-size", flags.pixel_size, "of the profiles, such as 50um");
+  verb.add_option("--threshold", flags.threshold,
+                  "darker than this share of the background is powder, in (0, 1)");
+  verb.add_flag("--allow-missing-views", flags.allow_missing_views,
+                "go on without views that are missing or unusable, and say which");
+}
+
+}  // namespace
+
+void AddMeasureCommand(CLI::App& app) {
+  auto flags = std::make_shared<MeasureFlags>();
+  CLI::App* const verb = app.add_subcommand(
+      "measure", "Photographs, maps or spheres to profiles, NEBP and angles of repose");
+  verb->add_option("input", flags->inputs,
+                   "a folder of photographs, photographs one by one, a map, folders by mass, or "
+                   "files of spheres")
+      ->required();
+  verb->add_option("--out", flags->out, "folder for images, tables and overlays");
+  AddPhotoFlags(*verb, *flags);
+  verb->add_flag("--choose-mass", flags->choose_mass,
+                 "folders named by mass and day (1.5g_day1): NEBP table, plot and choice");
+  verb->add_option("--like", flags->like,
+                   "the inputs are spheres: project and compare them like this AEHP, the folder "
+                   "that --out wrote");
+  verb->add_option("--views", flags->views, "views of spheres over 180 degrees")
+      ->capture_default_str();
+  verb->add_option("--length-unit", flags->length_unit, "unit of a sphere file, such as mm");
+  verb->callback([flags] { Measure(*flags); });
+}
+
+}  // namespace talus::experiments

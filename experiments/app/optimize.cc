@@ -1,0 +1,49 @@
+#include "experiments/trials/optimize/optimize.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_reader.h"
+#include "base/json_schema.h"
+#include "experiments/app/commands.h"
+
+namespace talus::experiments {
+
+void AddOptimizeCommand(CLI::App& app) {
+  struct Options {
+    std::string problem;
+    std::vector<std::string> command;
+    std::string out;
+    OptimizeOutput output;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("optimize", "finds the parameters that minimise what a command returns");
+  command->add_option("PROBLEM", options->problem, "problem.json: parameters, target, strategy")
+      ->required();
+  command->add_option("COMMAND", options->command, "after --: the command and its arguments")
+      ->required();
+  command->add_option("--out", options->out, "file for the result; default: standard output");
+  command->add_option("--log", options->output.log, "file for one JSON line an evaluation");
+  command->add_flag("--quiet", options->output.quiet, "no progress on standard error");
+  command->footer(
+      "COMMAND reads the parameters as one JSON object, {\"mu_t\": 0.3, …, \"seed\": 17}, and "
+      "writes\n"
+      "{\"value\": …}, {\"profile\": \"file.png\"} or {\"field\": [[…], …]}. Any other exit status "
+      "than\n"
+      "0 is a failed evaluation.");
+  command->callback([options] {
+    const auto problem = base::LoadOptions<OptimizeProblem>(base::ReadJsonFile(options->problem));
+    const std::string result = Optimize(problem, options->command, options->output);
+    if (options->out.empty()) {
+      std::cout << result;
+    } else {
+      base::WriteFileAtomically(options->out, result);
+    }
+  });
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,35 @@
+#include "experiments/trials/simulate/simulate.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "experiments/app/commands.h"
+
+namespace talus::experiments {
+
+void AddSimulateCommand(CLI::App& app) {
+  struct Options {
+    std::string input;
+    RunFolderOptions run;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "simulates one heap case or one explicit scene");
+  command->add_option("INPUT", options->input, "case.json or scene.json")->required();
+  command->add_option("--out", options->run.folder,
+                      "folder for the results; default: the input's name without its ending");
+  command->add_flag("--fresh", options->run.fresh,
+                    "begin anew instead of going on from a checkpoint or keeping a result");
+  command->add_flag("--quiet", options->run.quiet, "nothing on standard output");
+  command->footer(
+      "Writes heap.vtp, profile.png and result.json (a case) or states and result.json (a scene).\n"
+      "Ctrl-C saves a checkpoint; the same command goes on from it with the same result.");
+  command->callback([options] {
+    const std::filesystem::path input = options->input;
+    if (options->run.folder.empty()) options->run.folder = input.stem();
+    Simulate(input, options->run);
+  });
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,196 @@
+#include "experiments/campaign/spec/campaign_spec.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+#include "experiments/journal/record_json.h"
+#include "experiments/trials/engines/command_engine.h"
+
+namespace talus::experiments {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Keys that a running campaign may be given anew: what to spend and where, not what to find.
+constexpr std::string_view kMayChange[] = {"name",    "budget",         "confirm",      "workers",
+                                           "threads", "trial_time_cap", "retry_failed", "runner"};
+
+std::string Short(const ordered_json& value) {
+  std::string text = value.dump();
+  return text.size() > 40 ? text.substr(0, 37) + "…" : text;
+}
+
+void FindChanges(const ordered_json& old_value, const ordered_json& new_value,
+                 const std::string& path, std::vector<std::string>& changes) {
+  if (old_value == new_value) return;
+  if (!old_value.is_object() || !new_value.is_object()) {
+    changes.push_back(path + ": " + Short(old_value) + " → " + Short(new_value));
+    return;
+  }
+  const std::string prefix = path.empty() ? "" : path + ".";
+  for (const auto& [key, value] : old_value.items()) {
+    const auto found = new_value.find(key);
+    FindChanges(value, found == new_value.end() ? ordered_json() : *found, prefix + key, changes);
+  }
+  for (const auto& [key, value] : new_value.items()) {
+    if (!old_value.contains(key)) FindChanges(ordered_json(), value, prefix + key, changes);
+  }
+}
+
+// Another engine's templates are checked once, when the user's spec is read; what was read then is
+// recognised by its hash.
+void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
+  if (spec.engine.kind != EngineKind::kCommand || !spec.engine.command.templates_hash.empty()) {
+    return;
+  }
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  std::vector<double> values;
+  std::vector<std::string> calibrated;
+  for (const optimizer::Parameter& parameter : space.parameters) {
+    values.push_back(parameter.fixed.value_or(parameter.low));
+    if (!parameter.fixed) calibrated.push_back(parameter.name);
+  }
+  const HeapCase heap_case = CaseOf(
+      spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
+  problems.Within("engine", [&] {
+    CheckCommand(spec.engine.command,
+                 {.heap_case = heap_case,
+                  .calibrated = calibrated,
+                  .elsewhere = spec.runner.kind != RunnerKind::kLocal},
+                 problems);
+  });
+  spec.engine.command.templates_hash = TemplateFolder(*spec.engine.command.templates).Hash();
+}
+
+}  // namespace
+
+void BudgetOptions::Validate(base::Problems& problems) const {
+  problems.Require(simulations >= 1, "simulations", simulations, "must be at least 1");
+  problems.Require(min_simulations >= 0, "min_simulations", min_simulations,
+                   "must not be negative");
+  problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
+                   "must be positive");
+}
+
+void NoiseOptions::Validate(base::Problems& problems) const {
+  problems.Require(replicates == 0 || replicates >= 2, "replicates", replicates,
+                   "must be 0, or at least 2: one trial has no scatter");
+}
+
+void ConfirmOptions::Validate(base::Problems& problems) const {
+  problems.Require(candidates >= 0, "candidates", candidates, "must not be negative");
+  problems.Require(replicates >= 1, "replicates", replicates, "must be at least 1");
+  problems.Require(!scale_factor || *scale_factor >= 1, "scale_factor", scale_factor.value_or(1),
+                   "must be at least 1");
+}
+
+void CampaignSpec::Validate(base::Problems& problems) const {
+  problems.Require(gravity > 0, "gravity", gravity, "must be positive");
+  problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
+                   rayleigh_fraction, "must be in (0, 0.4]");
+  problems.Require(num_views >= 1, "num_views", num_views, "must be at least 1");
+  problems.Require(replicates >= 1, "replicates", replicates, "must be at least 1");
+  problems.Require(workers >= 0, "workers", workers, "must not be negative");
+  problems.Require(threads >= 1, "threads", threads, "must be at least 1");
+  problems.Require(trial_time_cap > 0, "trial_time_cap", trial_time_cap, "must be positive");
+  problems.Require(budget.simulations > noise.replicates, "budget.simulations", budget.simulations,
+                   "must be more than noise.replicates");
+  if (!parameters) return;
+  problems.Within("parameters", [&] { ValidateRanges(*parameters, powder.material, problems); });
+  problems.Require(!parameters->surface_energy || models.adhesion != engine::Adhesion::kNone,
+                   "parameters.surface_energy",
+                   "has no effect without adhesion; set models.adhesion or leave it out");
+  problems.Require(!parameters->rolling_friction || models.rolling != engine::Rolling::kNone,
+                   "parameters.rolling_friction",
+                   "has no effect without a rolling model; set models.rolling or leave it out");
+}
+
+CampaignSpec ParseSpecText(const std::string& text) {
+  return ParseRecord<CampaignSpec>(text, "the journal's spec");
+}
+
+CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
+  CampaignSpec spec;
+  base::Problems problems(file.path.string(), file.source);
+  base::ReadOptions(file.root, spec,
+                    {problems, std::filesystem::absolute(file.path).parent_path()});
+  if (spec.name.empty()) spec.name = file.path.stem().string();
+  if (!spec.parameters) spec.parameters = UsualRanges(spec.models.adhesion);
+  base::TreeValidator(problems).Check(spec);
+  if (problems.empty()) {
+    const optimizer::ParameterSpace space = SpaceOf(spec);
+    space.Validate(problems);
+    problems.Within("strategy", [&] {
+      spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), problems);
+    });
+  }
+  problems.ThrowIfAny();
+  engine::ReadSizeFile(spec.powder.sizes);
+  CompleteEngine(spec, problems);
+  // What shows only when it is put together, such as a tube that cannot hold the mass.
+  TypicalCase(spec).Validate(problems);
+  problems.ThrowIfAny();
+  return spec;
+}
+
+CampaignSpec LoadCampaignSpec(const std::filesystem::path& path) {
+  return ReadCampaignSpec(base::ReadJsonFile(path));
+}
+
+std::string SpecText(const CampaignSpec& spec) { return base::ToJson(spec).dump(2) + "\n"; }
+
+optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec) {
+  optimizer::ParameterSpace space = MakeSpace(spec.parameters.value());
+  space.constraints = spec.constraints;
+  return space;
+}
+
+HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
+                const imaging::Frame& frame) {
+  HeapCase heap_case;
+  heap_case.powder = spec.powder;
+  heap_case.device = spec.device;
+  heap_case.models = spec.models;
+  heap_case.coarse_graining = spec.coarse_graining;
+  heap_case.coarse_graining.scale_factor = settings.scale_factor;
+  heap_case.rules = spec.rules;
+  heap_case.gravity = spec.gravity;
+  heap_case.rayleigh_fraction = spec.rayleigh_fraction;
+  heap_case.seed = settings.seed;
+  heap_case.frame = frame;
+  heap_case.num_views = spec.num_views;
+  heap_case.threads = spec.threads;
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  for (std::size_t i = 0; i < space.parameters.size(); ++i) {
+    SetProperty(heap_case.powder.material, space.parameters[i].name, settings.values[i]);
+  }
+  return heap_case;
+}
+
+HeapCase TypicalCase(const CampaignSpec& spec) {
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  const auto num_free = static_cast<Eigen::Index>(space.Free().size());
+  const std::vector<double> values = space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
+  const imaging::Frame frame{.pixel_size = 1e-4, .plate_diameter = spec.device.plate_diameter};
+  return CaseOf(
+      spec,
+      {.values = values, .seed = spec.seed, .scale_factor = spec.coarse_graining.scale_factor},
+      frame);
+}
+
+std::vector<std::string> ForbiddenChanges(const std::string& old_text,
+                                          const std::string& new_text) {
+  ordered_json old_spec = ordered_json::parse(old_text);
+  ordered_json new_spec = ordered_json::parse(new_text);
+  for (const std::string_view key : kMayChange) {
+    old_spec.erase(std::string(key));
+    new_spec.erase(std::string(key));
+  }
+  std::vector<std::string> changes;
+  FindChanges(old_spec, new_spec, "", changes);
+  return changes;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,113 @@
+// A campaign as its user writes it: one JSON file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/json_file.h"
+#include "experiments/campaign/spec/campaign_options.h"
+#include "experiments/campaign/spec/objective.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
+#include "experiments/campaign/spec/where_options.h"
+#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "imaging/photos/experiment.h"
+#include "optimizer/strategies/make_strategy.h"
+
+namespace talus::experiments {
+
+struct CampaignSpec {
+  std::string name;
+  Powder powder;
+  Device device;
+  engine::ContactModels models;
+  CoarseGraining coarse_graining;
+  HeapRules rules;
+  double gravity = 9.81;            // [m/s²], > 0
+  double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest grain [-], in (0, 0.4]
+  imaging::ExperimentOptions experiment;
+  int num_views = 16;  // of a simulated profile, >= 1
+  std::optional<ParameterRanges> parameters{};
+  std::vector<optimizer::LinearConstraint> constraints{};
+  Objective objective = Objective::kSad;
+  optimizer::StrategyOptions strategy;
+  BudgetOptions budget;
+  NoiseOptions noise;
+  int replicates = 1;  // seeds of each proposed set, >= 1
+  ConfirmOptions confirm;
+  std::uint64_t seed = 1;
+  int workers = 0;                   // trials at the same time, >= 0; 0: as many as cores
+  int threads = 1;                   // of a trial, >= 1
+  double trial_time_cap = 6 * 3600;  // [s] wall-clock, > 0
+  bool retry_failed = false;         // once, with another seed
+  EngineOptions engine;
+  RunnerOptions runner;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    using base::Dimension;
+    visit("name", self.name, {.doc = "for people; default: the file's name"});
+    visit("powder", self.powder, {.required = true, .doc = "what is heaped"});
+    visit("device", self.device, {.doc = "tube and plate"});
+    visit("models", self.models, {.doc = "contact laws"});
+    visit("coarse_graining", self.coarse_graining, {.doc = "fewer, larger grains"});
+    visit("rules", self.rules, {.doc = "when each phase of a simulation ends"});
+    visit("gravity", self.gravity,
+          {.dimension = Dimension::kAcceleration, .doc = "downwards, > 0"});
+    visit("rayleigh_fraction", self.rayleigh_fraction,
+          {.doc = "time step over Rayleigh time of the smallest grain, in (0, 0.4]"});
+    visit("experiment", self.experiment, {.required = true, .doc = "photographs or a map"});
+    visit("num_views", self.num_views, {.doc = "of a simulated profile over 180 deg, >= 1"});
+    visit("parameters", self.parameters,
+          {.doc = "what is searched; default: sliding and rolling friction, surface energy"});
+    visit("constraints", self.constraints, {.doc = "linear inequalities between parameters"});
+    visit("objective", self.objective, {.doc = "what is minimised"});
+    visit("strategy", self.strategy, {.doc = "how the next trial is chosen"});
+    visit("budget", self.budget, {.doc = "when the search ends at the latest"});
+    visit("noise", self.noise, {.doc = "how the run-to-run scatter is estimated first"});
+    visit("replicates", self.replicates, {.doc = "seeds of each proposed set, >= 1"});
+    visit("confirm", self.confirm, {.doc = "what is simulated again at the end"});
+    visit("seed", self.seed, {.doc = "every random choice follows from it"});
+    visit("workers", self.workers, {.doc = "trials at the same time; 0: as many as cores"});
+    visit("threads", self.threads, {.doc = "of one trial, >= 1"});
+    visit("trial_time_cap", self.trial_time_cap,
+          {.dimension = Dimension::kTime, .doc = "a trial fails when it takes longer, > 0"});
+    visit("retry_failed", self.retry_failed,
+          {.doc = "try a failed trial once more with another seed"});
+    visit("engine", self.engine, {.doc = "what simulates a trial"});
+    visit("runner", self.runner, {.doc = "where trials run"});
+  }
+  // What each part cannot see by itself.
+  void Validate(base::Problems& problems) const;
+};
+
+// Reads, completes and validates a spec; throws one ConfigError with every problem.
+CampaignSpec LoadCampaignSpec(const std::filesystem::path& path);
+CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
+
+// The spec with all its defaults and absolute paths, as JSON that reads back to the same.
+std::string SpecText(const CampaignSpec& spec);
+CampaignSpec ParseSpecText(const std::string& text);
+
+// What is searched.
+optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec);
+
+// The case of a trial: `values` of all of the space's parameters, in its order.
+struct TrialSettings {
+  std::span<const double> values;
+  std::uint64_t seed = 0;
+  double scale_factor = 1;
+};
+HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
+                const imaging::Frame& frame);
+
+// A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
+HeapCase TypicalCase(const CampaignSpec& spec);
+
+// What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
+// what a running campaign may change is left out.
+std::vector<std::string> ForbiddenChanges(const std::string& old_text, const std::string& new_text);
+
+}  // namespace talus::experiments

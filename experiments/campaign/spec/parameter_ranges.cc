@@ -1,0 +1,124 @@
+#include "experiments/campaign/spec/parameter_ranges.h"
+
+#include <cmath>
+
+namespace talus::experiments {
+namespace {
+
+using base::FieldInfo;
+
+// Calls `use(name, range)` for every range that is given.
+template <class Use>
+struct GivenRanges {
+  Use use;
+  template <class Range>
+  void operator()(std::string_view name, const std::optional<Range>& range, FieldInfo = {}) {
+    if (range) use(std::string(name), *range);
+  }
+};
+
+template <class Use>
+void ForEachRange(const ParameterRanges& ranges, Use use) {
+  GivenRanges<Use> visitor{use};
+  ParameterRanges::Visit(ranges, visitor);
+}
+
+struct PropertyUnit {
+  const std::string& property;
+  std::string unit;
+  void operator()(std::string_view name, double, FieldInfo info = {}) {
+    if (name == property) unit = base::SiUnit(info.dimension);
+  }
+};
+
+struct PropertySetter {
+  const std::string& property;
+  double value;
+  void operator()(std::string_view name, double& field, FieldInfo = {}) const {
+    if (name == property) field = value;
+  }
+};
+
+// The powder with the property at `value` must be one that can be simulated.
+void ValidateEnd(const engine::Material& material, const std::string& name, const char* end,
+                 double value, base::Problems& problems) {
+  engine::Material at_end = material;
+  SetProperty(at_end, name, value);
+  base::Problems of_material;
+  at_end.Validate(of_material);
+  for (const base::Problem& problem : of_material.list()) {
+    if (problem.path == name) problems.Add(end, problem.message);
+  }
+}
+
+}  // namespace
+
+ParameterRanges UsualRanges(engine::Adhesion adhesion) {
+  ParameterRanges ranges;
+  ranges.sliding_friction.emplace();
+  ranges.sliding_friction->min = 0.001;
+  ranges.sliding_friction->max = 0.7;
+  ranges.rolling_friction = ranges.sliding_friction;
+  if (adhesion != engine::Adhesion::kNone) {
+    ranges.surface_energy.emplace();
+    ranges.surface_energy->min = 1e-6;
+    ranges.surface_energy->max = 40e-5;
+    ranges.surface_energy->scale = optimizer::Scale::kLog;
+  }
+  return ranges;
+}
+
+optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges) {
+  optimizer::ParameterSpace space;
+  ForEachRange(ranges, [&](const std::string& name, const auto& range) {
+    space.parameters.push_back({.name = name,
+                                .low = range.min,
+                                .high = range.max,
+                                .scale = range.scale,
+                                .guess = range.guess,
+                                .fixed = range.fixed});
+  });
+  return space;
+}
+
+std::string UnitOf(const std::string& property) {
+  PropertyUnit finder{property, {}};
+  const engine::Material material;
+  engine::Material::Visit(material, finder);
+  return finder.unit;
+}
+
+void SetProperty(engine::Material& material, const std::string& property, double value) {
+  engine::Material::Visit(material, PropertySetter{property, value});
+}
+
+void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,
+                    base::Problems& problems) {
+  int num_free = 0;
+  ForEachRange(ranges, [&](const std::string& name, const auto& range) {
+    problems.Within(name, [&] {
+      if (range.fixed) {
+        ValidateEnd(material, name, "fixed", *range.fixed, problems);
+        return;
+      }
+      ++num_free;
+      if (std::isnan(range.min) || std::isnan(range.max)) {
+        problems.Add("", "needs min and max, or fixed");
+        return;
+      }
+      problems.Require(range.min < range.max, "min", range.min, "must be below max");
+      ValidateEnd(material, name, "min", range.min, problems);
+      ValidateEnd(material, name, "max", range.max, problems);
+      problems.Require(range.scale == optimizer::Scale::kLinear || range.min > 0, "min", range.min,
+                       "must be positive on a log scale");
+      if (range.guess) {
+        problems.Require(*range.guess >= range.min && *range.guess <= range.max, "guess",
+                         *range.guess, "must lie between min and max");
+      }
+    });
+  });
+  problems.Require(num_free >= 1 && num_free <= optimizer::kMaxParameters, "", num_free,
+                   "parameters are searched, must be 1 to 6");
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,59 @@
+// What simulates a trial, and where.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "experiments/runners/slurm_options.h"
+#include "experiments/trials/engines/command_options.h"
+
+namespace talus::experiments {
+
+enum class EngineKind { kTalus, kCommand };
+
+struct EngineOptions {
+  EngineKind kind = EngineKind::kTalus;
+  CommandOptions command;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind,
+          {.doc = "talus: the engine of this program; command: another one, where the other keys "
+                  "hold"});
+    CommandOptions::Visit(self.command, visit);
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+enum class RunnerKind { kLocal, kSlurm };
+
+struct RunnerOptions {
+  RunnerKind kind = RunnerKind::kLocal;
+  SlurmOptions slurm;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit(
+        "kind", self.kind,
+        {.doc = "local: processes of this machine; slurm: jobs of a cluster, where the other keys "
+                "hold"});
+    SlurmOptions::Visit(self.slurm, visit);
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+}  // namespace talus::experiments
+
+template <>
+struct talus::base::Names<talus::experiments::EngineKind> {
+  using E = talus::experiments::EngineKind;
+  static constexpr std::array kList{std::pair{"talus", E::kTalus},
+                                    std::pair{"command", E::kCommand}};
+};
+template <>
+struct talus::base::Names<talus::experiments::RunnerKind> {
+  using R = talus::experiments::RunnerKind;
+  static constexpr std::array kList{std::pair{"local", R::kLocal}, std::pair{"slurm", R::kSlurm}};
+};

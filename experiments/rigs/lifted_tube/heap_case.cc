@@ -1,0 +1,111 @@
+#include "experiments/rigs/lifted_tube/heap_case.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/scene.h"
+
+namespace talus::experiments {
+namespace {
+
+void RequirePositive(base::Problems& problems, const char* key, double value) {
+  problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
+}
+
+}  // namespace
+
+void Powder::Validate(base::Problems& problems) const { RequirePositive(problems, "mass", mass); }
+
+void CoarseGraining::Validate(base::Problems& problems) const {
+  problems.Require(scale_factor >= 1 && std::isfinite(scale_factor), "scale_factor", scale_factor,
+                   "must be 1 or more");
+  problems.Require(surface_energy_exponent >= 0 && surface_energy_exponent <= 3,
+                   "surface_energy_exponent", surface_energy_exponent, "must be in [0, 3]");
+}
+
+engine::Material WallMaterial::Over(const engine::Material& powder) const {
+  engine::Material wall = powder;
+  wall.youngs_modulus = youngs_modulus.value_or(wall.youngs_modulus);
+  wall.poisson_ratio = poisson_ratio.value_or(wall.poisson_ratio);
+  wall.restitution = restitution.value_or(wall.restitution);
+  wall.sliding_friction = sliding_friction.value_or(wall.sliding_friction);
+  wall.rolling_friction = rolling_friction.value_or(wall.rolling_friction);
+  wall.rolling_damping = rolling_damping.value_or(wall.rolling_damping);
+  wall.surface_energy = surface_energy.value_or(wall.surface_energy);
+  wall.hamaker_constant = hamaker_constant.value_or(wall.hamaker_constant);
+  return wall;
+}
+
+void WallMaterial::Validate(base::Problems& problems) const { Over({}).Validate(problems); }
+
+void Device::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "tube_inner_diameter", tube_inner_diameter);
+  RequirePositive(problems, "plate_diameter", plate_diameter);
+  RequirePositive(problems, "plate_height", plate_height);
+  RequirePositive(problems, "lift_velocity", lift_velocity);
+  if (tube_length) RequirePositive(problems, "tube_length", *tube_length);
+  problems.Require(!(tube_inner_diameter > plate_diameter), "tube_inner_diameter",
+                   tube_inner_diameter, "must not be above plate_diameter: the tube stands on it");
+}
+
+void RestRule::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "energy_fraction", energy_fraction);
+  RequirePositive(problems, "hold_time", hold_time);
+  RequirePositive(problems, "max_time", max_time);
+  problems.Require(!(hold_time > max_time), "hold_time", hold_time, "must not exceed max_time");
+}
+
+void HeapRules::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "fill_max_overlap", fill_max_overlap);
+  RequirePositive(problems, "fill_max_sweeps", fill_max_sweeps);
+  RequirePositive(problems, "leave_depth", leave_depth);
+  if (lift_max_time) RequirePositive(problems, "lift_max_time", *lift_max_time);
+}
+
+void HeapOutputs::Validate(base::Problems& problems) const {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    problems.Require(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
+                     "times[" + std::to_string(i) + "]", times[i],
+                     "must not be negative, and above the one before");
+  }
+}
+
+void HeapCase::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "gravity", gravity);
+  problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
+                   rayleigh_fraction, "must be in (0, 0.4]");
+  problems.Require(num_views >= 1, "num_views", num_views, "must be at least 1");
+  problems.Require(threads >= 1, "threads", threads, "must be at least 1");
+  problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
+                   "checkpoint_interval", checkpoint_interval, "must not be negative");
+  if (!problems.empty() || powder.sizes.kind == engine::SizeKind::kFile) return;
+  const HeapSize size = EstimateHeap(*this);
+  const double largest = coarse_graining.scale_factor * engine::SizeCurve(powder.sizes).largest();
+  problems.Require(size.num_grains >= 1, "powder.mass", powder.mass,
+                   "is less than one grain; the coarse graining may be too strong");
+  problems.Require(3 * largest < device.tube_inner_diameter, "device.tube_inner_diameter",
+                   device.tube_inner_diameter, "must be above three (scaled) grain diameters");
+  problems.Require(size.filled_height <= device.tube_length.value_or(size.filled_height),
+                   "device.tube_length", device.tube_length.value_or(0),
+                   "cannot hold the mass, which fills " + std::to_string(size.filled_height) +
+                       " m; leave it out or lengthen the tube");
+}
+
+HeapSize EstimateHeap(const HeapCase& c) {
+  constexpr double kSettled = 0.55;  // solid fraction of the filling
+  const engine::SizeCurve curve(c.powder.sizes);
+  const double f = c.coarse_graining.scale_factor;
+  const double volume = c.powder.mass / c.powder.material.density;
+  const double area = std::numbers::pi / 4 * std::pow(c.device.tube_inner_diameter, 2);
+  HeapSize size;
+  size.num_grains = std::llround(volume / (f * f * f * curve.mean_volume()));
+  size.mean_diameter = f * curve.VolumeQuantile(0.5);
+  size.time_step =
+      c.rayleigh_fraction * engine::RayleighTime(c.powder.material, f * curve.smallest() / 2);
+  size.filled_height = volume / (kSettled * area);
+  constexpr double kStill = 0.1;  // settling and coming to rest, as seen in runs [s]
+  size.simulated_time = kStill + size.filled_height / c.device.lift_velocity;
+  return size;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,21 @@
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+#include "experiments/rigs/lifted_tube/heap_case.h"
+
+namespace talus::experiments {
+
+HeapCase LoadHeapCase(const std::filesystem::path& path) {
+  HeapCase heap_case = base::LoadOptions<HeapCase>(base::ReadJsonFile(path));
+  if (heap_case.powder.sizes.kind != engine::SizeKind::kFile) return heap_case;
+  engine::ReadSizeFile(heap_case.powder.sizes);
+  base::Problems problems(path.string(), {});
+  heap_case.Validate(problems);  // what only the sizes can tell
+  problems.ThrowIfAny();
+  return heap_case;
+}
+
+std::string HeapCaseText(const HeapCase& heap_case) {
+  return base::ToJson(heap_case).dump(2) + "\n";
+}
+
+}  // namespace talus::experiments

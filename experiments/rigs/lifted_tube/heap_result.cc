@@ -1,0 +1,134 @@
+#include "experiments/rigs/lifted_tube/heap_result.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "base/file.h"
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+#include "experiments/app/commands.h"
+
+namespace talus::experiments {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json Phases(const HeapCase& c, const HeapState& state) {
+  const bool done = state.fill_overlap <= c.rules.fill_max_overlap;
+  ordered_json phases;
+  phases["filling"] = {{"reason", done ? "no_overlap" : "sweep_cap"},
+                       {"sweeps", state.fill_sweeps},
+                       {"max_overlap_over_radius", state.fill_overlap},
+                       {"filled_height_m", state.filled_height}};
+  phases["settling"] = base::ToJson(state.settling);
+  phases["lifting"] = base::ToJson(state.lifting);
+  phases["heap"] = base::ToJson(state.heap);
+  return phases;
+}
+
+// How the test ended, in words.
+std::string Reason(const HeapState& state) {
+  std::string reason(base::NameOf(state.heap.reason));
+  if (state.lifting.reason == PhaseEnd::kTimeCap) reason += ", lifting: time_cap";
+  if (state.settling.reason == PhaseEnd::kTimeCap) reason += ", settling: time_cap";
+  return reason;
+}
+
+ordered_json Conditions(const HeapCase& c, const engine::Simulation& simulation) {
+  const engine::Material used = UsedMaterial(c);
+  ordered_json conditions;
+  conditions["scale_factor"] = c.coarse_graining.scale_factor;
+  conditions["surface_energy_exponent"] = c.coarse_graining.surface_energy_exponent;
+  conditions["surface_energy_j_m2"] = c.powder.material.surface_energy;
+  conditions["surface_energy_used_j_m2"] = used.surface_energy;
+  conditions["youngs_modulus_pa"] = used.youngs_modulus;
+  conditions["lift_velocity_m_s"] = c.device.lift_velocity;
+  conditions["rayleigh_fraction"] = c.rayleigh_fraction;
+  conditions["time_step_s"] = simulation.time_step();
+  conditions["plate_over_mean_diameter"] = c.device.plate_diameter / EstimateHeap(c).mean_diameter;
+  conditions["seed"] = c.seed;
+  return conditions;
+}
+
+ordered_json Heap(const HeapCase& c, const std::vector<engine::Particle>& grains) {
+  double volume = 0;
+  double height = 0;
+  for (const engine::Particle& p : grains) {
+    volume += 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
+    height = std::max(height, p.position.z + p.radius);
+  }
+  return {{"mass_kg", volume * c.powder.material.density},
+          {"height_m", height},
+          {"num_grains", grains.size()}};
+}
+
+}  // namespace
+
+std::vector<engine::Particle> GrainsOfHeap(const engine::Simulation& simulation) {
+  const std::vector<engine::Particle> particles = simulation.Particles();
+  const Connectivity connected = Connect(particles, simulation.Contacts());
+  std::vector<engine::Particle> heap;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (connected.on_plate[i]) heap.push_back(particles[i]);
+  }
+  return heap;
+}
+
+std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
+                           const std::vector<engine::Particle>& heap,
+                           const engine::RunTiming& timing) {
+  const HeapState& state = rig.state();
+  const engine::Simulation& simulation = rig.simulation();
+  const auto on_heap = static_cast<std::int64_t>(heap.size());
+  ordered_json result;
+  result["kind"] = "heap";
+  result["status"] = "ok";
+  result["reason"] = Reason(state);
+  result["talus_version"] = Version();
+  result["input_hash"] = base::Hex(HeapCaseHash(c));
+  result["phases"] = Phases(c, state);
+  result["num_grains"] = state.num_filled;
+  result["counts"] = {{"filled", state.num_filled},
+                      {"on_heap", on_heap},
+                      {"fallen", state.num_fallen},
+                      {"carried_by_tube", state.num_carried},
+                      {"in_flight", simulation.num_particles() - on_heap}};
+  result["heap"] = Heap(c, heap);
+  result["conditions"] = Conditions(c, simulation);
+  if (c.frame) {
+    result["profile"] = base::ToJson(*c.frame);
+    result["profile"]["file"] = "profile.png";
+    result["profile"]["num_views"] = c.num_views;
+  }
+  result["num_steps"] = simulation.step();
+  result["simulated_time_s"] = simulation.time();
+  result["timing"] = {{"wall_time_s", timing.wall_time},
+                      {"cpu_time_s", timing.cpu_time},
+                      {"particle_steps", state.particle_steps},
+                      {"threads", c.threads}};
+  std::vector<std::string> warnings = HeapWarnings(c);
+  if (state.heap.reason == PhaseEnd::kTimeCap) {
+    warnings.push_back("the heap had not come to rest at rules.heap.max_time");
+  }
+  if (state.lifting.reason == PhaseEnd::kTimeCap) {
+    warnings.push_back("the tube had not cleared the heap at its time cap and was taken away");
+  }
+  if (heap.empty()) warnings.push_back("nothing is left on the plate");
+  result["warnings"] = warnings;
+  return result.dump(2) + "\n";
+}
+
+std::string HeapStateLine(const HeapState& state) { return base::ToJson(state).dump(); }
+
+HeapState ParseHeapState(const std::string& line) {
+  return base::LoadOptions<HeapState>(base::ParseJson(line, "checkpoint"));
+}
+
+std::uint64_t HeapCaseHash(const HeapCase& heap_case) {
+  HeapCase relevant = heap_case;
+  relevant.threads = 1;
+  relevant.checkpoint_interval = 0;
+  return base::Checksum(HeapCaseText(relevant));
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,219 @@
+#include "experiments/rigs/lifted_tube/heap_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace talus::experiments {
+namespace {
+
+using engine::Particle;
+using engine::Vec3;
+
+// Mean kinetic energy of a grain, relative to a velocity, over m g d. Translation only: nothing
+// resists the spin about a contact's normal, so that it may last for ever.
+struct EnergyRatio {
+  double kinetic = 0;  // Σ m v²/2, without the density and 4π/3
+  double weight = 0;   // Σ m g d, likewise
+
+  void Add(const Particle& p, const Vec3& velocity, double gravity) {
+    const Vec3 relative = p.velocity - velocity;
+    const double cube = p.radius * p.radius * p.radius;
+    kinetic += cube * Dot(relative, relative) / 2;
+    weight += cube * gravity * 2 * p.radius;
+  }
+  double Value() const { return weight > 0 ? kinetic / weight : 0; }
+};
+
+// Mean kinetic energy relative to the tube, over m g d, below which grains stick to it: falling off
+// it they would have that after a fiftieth of a diameter, swinging in their bonds they stay below.
+constexpr double kStuckEnergy = 0.02;
+
+template <class... Values>
+std::string Format(const char* format, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+// Grains fall an eighth of a diameter between two checks.
+std::int64_t CheckSteps(const HeapCase& heap_case, double time_step) {
+  const double interval =
+      0.5 * std::sqrt(EstimateHeap(heap_case).mean_diameter / heap_case.gravity);
+  return std::max<std::int64_t>(1, std::llround(interval / time_step));
+}
+
+}  // namespace
+
+HeapRig::HeapRig(const HeapCase& heap_case, const HeapState& state, engine::Simulation simulation)
+    : case_(heap_case),
+      simulation_(std::move(simulation)),
+      state_(state),
+      check_steps_(CheckSteps(heap_case, simulation_.time_step())) {
+  leave_height_ = -case_.rules.leave_depth * case_.coarse_graining.scale_factor *
+                  engine::SizeCurve(case_.powder.sizes).largest();
+}
+
+HeapRig::HeapRig(const HeapCase& heap_case, const HeapScene& made)
+    : HeapRig(heap_case, {}, engine::Simulation(made.scene)) {
+  state_.filled_height = made.filling.height;
+  state_.fill_overlap = made.filling.max_overlap;
+  state_.fill_sweeps = made.filling.num_sweeps;
+  state_.num_filled = simulation_.num_particles();
+  Say(Format("filled %lld grains to %.4g mm; %d sweeps, largest overlap %.2g of a radius",
+             static_cast<long long>(state_.num_filled), 1e3 * state_.filled_height,
+             state_.fill_sweeps, state_.fill_overlap));
+}
+
+HeapRig::HeapRig(const HeapCase& heap_case) : HeapRig(heap_case, MakeHeapScene(heap_case)) {}
+
+bool HeapRig::Advance(double until) {
+  if (state_.phase == HeapPhase::kEnded) return false;
+  const std::int64_t num_particles = simulation_.num_particles();
+  const double to_go = std::ceil((until - simulation_.time()) / simulation_.time_step());
+  std::int64_t steps = check_steps_ - simulation_.step() % check_steps_;
+  steps = std::min(steps, engine::SliceSteps(num_particles));
+  if (to_go < static_cast<double>(steps)) steps = std::max(1, static_cast<int>(to_go));
+  simulation_.Advance(steps);
+  state_.particle_steps += static_cast<double>(steps) * static_cast<double>(num_particles);
+  Record().steps += steps;
+  if (simulation_.step() % check_steps_ == 0) Check();
+  return state_.phase != HeapPhase::kEnded;
+}
+
+void HeapRig::Check() {
+  RemoveFallen();
+  const std::vector<Particle> particles = simulation_.Particles();
+  const double phase_time = simulation_.time() - Record().start_time;
+  switch (state_.phase) {
+    case HeapPhase::kSettling:
+      if (Held(AtRest(particles), case_.rules.settling.hold_time)) {
+        EndPhase(PhaseEnd::kAtRest, HeapPhase::kLifting);
+      } else if (phase_time >= case_.rules.settling.max_time) {
+        EndPhase(PhaseEnd::kTimeCap, HeapPhase::kLifting);
+      }
+      if (state_.phase == HeapPhase::kLifting) LiftTube();
+      break;
+    case HeapPhase::kLifting:
+      CheckLifting(particles);
+      break;
+    case HeapPhase::kResting:
+      if (particles.empty()) {
+        EndPhase(PhaseEnd::kEmpty, HeapPhase::kEnded);
+      } else if (Held(AtRest(particles), case_.rules.heap.hold_time)) {
+        EndPhase(PhaseEnd::kAtRest, HeapPhase::kEnded);
+      } else if (phase_time >= case_.rules.heap.max_time) {
+        EndPhase(PhaseEnd::kTimeCap, HeapPhase::kEnded);
+      }
+      break;
+    case HeapPhase::kEnded:
+      break;
+  }
+}
+
+// The lifting ends when the tube's edge is above the heap, the tube does not touch the heap, and
+// what sticks to the tube, if anything, moves with it; all that held for a time.
+void HeapRig::CheckLifting(Particles particles) {
+  const Connectivity connected = Connect(particles, simulation_.Contacts());
+  double top = 0;
+  EnergyRatio stuck;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Particle& p = particles[i];
+    if (connected.on_plate[i]) top = std::max(top, p.position.z + p.radius);
+    if (connected.on_tube[i]) stuck.Add(p, {0, 0, case_.device.lift_velocity}, case_.gravity);
+  }
+  Record().energy_ratio = stuck.Value();
+  const bool cleared =
+      TubeEdge() > top && !connected.tube_touches_heap && stuck.Value() < kStuckEnergy;
+  const bool held = Held(cleared, case_.rules.heap.hold_time);
+  if (!held && simulation_.time() - Record().start_time < LiftMaxTime()) return;
+  DropTube(particles, connected);
+  EndPhase(held ? PhaseEnd::kCleared : PhaseEnd::kTimeCap, HeapPhase::kResting);
+}
+
+void HeapRig::DropTube(Particles particles, const Connectivity& connected) {
+  std::vector<std::int64_t> carried;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (connected.on_tube[i]) carried.push_back(particles[i].id);
+  }
+  simulation_.RemoveWall(kTube);
+  if (carried.empty()) return;
+  state_.num_carried += simulation_.RemoveIf(
+      [&](const Particle& p) { return std::binary_search(carried.begin(), carried.end(), p.id); });
+}
+
+void HeapRig::RemoveFallen() {
+  state_.num_fallen += simulation_.RemoveIf(
+      [&](const Particle& p) { return p.position.z + p.radius < leave_height_; });
+}
+
+bool HeapRig::AtRest(Particles particles) {
+  EnergyRatio energy;
+  for (const Particle& p : particles) energy.Add(p, {}, case_.gravity);
+  Record().energy_ratio = energy.Value();
+  const RestRule& rule =
+      state_.phase == HeapPhase::kSettling ? case_.rules.settling : case_.rules.heap;
+  return energy.Value() < rule.energy_fraction;
+}
+
+bool HeapRig::Held(bool holds, double hold_time) {
+  state_.num_quiet_checks = holds ? state_.num_quiet_checks + 1 : 0;
+  // The first quiet check starts the time.
+  const auto steps = (state_.num_quiet_checks - 1) * check_steps_;
+  return holds && static_cast<double>(steps) * simulation_.time_step() >= hold_time;
+}
+
+void HeapRig::EndPhase(PhaseEnd reason, HeapPhase next) {
+  PhaseRecord& record = Record();
+  record.reason = reason;
+  record.end_time = simulation_.time();
+  Say(Format("%s ended at %.4g s: %s; %lld grains left",
+             std::string(base::NameOf(state_.phase)).c_str(), record.end_time,
+             std::string(base::NameOf(reason)).c_str(),
+             static_cast<long long>(simulation_.num_particles())));
+  state_.phase = next;
+  state_.num_quiet_checks = 0;
+  if (next != HeapPhase::kEnded) Record().start_time = simulation_.time();
+}
+
+void HeapRig::LiftTube() {
+  simulation_.SetMotion(
+      kTube, {{.time = simulation_.time(), .velocity = {0, 0, case_.device.lift_velocity}}});
+}
+
+PhaseRecord& HeapRig::Record() {
+  if (state_.phase == HeapPhase::kSettling) return state_.settling;
+  return state_.phase == HeapPhase::kLifting ? state_.lifting : state_.heap;
+}
+
+double HeapRig::LiftMaxTime() const {
+  return case_.rules.lift_max_time.value_or(2 * state_.filled_height / case_.device.lift_velocity);
+}
+
+double HeapRig::TubeEdge() const {
+  return (simulation_.time() - state_.lifting.start_time) * case_.device.lift_velocity;
+}
+
+double HeapRig::ExpectedEnd() const {
+  constexpr double kStill = 0.05;  // settling, or coming to rest, as seen in runs [s]
+  const double now = simulation_.time();
+  const double lift = 0.8 * state_.filled_height / case_.device.lift_velocity;
+  switch (state_.phase) {
+    case HeapPhase::kSettling:
+      return std::max(now, kStill) + lift + kStill;
+    case HeapPhase::kLifting:
+      return std::max(now, state_.lifting.start_time + lift) + kStill;
+    case HeapPhase::kResting:
+      return std::max(now, state_.heap.start_time + kStill);
+    case HeapPhase::kEnded:
+      break;
+  }
+  return now;
+}
+
+void HeapRig::Say(const std::string& message) { messages_.push_back(message); }
+
+std::vector<std::string> HeapRig::TakeMessages() { return std::exchange(messages_, {}); }
+
+}  // namespace talus::experiments

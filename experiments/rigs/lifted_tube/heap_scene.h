@@ -1,0 +1,31 @@
+// The scene of a heap test at time 0: tube and plate, and the powder filled into the tube.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/filling.h"
+#include "engine/scene/scene.h"
+#include "experiments/rigs/lifted_tube/heap_case.h"
+
+namespace talus::experiments {
+
+// Indices into the scene's walls.
+inline constexpr int kTube = 0;
+inline constexpr int kPlate = 1;
+
+struct HeapScene {
+  engine::Scene scene;
+  engine::Filling filling;  // without the positions, which are in the scene
+};
+
+// The plate's top is z = 0; the tube stands on it.
+HeapScene MakeHeapScene(const HeapCase& heap_case);
+
+// The powder's material with the coarse graining applied (docs/physics.md, C1).
+engine::Material UsedMaterial(const HeapCase& heap_case);
+
+// What a user should know before trusting the result, a sentence each; none when all is well.
+std::vector<std::string> HeapWarnings(const HeapCase& heap_case);
+
+}  // namespace talus::experiments

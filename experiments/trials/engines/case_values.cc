@@ -1,0 +1,107 @@
+#include "experiments/trials/engines/case_values.h"
+
+#include <cmath>
+
+#include "base/random.h"
+#include "engine/scene/size_distribution.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
+
+namespace talus::experiments {
+namespace {
+
+// LAMMPS and LIGGGHTS refuse seeds from 900 million on, and 0.
+std::uint64_t PlainSeed(std::uint64_t seed) { return 1 + seed % 899999999; }
+
+bool IsPrime(std::uint64_t n) {
+  for (std::uint64_t d = 2; d * d <= n; ++d) {
+    if (n % d == 0) return false;
+  }
+  return n > 1;
+}
+
+// LIGGGHTS wants primes above 10000. Seeds that follow each other must not meet in one prime, so
+// that they are scattered first.
+std::uint64_t PrimeSeed(std::uint64_t seed) {
+  std::uint64_t prime = 10007 + base::Mix64(seed) % 800000000;
+  while (!IsPrime(prime)) ++prime;
+  return prime;
+}
+
+using Scalars = std::map<std::string, std::string, std::less<>>;
+
+void AddMaterial(const std::string& prefix, const engine::Material& material, Scalars& scalars) {
+  engine::Material::Visit(material, [&](std::string_view key, double value, base::FieldInfo) {
+    scalars[prefix + std::string(key)] = NumberText(value);
+  });
+}
+
+void AddDevice(const HeapCase& c, Scalars& scalars) {
+  const Device& device = c.device;
+  const std::pair<const char*, double> kLengths[] = {
+      {"tube_inner_diameter", device.tube_inner_diameter},
+      {"tube_inner_radius", device.tube_inner_diameter / 2},
+      {"plate_diameter", device.plate_diameter},
+      {"plate_radius", device.plate_diameter / 2},
+      {"plate_height", device.plate_height},
+      {"lift_velocity", device.lift_velocity}};
+  for (const auto& [name, value] : kLengths) scalars[name] = NumberText(value);
+  const engine::Material& powder = c.powder.material;
+  AddMaterial("tube_", device.tube_material.value_or(WallMaterial{}).Over(powder), scalars);
+  AddMaterial("plate_", device.plate_material.value_or(WallMaterial{}).Over(powder), scalars);
+}
+
+// The powder as it is simulated: scaled, and counted.
+void AddSizes(const HeapCase& c, Scalars& scalars) {
+  const double factor = c.coarse_graining.scale_factor;
+  const engine::SizeCurve curve(c.powder.sizes);
+  const HeapSize size = EstimateHeap(c);
+  scalars["scale_factor"] = NumberText(factor);
+  scalars["smallest_diameter"] = NumberText(factor * curve.smallest());
+  scalars["largest_diameter"] = NumberText(factor * curve.largest());
+  scalars["mean_diameter"] = NumberText(size.mean_diameter);
+  scalars["num_grains"] = std::to_string(size.num_grains);
+  scalars["mass"] = NumberText(c.powder.mass);
+  scalars["filled_height"] = NumberText(size.filled_height);
+  scalars["tube_length"] = NumberText(c.device.tube_length.value_or(size.filled_height));
+  // The tube is lifted by little more than the powder's height.
+  scalars["box_height"] = NumberText(4 * c.device.tube_length.value_or(size.filled_height) +
+                                     2 * c.device.plate_diameter);
+  scalars["time_step"] = NumberText(size.time_step);
+}
+
+}  // namespace
+
+TemplateValues CaseValues(const HeapCase& c) {
+  TemplateValues values;
+  Scalars& scalars = values.scalars;
+  AddMaterial("", c.powder.material, scalars);
+  scalars["surface_energy_used"] = NumberText(UsedMaterial(c).surface_energy);
+  scalars["full_mobilisation_damping"] = NumberText(c.models.full_mobilisation_damping);
+  scalars["adhesion_cutoff"] = NumberText(c.models.adhesion_cutoff);
+  scalars["rayleigh_fraction"] = NumberText(c.rayleigh_fraction);
+  scalars["gravity"] = NumberText(c.gravity);
+  scalars["settling_time"] = NumberText(c.rules.settling.max_time);
+  scalars["rest_time"] = NumberText(c.rules.heap.max_time);
+  scalars["seed"] = std::to_string(PlainSeed(c.seed));
+  scalars["prime_seed"] = std::to_string(PrimeSeed(c.seed));
+  scalars["threads"] = std::to_string(c.threads);
+  AddSizes(c, scalars);
+  AddDevice(c, scalars);
+  values.tables["grains"] = {.columns = {"number", "x", "y", "z", "diameter", "radius"},
+                             .rows = {}};
+  return values;
+}
+
+void AddGrains(const HeapCase& c, TemplateValues& values) {
+  TemplateTable& table = values.tables.at("grains");
+  const HeapScene made = MakeHeapScene(c);
+  // The exact number, which the estimate may miss by one.
+  values.scalars["num_grains"] = std::to_string(made.scene.particles.size());
+  for (const engine::Particle& p : made.scene.particles) {
+    table.rows.push_back({std::to_string(table.rows.size() + 1), NumberText(p.position.x),
+                          NumberText(p.position.y), NumberText(p.position.z),
+                          NumberText(2 * p.radius), NumberText(p.radius)});
+  }
+}
+
+}  // namespace talus::experiments

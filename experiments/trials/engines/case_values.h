@@ -1,0 +1,18 @@
+// What the placeholders of a template mean for a case: docs/foreign_engines.md has the same list.
+#pragma once
+
+#include <string>
+
+#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/trials/engines/template_text.h"
+
+namespace talus::experiments {
+
+// Every value, in SI. The table `grains` has its columns but no rows: see AddGrains.
+TemplateValues CaseValues(const HeapCase& heap_case);
+
+// The rows of `grains`: the powder as our own engine fills it into the tube for this seed. Takes a
+// while for many grains, so only where a template asks for it.
+void AddGrains(const HeapCase& heap_case, TemplateValues& values);
+
+}  // namespace talus::experiments

@@ -1,0 +1,212 @@
+#include "experiments/trials/engines/command_engine.h"
+
+#include <fstream>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_reader.h"
+#include "base/json_writer.h"
+#include "engine/run/state_file.h"
+#include "engine/scene/size_distribution.h"
+#include "experiments/app/commands.h"
+#include "experiments/runners/local_runner.h"
+#include "experiments/trials/engines/case_values.h"
+#include "experiments/trials/engines/command_result.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/formats/sphere_files.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Outlives;
+
+constexpr const char* kKind = "command";
+// Left by the shell that runs the command, when it has ended well.
+constexpr const char* kDone = ".command_done";
+// The filled command, as a list.
+constexpr const char* kCommandFile = ".command.json";
+
+std::string CaseText(const HeapCase& heap_case, const CommandOptions& options) {
+  const CommandCase command_case{.heap = heap_case, .engine = options};
+  return base::ToJson(command_case).dump(2) + "\n";
+}
+
+struct Measured {
+  imaging::GrayImage profile;
+  std::size_t num_spheres = 0;  // in the file
+  std::size_t num_grains = 0;   // of the heap
+};
+
+void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
+  std::vector<engine::Particle> particles(spheres.size());
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    particles[i].position = spheres[i].position;
+    particles[i].radius = spheres[i].radius;
+  }
+  base::WriteFileAtomically(path, engine::VtpOf(particles, 0), Outlives::kProgram);
+}
+
+Measured MeasureSpheres(const CommandOptions& options, const HeapCase& heap_case,
+                        const fs::path& file, const fs::path& folder) {
+  const auto spheres =
+      OnOurPlate(options, imaging::ReadSpheres(file, {.length_unit = options.length_unit}));
+  const auto heap = imaging::GrainsOnPlate(spheres, heap_case.frame.value().plate_diameter);
+  if (heap.empty()) {
+    throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
+                      " spheres in " + file.filename().string() +
+                      "; are length_unit, up and plate_center right?");
+  }
+  const imaging::Profile profile =
+      imaging::ProjectHeap(heap, *heap_case.frame, heap_case.num_views);
+  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(profile.image),
+                            Outlives::kProgram);
+  if (file.filename() != "heap.vtp") WriteHeap(folder / "heap.vtp", heap);
+  return {.profile = profile.image, .num_spheres = spheres.size(), .num_grains = heap.size()};
+}
+
+Measured MeasureImage(const HeapCase& heap_case, const fs::path& file, const fs::path& folder) {
+  Measured measured{.profile = imaging::ReadGrayImage(file)};
+  const imaging::Frame& frame = heap_case.frame.value();
+  if (measured.profile.width != frame.width || measured.profile.height != frame.height) {
+    throw base::Error("left the image " + file.filename().string() + " of " +
+                      std::to_string(measured.profile.width) + " x " +
+                      std::to_string(measured.profile.height) + " px; the experiment's is " +
+                      std::to_string(frame.width) + " x " + std::to_string(frame.height));
+  }
+  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
+                            Outlives::kProgram);
+  return measured;
+}
+
+std::string ResultText(const HeapCase& heap_case, const Measured& measured, const fs::path& file) {
+  nlohmann::ordered_json result;
+  result["kind"] = kKind;
+  result["status"] = "done";
+  result["talus_version"] = Version();
+  result["result_file"] = file.filename().string();
+  result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};
+  result["conditions"] = {{"scale_factor", heap_case.coarse_graining.scale_factor},
+                          {"youngs_modulus_pa", heap_case.powder.material.youngs_modulus},
+                          {"lift_velocity_m_s", heap_case.device.lift_velocity},
+                          {"seed", heap_case.seed}};
+  result["profile"] = base::ToJson(*heap_case.frame);
+  result["profile"]["file"] = "profile.png";
+  result["profile"]["num_views"] = heap_case.num_views;
+  return result.dump(2) + "\n";
+}
+
+void RunCommand(CommandEngine& engine, int threads, const fs::path& folder) {
+  LocalRunner runner({.workers = 1, .threads_per_job = threads});
+  Job job;
+  job.folder = fs::absolute(folder);
+  job.command = engine.Command(folder);
+  runner.Submit({&job, 1});
+  std::vector<FinishedJob> finished;
+  while (finished.empty()) finished = runner.Wait(3600);
+  if (finished.front().ok()) return;
+  const std::string log = LastLogLines(folder);
+  throw base::Error("the command failed: " + finished.front().reason +
+                    (log.empty() ? "" : "; its log ends with: " + log));
+}
+
+}  // namespace
+
+CommandEngine::CommandEngine(const CommandOptions& options)
+    : options_(options), templates_(options.templates.value()) {
+  if (!options.templates_hash.empty() && options.templates_hash != templates_.Hash()) {
+    throw base::ConfigError(options.templates->string() +
+                            ": the templates are not those that the campaign began with; put them "
+                            "back, or start another campaign");
+  }
+}
+
+void CommandEngine::Prepare(const HeapCase& heap_case, const fs::path& folder) {
+  PrepareFolder(folder, "case.json", CaseText(heap_case, options_));
+  if (IsComplete(folder)) return;
+  RemoveResults(options_, folder);
+  TemplateValues values = CaseValues(heap_case);
+  if (templates_.Uses(options_, "grains")) AddGrains(heap_case, values);
+  templates_.Fill(values, folder);
+  const nlohmann::json command = FilledCommand(options_, values);
+  base::WriteFileAtomically(folder / kCommandFile, command.dump(), Outlives::kProgram);
+}
+
+std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
+  // The mark tells a result that is whole from one that a kill has left half written.
+  std::vector<std::string> command{"/bin/sh", "-c", std::string("\"$@\" || exit; : >") + kDone,
+                                   "sh"};
+  const auto filled = nlohmann::json::parse(base::ReadFile(folder / kCommandFile));
+  for (const auto& argument : filled) command.push_back(argument.get<std::string>());
+  return command;
+}
+
+bool CommandEngine::IsComplete(const fs::path& folder) { return fs::exists(folder / kDone); }
+
+TrialOutput CommandEngine::Collect(const HeapCase& heap_case, const fs::path& folder) {
+  const fs::path file = FindResult(options_, folder);
+  const Measured measured = file.extension() == ".png"
+                                ? MeasureImage(heap_case, file, folder)
+                                : MeasureSpheres(options_, heap_case, file, folder);
+  base::WriteFileAtomically(folder / "result.json", ResultText(heap_case, measured, file),
+                            Outlives::kProgram);
+  return {.profile = measured.profile,
+          .num_steps = 0,
+          .num_particles = static_cast<std::int64_t>(measured.num_spheres),
+          .note = {}};
+}
+
+void CheckCommand(const CommandOptions& options, const CommandCheck& check,
+                  base::Problems& problems) {
+  const TemplateFolder templates(options.templates.value());
+  templates.Check(options, CaseValues(check.heap_case), check.calibrated, problems);
+  problems.Require(check.elsewhere || !FindProgram(options).empty(), "command",
+                   "\"" + options.command.front() +
+                       "\" is not found, or not executable: neither on the PATH nor, if it has a "
+                       "\"/\", in the templates' folder");
+}
+
+CommandCase LoadCommandCase(const fs::path& path) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  auto command_case = base::LoadOptions<CommandCase>(file);
+  engine::ReadSizeFile(command_case.heap.powder.sizes);
+  base::Problems problems(file.path.string(), file.source);
+  problems.Require(command_case.heap.frame.has_value(), "frame",
+                   "is missing: the result is measured in it");
+  problems.Within("engine", [&] {
+    CheckCommand(command_case.engine,
+                 {.heap_case = command_case.heap, .calibrated = {}, .elsewhere = false}, problems);
+  });
+  problems.ThrowIfAny();
+  return command_case;
+}
+
+void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder, bool fresh) {
+  const fs::path own_case = folder / "case.json";
+  const bool ours = fs::exists(own_case) &&
+                    base::ReadFile(own_case) == CaseText(command_case.heap, command_case.engine);
+  if (!ours && fs::exists(folder) && !fs::is_empty(folder)) {
+    throw base::ConfigError(folder.string() +
+                            ": holds other files, which a trial's folder may not; name another "
+                            "with --out");
+  }
+  if (fresh) fs::remove(folder / kDone);
+  CommandEngine engine(command_case.engine);
+  engine.Prepare(command_case.heap, folder);
+  try {
+    if (!engine.IsComplete(folder)) RunCommand(engine, command_case.heap.threads, folder);
+    engine.Collect(command_case.heap, folder);
+  } catch (const base::Error& error) {
+    nlohmann::ordered_json result;
+    result["kind"] = kKind;
+    result["status"] = "failed";
+    result["talus_version"] = Version();
+    result["reason"] = error.what();
+    base::WriteFileAtomically(folder / "result.json", result.dump(2) + "\n");
+    throw base::Error(error.what());  // the input was good, whatever kind of error a result is
+  }
+}
+
+}  // namespace talus::experiments

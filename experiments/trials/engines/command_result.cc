@@ -1,0 +1,91 @@
+#include "experiments/trials/engines/command_result.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
+#include "experiments/trials/engines/trial_engine.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Written by ourselves beside a result of another format, for ParaView.
+constexpr const char* kOwnHeap = "heap.vtp";
+
+std::vector<fs::path> Matches(const CommandOptions& engine, const fs::path& folder) {
+  const fs::path pattern = folder / engine.result;
+  const std::string name = pattern.filename();
+  std::vector<fs::path> matches;
+  std::error_code absent;
+  for (const auto& entry : fs::directory_iterator(pattern.parent_path(), absent)) {
+    const std::string candidate = entry.path().filename();
+    if (entry.is_regular_file() && ::fnmatch(name.c_str(), candidate.c_str(), FNM_PERIOD) == 0) {
+      matches.push_back(entry.path());
+    }
+  }
+  std::sort(matches.begin(), matches.end(),
+            [](const fs::path& a, const fs::path& b) { return NaturalLess(a, b); });
+  return matches;
+}
+
+std::string Digits(const std::string& text, std::size_t start) {
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", start), text.size());
+  const std::size_t first = std::min(text.find_first_not_of('0', start), end);
+  return text.substr(first, end - first);
+}
+
+}  // namespace
+
+bool NaturalLess(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (std::isdigit(static_cast<unsigned char>(a[i])) != 0 &&
+        std::isdigit(static_cast<unsigned char>(b[j])) != 0) {
+      const std::string left = Digits(a, i);
+      const std::string right = Digits(b, j);
+      if (left.size() != right.size()) return left.size() < right.size();
+      if (left != right) return left < right;
+      i = a.find_first_not_of("0123456789", i);
+      j = b.find_first_not_of("0123456789", j);
+      continue;
+    }
+    if (a[i] != b[j]) return a[i] < b[j];
+    ++i;
+    ++j;
+  }
+  return j < b.size() && i >= a.size();
+}
+
+fs::path FindResult(const CommandOptions& engine, const fs::path& folder) {
+  std::vector<fs::path> matches = Matches(engine, folder);
+  if (matches.size() > 1) {
+    std::erase_if(matches, [](const fs::path& path) { return path.filename() == kOwnHeap; });
+  }
+  if (!matches.empty()) return matches.back();
+  const std::string log = LastLogLines(folder);
+  throw base::Error("left no file \"" + engine.result + "\"" +
+                    (log.empty() ? "" : "; its log ends with: " + log));
+}
+
+void RemoveResults(const CommandOptions& engine, const fs::path& folder) {
+  for (const fs::path& path : Matches(engine, folder)) fs::remove(path);
+}
+
+std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
+                                     std::vector<base::Sphere> spheres) {
+  for (base::Sphere& sphere : spheres) {
+    const base::Vec3 p = sphere.position - engine.plate_center;
+    // Turned about a horizontal axis, never mirrored: x → z takes y → x and z → y.
+    if (engine.up == UpAxis::kX) sphere.position = {p.y, p.z, p.x};
+    if (engine.up == UpAxis::kY) sphere.position = {p.z, p.x, p.y};
+    if (engine.up == UpAxis::kZ) sphere.position = p;
+  }
+  return spheres;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,47 @@
+#include "experiments/trials/engines/talus_engine.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "imaging/formats/image_file.h"
+
+namespace talus::experiments {
+
+TalusEngine::TalusEngine(std::filesystem::path program) : program_(std::move(program)) {}
+
+std::filesystem::path TalusEngine::ThisProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+void TalusEngine::Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) {
+  PrepareFolder(folder, "case.json", HeapCaseText(heap_case));
+}
+
+std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {
+  return {program_.string(), "simulate", "case.json", "--out", "."};
+}
+
+bool TalusEngine::IsComplete(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "result.json");
+}
+
+TrialOutput TalusEngine::Collect(const HeapCase& heap_case, const std::filesystem::path& folder) {
+  const auto result = nlohmann::json::parse(base::ReadFile(folder / "result.json"), nullptr, false);
+  if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
+  if (result.value("status", "") != "ok") {
+    throw base::Error("failed: " + result.value("reason", "no reason in result.json"));
+  }
+  TrialOutput output{.profile = imaging::ReadGrayImage(folder / "profile.png"),
+                     .num_steps = result.value("num_steps", std::int64_t{0}),
+                     .num_particles = result.value("num_grains", std::int64_t{0}),
+                     .note = result.value("reason", "")};
+  if (output.profile.width != heap_case.frame->width ||
+      output.profile.height != heap_case.frame->height) {
+    throw base::Error("left a profile.png of another size than the experiment's");
+  }
+  return output;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,28 @@
+// Our own engine: `talus simulate case.json`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/trials/engines/trial_engine.h"
+
+namespace talus::experiments {
+
+class TalusEngine : public TrialEngine {
+ public:
+  // `program` is the talus to run; this one itself by default.
+  explicit TalusEngine(std::filesystem::path program = ThisProgram());
+
+  void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) override;
+  std::vector<std::string> Command(const std::filesystem::path& folder) override;
+  bool IsComplete(const std::filesystem::path& folder) override;
+  TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) override;
+
+  static std::filesystem::path ThisProgram();
+
+ private:
+  std::filesystem::path program_;
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,123 @@
+#include "experiments/trials/engines/template_folder.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Names in a file of a trial's folder that a template may not have.
+bool IsReserved(const fs::path& path) {
+  return path == "case.json" || path == "result.json" || path == "log.txt";
+}
+
+// The parts of the command as templates; `{{` in one of them is as in a file.
+std::vector<TextTemplate> CommandParts(const CommandOptions& engine) {
+  std::vector<TextTemplate> parts;
+  for (const std::string& argument : engine.command) parts.emplace_back(argument, "command");
+  return parts;
+}
+
+}  // namespace
+
+TemplateFolder::TemplateFolder(const fs::path& folder) : folder_(folder) {
+  std::error_code error;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path path = fs::relative(entry.path(), folder);
+    if (IsReserved(path)) {
+      throw base::ConfigError(entry.path().string() +
+                              ": a template may not have the name of a trial's own file");
+    }
+    File file{.path = path, .bytes = base::ReadFile(entry.path()), .text = std::nullopt};
+    if (file.bytes.find('\0') == std::string::npos && file.bytes.find("{{") != std::string::npos) {
+      file.text.emplace(file.bytes, entry.path().string());
+    }
+    files_.push_back(std::move(file));
+  }
+  if (error) throw base::ConfigError(folder.string() + ": cannot be read: " + error.message());
+  if (files_.empty()) throw base::ConfigError(folder.string() + ": holds no files");
+  std::sort(files_.begin(), files_.end(),
+            [](const File& a, const File& b) { return a.path < b.path; });
+}
+
+void TemplateFolder::Check(const CommandOptions& engine, const TemplateValues& known,
+                           std::span<const std::string> needed, base::Problems& problems) const {
+  problems.Within("templates", [&] {
+    for (const File& file : files_) {
+      if (file.text) file.text->Check(known, problems);
+    }
+  });
+  problems.Within("command", [&] {
+    for (const TextTemplate& part : CommandParts(engine)) part.Check(known, problems);
+  });
+  for (const std::string& name : needed) {
+    problems.Require(Uses(engine, name), "templates",
+                     folder_.string() + ": no file has the placeholder {{ " + name +
+                         " }}, so that searching " + name + " would change nothing");
+  }
+}
+
+bool TemplateFolder::Uses(const CommandOptions& engine, const std::string& name) const {
+  const auto uses = [&](const TextTemplate& text) { return text.Names().contains(name); };
+  const auto parts = CommandParts(engine);
+  return std::any_of(files_.begin(), files_.end(),
+                     [&](const File& file) { return file.text && uses(*file.text); }) ||
+         std::any_of(parts.begin(), parts.end(), uses);
+}
+
+std::string TemplateFolder::Hash() const {
+  std::string all;
+  for (const File& file : files_) {
+    all += file.path.string() + '\0' + base::Hex(base::Checksum(file.bytes)) + '\0';
+  }
+  return base::Hex(base::Checksum(all));
+}
+
+void TemplateFolder::Fill(const TemplateValues& values, const fs::path& target) const {
+  for (const File& file : files_) {
+    const fs::path path = target / file.path;
+    fs::create_directories(path.parent_path());
+    std::ofstream out(path, std::ios::binary);
+    out << (file.text ? file.text->Fill(values) : file.bytes);
+    out.close();
+    if (!out) throw base::Error(path.string() + ": cannot be written");
+    fs::permissions(path, fs::status(folder_ / file.path).permissions());
+  }
+}
+
+std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values) {
+  std::vector<std::string> command;
+  for (const TextTemplate& part : CommandParts(engine)) command.push_back(part.Fill(values));
+  return command;
+}
+
+fs::path FindProgram(const CommandOptions& engine) {
+  const auto executable = [](const fs::path& path) {
+    return ::access(path.c_str(), X_OK) == 0 && !fs::is_directory(path);
+  };
+  const std::string& program = engine.command.front();
+  if (program.find('/') != std::string::npos) {
+    const fs::path path =
+        engine.templates.value() / program;  // an absolute program stays what it is
+    return executable(path) ? path : fs::path();
+  }
+  const char* search = std::getenv("PATH");
+  std::istringstream folders(search == nullptr ? "/usr/bin:/bin" : search);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!folder.empty() && executable(fs::path(folder) / program))
+      return fs::path(folder) / program;
+  }
+  return {};
+}
+
+}  // namespace talus::experiments

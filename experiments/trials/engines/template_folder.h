@@ -1,0 +1,52 @@
+// The input files of another engine, with placeholders where a trial's values go.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/problems.h"
+#include "experiments/trials/engines/command_options.h"
+#include "experiments/trials/engines/template_text.h"
+
+namespace talus::experiments {
+
+// The folder's files, read once.
+class TemplateFolder {
+ public:
+  // Throws ConfigError that names the folder, or the file and line of a broken tag.
+  explicit TemplateFolder(const std::filesystem::path& folder);
+
+  // Every unknown name, and every name of `needed` that no file and no part of `command` uses.
+  void Check(const CommandOptions& engine, const TemplateValues& known,
+             std::span<const std::string> needed, base::Problems& problems) const;
+
+  // Whether a value or table is used anywhere.
+  bool Uses(const CommandOptions& engine, const std::string& name) const;
+
+  // Of names and contents; 16 hexadecimal digits.
+  std::string Hash() const;
+
+  // Writes the filled files, with the permissions of their templates.
+  void Fill(const TemplateValues& values, const std::filesystem::path& target) const;
+
+ private:
+  struct File {
+    std::filesystem::path path;  // relative to the folder
+    std::string bytes;
+    std::optional<TextTemplate> text;  // without one it is copied as it is
+  };
+  std::filesystem::path folder_;
+  std::vector<File> files_;  // by name
+};
+
+// The command with its placeholders filled.
+std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values);
+
+// Where the command's program is: a path of its own, a file of the templates, or on the PATH.
+// Empty when it is not found or not executable.
+std::filesystem::path FindProgram(const CommandOptions& engine);
+
+}  // namespace talus::experiments

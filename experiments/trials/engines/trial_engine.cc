@@ -1,0 +1,43 @@
+#include "experiments/trials/engines/trial_engine.h"
+
+#include <fstream>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string TextOf(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
+                   const std::string& text) {
+  if (TextOf(folder / key_file) == text) return;
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  if (!error) std::filesystem::create_directories(folder, error);
+  if (error) throw base::Error(folder.string() + ": cannot be made: " + error.message());
+  // Torn by a power cut it is not `text`, and the folder is made anew.
+  base::WriteFileAtomically(folder / key_file, text, base::Outlives::kProgram);
+}
+
+std::string LastLogLines(const std::filesystem::path& folder) {
+  constexpr std::size_t kMostBytes = 600;
+  constexpr int kMostLines = 3;
+  std::string text = TextOf(folder / "log.txt");
+  text.erase(text.find_last_not_of(" \n\r\t") + 1);
+  std::size_t start = text.size();
+  for (int line = 0; line < kMostLines && start != std::string::npos; ++line) {
+    start = start == 0 ? std::string::npos : text.rfind('\n', start - 1);
+  }
+  if (start != std::string::npos) text.erase(0, start + 1);
+  if (text.size() > kMostBytes) text.erase(0, text.size() - kMostBytes);
+  return text;
+}
+
+}  // namespace talus::experiments

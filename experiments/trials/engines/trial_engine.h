@@ -1,0 +1,49 @@
+// What simulates a trial: our own engine, or anybody's. To a campaign a trial is a folder and a
+// command that fills it; an engine says what is put in and reads what comes out.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "imaging/gray_image.h"
+
+namespace talus::experiments {
+
+struct TrialOutput {
+  imaging::GrayImage profile;  // ANHP in the case's frame
+  std::int64_t num_steps = 0;  // 0 when not known
+  std::int64_t num_particles = 0;
+  std::string note;  // how it ended, such as a phase that met its time cap; may be empty
+};
+
+class TrialEngine {
+ public:
+  virtual ~TrialEngine() = default;
+
+  // Makes the folder ready for the command. A folder that was made ready for the same case keeps
+  // what is in it, a finished result or a checkpoint; any other is cleared first.
+  virtual void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) = 0;
+
+  // To be run in the folder.
+  virtual std::vector<std::string> Command(const std::filesystem::path& folder) = 0;
+
+  // Whether the command has ended well here, in this or an earlier process: it need not run again.
+  virtual bool IsComplete(const std::filesystem::path& folder) = 0;
+
+  // What a complete folder holds. Throws base::Error with the reason when it is no good: the trial
+  // has failed then.
+  virtual TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) = 0;
+};
+
+// The folder with nothing in it but `key_file` = `text`; untouched when that is so already, other
+// files or not.
+void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
+                   const std::string& text);
+
+// Why a command has failed, from the end of its log.txt; "" when that says nothing.
+std::string LastLogLines(const std::filesystem::path& folder);
+
+}  // namespace talus::experiments

@@ -1,0 +1,111 @@
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/trials/measure/measure_json_csv.h"
+#include "experiments/trials/measure/measure_request.h"
+#include "imaging/formats/profile_file.h"
+#include "imaging/photos/overlay.h"
+#include "imaging/photos/photo_set.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Photographs named one by one: run and view from their names, or all of them views of one run.
+std::vector<imaging::PhotoRun> GroupPhotos(const std::vector<fs::path>& files,
+                                           const std::string& pattern) {
+  std::vector<imaging::PhotoRun> runs;
+  const imaging::PhotoSet set = imaging::SortPhotos(files, pattern);
+  std::size_t matched = 0;
+  for (const imaging::PhotoFiles& run : set.runs) {
+    imaging::PhotoRun photos{.name = run.run, .photos = {}};
+    for (const imaging::PhotoFile& view : run.views) photos.photos.push_back(view.path);
+    matched += photos.photos.size();
+    runs.push_back(std::move(photos));
+  }
+  if (matched == files.size()) return runs;
+  return {{.name = "1", .photos = files}};
+}
+
+void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
+  const fs::path& out = request.out;
+  fs::create_directories(out / "overlays");
+  if (!experiment.runs.empty()) fs::create_directories(out / "runs");
+  imaging::WriteProfile(out / "aehp.png", experiment.aehp);
+  if (!experiment.standard_deviation.pixels.empty()) {
+    imaging::WritePng(out / "standard_deviation.png", experiment.standard_deviation);
+  }
+  for (const imaging::MeasuredRun& run : experiment.runs) {
+    imaging::WriteProfile(out / "runs" / ("run_" + run.name + ".png"), run.profile);
+    for (const imaging::MeasuredView& view : run.views) {
+      const std::string name = "run_" + run.name + "_" + view.photo.stem().string() + ".png";
+      imaging::WritePng(out / "overlays" / name,
+                        imaging::OverlayOf(view, experiment.aehp.frame, request.experiment,
+                                           experiment.photo_pixel));
+    }
+  }
+  base::WriteFileAtomically(out / "views.csv", ViewsCsv(experiment));
+  base::WriteFileAtomically(out / "metrics.csv", MetricsCsv(experiment.metrics));
+  base::WriteFileAtomically(out / "measure.json", ExperimentJson(experiment).dump(2) + "\n");
+}
+
+void PrintSummary(const imaging::Experiment& experiment, std::ostream& print) {
+  const imaging::Frame& frame = experiment.aehp.frame;
+  std::size_t num_views = 0;
+  for (const imaging::MeasuredRun& run : experiment.runs) num_views += run.views.size();
+  if (num_views > 0) {
+    print << "AEHP of " << experiment.runs.size() << " run(s), " << num_views << " photographs\n";
+  } else {
+    print << "AEHP from a map\n";
+  }
+  print << "  plate " << frame.plate_diameter / frame.pixel_size << " px wide, "
+        << frame.pixel_size * 1e6 << " um a pixel, centre at column " << frame.center_x
+        << ", baseline at row " << frame.baseline << " of " << frame.width << " x " << frame.height
+        << " px\n"
+        << MetricsText(experiment.metrics);
+  if (experiment.noise_floor) {
+    const imaging::NoiseFloor& floor = *experiment.noise_floor;
+    print << "  noise floor (leave-one-run-out SAD) " << floor.mean_sad_px
+          << " px = " << floor.mean_sad_mm2 << " mm2 = " << 100 * floor.mean_sad_relative
+          << " % of NEBP\n";
+  }
+  for (const std::string& note : experiment.notes) print << "note: " << note << '\n';
+}
+
+}  // namespace
+
+void SetSource(const std::vector<fs::path>& inputs, bool is_map,
+               imaging::ExperimentOptions& options) {
+  if (is_map) {
+    if (inputs.size() != 1) throw base::ConfigError("--map takes one file");
+    options.map = inputs.front();
+    return;
+  }
+  if (inputs.size() == 1 && fs::is_directory(inputs.front())) {
+    options.photos = inputs.front();
+    return;
+  }
+  for (const fs::path& input : inputs) {
+    if (!fs::is_directory(input)) continue;
+    throw base::ConfigError(input.string() +
+                            ": is a folder among other inputs; give one folder, or photographs "
+                            "one by one, or --choose-mass for one folder a mass");
+  }
+  options.runs = GroupPhotos(inputs, options.pattern);
+}
+
+void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {
+  MeasureRequest complete = request;
+  SetSource(request.inputs, request.is_map, complete.experiment);
+  const imaging::Experiment experiment = imaging::MeasureExperiment(complete.experiment);
+  PrintSummary(experiment, print);
+  if (request.out.empty()) return;
+  WriteFiles(complete, experiment);
+  print << "written to " << request.out.string() << "/ (look at overlays/*.png)\n";
+}
+
+}  // namespace talus::experiments

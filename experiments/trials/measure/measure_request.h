@@ -1,0 +1,35 @@
+// What `talus measure` was asked for.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imaging/photos/experiment.h"
+
+namespace talus::experiments {
+
+struct MeasureRequest {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path out;  // nothing is written without it
+  imaging::ExperimentOptions
+      experiment;  // of photographs; `photos`, `runs`, `map` come from inputs
+  bool is_map = false;
+  std::filesystem::path like;  // folder or profile whose frame and heap spheres are compared with
+  int num_views = 16;          // of spheres
+  std::optional<double> length_unit;  // of a sphere file [m]
+};
+
+// Each measures first and writes only when everything is understood. They print a summary.
+void MeasurePhotos(const MeasureRequest& request, std::ostream& print);
+void MeasureMasses(const MeasureRequest& request, std::ostream& print);
+void MeasureSpheres(const MeasureRequest& request, std::ostream& print);
+
+// Fills `photos`, `runs` or `map` of the options from paths: one folder, one map, or photographs
+// one by one (grouped by the pattern where it fits, else views of one run).
+void SetSource(const std::vector<std::filesystem::path>& inputs, bool is_map,
+               imaging::ExperimentOptions& options);
+
+}  // namespace talus::experiments

@@ -1,0 +1,48 @@
+// One evaluation by somebody else's command: parameters as JSON on its standard input, a value or
+// an image as JSON on its standard output.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/trials/optimize/optimize_problem.h"
+#include "optimizer/models/field_objective.h"
+#include "optimizer/strategies/strategy.h"
+
+namespace talus::experiments {
+
+struct Evaluated {
+  optimizer::Observation observation;
+  std::string failure;  // why, when it failed
+};
+
+class Evaluator {
+ public:
+  // Reads the target; throws base::ConfigError when it cannot be used. `command[0]` is looked up on
+  // the PATH.
+  Evaluator(const OptimizeProblem& problem, std::vector<std::string> command);
+
+  // The objective of images; null when there is no target.
+  const optimizer::FieldObjective* field() const { return field_ ? &*field_ : nullptr; }
+
+  // What the command reads: {"mu_t": 0.3, …, "seed": 17}, one line.
+  std::string InputOf(const Eigen::VectorXd& point, std::uint64_t seed) const;
+
+  // An exit status other than 0 and the time cap are failures, which are results. Throws
+  // base::Error when the command cannot be run or its answer makes no sense: that no search can
+  // repair.
+  Evaluated Run(const Eigen::VectorXd& point, std::uint64_t seed) const;
+
+ private:
+  void TakeAnswer(const std::string& output, optimizer::Observation& observation) const;
+  void TakeImage(const std::string& output, std::vector<float> image, int width,
+                 optimizer::Observation& observation) const;
+
+  const OptimizeProblem& problem_;
+  std::vector<std::string> command_;
+  std::optional<optimizer::FieldObjective> field_;
+};
+
+}  // namespace talus::experiments

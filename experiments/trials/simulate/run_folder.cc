@@ -1,0 +1,182 @@
+#include "experiments/trials/simulate/run_folder.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/app/commands.h"
+#include "experiments/campaign/interrupt.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCheckpoint = "checkpoint.bin";
+constexpr const char* kResult = "result.json";
+
+double CpuTime() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(const engine::RunTiming& earlier) : earlier_(earlier) {}
+  double Elapsed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  engine::RunTiming Total() const {
+    return {earlier_.wall_time + Elapsed(), earlier_.cpu_time + CpuTime()};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  engine::RunTiming earlier_;
+};
+
+std::optional<nlohmann::json> ResultIn(const fs::path& folder) {
+  if (!fs::exists(folder / kResult)) return std::nullopt;
+  const auto result = nlohmann::json::parse(base::ReadFile(folder / kResult), nullptr, false);
+  if (!result.is_object()) return std::nullopt;
+  return result;
+}
+
+[[noreturn]] void RefuseFolder(const fs::path& folder, const char* what) {
+  throw base::ConfigError(folder.string() + ": holds the " + what +
+                          " of another input; choose another --out, or --fresh to replace it");
+}
+
+// True when the folder holds this input's result.
+bool IsDone(const RunJob& job, const fs::path& folder) {
+  const auto result = ResultIn(folder);
+  if (!result) return false;
+  if (result->value("input_hash", "") != base::Hex(job.input_hash)) {
+    RefuseFolder(folder, "result");
+  }
+  return result->value("status", "") == "ok";
+}
+
+struct Started {
+  std::unique_ptr<engine::Run> run;
+  engine::RunTiming earlier;
+  std::string message;
+};
+
+Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
+  const fs::path path = options.folder / kCheckpoint;
+  std::string message;
+  if (!options.fresh && fs::exists(path)) {
+    try {
+      const engine::RunCheckpoint checkpoint = engine::Unpack(base::ReadFile(path));
+      if (checkpoint.input_hash != job.input_hash) RefuseFolder(options.folder, "checkpoint");
+      Started started{.run = job.go_on(checkpoint), .earlier = checkpoint.timing, .message = ""};
+      started.message = "goes on from " + path.string();
+      return started;
+    } catch (const base::ConfigError&) {
+      throw;
+    } catch (const base::Error& error) {  // the result is the same, only later
+      message = path.string() + ": " + error.what() + "; begins anew";
+    }
+  }
+  return {.run = job.start(), .earlier = {}, .message = message};
+}
+
+void PrepareFolder(const RunJob& job, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw base::Error(folder.string() + ": cannot be made: " + error.message());
+  fs::remove(folder / kResult, error);
+  const fs::path input = folder / job.input_name;
+  const bool same = fs::equivalent(input, job.source, error);  // the user's own is left as it is
+  if (!same) base::WriteFileAtomically(input, job.input);
+}
+
+void WriteFailure(const RunJob& job, const fs::path& folder, const std::string& reason,
+                  const Stopwatch& watch) {
+  nlohmann::ordered_json result;
+  result["kind"] = job.kind;
+  result["status"] = "failed";
+  result["reason"] = reason;
+  result["talus_version"] = Version();
+  result["input_hash"] = base::Hex(job.input_hash);
+  result["timing"] = {{"wall_time_s", watch.Total().wall_time},
+                      {"cpu_time_s", watch.Total().cpu_time}};
+  base::WriteFileAtomically(folder / kResult, result.dump(2) + "\n");
+}
+
+void Report(engine::Run& run, RunLog& log) {
+  for (const std::string& message : run.TakeMessages()) log.Line(message);
+}
+
+// Slices until the end, with checkpoints in between.
+void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Stopwatch& watch,
+          RunLog& log) {
+  const InterruptGuard interrupt;
+  const auto save = [&] {
+    base::WriteFileAtomically(folder / kCheckpoint, run.Checkpoint(watch.Total()));
+  };
+  double saved = 0;
+  while (run.Advance()) {
+    Report(run, log);
+    log.Progress(run.Progress());
+    if (interrupt.Asked() != Interrupt::kNone) {
+      save();
+      throw base::Interrupted("interrupted; the same command goes on from " +
+                              (folder / kCheckpoint).string());
+    }
+    if (job.checkpoint_interval > 0 && watch.Elapsed() - saved > job.checkpoint_interval) {
+      save();
+      saved = watch.Elapsed();
+    }
+  }
+  Report(run, log);
+}
+
+std::string Summary(const engine::RunProgress& end, const engine::RunTiming& timing) {
+  char text[160];
+  std::snprintf(text, sizeof text, "done: %lld steps, %.4f s simulated, %s, %.1f Mps/s",
+                static_cast<long long>(end.step), end.time, DurationText(timing.wall_time).c_str(),
+                end.particle_steps / timing.wall_time / 1e6);
+  return text;
+}
+
+}  // namespace
+
+void DriveRun(const RunJob& job, const RunFolderOptions& options) {
+  const fs::path& folder = options.folder;
+  if (!options.fresh && IsDone(job, folder)) {
+    RunLog(folder, options.quiet).Line(folder.string() + ": is done already");
+    return;
+  }
+  Started started = StartOrGoOn(job, options);
+  PrepareFolder(job, folder);
+  RunLog log(folder, options.quiet);
+  const Stopwatch watch(started.earlier);
+  if (!started.message.empty()) log.Line(started.message);
+  try {
+    Loop(job, *started.run, folder, watch, log);
+    started.run->WriteResults(watch.Total());
+  } catch (const base::Interrupted&) {
+    throw;
+  } catch (const base::Error& error) {
+    WriteFailure(job, folder, error.what(), watch);
+    log.Line(std::string("failed: ") + error.what());
+    throw;
+  }
+  log.Line(Summary(started.run->Progress(), watch.Total()));
+  std::error_code gone;
+  fs::remove(folder / kCheckpoint, gone);
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,37 @@
+// Drives a run in its folder to the end: progress, checkpoints, interruption, results.
+//
+// A folder holds one input's run. Its checkpoint is gone on from; its result is kept.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/run/run.h"
+
+namespace talus::experiments {
+
+struct RunJob {
+  std::string kind;                // as result.json has it
+  std::uint64_t input_hash = 0;    // of what the result depends on
+  std::filesystem::path source;    // the user's file
+  std::string input_name;          // of the complete input in the folder: "case.json"
+  std::string input;               // its text
+  double checkpoint_interval = 0;  // wall-clock [s]; 0: only when interrupted
+  std::function<std::unique_ptr<engine::Run>()> start;
+  std::function<std::unique_ptr<engine::Run>(const engine::RunCheckpoint&)> go_on;
+};
+
+struct RunFolderOptions {
+  std::filesystem::path folder;
+  bool fresh = false;  // begin anew, whatever the folder holds
+  bool quiet = false;  // nothing on standard output
+};
+
+// Throws base::Interrupted after SIGINT or SIGTERM, when a checkpoint has been saved; base::Error
+// when the run fails, which result.json then says; ConfigError before anything is written.
+void DriveRun(const RunJob& job, const RunFolderOptions& options);
+
+}  // namespace talus::experiments

@@ -1,0 +1,71 @@
+#include "experiments/trials/simulate/simulate.h"
+
+#include "base/error.h"
+#include "engine/run/scene_run.h"
+#include "engine/scene/scene_json.h"
+#include "experiments/rigs/lifted_tube/heap_result.h"
+#include "experiments/rigs/lifted_tube/heap_run.h"
+#include "experiments/trials/engines/command_engine.h"
+
+namespace talus::experiments {
+namespace {
+
+void SimulateScene(const std::filesystem::path& input, const RunFolderOptions& options) {
+  const engine::LoadedScene loaded = engine::LoadScene(input);
+  const RunJob job{
+      .kind = "scene",
+      .input_hash = engine::SceneHash(loaded.spec),
+      .source = input,
+      .input_name = "scene.json",
+      .input = engine::SceneText(loaded.spec),
+      .checkpoint_interval = loaded.spec.checkpoint_interval,
+      .start =
+          [&] {
+            return std::make_unique<engine::SceneRun>(loaded.spec, loaded.scene, options.folder);
+          },
+      .go_on =
+          [&](const engine::RunCheckpoint& checkpoint) {
+            return std::make_unique<engine::SceneRun>(loaded.spec, options.folder, checkpoint);
+          }};
+  DriveRun(job, options);
+}
+
+void SimulateHeap(const std::filesystem::path& input, const RunFolderOptions& options) {
+  const HeapCase heap_case = LoadHeapCase(input);
+  const RunJob job{.kind = "heap",
+                   .input_hash = HeapCaseHash(heap_case),
+                   .source = input,
+                   .input_name = "case.json",
+                   .input = HeapCaseText(heap_case),
+                   .checkpoint_interval = heap_case.checkpoint_interval,
+                   .start = [&] { return std::make_unique<HeapRun>(heap_case, options.folder); },
+                   .go_on =
+                       [&](const engine::RunCheckpoint& checkpoint) {
+                         return std::make_unique<HeapRun>(heap_case, options.folder, checkpoint);
+                       }};
+  DriveRun(job, options);
+}
+
+void SimulateCommand(const std::filesystem::path& input, const RunFolderOptions& options) {
+  SimulateCommandCase(LoadCommandCase(input), options.folder, options.fresh);
+}
+
+constexpr InputKind kKinds[] = {
+    {"engine", "a case of another engine", &SimulateCommand},  // has "powder" too
+    {"powder", "a heap case", &SimulateHeap},
+    {"materials", "a scene", &SimulateScene},
+};
+
+}  // namespace
+
+void Simulate(const std::filesystem::path& input, const RunFolderOptions& options) {
+  const base::JsonFile file = base::ReadJsonFile(input);
+  std::string known;
+  for (const InputKind& kind : kKinds) {
+    if (file.root.is_object() && file.root.contains(kind.key)) return kind.run(input, options);
+    known += std::string(known.empty() ? "" : "; ") + kind.what + " has \"" + kind.key + "\"";
+  }
+  throw base::ConfigError(input.string() + ": is nothing that can be simulated: " + known);
+}
+
+}  // namespace talus::experiments

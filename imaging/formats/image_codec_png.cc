@@ -1,0 +1,111 @@
+#include <png.h>
+
+#include <cstring>
+
+#include "base/error.h"
+#include "imaging/formats/image_codecs.h"
+#include "imaging/formats/image_file.h"
+
+namespace talus::imaging {
+namespace {
+
+// libpng reports an error by a call that must not return; throwing through it is what its manual
+// allows C++ programs built with unwind tables, as on every platform we build for.
+void OnError(png_structp png, png_const_charp message) {
+  ThrowDamaged(*static_cast<const std::string*>(png_get_error_ptr(png)), message);
+}
+void OnWarning(png_structp, png_const_charp) {}
+
+struct Source {
+  std::string_view bytes;
+  std::size_t position = 0;
+};
+
+void ReadBytes(png_structp png, png_bytep out, png_size_t count) {
+  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+  if (source.bytes.size() - source.position < count) png_error(png, "ends early");
+  std::memcpy(out, source.bytes.data() + source.position, count);
+  source.position += count;
+}
+
+struct Reader {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  explicit Reader(const std::string& name)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<std::string*>(&name), OnError,
+                                   OnWarning)),
+        info(png_create_info_struct(png)) {}
+  Reader(const Reader&) = delete;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+// Palettes become RGB, packed grey becomes 8 bits, a transparent colour becomes alpha.
+void ReadHeader(Reader& reader, Source& source, RawImage& image, const std::string& name) {
+  png_set_read_fn(reader.png, &source, ReadBytes);
+  png_read_info(reader.png, reader.info);
+  CheckImageSize(png_get_image_width(reader.png, reader.info),
+                 png_get_image_height(reader.png, reader.info), name);
+  png_set_expand(reader.png);
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
+  image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
+  image.channels = png_get_channels(reader.png, reader.info);
+  image.bits = png_get_bit_depth(reader.png, reader.info);
+}
+
+void Append(png_structp png, png_bytep data, png_size_t count) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(data), count);
+}
+
+std::string Encode(const std::uint8_t* pixels, int width, int height, int channels) {
+  const std::string name = "a PNG in memory";
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, const_cast<std::string*>(&name),
+                                            OnError, OnWarning);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &bytes, Append, nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
+               channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  const std::size_t stride = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+  for (int y = 0; y < height; ++y) {
+    png_write_row(png, pixels + static_cast<std::size_t>(y) * stride);
+  }
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
+}  // namespace
+
+RawImage DecodePng(std::string_view bytes, const std::string& name) {
+  RawImage image;
+  Source source{.bytes = bytes};
+  Reader reader(name);
+  ReadHeader(reader, source, image, name);
+  const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
+  std::vector<png_byte> data(stride * static_cast<std::size_t>(image.height));
+  std::vector<png_bytep> rows;
+  for (int y = 0; y < image.height; ++y)
+    rows.push_back(&data[static_cast<std::size_t>(y) * stride]);
+  png_read_image(reader.png, rows.data());
+  image.samples.resize(image.num_samples());
+  for (std::size_t i = 0; i < image.samples.size(); ++i) {
+    image.samples[i] =
+        image.bits == 8 ? data[i] : static_cast<std::uint16_t>(data[2 * i] << 8 | data[2 * i + 1]);
+  }
+  return image;
+}
+
+std::string EncodePng(const GrayImage& image) {
+  return Encode(image.pixels.data(), image.width, image.height, 1);
+}
+
+std::string EncodePng(const ColorImage& image) {
+  return Encode(image.pixels.empty() ? nullptr : image.pixels[0].data(), image.width, image.height,
+                3);
+}
+
+}  // namespace talus::imaging

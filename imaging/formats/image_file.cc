@@ -1,0 +1,82 @@
+#include "imaging/formats/image_file.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "imaging/formats/image_codecs.h"
+
+namespace talus::imaging {
+namespace {
+
+RawImage Decode(std::string_view bytes, const std::string& name) {
+  if (bytes.starts_with("\x89PNG")) return DecodePng(bytes, name);
+  if (bytes.starts_with("\xff\xd8\xff")) return DecodeJpeg(bytes, name);
+  if (bytes.starts_with(std::string_view("II*\0", 4)) ||
+      bytes.starts_with(std::string_view("MM\0*", 4))) {
+    return DecodeTiff(bytes, name);
+  }
+  if (bytes.starts_with("BM")) return DecodeBmp(bytes, name);
+  throw base::ConfigError(name + ": " + (bytes.empty() ? "is empty" : "is no image we can read") +
+                          "; give a PNG, JPEG, TIFF or BMP file");
+}
+
+// Cameras store 10, 12 or 14 bits in 16; the largest sample tells which.
+double WhiteLevel(const RawImage& raw) {
+  if (raw.bits == 8) return 255;
+  const std::uint16_t largest = *std::max_element(raw.samples.begin(), raw.samples.end());
+  for (const int bits : {10, 12, 14}) {
+    const int white = (1 << bits) - 1;
+    if (largest > 255 && largest <= white) return white;
+  }
+  return 65535;
+}
+
+// Luma over white, in 0 … 1.
+double Luma(const std::uint16_t* s, int channels, double white) {
+  const bool color = channels >= 3;
+  const double luma = color ? (0.299 * s[0] + 0.587 * s[1] + 0.114 * s[2]) / white : s[0] / white;
+  if (channels % 2 == 1) return luma;
+  const double alpha = s[channels - 1] / white;
+  return luma * alpha + 1 - alpha;
+}
+
+template <class Image>
+void WriteAnyPng(const std::filesystem::path& path, const Image& image) {
+  base::WriteFileAtomically(path, EncodePng(image));
+}
+
+}  // namespace
+
+ColorImage ToColor(const GrayImage& gray) {
+  ColorImage color{.width = gray.width, .height = gray.height, .pixels = {}};
+  color.pixels.reserve(gray.pixels.size());
+  for (const std::uint8_t level : gray.pixels) color.pixels.push_back({level, level, level});
+  return color;
+}
+
+GrayImage DecodeGrayImage(std::string_view bytes, const std::string& name) {
+  const RawImage raw = Decode(bytes, name);
+  const double white = WhiteLevel(raw);
+  GrayImage gray{.width = raw.width, .height = raw.height, .pixels = {}};
+  const auto channels = static_cast<std::size_t>(raw.channels);
+  gray.pixels.resize(raw.samples.size() / channels);
+  for (std::size_t i = 0; i < gray.pixels.size(); ++i) {
+    const double luma = Luma(&raw.samples[i * channels], raw.channels, white);
+    gray.pixels[i] = static_cast<std::uint8_t>(std::clamp(luma, 0.0, 1.0) * 255 + 0.5);
+  }
+  return gray;
+}
+
+GrayImage ReadGrayImage(const std::filesystem::path& path) {
+  return DecodeGrayImage(base::ReadFile(path), path.string());
+}
+
+void WritePng(const std::filesystem::path& path, const GrayImage& image) {
+  WriteAnyPng(path, image);
+}
+void WritePng(const std::filesystem::path& path, const ColorImage& image) {
+  WriteAnyPng(path, image);
+}
+
+}  // namespace talus::imaging

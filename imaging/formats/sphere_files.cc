@@ -1,0 +1,68 @@
+#include "imaging/formats/sphere_files.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "imaging/formats/sphere_formats.h"
+#include "imaging/formats/text_cursor.h"
+
+namespace talus::imaging {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<base::Sphere> ReadParts(const fs::path& path, const std::vector<fs::path>& parts,
+                                    const SphereFileOptions& options) {
+  std::vector<base::Sphere> spheres;
+  for (const fs::path& part : parts) {
+    // A part is never a list of parts again; this also ends a file that names itself.
+    if (!part.has_extension() || part.extension().string().starts_with(".p")) {
+      throw base::ConfigError(path.string() + ": names the part \"" + part.string() +
+                              "\", which is not a .vtp or .vtu file");
+    }
+    const auto more = ReadSpheres(path.parent_path() / part, options);
+    spheres.insert(spheres.end(), more.begin(), more.end());
+  }
+  return spheres;
+}
+
+std::vector<base::Sphere> Parse(const fs::path& path, std::string_view text,
+                                const SphereFileOptions& options) {
+  const std::string file = path.string();
+  const std::string_view start = Trimmed(text.substr(0, 4096));
+  const double unit = options.length_unit.value_or(1);
+  if (start.empty()) throw base::ConfigError(file + ": is empty");
+  if (start.starts_with("ITEM:")) return ReadDump(text, file, options);
+  if (start.starts_with("# vtk DataFile")) return SpheresOf(ReadVtkLegacy(text, file), file, unit);
+  if (start.starts_with('<')) {
+    const VtkXml xml = ReadVtkXml(text, file);
+    if (!xml.parts.empty()) return ReadParts(path, xml.parts, options);
+    return SpheresOf(xml.cloud, file, unit);
+  }
+  if (start.find('\0') != std::string_view::npos) {
+    throw base::ConfigError(file +
+                            ": is neither text nor VTK; CSV, text dumps of LIGGGHTS or LAMMPS, "
+                            "VTK legacy, VTP and VTU are read");
+  }
+  return ReadSphereCsv(text, file, options);
+}
+
+}  // namespace
+
+std::vector<base::Sphere> ReadSpheres(const fs::path& path, const SphereFileOptions& options) {
+  const std::string text = base::ReadFile(path);
+  std::vector<base::Sphere> spheres = Parse(path, text, options);
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    if (IsFinite(spheres[i].position) && std::isfinite(spheres[i].radius) &&
+        spheres[i].radius > 0) {
+      continue;
+    }
+    throw base::ConfigError(path.string() + ": sphere " + std::to_string(i + 1) +
+                            " has a position that is not finite or a radius that is not positive");
+  }
+  return spheres;
+}
+
+}  // namespace talus::imaging

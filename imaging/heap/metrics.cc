@@ -1,0 +1,199 @@
+#include "imaging/heap/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "imaging/heap/outline.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;  // [rad]
+
+Measured InDegrees(Measured angle) {
+  angle.value /= kDegree;
+  angle.standard_error /= kDegree;
+  return angle;
+}
+
+double SquareMillimetres(double pixels, const Frame& frame) {
+  const double pixel = frame.pixel_size * 1e3;  // [mm]
+  return pixels * pixel * pixel;
+}
+
+Measured Rmse(const GrayImage& a, const GrayImage& b, const std::optional<Region>& region) {
+  const Region where =
+      region.value_or(Region{.left = 0, .top = 0, .width = a.width, .height = a.height});
+  if (where.left + where.width > a.width || where.top + where.height > a.height) {
+    return NotDefined("the region is not within the image");
+  }
+  double squares = 0;
+  for (int y = where.top; y < where.top + where.height; ++y) {
+    for (int x = where.left; x < where.left + where.width; ++x) {
+      const double difference = a.at(x, y) - b.at(x, y);
+      squares += difference * difference;
+    }
+  }
+  return Defined(std::sqrt(squares / where.width / where.height));
+}
+
+Measured Iou(const GrayImage& a, const GrayImage& b) {
+  double both = 0;
+  double either = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    both += 255 - std::max(a.pixels[i], b.pixels[i]);
+    either += 255 - std::min(a.pixels[i], b.pixels[i]);
+  }
+  return either > 0 ? Defined(both / either) : NotDefined("both heaps are empty");
+}
+
+// Plate diameter [px].
+double BaseWidth(const Frame& frame) { return frame.plate_diameter / frame.pixel_size; }
+
+Measured TriangleAngle(const Profile& profile) {
+  const double area = Nebp(profile.image);
+  if (!(area > 0)) return NotDefined("the heap is empty");
+  const double base = BaseWidth(profile.frame);
+  return Defined(std::atan(4 * area / (base * base)));
+}
+
+Measured CohesiveIndex(const Profile& profile) {
+  const Outline outline = FindOutline(profile.image, profile.frame);
+  if (outline.empty()) return NotDefined("the heap is empty");
+  double area = 0;
+  for (const double height : outline.height) area += height;
+  const double half_base = BaseWidth(profile.frame) / 2;
+  const double top = area / half_base;  // height of the triangle of the outline's area
+  double deviation = 0;
+  for (std::size_t i = 0; i < outline.height.size(); ++i) {
+    const double across = std::abs(static_cast<double>(i) + 0.5 - profile.frame.center_x);
+    const double triangle = top * std::max(1 - across / half_base, 0.0);
+    deviation += std::abs(outline.height[i] - triangle);
+  }
+  return Defined(deviation / area);
+}
+
+struct Named {
+  std::string name;
+  std::string unit;
+  Measured value;
+};
+
+// What one heap alone has, in the order of the list.
+std::vector<Named> Describe(const HeapImages& heap, const MetricOptions& options) {
+  const Profile& profile = heap.profile;
+  const double nebp = Nebp(profile.image);
+  std::vector<Named> list{{"nebp_px", "px", Defined(nebp)},
+                          {"nebp_mm2", "mm2", Defined(SquareMillimetres(nebp, profile.frame))}};
+  const ReposeAngles angles = MeasureRepose(profile, heap.parts, options.repose);
+  for (std::size_t method = 0; method < angles.size(); ++method) {
+    const std::string name = "repose_angle_" + std::to_string(method + 1) + "_";
+    list.push_back({name + "left_deg", "deg", InDegrees(angles[method].left)});
+    list.push_back({name + "right_deg", "deg", InDegrees(angles[method].right)});
+    list.push_back({name + "mean_deg", "deg", InDegrees(angles[method].mean)});
+  }
+  list.push_back({"triangle_angle_deg", "deg", InDegrees(TriangleAngle(profile))});
+  list.push_back({"static_cohesive_index", "-", CohesiveIndex(profile)});
+  return list;
+}
+
+// What compares two.
+std::vector<Metric> Differences(const Profile& heap, const Profile& reference,
+                                const MetricOptions& options) {
+  const double sad = Sad(heap.image, reference.image);
+  const double nebp = Nebp(reference.image);
+  const Measured relative =
+      nebp > 0 ? Defined(sad / nebp) : NotDefined("the reference heap is empty");
+  return {{"sad_mm2", "mm2", Defined(SquareMillimetres(sad, heap.frame)), Defined(0)},
+          {"sad_relative", "-", relative, Defined(0)},
+          {"sad_px", "px", Defined(sad), Defined(0)},
+          {"rmse_gray", "gray", Rmse(heap.image, reference.image, options.rmse_region), Defined(0)},
+          {"iou", "-", Iou(heap.image, reference.image), Defined(1)}};
+}
+
+std::string Text(const Frame& frame) {
+  std::ostringstream text;
+  text.precision(10);
+  text << frame.width << " x " << frame.height << " px of " << frame.pixel_size
+       << " m, plate centre at column " << frame.center_x << ", baseline at row " << frame.baseline;
+  return text.str();
+}
+
+}  // namespace
+
+void Region::Validate(base::Problems& problems) const {
+  problems.Require(left >= 0, "left_px", left, "must not be negative");
+  problems.Require(top >= 0, "top_px", top, "must not be negative");
+  problems.Require(width > 0, "width_px", width, "must be positive");
+  problems.Require(height > 0, "height_px", height, "must be positive");
+}
+
+double Nebp(const GrayImage& image) {
+  std::int64_t sum = 0;
+  for (const std::uint8_t level : image.pixels) sum += 255 - level;
+  return static_cast<double>(sum) / 255;
+}
+
+double Sad(const GrayImage& a, const GrayImage& b) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+  return static_cast<double>(sum) / 255;
+}
+
+void RequireSameFrame(const Frame& a, const Frame& b) {
+  const auto close = [](double x, double y, double tolerance) {
+    return std::abs(x - y) <= tolerance;
+  };
+  if (a.width == b.width && a.height == b.height &&
+      close(a.pixel_size, b.pixel_size, 1e-6 * b.pixel_size) &&
+      close(a.center_x, b.center_x, 1e-3) && close(a.baseline, b.baseline, 1e-3)) {
+    return;
+  }
+  throw base::ConfigError("the two profiles cannot be compared pixel by pixel: one has " + Text(a) +
+                          ", the other " + Text(b) + "; project the heap in the frame of the AEHP");
+}
+
+std::vector<Metric> DescribeProfile(const HeapImages& heap, const MetricOptions& options) {
+  std::vector<Metric> metrics;
+  for (Named& own : Describe(heap, options)) {
+    metrics.push_back({std::move(own.name), std::move(own.unit), std::move(own.value),
+                       NotDefined("there is no reference")});
+  }
+  return metrics;
+}
+
+std::vector<Metric> CompareProfiles(const HeapImages& heap, const HeapImages& reference,
+                                    const MetricOptions& options) {
+  RequireSameFrame(heap.profile.frame, reference.profile.frame);
+  std::vector<Metric> metrics = Differences(heap.profile, reference.profile, options);
+  std::vector<Named> own = Describe(heap, options);
+  std::vector<Named> other = Describe(reference, options);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    metrics.push_back({std::move(own[i].name), std::move(own[i].unit), std::move(own[i].value),
+                       std::move(other[i].value)});
+  }
+  return metrics;
+}
+
+std::vector<std::string> MetricNames() {
+  const HeapImages empty{.profile = {.image = {.width = 1, .height = 1, .pixels = {255}},
+                                     .frame = {.width = 1, .height = 1, .pixel_size = 1}},
+                         .parts = {}};
+  std::vector<std::string> names;
+  for (const Metric& metric : CompareProfiles(empty, empty)) names.push_back(metric.name);
+  return names;
+}
+
+const Metric& FindMetric(const std::vector<Metric>& metrics, const std::string& name) {
+  for (const Metric& metric : metrics) {
+    if (metric.name == name) return metric;
+  }
+  throw std::out_of_range("no metric " + name);
+}
+
+}  // namespace talus::imaging

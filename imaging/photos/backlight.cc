@@ -1,0 +1,208 @@
+#include "imaging/photos/backlight.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr int kLongestSide = 100;        // of the thinned picture that the background is fitted on
+constexpr double kBlackest = 12;         // a picture without brighter pixels is black [grey levels]
+constexpr double kLeastContrast = 0.15;  // of powder and plate to the background [-]
+constexpr double kFaintest = 0.03;       // of the background, over its maximum
+constexpr double kSurelyLight = 0.8;     // relative brightness that the last rounds ask for
+
+// Terms x^i y^j with i + j <= degree.
+constexpr std::size_t kMostTerms = 15;
+constexpr int NumTerms(int degree) { return (degree + 1) * (degree + 2) / 2; }
+
+std::array<double, kMostTerms> Terms(double x, double y, int degree) {
+  std::array<double, kMostTerms> terms{1};
+  std::size_t count = 1;
+  for (int total = 1; total <= degree; ++total) {  // each row from the one before: x times, y times
+    const std::size_t row = count - static_cast<std::size_t>(total);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(total); ++i) {
+      terms[count++] = x * terms[row + i];
+    }
+    terms[count] = y * terms[count - static_cast<std::size_t>(total) - 1];
+    ++count;
+  }
+  return terms;
+}
+
+// Means of square blocks: the light varies slowly, and the noise averages out.
+struct Thinned {
+  int block = 1;  // [px]
+  RelativeImage image;
+};
+
+Thinned Thin(const GrayImage& photo) {
+  Thinned thin;
+  thin.block = std::max(1, std::max(photo.width, photo.height) / kLongestSide);
+  thin.image.width = std::max(1, photo.width / thin.block);
+  thin.image.height = std::max(1, photo.height / thin.block);
+  const int block_x = std::min(thin.block, photo.width);
+  const int block_y = std::min(thin.block, photo.height);
+  for (int y = 0; y < thin.image.height; ++y) {
+    for (int x = 0; x < thin.image.width; ++x) {
+      double sum = 0;
+      for (int j = 0; j < block_y; ++j) {
+        for (int i = 0; i < block_x; ++i) sum += photo.at(x * thin.block + i, y * thin.block + j);
+      }
+      thin.image.pixels.push_back(static_cast<float>(sum / block_x / block_y));
+    }
+  }
+  return thin;
+}
+
+// In coordinates that run from -1 to 1 across the picture.
+class Background {
+ public:
+  Background(const RelativeImage& image, const std::vector<bool>& light, int degree)
+      : degree_(degree), coefficients_(Eigen::VectorXd::Zero(NumTerms(degree))) {
+    const int n = NumTerms(degree);
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(n, n) * 1e-9;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+    std::size_t pixel = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x, ++pixel) {
+        if (!light[pixel]) continue;
+        const auto terms =
+            Terms(Normalised(x + 0.5, image.width), Normalised(y + 0.5, image.height), degree);
+        const Eigen::Map<const Eigen::VectorXd> row(terms.data(), n);
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
+        right += row * static_cast<double>(image.pixels[pixel]);
+      }
+    }
+    coefficients_ = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  }
+
+  static double Normalised(double at, int size) { return 2 * at / size - 1; }
+
+  double At(double x, double y) const {
+    const auto terms = Terms(x, y, degree_);
+    return coefficients_.dot(Eigen::Map<const Eigen::VectorXd>(terms.data(), coefficients_.size()));
+  }
+
+ private:
+  int degree_;
+  Eigen::VectorXd coefficients_;
+};
+
+std::vector<float> Relative(const RelativeImage& image, const Background& background) {
+  std::vector<float> relative;
+  relative.reserve(image.pixels.size());
+  double brightest = 0;
+  for (const float level : image.pixels)
+    brightest = std::max(brightest, static_cast<double>(level));
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double light = background.At(Background::Normalised(x + 0.5, image.width),
+                                         Background::Normalised(y + 0.5, image.height));
+      relative.push_back(
+          static_cast<float>(image.at(x, y) / std::max(light, kFaintest * brightest)));
+    }
+  }
+  return relative;
+}
+
+Background FitBackground(const RelativeImage& image) {
+  std::vector<float> relative = image.pixels;
+  double above = SplitByOtsu(relative).middle();
+  Background background(image, std::vector<bool>(image.pixels.size(), true), 0);
+  for (const int degree : {1, 2, 2, 4, 4, 4}) {
+    std::vector<bool> light(relative.size());
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = relative[i] > above;
+    background = Background(image, light, degree);
+    relative = Relative(image, background);
+    above = SplitByOtsu(relative).middle();
+    if (degree == 4) above = std::max(above, kSurelyLight);
+  }
+  return background;
+}
+
+// The background is linear between every kStep-th column: as good as the polynomial and quicker.
+RelativeImage Divide(const GrayImage& photo, const Background& background) {
+  RelativeImage image{.width = photo.width, .height = photo.height, .pixels = {}};
+  image.pixels.reserve(photo.pixels.size());
+  std::vector<double> coarse;  // background at every kStep-th column of a row
+  constexpr int kStep = 16;
+  const auto light = [&](int x, int y) {
+    return std::max(background.At(Background::Normalised(x + 0.5, photo.width),
+                                  Background::Normalised(y + 0.5, photo.height)),
+                    255 * kFaintest);
+  };
+  for (int y = 0; y < photo.height; ++y) {
+    coarse.clear();
+    for (int x = 0; x < photo.width + kStep; x += kStep) coarse.push_back(light(x, y));
+    for (int x = 0; x < photo.width; ++x) {
+      const auto cell = static_cast<std::size_t>(x / kStep);
+      const double share = static_cast<double>(x % kStep) / kStep;
+      const double here = coarse[cell] + share * (coarse[cell + 1] - coarse[cell]);
+      image.pixels.push_back(static_cast<float>(photo.at(x, y) / here));
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+TwoClasses SplitByOtsu(const std::vector<float>& values) {
+  constexpr std::size_t kBins = 512;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double range = std::max(static_cast<double>(*high) - *low, 1e-9);
+  std::array<double, kBins> count{};
+  std::array<double, kBins> sum{};
+  double total = 0;
+  for (const float value : values) {
+    const auto bin = static_cast<std::size_t>((value - *low) / range * (kBins - 1));
+    count[bin] += 1;
+    sum[bin] += value;
+    total += value;
+  }
+  TwoClasses best{.dark = *low, .light = *high};
+  double best_variance = -1;
+  double dark_count = 0;
+  double dark_sum = 0;
+  for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
+    dark_count += count[bin];
+    dark_sum += sum[bin];
+    const double light_count = static_cast<double>(values.size()) - dark_count;
+    if (!(dark_count > 0) || !(light_count > 0)) continue;
+    const TwoClasses classes{.dark = dark_sum / dark_count,
+                             .light = (total - dark_sum) / light_count};
+    const double gap = classes.light - classes.dark;
+    const double variance = dark_count * light_count * gap * gap;
+    if (variance > best_variance) {
+      best_variance = variance;
+      best = classes;
+    }
+  }
+  return best;
+}
+
+BacklitPhoto FlattenPhoto(const GrayImage& photo, std::optional<double> threshold,
+                          const std::string& name) {
+  const auto brightest = *std::max_element(photo.pixels.begin(), photo.pixels.end());
+  if (brightest < kBlackest) {
+    throw base::ConfigError(name +
+                            ": is black everywhere; take the photograph again with the "
+                            "light behind the heap switched on");
+  }
+  BacklitPhoto flat;
+  flat.image = Divide(photo, FitBackground(Thin(photo).image));
+  const TwoClasses classes = SplitByOtsu(flat.image.pixels);
+  if (classes.light - classes.dark < kLeastContrast) {
+    throw base::ConfigError(name +
+                            ": shows nothing darker than its background; check that heap "
+                            "and plate are in the picture, with the light behind them");
+  }
+  flat.threshold = threshold.value_or(classes.middle());
+  return flat;
+}
+
+}  // namespace talus::imaging

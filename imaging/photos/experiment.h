@@ -1,0 +1,113 @@
+// From an experiment's photographs, or a map someone has made of them, to the AEHP.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "imaging/heap/metrics.h"
+#include "imaging/heap/profile.h"
+#include "imaging/photos/plate_fit.h"
+
+namespace talus::imaging {
+
+// The photographs of one heap, one a view.
+struct PhotoRun {
+  std::string name;
+  std::vector<std::filesystem::path> photos;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name, {.required = true, .doc = "what messages and tables call the run"});
+    visit("photos", self.photos, {.required = true, .doc = "its photographs, one a view"});
+  }
+};
+
+// Exactly one of `photos`, `runs` and `map` says where the images are.
+struct ExperimentOptions {
+  std::filesystem::path photos;                   // folder
+  std::string pattern = "run{run}_view{view}.*";  // of the file names in it
+  std::vector<PhotoRun> runs;                     // or the photographs one by one
+  std::filesystem::path map;                      // or the grey average, black = powder
+  int map_heaps = 1;                              // so many heaps the map is the average of, > 0
+  double plate_diameter = 0;                      // [m], > 0
+  std::optional<Frame> frame;                     // where the plate is, instead of finding it
+  double tilt = 0;  // of the plate, with `frame` [rad], > 0 if its right end is lower
+  std::optional<double> pixel_size;  // of the profiles [m]; as photographed without it
+  std::optional<double> threshold;   // darker than this share of the background is powder, in (0,
+                                     // 1); found by Otsu's method without it
+  bool allow_missing_views = false;  // go on without views that are missing or unusable
+  MetricOptions metrics;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    using base::Dimension;
+    visit("photos", self.photos, {.doc = "folder with the photographs"});
+    visit("pattern", self.pattern,
+          {.doc = "file names in `photos`: {run} and {view} stand for numbers or words, * for "
+                  "anything"});
+    visit("runs", self.runs, {.doc = "the photographs of each run, instead of `photos`"});
+    visit("map", self.map, {.doc = "a grey average map (black = powder), instead of photographs"});
+    visit("map_heaps", self.map_heaps,
+          {.doc = "of how many heaps (runs, not views) the map is the average, 1 or more: what is "
+                  "not known of the mean heap widens the credible ranges"});
+    visit("plate_diameter", self.plate_diameter,
+          {.dimension = Dimension::kLength, .required = true, .doc = "plate diameter, > 0"});
+    visit("frame", self.frame, {.doc = "where the plate is, instead of finding it in the images"});
+    visit("tilt", self.tilt,
+          {.dimension = Dimension::kAngle,
+           .doc = "with `frame`: tilt of the plate, > 0 if its right end is lower"});
+    visit("pixel_size", self.pixel_size,
+          {.dimension = Dimension::kLength,
+           .doc = "pixel size of the profiles; as photographed without it"});
+    visit("threshold", self.threshold,
+          {.doc = "darker than this share of the background is powder, in (0, 1); found by Otsu's "
+                  "method without it"});
+    visit("allow_missing_views", self.allow_missing_views,
+          {.doc = "go on without views that are missing or unusable"});
+    visit("metrics", self.metrics, {.doc = "how the profiles are measured"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+struct MeasuredView {
+  std::filesystem::path photo;
+  PlatePose plate;      // of this photograph
+  double nebp = 0;      // [px] of the AEHP's frame
+  ReposeAngles angles;  // of this silhouette
+};
+
+struct MeasuredRun {
+  std::string name;
+  Profile profile;  // mean of its views
+  std::vector<MeasuredView> views;
+};
+
+// What the heap's own scatter from run to run leaves as difference.
+struct NoiseFloor {
+  std::vector<double> sad_px;  // a run: SAD of its profile and the mean of the others
+  double mean_sad_px = 0;
+  double mean_sad_mm2 = 0;
+  double mean_sad_relative = 0;  // / NEBP of the AEHP
+};
+
+struct Experiment {
+  Profile aehp;
+  double photo_pixel = 0;                 // pixel size of the photographs [m], 0 for a map
+  std::vector<MeasuredRun> runs;          // none for a map
+  GrayImage standard_deviation;           // over the runs [grey levels], empty for fewer than two
+  std::optional<NoiseFloor> noise_floor;  // for two runs or more
+  std::vector<Metric> metrics;            // DescribeProfile of the AEHP; errors from run to run
+  std::vector<std::string> notes;         // what was left out or is doubtful, in words
+
+  // The AEHP with its runs as parts: what CompareProfiles takes as reference.
+  HeapImages Images() const;
+};
+
+// Throws ConfigError that names the file and what to do.
+Experiment MeasureExperiment(const ExperimentOptions& options);
+
+}  // namespace talus::imaging

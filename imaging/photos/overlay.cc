@@ -1,0 +1,81 @@
+#include "imaging/photos/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "imaging/photos/backlight.h"
+#include "imaging/photos/canvas.h"
+#include "imaging/photos/silhouette.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr Color kRed{230, 30, 30};
+constexpr Color kBlue{40, 90, 240};
+constexpr Color kGreen{0, 170, 60};
+constexpr int kWidest = 1300;  // enlarged as long as it stays narrower [px]
+
+// From the plate's coordinates (along it and down from the middle of its top) to the canvas.
+class OnPhoto {
+ public:
+  OnPhoto(const PlatePose& plate, int zoom)
+      : plate_(plate), zoom_(zoom), cosine_(std::cos(plate.tilt)), sine_(std::sin(plate.tilt)) {}
+  CanvasPoint At(double along, double down) const {
+    return {.x = zoom_ * (plate_.center_x + along * cosine_ - down * sine_),
+            .y = zoom_ * (plate_.baseline + along * sine_ + down * cosine_)};
+  }
+
+ private:
+  const PlatePose& plate_;
+  int zoom_;
+  double cosine_;
+  double sine_;
+};
+
+// The border between powder and light, in the frame's pixels: found on a doubled image, so that it
+// runs along pixel edges.
+std::vector<std::vector<cv::Point>> Outlines(const GrayImage& silhouette) {
+  const cv::Mat gray(silhouette.height, silhouette.width, CV_8U,
+                     const_cast<std::uint8_t*>(silhouette.pixels.data()));
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(gray < 128, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+  return outlines;
+}
+
+}  // namespace
+
+ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const GrayImage& silhouette,
+                       const Frame& frame) {
+  const int zoom = std::max(1, kWidest / photo.width);
+  ColorImage canvas = MakeCanvas(zoom * photo.width, zoom * photo.height);
+  Paste(ToColor(photo), zoom, 0, 0, canvas);
+  const OnPhoto on(plate, zoom);
+  const double scale = plate.width * frame.pixel_size / frame.plate_diameter;  // photo / frame px
+  for (const auto& outline : Outlines(silhouette)) {
+    std::vector<CanvasPoint> points;
+    for (const cv::Point& p : outline) {
+      points.push_back(
+          on.At(scale * (p.x + 0.5 - frame.center_x), scale * (p.y + 0.5 - frame.baseline)));
+    }
+    DrawPolygon(canvas, points, {.color = kRed});
+  }
+  const double half = plate.width / 2;
+  const double depth = 0.15 * plate.width;
+  DrawLine(canvas, on.At(-half, 0), on.At(-half, depth), {.color = kBlue});
+  DrawLine(canvas, on.At(half, 0), on.At(half, depth), {.color = kBlue});
+  DrawLine(canvas, on.At(-1.2 * half, 0), on.At(1.2 * half, 0), {.color = kGreen});
+  DrawLine(canvas, on.At(0, -0.03 * half), on.At(0, 0.1 * half), {.color = kGreen});
+  return canvas;
+}
+
+ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
+                     double photo_pixel) {
+  const GrayImage photo = ReadGrayImage(view.photo);
+  const BacklitPhoto flat = FlattenPhoto(photo, options.threshold, view.photo.string());
+  return DrawOverlay(photo, view.plate, MakeSilhouette(flat, view.plate, photo_pixel, frame),
+                     frame);
+}
+
+}  // namespace talus::imaging

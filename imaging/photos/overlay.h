@@ -1,0 +1,18 @@
+// What was found in a photograph, drawn over it: the powder's outline, the plate, the baseline.
+#pragma once
+
+#include "imaging/formats/image_file.h"
+#include "imaging/photos/experiment.h"
+
+namespace talus::imaging {
+
+// `silhouette` is of `frame`; small photographs are enlarged so that a pixel's error shows. Red:
+// the powder's outline; blue: the plate's sides; green: the baseline, and the plate's middle.
+ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const GrayImage& silhouette,
+                       const Frame& frame);
+
+// The overlay of one measured photograph, which is read again.
+ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
+                     double photo_pixel);
+
+}  // namespace talus::imaging

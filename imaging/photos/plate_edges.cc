@@ -1,0 +1,212 @@
+#include "imaging/photos/plate_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "imaging/photos/side_lines.h"
+#include "imaging/photos/tilted_view.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kAsWide = 0.9;           // of the widest: still a candidate for the plate
+constexpr double kLeastThick = 0.015;     // rows with straight sides / width
+constexpr int kTrimmed = 2;               // rows at the ends of a side that the lens has rounded
+constexpr double kOffLine = 0.75;         // where a side has left its line [px]
+constexpr double kNearLine = 1.0;         // how far a point of the lower edge may be from it [px]
+constexpr std::size_t kFewestLower = 10;  // points that make a lower edge
+
+constexpr int kCornerFrom = 2;            // distances from the side, where the outline next to a
+constexpr int kCornerTo = 14;             // corner is looked at [px]
+constexpr double kSteepest = 2.5;         // step between neighbours of one straight outline [px]
+constexpr std::size_t kFewestCorner = 6;  // neighbours that make a straight outline
+constexpr double kCornerRms = 0.25;       // of them to a line [px]
+
+[[noreturn]] void ThrowNoPlate(const std::string& name) {
+  throw base::ConfigError(
+      name +
+      ": no plate found (two straight parallel sides below the heap, clear of the image's border); "
+      "check that the plate is in the picture and sharp, give its place with \"frame\", or leave "
+      "the photograph out");
+}
+
+const StraightSides* ChoosePlate(const std::vector<StraightSides>& straight) {
+  double widest = 0;
+  for (const StraightSides& sides : straight) widest = std::max(widest, sides.width());
+  const StraightSides* plate = nullptr;
+  for (const StraightSides& sides : straight) {
+    const bool thick = sides.last - sides.first + 1 >= kLeastThick * sides.width();
+    if (thick && sides.width() >= kAsWide * widest) plate = &sides;
+  }
+  return plate;
+}
+
+struct Line {
+  double at_zero = 0;
+  double rms = 0;
+};
+
+Line FitLine(const std::vector<EdgePoint>& points) {
+  const auto n = static_cast<double>(points.size());
+  double mean_x = 0, mean_y = 0;
+  for (const EdgePoint& p : points) {
+    mean_x += p.x / n;
+    mean_y += p.y / n;
+  }
+  double sxx = 0, sxy = 0, syy = 0;
+  for (const EdgePoint& p : points) {
+    sxx += (p.x - mean_x) * (p.x - mean_x);
+    sxy += (p.x - mean_x) * (p.y - mean_y);
+    syy += (p.y - mean_y) * (p.y - mean_y);
+  }
+  const double slope = sxy / sxx;
+  return {.at_zero = mean_y - slope * mean_x,
+          .rms = std::sqrt(std::max(syy - slope * sxy, 0.0) / n)};
+}
+
+// `side` -1 left, +1 right; `end` where the side ends, to about a pixel. Going up from inside the
+// plate meets light at a bare top or at a straight slope; the first powder that stands off the line
+// ends the search.
+PlateCorner FindCorner(const TiltedView& tilted, const EdgePoint& end, int side) {
+  constexpr double kBelow = 6;     // start, below the end [px]
+  constexpr double kReach = 45;    // upwards [px]
+  std::vector<EdgePoint> outline;  // x inwards from the side, y up from `end`
+  for (int distance = kCornerFrom; distance <= kCornerTo; ++distance) {
+    const EdgePoint start = tilted.Point(end, -side * distance, -kBelow);
+    const std::optional<double> way = tilted.DarkUntil(start, 0.5, kReach);
+    if (!way) break;
+    const double up = *way - kBelow;
+    if (!outline.empty() && std::abs(up - outline.back().y) > kSteepest) break;
+    outline.push_back({.x = static_cast<double>(distance), .y = up});
+  }
+  if (outline.size() < kFewestCorner) return {.point = end, .sharp = false};
+  const Line line = FitLine(outline);
+  constexpr double kFarthest = 4;  // a corner farther from the end is something else [px]
+  if (line.rms > kCornerRms || std::abs(line.at_zero) > kFarthest) {
+    return {.point = end, .sharp = false};
+  }
+  return {.point = tilted.Point(end, 0, line.at_zero), .sharp = true};
+}
+
+// Down from the middle of the plate's sides, under every column.
+std::vector<EdgePoint> FindLower(const TiltedView& tilted, const StraightSides& plate, int height) {
+  std::vector<EdgePoint> lower;
+  if (plate.last >= height - 3) return lower;
+  const double row = (plate.first + plate.last + 1) / 2.0;
+  const EdgePoint middle{.x = (plate.LeftAt(row) + plate.RightAt(row)) / 2, .y = row};
+  const double half = plate.width() / 2 - 4;
+  const double expected = plate.last + 1 - row;
+  std::vector<EdgePoint> points;
+  std::vector<double> ways;
+  for (double along = -half; along <= half; along += 1) {
+    const EdgePoint start = tilted.Point(middle, along, 0);
+    const std::optional<double> way = tilted.DarkUntil(start, -0.5, expected + 6);
+    if (!way) continue;
+    ways.push_back(-*way);
+    points.push_back(tilted.Point(start, 0, *way));
+  }
+  if (points.size() < kFewestLower) return lower;
+  std::vector<double> sorted = ways;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  const double drift = 0.01 * plate.width();  // what the tilt of short sides may still be off
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::abs(ways[i] - median) < kNearLine + drift) lower.push_back(points[i]);
+  }
+  if (lower.size() < kFewestLower) lower.clear();
+  return lower;
+}
+
+// The light between the plate and the grains on it, in one column of the plate.
+struct Gap {
+  double light = 0;   // ∫ brightness dv, 1 = the background [px]: its thickness
+  double moment = 0;  // ∫ brightness v dv [px²], v up from the middle that was guessed
+};
+
+// Nothing where the light is no narrow line in the dark.
+std::optional<Gap> FindGap(const TiltedView& tilted, const EdgePoint& middle, double along) {
+  const auto at = [&](double up) { return tilted.At(tilted.Point(middle, along, up)); };
+  const double dark = (at(-7) + at(-6) + at(6) + at(7)) / 4;
+  constexpr double kStep = 0.5;
+  Gap gap;
+  for (double up = -5; up <= 5; up += kStep) {
+    const double light = (at(up) - dark) / (1 - dark) * kStep;
+    gap.light += light;
+    gap.moment += light * up;
+  }
+  constexpr double kThickest = 2;  // [px]
+  return at(6) < tilted.threshold() && gap.light < kThickest ? std::optional(gap) : std::nullopt;
+}
+
+// Grains touch the plate in points, and light passes beside them, in a column up to its thickness a
+// above the plate: its mean height is Σ a²/2 / Σ a. Columns are taken in groups, so that noise does
+// not add to the squares.
+std::optional<EdgePoint> FindSeam(const TiltedView& tilted, const EdgePoint& middle, double width) {
+  constexpr double kGroup = 5;          // columns
+  constexpr double kLeastLight = 0.03;  // mean thickness that is told from noise [px]
+  double groups = 0, light = 0, moment = 0, squares = 0;
+  for (double along = -0.45 * width; along <= 0.45 * width; along += kGroup) {
+    Gap group;
+    int columns = 0;
+    for (double column = 0; column < kGroup; ++column) {
+      const std::optional<Gap> gap = FindGap(tilted, middle, along + column);
+      if (!gap) continue;
+      ++columns;
+      group.light += gap->light;
+      group.moment += gap->moment;
+    }
+    if (columns < kGroup) continue;
+    groups += 1;
+    light += group.light / kGroup;
+    moment += group.moment / kGroup;
+    squares += group.light * group.light / kGroup / kGroup;
+  }
+  if (groups < 5 || light < kLeastLight * groups) return std::nullopt;
+  return tilted.Point(middle, 0, moment / light - squares / 2 / light);
+}
+
+// The row above which the side has left its line for good, seen from the plate upwards.
+template <class Deviation>
+double EndOfSide(const StraightSides& plate, Deviation deviation) {
+  int row = (plate.first + plate.last) / 2;
+  while (row > 1 && !(deviation(row) && deviation(row - 1))) --row;
+  return row + 1;
+}
+
+}  // namespace
+
+PlateEdges FindPlateEdges(const BacklitPhoto& photo, const std::string& name) {
+  const std::vector<std::optional<SideEnds>> sides = FindSides(photo);
+  const std::vector<StraightSides> straight = FindStraightSides(sides);
+  const StraightSides* const found = ChoosePlate(straight);
+  if (found == nullptr) ThrowNoPlate(name);
+  const StraightSides& plate = *found;
+  PlateEdges edges;
+  edges.tilt = -std::atan(plate.slope);
+  edges.width = plate.width() * std::cos(edges.tilt);
+  for (int row = plate.first + kTrimmed; row <= plate.last - kTrimmed; ++row) {
+    const SideEnds& ends = *sides[static_cast<std::size_t>(row)];
+    edges.left.push_back({.x = ends.left, .y = row + 0.5});
+    edges.right.push_back({.x = ends.right, .y = row + 0.5});
+  }
+  const TiltedView tilted(photo, edges.tilt);
+  edges.lower = FindLower(tilted, plate, photo.image.height);
+  const auto off = [&](int row, double SideEnds::*end, double line) {
+    const auto& ends = sides[static_cast<std::size_t>(row)];
+    return !ends || std::abs((*ends).*end - line) > kOffLine;
+  };
+  const double left_end =
+      EndOfSide(plate, [&](int row) { return off(row, &SideEnds::left, plate.LeftAt(row)); });
+  const double right_end =
+      EndOfSide(plate, [&](int row) { return off(row, &SideEnds::right, plate.RightAt(row)); });
+  const EdgePoint middle{.x = (plate.LeftAt(left_end - 0.5) + plate.RightAt(right_end - 0.5)) / 2,
+                         .y = (left_end + right_end) / 2};
+  edges.seam = FindSeam(tilted, middle, edges.width);
+  edges.top_left = FindCorner(tilted, {.x = plate.LeftAt(left_end - 0.5), .y = left_end}, -1);
+  edges.top_right = FindCorner(tilted, {.x = plate.RightAt(right_end - 0.5), .y = right_end}, +1);
+  return edges;
+}
+
+}  // namespace talus::imaging

@@ -1,0 +1,155 @@
+#include "imaging/photos/side_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace talus::imaging {
+namespace {
+
+constexpr int kFewestRows = 8;          // that make a straight side
+constexpr double kLargestRms = 0.35;    // of a side to its line [px]
+constexpr double kLargestStep = 1.0;    // of the next row to the line so far [px]
+constexpr double kLargestSlope = 0.14;  // 8°
+constexpr double kSlopeNoise = 0.4;     // px over the length: how unlike the two slopes may be
+
+cv::Mat LargestArea(const BacklitPhoto& photo) {
+  const cv::Mat relative(photo.image.height, photo.image.width, CV_32F,
+                         const_cast<float*>(photo.image.pixels.data()));
+  const cv::Mat dark = relative < photo.threshold;
+  cv::Mat labels, stats, centers;
+  const int count = cv::connectedComponentsWithStats(dark, labels, stats, centers, 8);
+  int best = 0;
+  int best_area = 0;
+  for (int label = 1; label < count; ++label) {
+    const int area = stats.at<int>(label, cv::CC_STAT_AREA);
+    if (area > best_area) {
+      best = label;
+      best_area = area;
+    }
+  }
+  if (best == 0) return cv::Mat::zeros(dark.size(), CV_8U);
+  return labels == best;
+}
+
+// Between the centre of a dark pixel and of its light neighbour.
+double Crossing(const BacklitPhoto& photo, int row, int dark, int light) {
+  const double from = photo.image.at(dark, row);
+  const double to = photo.image.at(light, row);
+  const double share =
+      to > from ? std::clamp((photo.threshold - from) / (to - from), 0.0, 1.0) : 0.5;
+  return dark + 0.5 + share * (light - dark);
+}
+
+// Least-squares line of one side, row by row.
+class LineFit {
+ public:
+  void Add(double y, double x) {
+    n_ += 1;
+    sum_y_ += y;
+    sum_x_ += x;
+    sum_yy_ += y * y;
+    sum_xy_ += x * y;
+    sum_xx_ += x * x;
+  }
+  double slope() const {
+    return (n_ * sum_xy_ - sum_x_ * sum_y_) / (n_ * sum_yy_ - sum_y_ * sum_y_);
+  }
+  double At(double y, double with_slope) const {
+    return (sum_x_ + with_slope * (n_ * y - sum_y_)) / n_;
+  }
+  double Rms() const {
+    const double a = At(0, slope());
+    const double squares = sum_xx_ - a * sum_x_ - slope() * sum_xy_;
+    return std::sqrt(std::max(squares, 0.0) / n_);
+  }
+
+ private:
+  double n_ = 0;
+  double sum_y_ = 0;
+  double sum_x_ = 0;
+  double sum_yy_ = 0;
+  double sum_xy_ = 0;
+  double sum_xx_ = 0;
+};
+
+// The rows from `first` on that stay straight.
+class Grower {
+ public:
+  Grower(const std::vector<std::optional<SideEnds>>& sides, int first)
+      : sides_(sides), first_(first), last_(first - 1) {
+    while (Next() && (Length() < kFewestRows || Fits(*Next()))) Take(*Next());
+  }
+
+  std::optional<StraightSides> Result() const {
+    if (Length() < kFewestRows || !Straight()) return std::nullopt;
+    const double slope = MeanSlope();
+    return StraightSides{.first = first_,
+                         .last = last_,
+                         .left = left_.At(0, slope),
+                         .right = right_.At(0, slope),
+                         .slope = slope};
+  }
+
+ private:
+  int Length() const { return last_ - first_ + 1; }
+  double MeanSlope() const { return (left_.slope() + right_.slope()) / 2; }
+  const std::optional<SideEnds>& Next() const {
+    static const std::optional<SideEnds> kNone;
+    const auto row = static_cast<std::size_t>(last_ + 1);
+    return row < sides_.size() ? sides_[row] : kNone;
+  }
+  void Take(const SideEnds& ends) {
+    ++last_;
+    left_.Add(last_ - first_, ends.left);
+    right_.Add(last_ - first_, ends.right);
+  }
+  bool Straight() const {
+    const double noise = kSlopeNoise / Length();
+    return left_.Rms() < kLargestRms && right_.Rms() < kLargestRms &&
+           std::abs(left_.slope() - right_.slope()) < 2 * noise &&
+           std::abs(MeanSlope()) < kLargestSlope + noise;
+  }
+  bool Fits(const SideEnds& ends) const {
+    const double slope = MeanSlope();
+    return Straight() && std::abs(ends.left - left_.At(Length(), slope)) < kLargestStep &&
+           std::abs(ends.right - right_.At(Length(), slope)) < kLargestStep;
+  }
+
+  const std::vector<std::optional<SideEnds>>& sides_;
+  int first_;
+  int last_;
+  LineFit left_;
+  LineFit right_;
+};
+
+}  // namespace
+
+std::vector<std::optional<SideEnds>> FindSides(const BacklitPhoto& photo) {
+  const cv::Mat area = LargestArea(photo);
+  std::vector<std::optional<SideEnds>> sides(static_cast<std::size_t>(area.rows));
+  for (int y = 0; y < area.rows; ++y) {
+    const auto* const begin = area.ptr<std::uint8_t>(y);
+    const auto* const end = begin + area.cols;
+    const int first = static_cast<int>(std::find(begin, end, 255) - begin);
+    if (first == 0 || first == area.cols || begin[area.cols - 1] != 0) continue;
+    int last = area.cols - 1;
+    while (begin[last] == 0) --last;
+    sides[static_cast<std::size_t>(y)] = SideEnds{.left = Crossing(photo, y, first, first - 1),
+                                                  .right = Crossing(photo, y, last, last + 1)};
+  }
+  return sides;
+}
+
+std::vector<StraightSides> FindStraightSides(const std::vector<std::optional<SideEnds>>& sides) {
+  std::vector<StraightSides> found;
+  for (int row = 0; row < static_cast<int>(sides.size()); ++row) {
+    const std::optional<StraightSides> straight = Grower(sides, row).Result();
+    if (!straight) continue;
+    found.push_back(*straight);
+    row = straight->last;
+  }
+  return found;
+}
+
+}  // namespace talus::imaging

@@ -1,0 +1,109 @@
+#include "imaging/photos/silhouette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kOntoPlate =
+    2.0;  // powder that ends less far above the baseline stands on it [px]
+constexpr double kBesidePlate = 0.02;  // and so far beside the plate / its diameter
+
+// From pixel indices of the frame to pixel indices of the photograph (OpenCV counts from pixel
+// centres, hence the halves).
+cv::Matx23d PhotoFromFrame(const PlatePose& plate, double scale, const Frame& frame) {
+  const double c = scale * std::cos(plate.tilt);
+  const double s = scale * std::sin(plate.tilt);
+  const double x = 0.5 - frame.center_x;
+  const double y = 0.5 - frame.baseline;
+  return {c, -s, plate.center_x + c * x - s * y - 0.5, s, c, plate.baseline + s * x + c * y - 0.5};
+}
+
+cv::Mat Resample(const BacklitPhoto& photo, const PlatePose& plate, double scale,
+                 const Frame& frame) {
+  cv::Mat source(photo.image.height, photo.image.width, CV_32F,
+                 const_cast<float*>(photo.image.pixels.data()));
+  if (scale > 1.2) {  // coarser than photographed: each pixel is the mean of what it covers
+    cv::Mat smooth;
+    cv::GaussianBlur(source, smooth, {}, 0.4 * scale, 0.4 * scale, cv::BORDER_REPLICATE);
+    source = smooth;
+  }
+  cv::Mat target;
+  cv::warpAffine(source, target, PhotoFromFrame(plate, scale, frame), {frame.width, frame.height},
+                 cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, cv::Scalar(1));
+  return target;
+}
+
+int RowsAboveBaseline(const Frame& frame) {
+  return std::clamp(static_cast<int>(std::floor(frame.baseline + 0.5)), 0, frame.height);
+}
+
+// The connected areas that stand on the plate.
+cv::Mat StandingOnPlate(const cv::Mat& powder, const Frame& frame) {
+  cv::Mat labels;
+  const int count = cv::connectedComponents(powder, labels, 8);
+  std::vector<std::uint8_t> stands(static_cast<std::size_t>(count), 0);
+  const double half = frame.plate_diameter / frame.pixel_size * (0.5 + kBesidePlate);
+  const int first = std::max(0, static_cast<int>(std::floor(frame.center_x - half)));
+  const int last = std::min(powder.cols - 1, static_cast<int>(std::ceil(frame.center_x + half)));
+  const int highest = std::max(0, powder.rows - static_cast<int>(kOntoPlate));
+  for (int y = highest; y < powder.rows; ++y) {
+    for (int x = first; x <= last; ++x)
+      stands[static_cast<std::size_t>(labels.at<int>(y, x))] = 255;
+  }
+  stands[0] = 0;  // the background
+  cv::Mat heap(powder.size(), CV_8U);
+  for (int y = 0; y < powder.rows; ++y) {
+    for (int x = 0; x < powder.cols; ++x) {
+      heap.at<std::uint8_t>(y, x) = stands[static_cast<std::size_t>(labels.at<int>(y, x))];
+    }
+  }
+  return heap;
+}
+
+// Light that does not reach the image's left, right or upper border; the plate shuts it in below.
+void FillHoles(cv::Mat& heap) {
+  cv::Mat framed;
+  cv::copyMakeBorder(heap, framed, 1, 0, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::floodFill(framed, cv::Point(0, 0), cv::Scalar(128));
+  const cv::Mat inner = framed(cv::Rect(1, 1, heap.cols, heap.rows));
+  heap.setTo(255, inner == 0);
+}
+
+// `powder` 255 where dark, rows above the baseline only.
+GrayImage Finish(const cv::Mat& powder, const Frame& frame) {
+  cv::Mat heap = StandingOnPlate(powder, frame);
+  FillHoles(heap);
+  GrayImage silhouette{
+      .width = frame.width,
+      .height = frame.height,
+      .pixels = std::vector<std::uint8_t>(
+          static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height), 255)};
+  for (int y = 0; y < heap.rows; ++y) {
+    for (int x = 0; x < heap.cols; ++x) {
+      if (heap.at<std::uint8_t>(y, x) != 0) silhouette.at(x, y) = 0;
+    }
+  }
+  return silhouette;
+}
+
+}  // namespace
+
+GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, double photo_pixel,
+                         const Frame& frame) {
+  const cv::Mat relative = Resample(photo, plate, frame.pixel_size / photo_pixel, frame);
+  const cv::Mat powder = relative < photo.threshold;
+  return Finish(powder.rowRange(0, RowsAboveBaseline(frame)), frame);
+}
+
+GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame) {
+  const cv::Mat gray(silhouette.height, silhouette.width, CV_8U,
+                     const_cast<std::uint8_t*>(silhouette.pixels.data()));
+  const cv::Mat powder = gray < 128;
+  return Finish(powder.rowRange(0, RowsAboveBaseline(frame)), frame);
+}
+
+}  // namespace talus::imaging

@@ -1,0 +1,20 @@
+// The powder in a photograph, in the common frame: what projection.h makes of spheres.
+#pragma once
+
+#include "imaging/heap/profile.h"
+#include "imaging/photos/backlight.h"
+#include "imaging/photos/plate_fit.h"
+
+namespace talus::imaging {
+
+// Resampled so that the plate lies as `frame` has it, made binary (0 powder, 255 none), holes
+// filled, and everything dropped that does not stand on the plate. `photo_pixel` is the
+// photograph's pixel size [m].
+GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, double photo_pixel,
+                         const Frame& frame);
+
+// Of an image that is already 0 or 255: fills holes (light that is shut in by powder and plate) and
+// keeps what stands on the plate.
+GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame);
+
+}  // namespace talus::imaging

@@ -1,0 +1,95 @@
+#include "optimizer/acquisition/model_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "base/random.h"
+#include "optimizer/designs/lattice.h"
+#include "optimizer/space/places.h"
+#include "surrogate/nlopt_minimize.h"
+
+namespace talus::optimizer {
+namespace {
+
+// Half the candidates are spread evenly, half lie near the centres at distances from 1e-3 to 0.3,
+// since a promising region can be that small.
+Eigen::MatrixXd Candidates(const Domain& domain, const Eigen::MatrixXd& centers,
+                           const SearchOptions& options) {
+  const int dimension = domain.num_parameters;
+  base::Random random(options.seed, base::Stream("model search"));
+  const int num_even = centers.rows() > 0 ? options.num_candidates / 2 : options.num_candidates;
+  Eigen::MatrixXd places(options.num_candidates, dimension);
+  places.topRows(num_even) = Lattice(num_even, dimension, options.seed);
+  for (int i = num_even; i < options.num_candidates; ++i) {
+    const auto center = static_cast<Eigen::Index>(i) % centers.rows();
+    const double radius = 0.3 * std::pow(10.0, -2.5 * random.Uniform());
+    for (int k = 0; k < dimension; ++k) {
+      places(i, k) = std::clamp(centers(center, k) + radius * random.Normal(), 0.0, 1.0);
+    }
+  }
+  places = Inside(domain, places);
+  return centers.rows() > 0 ? Stack(centers, places) : places;
+}
+
+// The best candidates, none within 0.02 of a better one in every coordinate, so that the local
+// searches do not all climb one hill.
+std::vector<Eigen::Index> Starts(const Eigen::MatrixXd& candidates, const Eigen::VectorXd& values,
+                                 int count) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  std::vector<Eigen::Index> starts;
+  for (const Eigen::Index i : order) {
+    if (static_cast<int>(starts.size()) == count) break;
+    const bool near = std::any_of(starts.begin(), starts.end(), [&](Eigen::Index j) {
+      return (candidates.row(i) - candidates.row(j)).lpNorm<Eigen::Infinity>() < 0.02;
+    });
+    if (!near) starts.push_back(i);
+  }
+  return starts;
+}
+
+// A simplex started small a second time gets on where the first one has collapsed at a kink.
+std::vector<surrogate::SearchTask> LocalSearches(const SearchOptions& options, int dimension) {
+  surrogate::SearchTask task{.algorithm = surrogate::SearchAlgorithm::kLbfgs,
+                             .lower = Eigen::VectorXd::Zero(dimension),
+                             .upper = Eigen::VectorXd::Ones(dimension),
+                             .start = {},
+                             .max_evaluations = options.max_evaluations,
+                             .absolute_tolerance = options.tolerance};
+  if (!options.kinked) return {task};
+  task.algorithm = surrogate::SearchAlgorithm::kNelderMead;
+  task.initial_step = 0.05;
+  std::vector<surrogate::SearchTask> tasks{task, task};
+  tasks[1].initial_step = 0.005;
+  return tasks;
+}
+
+}  // namespace
+
+Found SearchCube(const CheapFunction& function, const Domain& domain,
+                 const Eigen::MatrixXd& centers, const SearchOptions& options) {
+  const Eigen::MatrixXd candidates = Candidates(domain, centers, options);
+  const Eigen::VectorXd values = function.values(candidates);
+  const auto inside = [&](const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+    if (!domain.Contains(x)) return std::numeric_limits<double>::infinity();
+    return function.value_and_gradient(x, gradient);
+  };
+  Found best{{}, std::numeric_limits<double>::infinity()};
+  for (const Eigen::Index start : Starts(candidates, values, options.num_local)) {
+    Eigen::VectorXd from = candidates.row(start);
+    for (surrogate::SearchTask& task : LocalSearches(options, domain.num_parameters)) {
+      task.start = from;
+      const surrogate::Minimum found = surrogate::Minimize(inside, task);
+      from = found.point;
+      if (found.value < best.value || best.point.size() == 0) best = {found.point, found.value};
+    }
+  }
+  return best;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,32 @@
+// What a model of the objective says of its minimum: how well each parameter is known, what ties
+// with it, and which parameters matter. Serves every ObjectiveModel, scalar or field.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "optimizer/models/objective_model.h"
+#include "optimizer/space/domain.h"
+#include "optimizer/strategies/strategy.h"
+
+namespace talus::optimizer {
+
+struct AnswerOptions {
+  int num_places = 4000;      // where the model is asked over the cube, > 0
+  int num_draw_places = 400;  // plausible ones, at which draws are minimised, > 1
+  int num_draws = 400;        // posterior draws, > 1
+  int num_sobol = 512;        // base sample of the Sobol indices, > 1
+  double confidence = 0.9;    // of the credible ranges together, in (0, 1)
+  std::uint64_t seed = 1;
+};
+
+// `point` is the minimiser of the posterior mean. Fills everything but Answer::model.
+Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
+                       const Eigen::VectorXd& point, const AnswerOptions& options);
+
+// "parameter 2 lies on its upper bound", for coordinates within 0.5 % of an end of their range.
+std::vector<std::string> BoundWarnings(const Eigen::VectorXd& point);
+
+}  // namespace talus::optimizer

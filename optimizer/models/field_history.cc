@@ -1,0 +1,132 @@
+#include "optimizer/models/field_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kFewest = 5;        // evaluations a model can stand on
+constexpr double kGrowth = 1.15;  // of the evaluations, from one fit to the next
+// A model of the images is given up only where it is off by this much more than a process of the
+// values: under noise both errors are mostly the scatter of what was left out, and images know more
+// than that shows.
+constexpr double kPreference = 1.5;
+
+std::string Percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
+  return text;
+}
+
+double Rms(const Eigen::ArrayXd& errors) { return std::sqrt(errors.square().mean()); }
+
+// The error over the better half of the values, where the search is: how far a model misses the
+// worst heaps, which differ most, says nothing of it.
+double ErrorOf(const Eigen::VectorXd& predicted, const Eigen::VectorXd& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  order.resize((order.size() + 1) / 2);
+  return Rms(predicted(order) - values(order));
+}
+
+// Left out one by one, how far the model is off: replicates count as one.
+double ErrorOf(const FieldModel& model, const CodedFields& data) {
+  return ErrorOf(model.LeaveOneOut(), surrogate::Pool(data.points, data.values).values);
+}
+
+}  // namespace
+
+FieldHistory::FieldHistory(const FieldObjective& objective, bool always, std::uint64_t seed)
+    : objective_(objective), always_(always), seed_(seed) {
+  const surrogate::FieldSize size{.width = objective.width, .height = objective.height};
+  codes_.push_back({std::make_shared<surrogate::EdgeCode>(size, objective.target), {}, {}});
+  codes_.push_back({std::make_shared<surrogate::PixelCode>(size, objective.target), {}, {}});
+}
+
+void FieldHistory::Add(const Observation& observation) {
+  points_.push_back(observation.point);
+  values_.push_back(observation.value);
+  for (Coded& coded : codes_) {
+    coded.vectors.push_back(coded.code->Encode(observation.field));
+    const Eigen::VectorXd& vector = coded.vectors.back();
+    const double decoded = objective_.metric ? objective_.metric(coded.code->Decode(vector))
+                                             : objective_.sad_scale * coded.code->Sad(vector);
+    coded.losses.push_back(observation.value - decoded);
+  }
+}
+
+int FieldHistory::SizeToFit() const {
+  int fit = kFewest;
+  for (int next = fit; next <= size(); next = static_cast<int>(std::ceil(kGrowth * next))) {
+    fit = next;
+  }
+  return fit;
+}
+
+CodedFields FieldHistory::First(const Coded& coded, int count) const {
+  CodedFields data{.points = Eigen::MatrixXd(count, points_.front().size()),
+                   .vectors = Eigen::MatrixXd(count, coded.vectors.front().size()),
+                   .values = Eigen::VectorXd(count),
+                   .losses = Eigen::VectorXd(count)};
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    data.points.row(i) = points_[k];
+    data.vectors.row(i) = coded.vectors[k];
+    data.values[i] = values_[k];
+    data.losses[i] = coded.losses[k];
+  }
+  return data;
+}
+
+double FieldHistory::ErrorOfValues(const CodedFields& data, bool deterministic) const {
+  const auto process = surrogate::GaussianProcess::Fit(data.points, data.values,
+                                                       {.trend = surrogate::Trend::kQuadratic,
+                                                        .bend_inputs = !deterministic,
+                                                        .deterministic = deterministic,
+                                                        .seed = seed_});
+  return ErrorOf(process.LeaveOneOut().mean, process.values());
+}
+
+// Column heights are tried first, and what comes after only where they fail.
+void FieldHistory::Choose(int count, bool deterministic) {
+  choice_ = {.num_fitted = count, .deterministic = deterministic, .state = {}};
+  verdict_.clear();
+  double lowest = ErrorOfValues(First(codes_.front(), count), deterministic);
+  const CodedFields data = First(codes_.front(), count);
+  const double spread = Rms(data.values.array() - data.values.mean());
+  verdict_ = "left out, each of the better half is missed by " + Percent(lowest / spread) +
+             " of the spread by a process of the values";
+  if (!deterministic) lowest *= kPreference;
+  if (always_) lowest = std::numeric_limits<double>::infinity();
+  for (const Coded& coded : codes_) {
+    const CodedFields fields = First(coded, count);
+    const FieldModel model(coded.code, objective_, fields,
+                           {.deterministic = deterministic, .seed = seed_}, nullptr);
+    const double error = ErrorOf(model, fields);
+    verdict_ += ", by " + Percent(error / spread) + " by modes of " + coded.code->name();
+    if (!(error < lowest)) continue;
+    lowest = error;
+    choice_.coded = &coded;
+    choice_.state = model.state();
+    if (!always_) break;
+  }
+}
+
+std::optional<FieldModel> FieldHistory::Model(bool deterministic) {
+  if (size() < kFewest) return std::nullopt;
+  const int count = SizeToFit();
+  if (choice_.num_fitted != count || choice_.deterministic != deterministic) {
+    Choose(count, deterministic);
+  }
+  if (choice_.coded == nullptr) return std::nullopt;
+  return FieldModel(choice_.coded->code, objective_, First(*choice_.coded, size()),
+                    {.deterministic = deterministic, .seed = seed_}, &*choice_.state);
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,104 @@
+// The objective as a functional of a predicted image.
+//
+//   objective(x) = E[metric(image of c)] + r(x),   c the coefficients of the image's modes at x
+//
+// The expectation is over what is not known of the mean coefficients (not over the scatter of
+// single evaluations, which a recommendation does not care about). r is what the code of the image
+// loses, evaluation by evaluation: known exactly there, hence a process of its own.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "optimizer/models/field_objective.h"
+#include "optimizer/models/objective_model.h"
+#include "surrogate/images/field_code.h"
+#include "surrogate/images/mode_process.h"
+
+namespace talus::optimizer {
+
+// Evaluations as a code writes them, one a row.
+struct CodedFields {
+  Eigen::MatrixXd points;
+  Eigen::MatrixXd vectors;
+  Eigen::VectorXd values;  // of the objective
+  Eigen::VectorXd losses;  // objective of the image less objective of the decoded image
+};
+
+// Everything that fitting decides.
+struct FieldState {
+  surrogate::ModeState modes;
+  std::optional<surrogate::GaussianProcessState> loss;  // none where the code loses next to nothing
+};
+
+struct FieldModelOptions {
+  bool deterministic = false;
+  std::uint64_t seed = 1;
+};
+
+class FieldModel : public ObjectiveModel {
+ public:
+  // `frozen`, where not null, is taken instead of fitting.
+  FieldModel(std::shared_ptr<const surrogate::FieldCode> code, const FieldObjective& objective,
+             const CodedFields& data, const FieldModelOptions& options, const FieldState* frozen);
+
+  int num_parameters() const override;
+  Moments Predict(const Eigen::MatrixXd& points) const override;
+  // Draws of the objective to a target that is drawn too, within what is not known of it.
+  Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
+                       base::Random random) const override;
+  double NoiseSd(const Eigen::VectorXd& x) const override;
+
+  // The objective alone, which costs less than Predict.
+  double Mean(const Eigen::VectorXd& x) const;
+
+  // ln E[max(0, incumbent - objective)]. Without scatter by draws; where no draw is better, a
+  // number below all that says by how much it is missed. With scatter, `noise` > 0, from the mean
+  // and standard deviation of the draws and weighted for noise (acquisition.h): a handful of draws
+  // never finds the small chance that a place far off is better, and the search would not leave the
+  // first valley it sees.
+  Eigen::VectorXd LogImprovement(const Eigen::MatrixXd& points, double incumbent,
+                                 double noise) const;
+
+  // What evaluations are expected to give, each from the others: scatter included.
+  Eigen::VectorXd LeaveOneOut() const;
+
+  // Takes the prediction at x for an evaluation.
+  void Believe(const Eigen::VectorXd& x);
+
+  FieldState state() const;
+  int num_modes() const { return static_cast<int>(modes_.modes().basis.cols()); }
+
+ private:
+  // Normal coefficients of the modes at one point.
+  struct At {
+    Eigen::VectorXd mean;
+    Eigen::VectorXd variance;
+  };
+  Eigen::VectorXd Vector(const Eigen::VectorXd& coefficients) const;
+  // The same as an image of the target's kind, the mean of several heaps.
+  Eigen::VectorXd MeanVector(const Eigen::VectorXd& coefficients) const;
+  double Value(const Eigen::VectorXd& vector) const;
+  // `scatter`: variance of each element on top of that of the modes; empty for none.
+  double Expected(const At& at, const Eigen::VectorXd& scatter) const;
+  Eigen::VectorXd ValuesOfDraws(const At& at) const;
+  double Reach(const At& at) const;
+  double LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const;
+  surrogate::Predictions Loss(const Eigen::MatrixXd& points) const;
+  // What the target may be off by, a draw a row; empty where it is exact. `nearest`: the
+  // coefficients that fit the target best.
+  Eigen::MatrixXd TargetErrors(const At& nearest, int num_draws, base::Random random) const;
+  At Nearest(const surrogate::ModeMoments& modes) const;
+
+  std::shared_ptr<const surrogate::FieldCode> code_;
+  FieldObjective objective_;
+  surrogate::ModeProcess modes_;
+  std::optional<surrogate::GaussianProcess> loss_;
+  Eigen::MatrixXd residuals_;  // what the modes leave of each evaluation, a row each
+  Eigen::VectorXd blur_;       // variance of each element among the target's heaps; may be empty
+  Eigen::VectorXd target_;     // as the code writes it; empty without a target
+  Eigen::MatrixXd normals_;    // draws, one a row, one mode a column: the same at every point
+};
+
+}  // namespace talus::optimizer

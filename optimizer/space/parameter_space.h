@@ -1,0 +1,99 @@
+// The parameters to be found: names, ranges and scales, and the map between them and the unit cube.
+//
+//   linear   value = low + u (high - low)
+//   log      value = low (high / low)^u
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "optimizer/space/domain.h"
+
+namespace talus::optimizer {
+
+enum class Scale { kLinear, kLog };
+
+inline constexpr int kMaxParameters = 6;
+
+struct Parameter {
+  std::string name;
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+  Scale scale = Scale::kLinear;
+  std::optional<double> guess;  // in [low, high]: tried first
+  std::optional<double> fixed;  // held at this value and not searched; needs no range
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name, {.required = true, .doc = "how the simulation calls it"});
+    visit("low", self.low, {.doc = "smallest value; needed unless fixed"});
+    visit("high", self.high, {.doc = "largest value, > low; needed unless fixed"});
+    visit("scale", self.scale, {.doc = "log spreads trials evenly over decades; needs low > 0"});
+    visit("guess", self.guess, {.doc = "a value thought to be good, tried first"});
+    visit("fixed", self.fixed, {.doc = "holds the parameter at this value"});
+  }
+  void Validate(base::Problems& problems) const;
+
+  double ToNative(double unit) const;
+  double ToUnit(double native) const;
+};
+
+// Σ factor value ≤ at_most, in native values.
+struct LinearConstraint {
+  struct Term {
+    std::string parameter;
+    double factor = 1;
+
+    template <class Self, class Visitor>
+    static void Visit(Self& self, Visitor&& visit) {
+      visit("parameter", self.parameter, {.required = true, .doc = "name of a parameter"});
+      visit("factor", self.factor);
+    }
+  };
+  std::vector<Term> terms;
+  double at_most = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("terms", self.terms, {.required = true, .doc = "the sum of factor times value …"});
+    visit("at_most", self.at_most, {.required = true, .doc = "… is at most this"});
+  }
+};
+
+struct ParameterSpace {
+  std::vector<Parameter> parameters;
+  std::vector<LinearConstraint> constraints;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("parameters", self.parameters, {.required = true, .doc = "1 to 6 free parameters"});
+    visit("constraints", self.constraints, {.doc = "linear inequalities between parameters"});
+  }
+  void Validate(base::Problems& problems) const;
+
+  // Indices into `parameters` of those that are searched; the i-th is coordinate i of the cube.
+  std::vector<int> Free() const;
+
+  // One value a parameter, the fixed ones among them, in the order of `parameters`.
+  std::vector<double> ToNative(const Eigen::VectorXd& unit) const;
+  Eigen::VectorXd ToUnit(std::span<const double> native) const;
+
+  bool Satisfies(std::span<const double> native) const;
+
+  // The domain of a strategy. Holds a copy of this space, so it may outlive it.
+  Domain MakeDomain() const;
+};
+
+}  // namespace talus::optimizer
+
+template <>
+struct talus::base::Names<talus::optimizer::Scale> {
+  static constexpr std::array kList{std::pair{"linear", talus::optimizer::Scale::kLinear},
+                                    std::pair{"log", talus::optimizer::Scale::kLog}};
+};

@@ -1,0 +1,102 @@
+#include "optimizer/strategies/design_strategy.h"
+
+#include <algorithm>
+
+#include "optimizer/strategies/best_observed.h"
+
+namespace talus::optimizer {
+namespace {
+
+Points Inside(const Domain& domain, const Points& points) {
+  Points inside;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(inside),
+               [&](const Eigen::VectorXd& point) { return domain.Contains(point); });
+  return inside;
+}
+
+}  // namespace
+
+DesignStrategy::DesignStrategy(const Domain& domain, const Points& points, std::string name)
+    : domain_(domain), name_(std::move(name)) {
+  Append(domain.guesses);
+  Append(Inside(domain, points));
+}
+
+void DesignStrategy::Append(const Points& points) {
+  for (const Eigen::VectorXd& point : points) {
+    const bool is_told = std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
+      return SamePoint(seen.point, point);
+    });
+    places_.push_back({point, is_told});
+  }
+}
+
+void DesignStrategy::Tell(const Observation& observation) {
+  for (Place& place : places_) {
+    if (!place.is_told) place.is_told = SamePoint(place.point, observation.point);
+  }
+  told_.push_back(observation);
+}
+
+bool DesignStrategy::IsDone() const {
+  return std::all_of(places_.begin(), places_.end(),
+                     [](const Place& place) { return place.is_told; });
+}
+
+std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
+  std::vector<Proposal> proposals;
+  for (const Place& place : places_) {
+    if (static_cast<int>(proposals.size()) >= count) break;
+    const bool runs = std::any_of(pending.begin(), pending.end(), [&](const Eigen::VectorXd& p) {
+      return SamePoint(p, place.point);
+    });
+    if (!runs && !place.is_told) proposals.push_back({place.point, Origin::kDesign});
+  }
+  return proposals;
+}
+
+std::optional<std::string> DesignStrategy::StopReason() {
+  if (!IsDone()) return std::nullopt;
+  return "all " + std::to_string(places_.size()) + " points of " + name_ + " are evaluated";
+}
+
+Answer DesignStrategy::Recommend() { return BestObserved(told_, domain_, name_); }
+
+GridStrategy::GridStrategy(const Domain& domain, const Sweep& sweep)
+    : DesignStrategy(domain, FullFactorial(sweep.levels), "the grid"),
+      sweep_(sweep),
+      grid_(Inside(domain, FullFactorial(sweep.levels))) {}
+
+// While the last points of the sweep run, nobody knows yet which ones are best.
+void GridStrategy::Tell(const Observation& observation) {
+  DesignStrategy::Tell(observation);
+  if (is_refined_ || !IsDone()) return;
+  const Points refinement = Refinement();
+  num_refined_ = refinement.size();
+  Append(refinement);
+  is_refined_ = true;
+}
+
+Points GridStrategy::Refinement() const {
+  std::vector<const Observation*> best;
+  for (const Observation& observation : told()) {
+    const bool on_grid = std::any_of(grid_.begin(), grid_.end(), [&](const Eigen::VectorXd& p) {
+      return SamePoint(p, observation.point);
+    });
+    if (on_grid && !observation.failed) best.push_back(&observation);
+  }
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Observation* a, const Observation* b) { return a->value < b->value; });
+  const auto num_best = std::min(best.size(), static_cast<std::size_t>(sweep_.refine_best));
+  Points centers;
+  for (std::size_t i = 0; i < num_best; ++i) centers.push_back(best[i]->point);
+  return Inside(domain_, HalfStepNeighbours(sweep_.levels, centers));
+}
+
+std::optional<std::string> GridStrategy::StopReason() {
+  if (!IsDone()) return std::nullopt;
+  return "all " + std::to_string(grid_.size()) + " points of the grid and " +
+         std::to_string(num_refined_) + " half-step neighbours of its best are evaluated";
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,92 @@
+// Which strategy, with which options: the one way in for everyone who runs simulations.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "optimizer/models/field_objective.h"
+#include "optimizer/space/domain.h"
+#include "optimizer/strategies/strategy.h"
+
+namespace talus::optimizer {
+
+enum class StrategyKind {
+  kSurrogate,  // images where there are, as long as they predict better, else numbers
+  kGp,
+  kField,
+  kRbf,
+  kLhs,
+  kSobol,
+  kGrid,
+  kDirectL,
+  kCrs2,
+  kBobyqa,
+  kCobyla,
+  kNelderMead,
+  kSubplex,
+};
+
+struct StrategyOptions {
+  StrategyKind kind = StrategyKind::kSurrogate;
+  int num_initial = 0;  // of surrogates: size of the initial design, in [0, 100]; 0: 2 d + 3
+  double stop_multiple =
+      0.7;                 // of surrogates: stop when less than this × the scatter is left to gain
+  int max_replicates = 5;  // of surrogates: deliberate repeats beside the first, in [0, 1000]
+  int num_points = 60;     // of lhs and sobol, in [1, 10000]
+  std::vector<int> levels = {};  // of grid, one a parameter, each >= 1; empty: 8 each
+  int refine_best = 20;          // of grid: this many of the best are refined by half steps, >= 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind, {.doc = "how the next simulations are chosen"});
+    visit("num_initial", self.num_initial,
+          {.doc = "surrogate, gp, field, rbf: size of the initial design; 0 for 2 d + 3 with d "
+                  "parameters"});
+    visit("stop_multiple", self.stop_multiple,
+          {.doc = "surrogate, gp, field: stops when less than this times the scatter of one "
+                  "evaluation is left to "
+                  "gain; 0 never"});
+    visit("max_replicates", self.max_replicates,
+          {.doc = "surrogate, gp, field, rbf: deliberate repeats beside the first one, in all"});
+    visit("num_points", self.num_points, {.doc = "lhs, sobol: size of the design, 1 to 10000"});
+    visit("levels", self.levels,
+          {.doc = "grid: values of each parameter, in their order; 8 each if not given"});
+    visit("refine_best", self.refine_best,
+          {.doc = "grid: so many of the best are refined by half steps; 0 for none"});
+  }
+  void Validate(base::Problems& problems) const;
+
+  // What only shows once the number of parameters is known.
+  void ValidateFor(int num_parameters, base::Problems& problems) const;
+};
+
+// `field` is given when evaluations bring images; the strategy copies it. Equal arguments and equal
+// observations make equal proposals.
+std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
+                                       const FieldObjective* field, std::uint64_t seed);
+
+}  // namespace talus::optimizer
+
+template <>
+struct talus::base::Names<talus::optimizer::StrategyKind> {
+  using Kind = talus::optimizer::StrategyKind;
+  static constexpr std::array kList{
+      std::pair{"surrogate", Kind::kSurrogate},
+      std::pair{"gp", Kind::kGp},
+      std::pair{"field", Kind::kField},
+      std::pair{"rbf", Kind::kRbf},
+      std::pair{"lhs", Kind::kLhs},
+      std::pair{"sobol", Kind::kSobol},
+      std::pair{"grid", Kind::kGrid},
+      std::pair{"direct_l", Kind::kDirectL},
+      std::pair{"crs2", Kind::kCrs2},
+      std::pair{"bobyqa", Kind::kBobyqa},
+      std::pair{"cobyla", Kind::kCobyla},
+      std::pair{"nelder_mead", Kind::kNelderMead},
+      std::pair{"subplex", Kind::kSubplex},
+  };
+};

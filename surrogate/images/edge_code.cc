@@ -1,0 +1,50 @@
+#include "surrogate/images/field_code.h"
+
+namespace talus::surrogate {
+namespace {
+
+constexpr double kWidthWeight = 0.8;
+constexpr double kMinWidth = 0.2;        // [px]: a predicted width must stay positive
+constexpr double kSmallVariance = 1e-8;  // [px²]: below it the expectation is the value
+
+}  // namespace
+
+EdgeCode::EdgeCode(const FieldSize& size, std::span<const float> target) : size_(size) {
+  if (!target.empty()) sad_ = std::make_unique<EdgeSad>(target, size);
+}
+
+Eigen::VectorXd EdgeCode::Encode(std::span<const float> field) const {
+  const ColumnEdges edges = FitEdges(field, size_);
+  Eigen::VectorXd vector(2 * size_.width);
+  vector << edges.height, kWidthWeight * edges.width;
+  return vector;
+}
+
+ColumnEdges EdgeCode::Edges(const Eigen::VectorXd& vector) const {
+  return {.height = vector.head(size_.width),
+          .width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kMinWidth)};
+}
+
+std::vector<float> EdgeCode::Decode(const Eigen::VectorXd& vector) const {
+  return Render(Edges(vector), size_);
+}
+
+// Φ(y / w) blurred by a normal distribution of variance v is Φ(y / √(w² + v)).
+Eigen::VectorXd EdgeCode::MeanOfImages(const Eigen::VectorXd& vector,
+                                       const Eigen::VectorXd& variance) const {
+  const Eigen::ArrayXd width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kMinWidth);
+  Eigen::VectorXd mean = vector;
+  mean.tail(size_.width) =
+      kWidthWeight * (width.square() + variance.head(size_.width).array()).sqrt();
+  return mean;
+}
+
+double EdgeCode::Sad(const Eigen::VectorXd& vector) const { return sad_->Of(Edges(vector)); }
+
+double EdgeCode::ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const {
+  const auto of_heights = variance.head(size_.width);
+  if (of_heights.maxCoeff() < kSmallVariance) return Sad(mean);
+  return sad_->Expected(Edges(mean), of_heights);
+}
+
+}  // namespace talus::surrogate

@@ -1,0 +1,211 @@
+#include "surrogate/process/gaussian_process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/error.h"
+#include "surrogate/process/map_fit.h"
+#include "surrogate/process/warp.h"
+#include "surrogate/spread.h"
+
+namespace talus::surrogate {
+namespace {
+
+// Mean and standard deviation of the values, with a standard deviation that is safe to divide by.
+GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
+  const double centre = values.mean();
+  const double sd = Spread(values);
+  const bool constant = !(sd > 1e-12 * std::abs(centre)) || sd == 0;
+  return {
+      .hyper = {}, .centre = centre, .scale = constant ? std::max(1e-12, std::abs(centre)) : sd};
+}
+
+}  // namespace
+
+GaussianProcess GaussianProcess::Fit(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
+                                     const GaussianProcessOptions& options) {
+  if (points.rows() == 0 || points.rows() != values.size() || !points.allFinite() ||
+      !values.allFinite()) {
+    throw base::Error("a Gaussian process needs at least one point and finite values");
+  }
+  GaussianProcessState state = options.frozen ? *options.frozen : ScaleOf(values);
+  PooledData data = Pool(points, (values.array() - state.centre) / state.scale);
+  const HyperLayout layout{.dimension = points.cols(),
+                           .free_trend = options.trend == Trend::kQuadratic,
+                           .free_noise = !options.deterministic,
+                           .fixed_noise = std::sqrt(options.noise_floor),
+                           .free_bend = options.bend_inputs};
+  double log_prior = 0;
+  if (!options.frozen) {
+    const MapFit fit = FitHyperparameters(data, layout, options);
+    state.hyper = layout.Unpack(fit.theta);
+    log_prior = fit.log_prior;
+  }
+  GaussianProcess process(std::move(data), std::move(state), options.kernel);
+  process.log_prior_ = log_prior;
+  return process;
+}
+
+GaussianProcess::GaussianProcess(PooledData data, GaussianProcessState state, Kernel kernel)
+    : data_(std::move(data)), state_(std::move(state)), covariance_(kernel, state_.hyper) {
+  Factorise();
+}
+
+Eigen::MatrixXd GaussianProcess::Columns(const Eigen::MatrixXd& points) const {
+  return BendAll(points.transpose(), state_.hyper.bend);
+}
+
+void GaussianProcess::Factorise() {
+  bent_ = BendAll(data_.points, state_.hyper.bend);
+  PooledData seen = data_;
+  seen.points = bent_;
+  Eigen::MatrixXd k = NoisyCovariance(covariance_, seen);
+  Eigen::LLT<Eigen::MatrixXd> factor(k);
+  const double largest = k.diagonal().maxCoeff();
+  jitter_ = 0;
+  while (factor.info() != Eigen::Success) {
+    jitter_ = jitter_ == 0 ? 1e-14 * largest : 10 * jitter_;
+    Eigen::MatrixXd shifted = k;
+    shifted.diagonal().array() += jitter_;
+    factor.compute(shifted);
+  }
+  lower_ = factor.matrixL();
+  alpha_ = factor.solve(data_.values);
+}
+
+void GaussianProcess::Add(const Eigen::VectorXd& x, double value) {
+  const Eigen::Index before = data_.values.size();
+  const Eigen::Index place = AddTo(data_, x, (value - state_.centre) / state_.scale);
+  if (place < before) {
+    Factorise();  // a replicate changes the noise of a point in the middle of the factor
+  } else {
+    AppendRow(x);
+  }
+}
+
+double GaussianProcess::Believe(const Eigen::VectorXd& x) {
+  const double mean = Predict(x).mean;
+  Add(x, mean);
+  return mean;
+}
+
+// Rank one: the new last row of L is (L⁻¹ k, √(k(x, x) + n² - |L⁻¹ k|²)).
+void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
+  const Eigen::Index size = lower_.rows();
+  const Eigen::VectorXd bent = Columns(x.transpose());
+  const Eigen::MatrixXd k = covariance_.Between(bent_, bent);
+  const Eigen::VectorXd row = lower_.triangularView<Eigen::Lower>().solve(k.col(0));
+  const double noise2 = state_.hyper.noise * state_.hyper.noise;
+  const double prior = covariance_.At(bent.data(), bent.data());
+  const double pivot = prior + noise2 + jitter_ - row.squaredNorm();
+  if (!(pivot > 0)) {
+    Factorise();
+    return;
+  }
+  bent_.conservativeResize(Eigen::NoChange, size + 1);
+  bent_.col(size) = bent;
+  lower_.conservativeResize(size + 1, size + 1);
+  lower_.col(size).setZero();
+  lower_.row(size).head(size) = row;
+  lower_(size, size) = std::sqrt(pivot);
+  alpha_ = lower_.triangularView<Eigen::Lower>().solve(data_.values);
+  lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(alpha_);
+}
+
+Prediction GaussianProcess::Predict(const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd bent = Columns(x.transpose());
+  const Eigen::VectorXd k = covariance_.Between(bent_, bent).col(0);
+  const Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
+  const double variance = covariance_.At(bent.data(), bent.data()) - v.squaredNorm();
+  return {.mean = state_.centre + state_.scale * k.dot(alpha_),
+          .variance = state_.scale * state_.scale * std::max(0.0, variance)};
+}
+
+Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
+  const Eigen::MatrixXd columns = Columns(points);
+  Eigen::MatrixXd k = covariance_.Between(bent_, columns);
+  Predictions result;
+  result.mean = state_.centre + state_.scale * (k.transpose() * alpha_).array();
+  lower_.triangularView<Eigen::Lower>().solveInPlace(k);
+  result.variance = state_.scale * state_.scale *
+                    (covariance_.Diagonal(columns).transpose() - k.colwise().squaredNorm())
+                        .transpose()
+                        .cwiseMax(0.0);
+  return result;
+}
+
+PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd bent = Columns(x.transpose());
+  const Eigen::VectorXd k = covariance_.Between(bent_, bent).col(0);
+  const Eigen::MatrixXd slope = covariance_.Gradient(bent, bent_);  // d × u
+  Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
+  const double variance = covariance_.At(bent.data(), bent.data()) - v.squaredNorm();
+  lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(v);  // now K⁻¹ k
+  PredictionGradient result;
+  const double scale2 = state_.scale * state_.scale;
+  result.value = {.mean = state_.centre + state_.scale * k.dot(alpha_),
+                  .variance = scale2 * std::max(0.0, variance)};
+  result.mean = state_.scale * (slope * alpha_);
+  result.variance = scale2 * (covariance_.DiagonalGradient(bent) - 2 * (slope * v));
+  for (Eigen::Index i = 0; i < state_.hyper.bend.size(); ++i) {  // from d/dw to d/dx
+    const double factor = BendAt(x[i], state_.hyper.bend[i]).slope;
+    result.mean[i] *= factor;
+    result.variance[i] *= factor;
+  }
+  return result;
+}
+
+Eigen::MatrixXd GaussianProcess::Draw(const Eigen::MatrixXd& points, int num_draws,
+                                      base::Random random) const {
+  const Eigen::MatrixXd columns = Columns(points);
+  Eigen::MatrixXd v = covariance_.Between(bent_, columns);
+  const Eigen::VectorXd mean = v.transpose() * alpha_;
+  lower_.triangularView<Eigen::Lower>().solveInPlace(v);
+  Eigen::MatrixXd posterior = covariance_.Between(columns, columns) - v.transpose() * v;
+  // Robust Cholesky: the posterior is singular at and between close points.
+  const Eigen::LDLT<Eigen::MatrixXd> factor(posterior);
+  const Eigen::VectorXd root = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
+  Eigen::MatrixXd normal(points.rows(), num_draws);
+  for (Eigen::Index j = 0; j < num_draws; ++j) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i) normal(i, j) = random.Normal();
+  }
+  Eigen::MatrixXd draws = factor.matrixL() * (root.asDiagonal() * normal);
+  draws = factor.transpositionsP().transpose() * draws;
+  draws.colwise() += mean;
+  return (state_.centre + state_.scale * draws.array()).matrix().transpose();
+}
+
+// [dubrule1983]: the residual is αᵢ / (K⁻¹)ᵢᵢ and its variance 1 / (K⁻¹)ᵢᵢ.
+Predictions GaussianProcess::LeaveOneOut() const {
+  const Eigen::Index size = data_.values.size();
+  const Eigen::MatrixXd inverse_lower =
+      lower_.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
+  const Eigen::VectorXd inverse_diagonal = inverse_lower.colwise().squaredNorm();
+  Predictions result;
+  result.mean = state_.centre +
+                state_.scale * (data_.values - alpha_.cwiseQuotient(inverse_diagonal)).array();
+  result.variance = state_.scale * state_.scale * inverse_diagonal.cwiseInverse();
+  return result;
+}
+
+double GaussianProcess::LogLikelihood() const {
+  const auto size = static_cast<double>(data_.values.size());
+  return -0.5 * data_.values.dot(alpha_) - lower_.diagonal().array().log().sum() -
+         0.5 * size * std::log(2 * std::numbers::pi) +
+         ScatterTerm(data_, state_.hyper.noise * state_.hyper.noise) -
+         static_cast<double>(data_.num_values) * std::log(state_.scale);
+}
+
+double GaussianProcess::LogPosterior() const { return LogLikelihood() + log_prior_; }
+
+double GaussianProcess::noise_variance() const {
+  return state_.scale * state_.scale * state_.hyper.noise * state_.hyper.noise;
+}
+
+Eigen::VectorXd GaussianProcess::values() const {
+  return state_.centre + state_.scale * data_.values.array();
+}
+
+}  // namespace talus::surrogate

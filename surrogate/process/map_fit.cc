@@ -1,0 +1,98 @@
+#include "surrogate/process/map_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/random.h"
+#include "surrogate/nlopt_minimize.h"
+#include "surrogate/process/gaussian_process.h"
+
+namespace talus::surrogate {
+namespace {
+
+constexpr double kLargestBend = 5;  // e^5: one end is stretched 150 times as much as the other
+
+// So many points leave the posterior one maximum worth finding, and each step of a search costs the
+// cube of their number: one search, and a shorter one.
+constexpr Eigen::Index kManyPoints = 100;
+constexpr int kShortSearch = 40;
+
+struct Start {
+  Eigen::VectorXd theta;
+  double cost = 0;  // minus the log posterior
+};
+
+// The box of the search: wide, but where exp(θ) and the factorisation stay sound.
+void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) {
+  task.lower = Eigen::VectorXd::Constant(layout.size(), std::log(1e-3));
+  task.upper = Eigen::VectorXd::Constant(layout.size(), std::log(1e2));
+  task.lower.head(layout.dimension).setConstant(std::log(0.02));
+  task.upper.head(layout.dimension).setConstant(std::log(50.0));
+  if (layout.free_noise) {
+    task.lower[layout.noise_index()] = 0.5 * std::log(noise_floor);
+    task.upper[layout.noise_index()] = std::log(3.0);
+  }
+  if (layout.free_bend) {
+    task.lower.tail(layout.dimension).setConstant(-kLargestBend);
+    task.upper.tail(layout.dimension).setConstant(kLargestBend);
+  }
+}
+
+std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& task,
+                               const HyperLayout& layout, const GaussianProcessOptions& options) {
+  const Eigen::VectorXd median = PriorMedian(options.priors, layout);
+  std::vector<Eigen::VectorXd> thetas;
+  if (options.start) thetas.push_back(layout.Pack(*options.start));
+  if (thetas.empty() || options.num_trial_starts > 1) thetas.push_back(median);
+  const Eigen::VectorXd sd = PriorSd(options.priors, layout);
+  for (int i = 0; static_cast<int>(thetas.size()) < options.num_trial_starts; ++i) {
+    base::Random random(options.seed, base::Stream("hyper-parameter starts"),
+                        static_cast<std::uint64_t>(i));
+    Eigen::VectorXd theta = median;
+    for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += sd[k] * random.Normal();
+    thetas.push_back(theta);
+  }
+  std::vector<Start> starts;
+  for (Eigen::VectorXd& theta : thetas) {
+    theta = theta.cwiseMax(task.lower).cwiseMin(task.upper);
+    starts.push_back({theta, cost(theta, nullptr)});
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  return starts;
+}
+
+}  // namespace
+
+MapFit FitHyperparameters(const PooledData& data, const HyperLayout& layout,
+                          const GaussianProcessOptions& options) {
+  const SearchFunction cost = [&](const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
+    double posterior = LogLikelihood(data, options.kernel, layout, theta, gradient);
+    if (!std::isfinite(posterior)) return -posterior;
+    posterior += LogPrior(options.priors, layout, theta, gradient);
+    if (gradient != nullptr) *gradient *= -1;
+    return -posterior;
+  };
+  SearchTask task{.algorithm = SearchAlgorithm::kLbfgs,
+                  .lower = {},
+                  .upper = {},
+                  .start = {},
+                  .max_evaluations = options.max_evaluations,
+                  .relative_tolerance = 1e-7};
+  SetBounds(layout, options.noise_floor, task);
+  const std::vector<Start> starts = TrialStarts(cost, task, layout, options);
+  Start best = starts.front();
+  const bool many = data.values.size() > kManyPoints;
+  if (many) task.max_evaluations = std::min(task.max_evaluations, kShortSearch);
+  const int num_searches =
+      std::min<int>(many ? 1 : options.num_starts, static_cast<int>(starts.size()));
+  for (int i = 0; i < num_searches; ++i) {
+    task.start = starts[static_cast<std::size_t>(i)].theta;
+    const Minimum found = Minimize(cost, task);
+    if (found.value < best.cost) best = {found.point, found.value};
+  }
+  return {.theta = best.theta, .log_prior = LogPrior(options.priors, layout, best.theta, nullptr)};
+}
+
+}  // namespace talus::surrogate

@@ -1,0 +1,21 @@
+// Maximum a posteriori hyper-parameters: a few local searches with analytic gradients, from the
+// best of a set of trial starts.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "surrogate/process/likelihood.h"
+
+namespace talus::surrogate {
+
+struct GaussianProcessOptions;
+
+struct MapFit {
+  Eigen::VectorXd theta;  // HyperLayout's order
+  double log_prior = 0;   // density of θ
+};
+
+MapFit FitHyperparameters(const PooledData& data, const HyperLayout& layout,
+                          const GaussianProcessOptions& options);
+
+}  // namespace talus::surrogate
