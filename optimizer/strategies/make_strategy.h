@@ -8,6 +8,8 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "optimizer/fidelity/experiment_target.h"
+#include "optimizer/fidelity/fidelity_options.h"
 #include "optimizer/models/field_objective.h"
 #include "optimizer/space/domain.h"
 #include "optimizer/strategies/strategy.h"
@@ -68,6 +70,10 @@ struct StrategyOptions {
 // observations make equal proposals.
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
                                        const FieldObjective* field, std::uint64_t seed);
+
+// The strategy over several scale factors or several experiments (fidelity_strategy.h).
+std::unique_ptr<Strategy> MakeFidelityStrategy(const FidelityOptions& options, const Domain& domain,
+                                               std::vector<ExperimentTarget> targets);
 
 }  // namespace talus::optimizer
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "optimizer/fidelity/posterior_summary.h"
+
 namespace talus::optimizer {
 
 enum class Origin { kDesign, kRepeat, kModel, kSearch };  // why a point was proposed
@@ -18,15 +20,22 @@ enum class Origin { kDesign, kRepeat, kModel, kSearch };  // why a point was pro
 struct Proposal {
   Eigen::VectorXd point;  // unit cube, size = number of parameters
   Origin origin = Origin::kModel;
+  int experiment = 0;       // which of the experiments to simulate
+  double scale_factor = 0;  // of the coarse graining, >= 1; 0: the only one there is
 };
 
-// One finished evaluation.
+// One finished evaluation: one simulation of one experiment.
 struct Observation {
-  Eigen::VectorXd point;          // unit cube
-  bool failed = false;            // crashed or infeasible: value and field mean nothing
-  double value = 0;               // the objective, to be minimised
-  std::vector<float> field = {};  // the whole image, row by row from the top, in [0, 1] with 1 =
-                                  // powder; empty where an evaluation is only a number
+  Eigen::VectorXd point;             // unit cube
+  int experiment = 0;                // which of the experiments was simulated
+  double scale_factor = 1;           // of the coarse graining [-], >= 1
+  double cost = 0;                   // [core seconds]; 0: not known
+  bool failed = false;               // crashed or infeasible: value and field mean nothing
+  double value = 0;                  // the objective, to be minimised
+  std::vector<float> field = {};     // the whole image, row by row from the top, in [0, 1] with 1 =
+                                     // powder; empty where an evaluation is only a number
+  std::vector<double> scalars = {};  // what else was measured, in the experiment's order and units;
+                                     // NaN where it is not defined
 };
 
 // Credible range of one parameter, in the unit cube.
@@ -50,6 +59,7 @@ struct Answer {
   std::vector<std::string>
       warnings;       // such as "mu_r lies on its upper bound", by parameter index text
   std::string model;  // which surrogate answered and how well it predicts, in words
+  std::optional<PosteriorSummary> posterior = {};  // of strategies that work one out
 };
 
 class Strategy {
@@ -64,6 +74,17 @@ class Strategy {
   // In words, when going on is not worth it ("what is left to gain is below 1 × the noise").
   virtual std::optional<std::string> StopReason() = 0;
   virtual Answer Recommend() = 0;
+
+  // As Ask, for strategies that choose experiments and scale factors too.
+  virtual std::vector<Proposal> AskAt(int count, std::span<const Proposal> pending) {
+    std::vector<Eigen::VectorXd> points;
+    for (const Proposal& p : pending) points.push_back(p.point);
+    return Ask(count, points);
+  }
+  // Where a set stands in the posterior; nothing for strategies without one.
+  virtual std::optional<Standing> Consider(const Eigen::VectorXd& /*point*/) {
+    return std::nullopt;
+  }
 };
 
 }  // namespace talus::optimizer

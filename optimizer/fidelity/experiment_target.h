@@ -1,0 +1,28 @@
+// What one experiment has measured: the image of its heap, numbers with errors, or both.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "optimizer/models/field_objective.h"
+
+namespace talus::optimizer {
+
+// A number that was measured, in the unit that observations of it have.
+struct ScalarTarget {
+  std::string name;  // "mass_fallen_kg"
+  double value = 0;
+  double standard_error = 0;  // of `value`, > 0
+};
+
+struct ExperimentTarget {
+  std::string name;
+  FieldObjective image = {};                  // width 0: the experiment has no image
+  std::vector<std::vector<float>> runs = {};  // images of its single heaps, as FieldObjective's
+                                              // target; empty where only their mean is known
+  std::vector<ScalarTarget> scalars = {};
+  std::vector<double> costs = {};  // of one simulation [core seconds], one a scale
+                                   // factor; estimates, until trials have been timed
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,19 @@
+// How a search over several scale factors works.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace talus::optimizer {
+
+struct FidelityOptions {
+  std::vector<double> scale_factors = {1};  // distinct, >= 1, in any order
+  double target = 0;    // the scale factor that the answer is for, <= all of them; 0: the least
+  int num_initial = 0;  // evaluations of the design at the coarsest level; 0: 4 d + 4
+  double model_error = 0.5;  // sd of what no simulation can match, in run-to-run sds of the images
+  double stop_shrink = 0;  // stop when the next core minute is expected to narrow the posterior by
+                           // less than this share; 0: never
+  std::uint64_t seed = 1;
+};
+
+}  // namespace talus::optimizer

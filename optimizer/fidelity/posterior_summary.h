@@ -1,0 +1,46 @@
+// What the observations say of the parameters, as plain data: the answer that a posterior gives.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace talus::optimizer {
+
+// A connected part of the joint 90 % region.
+struct PosteriorBranch {
+  double share = 0;           // of the posterior draws in the region, in (0, 1]
+  Eigen::VectorXd point;      // a draw in the middle of the branch, unit cube
+  Eigen::VectorXd low, high;  // the branch's bounding box, unit cube
+};
+
+// How an experiment stands at a point.
+struct ExperimentStanding {
+  std::string name;
+  double predicted_objective = 0;  // of the mean image at the target scale factor; NaN without one
+  double predicted_sd = 0;
+  double implausibility = 0;  // √(misfit² / degrees of freedom) in standard deviations [-]
+};
+
+// Where a given set stands in the posterior.
+struct Standing {
+  double credible_level = 1;  // of the smallest joint region that holds it, in [0, 1]
+  std::vector<ExperimentStanding> experiments;
+};
+
+struct PosteriorSummary {
+  Eigen::MatrixXd draws;                  // unit cube, one draw a row, equally likely
+  double region_volume = 1;               // of the joint 90 % region, share of the searched box
+  std::vector<PosteriorBranch> branches;  // of the joint 90 % region, the likeliest first
+  double temper = 1;        // misfits are divided by this for leave-one-out coverage, >= 1
+  double raw_coverage = 0;  // leave-one-out, of nominal 90 % regions of the outputs, without it
+  double tempered_coverage = 0;  // … with it
+  int num_left_out = 0;          // evaluations that the two are made of
+  double target_scale_factor = 1;
+  bool is_extrapolated = false;  // no simulation at the target scale factor
+  std::vector<double>
+      unlearnt_levels;  // scale factors whose discrepancy from the target is not known
+  std::vector<ExperimentStanding> experiments;  // at the recommended set
+};
+
+}  // namespace talus::optimizer
