@@ -11,8 +11,8 @@ struct FidelityOptions {
   double target = 0;    // the scale factor that the answer is for, <= all of them; 0: the least
   int num_initial = 0;  // evaluations of the design at the coarsest level; 0: 4 d + 4
   double model_error = 0.5;  // sd of what no simulation can match, in run-to-run sds of the images
-  double stop_shrink = 0;  // stop when the next core minute is expected to narrow the posterior by
-                           // less than this share; 0: never
+  double stop_share = 0.1;   // stop when the surrogate's variance is below this share of what the
+                             // experiment leaves open, over the posterior; 0: never
   std::uint64_t seed = 1;
 };
 

@@ -1,0 +1,152 @@
+// Twin calibrations with coarse levels on synthetic heaps: does the joint 90 % region hold the
+// truth, how large is it, and how far is the recommended set? The same core seconds are spent with
+// all scale factors, and with one alone. docs/optimizers.md prints the table.
+//
+//   fidelity_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
+//
+// A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
+// and scatters more, as measured on heaps of three grain sizes (docs/validation.md).
+#include <cstdio>
+#include <ctime>
+#include <sstream>
+#include <string>
+
+#include "bench/optimizers/problems.h"
+#include "optimizer/strategies/make_strategy.h"
+
+namespace talus::bench {
+namespace {
+
+constexpr double kBias = 0.08;  // displacement of each parameter per unit of f - 1, unit cube
+constexpr int kHeaps = 5;       // the target is the mean of
+
+struct Options {
+  int first = 1;
+  int last = 20;
+  double core_time = 100;
+  std::vector<double> factors{2, 1.5, 1};
+  double target = 0;
+};
+
+Options Parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string key = argv[i];
+    if (key == "--first") options.first = std::stoi(argv[i + 1]);
+    if (key == "--last") options.last = std::stoi(argv[i + 1]);
+    if (key == "--core-time") options.core_time = std::stod(argv[i + 1]);
+    if (key == "--target") options.target = std::stod(argv[i + 1]);
+    if (key != "--factors") continue;
+    options.factors.clear();
+    std::stringstream list(argv[i + 1]);
+    for (std::string one; std::getline(list, one, ',');) options.factors.push_back(std::stod(one));
+  }
+  return options;
+}
+
+// An additive recurrence: even over a box in which every parameter shows.
+Vec Truth(int instance) {
+  const Vec step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  Vec truth;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const double t = 0.5 + instance * step[k];
+    truth[k] = 0.2 + 0.5 * (t - std::floor(t));
+  }
+  return truth;
+}
+
+int NoiseLevel(double factor) { return factor < 1.2 ? 1 : factor < 1.8 ? 3 : 2; }
+
+Image Heap(const Problem& problem, const Vec& x, double factor, std::uint64_t run) {
+  const Vec direction{1, -1, 0.5};
+  Vec displaced = x;
+  for (std::size_t k = 0; k < displaced.size(); ++k) {
+    displaced[k] = std::clamp(x[k] + kBias * (factor - 1) * direction[k], 0.0, 1.0);
+  }
+  return problem.MakeImage(displaced, run, NoiseLevel(factor));
+}
+
+optimizer::ExperimentTarget TargetOf(const Problem& problem, const Vec& truth, int instance) {
+  optimizer::ExperimentTarget target{.name = "heap"};
+  for (int heap = 0; heap < kHeaps; ++heap) {
+    const auto run = static_cast<std::uint64_t>(900'000 + 1000 * instance + heap);
+    const Image image = Heap(problem, truth, 1, run);
+    target.image.width = image.w;
+    target.image.height = image.h;
+    target.image.target.resize(image.px.size());
+    for (std::size_t i = 0; i < image.px.size(); ++i) {
+      target.image.target[i] += image.px[i] / static_cast<float>(kHeaps);
+    }
+    target.runs.push_back(image.px);
+  }
+  target.image.sad_scale = 100.0 / (target.image.width * target.image.height);
+  target.image.num_target_heaps = kHeaps;
+  return target;
+}
+
+struct Tally {
+  int covered = 0;
+  double volume = 0;
+  double distance = 0;
+  double simulations = 0;
+};
+
+void Calibrate(const Options& options, int instance, Tally& tally) {
+  const auto problem = MakeProblem("heap", instance);
+  const Vec truth = Truth(instance);
+  const optimizer::ExperimentTarget target = TargetOf(*problem, truth, instance);
+  const auto seed = static_cast<std::uint64_t>(instance);
+  const auto strategy = optimizer::MakeFidelityStrategy(
+      {.scale_factors = options.factors, .target = options.target, .seed = seed},
+      {.num_parameters = D}, {target});
+  double spent = 0;
+  int told = 0;
+  for (; spent < options.core_time; ++told) {
+    const optimizer::Proposal p = strategy->AskAt(1, {}).front();
+    const double cost = std::pow(p.scale_factor, -4);
+    spent += cost;
+    const Image image = Heap(*problem, {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
+                             1000 * seed + static_cast<std::uint64_t>(told));
+    strategy->Tell({.point = p.point,
+                    .scale_factor = p.scale_factor,
+                    .cost = cost,
+                    .value = target.image.Value(image.px),
+                    .field = image.px});
+  }
+  const optimizer::Answer answer = strategy->Recommend();
+  const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(truth.data(), D);
+  const auto standing = strategy->Consider(at);
+  const double distance = (answer.point - at).norm();
+  std::printf(
+      "%3d: level %.2f, volume %.4f, distance %.3f, branches %zu, temper %.2f, raw %.2f, "
+      "implausibility %.2f, %d simulations\n",
+      instance, standing->credible_level, answer.posterior->region_volume, distance,
+      answer.posterior->branches.size(), answer.posterior->temper, answer.posterior->raw_coverage,
+      answer.posterior->experiments[0].implausibility, told);
+  std::fflush(stdout);
+  tally.covered += standing->credible_level <= 0.9 ? 1 : 0;
+  tally.volume += answer.posterior->region_volume;
+  tally.distance += distance;
+  tally.simulations += told;
+}
+
+int Main(int argc, char** argv) {
+  const Options options = Parse(argc, argv);
+  const std::clock_t start = std::clock();
+  Tally tally;
+  for (int instance = options.first; instance <= options.last; ++instance) {
+    Calibrate(options, instance, tally);
+  }
+  const int count = options.last - options.first + 1;
+  std::printf(
+      "covered %d of %d, mean volume %.4f, mean distance %.3f, mean simulations %.0f, %.0f s of "
+      "processor time\n",
+      tally.covered, count, tally.volume / count, tally.distance / count, tally.simulations / count,
+      static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  return 0;
+}
+
+}  // namespace
+}  // namespace talus::bench
+
+int main(int argc, char** argv) { return talus::bench::Main(argc, argv); }

@@ -1,0 +1,19 @@
+// The connected parts of a posterior's joint 90 % region.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "optimizer/fidelity/posterior.h"
+#include "optimizer/fidelity/posterior_summary.h"
+
+namespace talus::optimizer {
+
+// Of equally likely draws, those inside the region are joined where the region does not break
+// between them. The likeliest branch first; parts of less than 2 % of the draws are left out.
+// PosteriorBranch::point is the draw that is nearest to all others of its branch: the least
+// expected distance from the truth, and never outside the region, however bent that is.
+std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const PosteriorSample& sample,
+                                          std::uint64_t seed);
+
+}  // namespace talus::optimizer

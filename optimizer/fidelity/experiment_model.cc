@@ -1,0 +1,325 @@
+#include "optimizer/fidelity/experiment_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/random.h"
+#include "surrogate/spread.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr int kMostModes = 8;
+constexpr std::size_t kNumOwn = 4;  // outputs with hyper-parameters of their own, of the modes
+constexpr int kNumDraws = 16;       // of an objective, half of them mirror images of the others
+
+// Values far above the target are compressed, so that a mass that spans decades stays smooth where
+// it matters. Linear up to the target.
+double Compress(const ScalarTarget& target, double value) {
+  const double scale = std::abs(target.value) + target.standard_error;
+  return std::asinh(value / scale);
+}
+
+double CompressionSlope(const ScalarTarget& target) {
+  const double scale = std::abs(target.value) + target.standard_error;
+  return 1 / std::sqrt(scale * scale + target.value * target.value);
+}
+
+// Prior medians of an output's noise sd over its own spread, one a level: `coarsest` at the
+// coarsest, less at finer ones.
+Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
+  Eigen::VectorXd median(levels.size());
+  for (int l = 0; l < levels.size(); ++l) {
+    median[l] = coarsest * levels.NoiseAtTarget(0) / levels.NoiseAtTarget(l);
+  }
+  return median;
+}
+
+// The strongest mode left out is nearly all noise, and noise is somewhat larger along strong modes.
+double NoiseOfMode(double next_sd, const Eigen::VectorXd& coefficients) {
+  const double spread = surrogate::Spread(coefficients);
+  return spread > 0 ? std::clamp(1.5 * next_sd / spread, 0.1, 0.8) : 0.8;
+}
+
+// A state for a weak mode: the correlation of a stronger one at its own scale.
+surrogate::FidelityState Rescaled(surrogate::FidelityState state, const Eigen::VectorXd& values) {
+  state.centre = values.mean();
+  state.scale = surrogate::Spread(values);
+  if (!(state.scale > 0)) state.scale = 1;
+  return state;
+}
+
+Eigen::MatrixXd MirroredNormals(Eigen::Index num_modes) {
+  base::Random random(1, base::Stream("objective draws"));
+  Eigen::MatrixXd normals(kNumDraws, num_modes);
+  for (Eigen::Index i = 0; i < kNumDraws / 2; ++i) {
+    for (double& z : normals.row(i)) z = random.Normal();
+  }
+  normals.bottomRows(kNumDraws / 2) = -normals.topRows(kNumDraws / 2);
+  return normals;
+}
+
+}  // namespace
+
+ExperimentModel::ExperimentModel(const Setup& setup, const ExperimentData& data,
+                                 const ExperimentState* frozen)
+    : setup_(setup), num_evaluations_(data.size()) {
+  if (has_image()) {
+    if (frozen != nullptr) {
+      modes_ = frozen->modes;
+    } else {
+      Eigen::MatrixXd vectors(data.size(), data.vectors.front().size());
+      for (int i = 0; i < data.size(); ++i) {
+        vectors.row(i) = data.vectors[static_cast<std::size_t>(i)];
+      }
+      modes_ = surrogate::FitModes(vectors, kMostModes);
+    }
+  }
+  FitOutputs(data, frozen);
+  measured_ = Eigen::VectorXd::Zero(num_outputs());
+  open_ = Eigen::VectorXd::Ones(num_outputs());
+  if (has_image()) MeasureImages();
+  MeasureScalars();
+}
+
+Eigen::MatrixXd ExperimentModel::OutputValues(const ExperimentData& data) const {
+  const Eigen::Index num_modes = modes_.basis.cols();
+  const auto& scalars = setup_.target->scalars;
+  Eigen::MatrixXd values(data.size(), num_modes + static_cast<Eigen::Index>(scalars.size()));
+  for (int i = 0; i < data.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (num_modes > 0) values.row(i).head(num_modes) = modes_.Coefficients(data.vectors[k]);
+    for (std::size_t s = 0; s < scalars.size(); ++s) {
+      const double value = s < data.scalars[k].size() ? data.scalars[k][s] : kUndefined;
+      values(i, num_modes + static_cast<Eigen::Index>(s)) = Compress(scalars[s], value);
+    }
+  }
+  return values;
+}
+
+void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentState* frozen) {
+  const Eigen::MatrixXd values = OutputValues(data);
+  const Eigen::Index num_modes = modes_.basis.cols();
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    const auto output = static_cast<std::size_t>(k);
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      if (std::isfinite(values(i, k))) rows.push_back(i);
+    }
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    surrogate::FidelityData one{.points = Eigen::MatrixXd(data.points.front().size(), count),
+                                .growth = Eigen::VectorXd(count),
+                                .level = Eigen::VectorXi(count),
+                                .values = values(rows, k)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
+      one.points.col(i) = data.points[row];
+      one.level[i] = data.level[row];
+      one.growth[i] = setup_.levels->growth(data.level[row]);
+    }
+    constexpr double kNoiseOfScalar = 0.2;
+    surrogate::FidelityFitOptions options{
+        .noise_median =
+            NoiseMedians(*setup_.levels,
+                         k < num_modes ? NoiseOfMode(modes_.next_sd, one.values) : kNoiseOfScalar)};
+    if (frozen != nullptr) {
+      options.frozen = frozen->outputs[output];
+    } else if (k < num_modes && output >= kNumOwn) {
+      options.frozen = Rescaled(outputs_.back().state(), one.values);
+    }
+    outputs_.push_back(surrogate::FidelityProcess::Fit(std::move(one), options));
+    evaluations_.push_back(std::move(rows));
+  }
+}
+
+ExperimentState ExperimentModel::state() const {
+  ExperimentState state{.modes = modes_, .outputs = {}};
+  for (const surrogate::FidelityProcess& output : outputs_) state.outputs.push_back(output.state());
+  return state;
+}
+
+double ExperimentModel::TargetNoise(std::size_t output) const {
+  const int finest = setup_.levels->finest();
+  const double ratio = setup_.levels->NoiseAtTarget(finest);
+  return ratio * ratio * outputs_[output].noise_variance(finest);
+}
+
+// The experiment's heaps vary as simulated ones do along each mode, times one factor that its runs
+// tell: a few runs say little of each mode by itself.
+void ExperimentModel::MeasureImages() {
+  constexpr double kPriorRuns = 8;  // evidence, in squared deviations, for a factor of 1
+  const ExperimentTarget& target = *setup_.target;
+  const Eigen::Index num_modes = modes_.basis.cols();
+  Eigen::VectorXd noise(num_modes);
+  for (Eigen::Index k = 0; k < num_modes; ++k) noise[k] = TargetNoise(static_cast<std::size_t>(k));
+  const auto num_runs = static_cast<double>(target.runs.size());
+  double heaps = std::max(1, target.image.num_target_heaps);
+  double factor = 1;
+  if (target.runs.size() < 2) {
+    measured_.head(num_modes) = modes_.Coefficients(setup_.code->Encode(target.image.target));
+  } else {
+    Eigen::MatrixXd runs(target.runs.size(), num_modes);
+    for (std::size_t r = 0; r < target.runs.size(); ++r) {
+      runs.row(static_cast<Eigen::Index>(r)) =
+          modes_.Coefficients(setup_.code->Encode(target.runs[r]));
+    }
+    const Eigen::RowVectorXd mean = runs.colwise().mean();
+    measured_.head(num_modes) = mean.transpose();
+    const Eigen::VectorXd squares = (runs.rowwise() - mean).colwise().squaredNorm().transpose();
+    const double deviations = squares.cwiseQuotient(noise).sum();
+    const double freedom = static_cast<double>(num_modes) * (num_runs - 1);
+    factor = (deviations + kPriorRuns) / (freedom + kPriorRuns);
+    heaps = num_runs;
+  }
+  const double model_error = setup_.model_error * setup_.model_error;
+  open_.head(num_modes) = (1 / heaps + model_error) * std::max(0.25, factor) * noise;
+  Eigen::VectorXd element = modes_.basis.cwiseAbs2() * noise;
+  // Of n heaps, a share 1 - 1/n of the variance lies among them and 1/n is their mean's.
+  blur_ = (1 - 1 / heaps) * element;
+}
+
+void ExperimentModel::MeasureScalars() {
+  const Eigen::Index num_modes = modes_.basis.cols();
+  const auto& scalars = setup_.target->scalars;
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);
+    const double error = CompressionSlope(scalars[s]) * scalars[s].standard_error;
+    const double model_error = setup_.model_error * setup_.model_error;
+    measured_[k] = Compress(scalars[s], scalars[s].value);
+    open_[k] = error * error + model_error * TargetNoise(static_cast<std::size_t>(k));
+  }
+}
+
+OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
+  OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
+                      .log_sd = Eigen::VectorXd::Zero(points.rows())};
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
+    const Eigen::ArrayXd variance = all.variance.array() + open_[k];
+    misfit.residual.col(k) = (measured_[k] - all.mean.array()) / variance.sqrt();
+    misfit.log_sd.array() += 0.5 * variance.log();
+  }
+  return misfit;
+}
+
+double ExperimentModel::Implausibility(const Eigen::VectorXd& x) const {
+  return std::sqrt(MisfitOf(x.transpose()).residual.row(0).squaredNorm() /
+                   static_cast<double>(num_outputs()));
+}
+
+Eigen::MatrixXd ExperimentModel::LeaveOneOut() const {
+  Eigen::MatrixXd z = Eigen::MatrixXd::Constant(num_evaluations_, num_outputs(), kUndefined);
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const auto output = static_cast<std::size_t>(k);
+    const surrogate::Predictions left_out = outputs_[output].LeaveOneOut();
+    const Eigen::VectorXd values = outputs_[output].values();
+    for (std::size_t i = 0; i < evaluations_[output].size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      z(evaluations_[output][i], k) =
+          (values[row] - left_out.mean[row]) / std::sqrt(left_out.variance[row]);
+    }
+  }
+  return z;
+}
+
+double ExperimentModel::Gain(const Eigen::VectorXd& x, int level) const {
+  double gain = 0;
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::FidelityProcess& output = outputs_[static_cast<std::size_t>(k)];
+    const auto bridge = output.BridgeAt({.x = x, .growth = setup_.levels->growth(level)});
+    const double seen = bridge.coarse_variance + output.noise_variance(level);
+    const double left = bridge.variance - bridge.covariance * bridge.covariance / seen;
+    gain += 0.5 * std::log((bridge.variance + open_[k]) / (std::max(0.0, left) + open_[k]));
+  }
+  return gain;
+}
+
+Eigen::VectorXd ExperimentModel::GainOfAll(const Eigen::MatrixXd& points) const {
+  Eigen::VectorXd gain = Eigen::VectorXd::Zero(points.rows());
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
+    gain.array() += 0.5 * (1 + all.variance.array() / open_[k]).log();
+  }
+  return gain;
+}
+
+void ExperimentModel::Believe(const Eigen::VectorXd& x, int level) {
+  const double growth = setup_.levels->growth(level);
+  for (surrogate::FidelityProcess& output : outputs_) {
+    output.Believe({.x = x, .growth = growth}, level);
+  }
+}
+
+double ExperimentModel::DiscrepancyLeft() const {
+  if (setup_.levels->growth(0) == 0) return 0;
+  double most = 0;
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, outputs_.size()); ++k) {
+    most = std::max(most, outputs_[k].DiscrepancyLeft());
+  }
+  return most;
+}
+
+double ExperimentModel::ObjectiveOf(const Eigen::VectorXd& coefficients,
+                                    const Eigen::VectorXd& variance) const {
+  const FieldObjective& image = setup_.target->image;
+  const Eigen::VectorXd vector =
+      setup_.code->MeanOfImages(modes_.mean + modes_.basis * coefficients, blur_);
+  if (image.metric) return image.metric(setup_.code->Decode(vector));
+  return image.sad_scale * setup_.code->ExpectedSad(vector, modes_.basis.cwiseAbs2() * variance);
+}
+
+Eigen::VectorXd ExperimentModel::ObjectiveDraws(const Eigen::VectorXd& mean,
+                                                const Eigen::VectorXd& sd) const {
+  const Eigen::MatrixXd normals = MirroredNormals(mean.size());
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(mean.size());
+  Eigen::VectorXd draws(kNumDraws);
+  for (Eigen::Index i = 0; i < kNumDraws; ++i) {
+    draws[i] = ObjectiveOf(mean + sd.cwiseProduct(normals.row(i).transpose()), none);
+  }
+  return draws;
+}
+
+Moments ExperimentModel::Objective(const Eigen::MatrixXd& points) const {
+  const Eigen::Index num_modes = modes_.basis.cols();
+  Eigen::MatrixXd mean(points.rows(), num_modes);
+  Eigen::MatrixXd variance(points.rows(), num_modes);
+  for (Eigen::Index k = 0; k < num_modes; ++k) {
+    const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
+    mean.col(k) = all.mean;
+    variance.col(k) = all.variance;
+  }
+  Moments moments{.mean = Eigen::VectorXd(points.rows()), .sd = Eigen::VectorXd(points.rows())};
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    moments.mean[i] = ObjectiveOf(mean.row(i), variance.row(i));
+    moments.sd[i] = surrogate::Spread(ObjectiveDraws(mean.row(i), variance.row(i).cwiseSqrt()));
+  }
+  return moments;
+}
+
+double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
+  const Eigen::Index num_modes = modes_.basis.cols();
+  Eigen::VectorXd mean(num_modes);
+  Eigen::VectorXd sd(num_modes);
+  for (Eigen::Index k = 0; k < num_modes; ++k) {
+    mean[k] = outputs_[static_cast<std::size_t>(k)].Predict(x.transpose(), 0).mean[0];
+    sd[k] = std::sqrt(TargetNoise(static_cast<std::size_t>(k)));
+  }
+  return surrogate::Spread(ObjectiveDraws(mean, sd));
+}
+
+ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
+  ExperimentStanding standing{.name = setup_.target->name,
+                              .predicted_objective = kUndefined,
+                              .predicted_sd = kUndefined,
+                              .implausibility = Implausibility(x)};
+  if (has_image()) {
+    const Moments moments = Objective(x.transpose());
+    standing.predicted_objective = moments.mean[0];
+    standing.predicted_sd = moments.sd[0];
+  }
+  return standing;
+}
+
+}  // namespace talus::optimizer

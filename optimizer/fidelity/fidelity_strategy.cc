@@ -1,0 +1,403 @@
+#include "optimizer/fidelity/fidelity_strategy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/answer/answer.h"
+#include "optimizer/answer/credible_ranges.h"
+#include "optimizer/answer/sobol_indices.h"
+#include "optimizer/designs/design.h"
+#include "optimizer/fidelity/branches.h"
+#include "optimizer/models/feasibility.h"
+#include "optimizer/models/history.h"
+#include "optimizer/strategies/best_observed.h"
+#include "optimizer/strategies/make_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kFewest = 6;        // evaluations of an experiment that a model can stand on
+constexpr int kFewestFiner = 3;   // of a finer scale factor, before gain alone decides
+constexpr double kGrowth = 1.15;  // of the evaluations, from one fit to the next
+constexpr double kEdgeError =
+    0.1;                          // of the powder: above it, heaps overhang and pixels serve better
+constexpr double kExploring = 4;  // softness of every other sample of candidates
+constexpr int kCandidates = 48;
+
+// Evaluations that hyper-parameters are fitted to: what a strategy proposes must not depend on when
+// it was asked.
+int SizeToFit(int size) {
+  int fit = kFewest;
+  for (int next = fit; next <= size; next = static_cast<int>(std::ceil(kGrowth * next))) fit = next;
+  return fit;
+}
+
+ExperimentData FirstOf(const ExperimentData& data, int count) {
+  const auto n = static_cast<std::ptrdiff_t>(count);
+  ExperimentData first;
+  first.points.assign(data.points.begin(), data.points.begin() + n);
+  first.level.assign(data.level.begin(), data.level.begin() + n);
+  if (!data.vectors.empty()) {
+    first.vectors.assign(data.vectors.begin(), data.vectors.begin() + n);
+  }
+  first.scalars.assign(data.scalars.begin(), data.scalars.begin() + n);
+  return first;
+}
+
+// Σ |image - what its column edges make of it| / Σ image.
+double EdgeError(const surrogate::FieldCode& code, const std::vector<float>& field,
+                 const Eigen::VectorXd& vector) {
+  const std::vector<float> decoded = code.Decode(vector);
+  double error = 0;
+  double powder = 1e-9;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    error += std::abs(static_cast<double>(field[i]) - static_cast<double>(decoded[i]));
+    powder += field[i];
+  }
+  return error / powder;
+}
+
+}  // namespace
+
+std::size_t FidelityStrategy::Told::code() const {
+  return codes.empty() || edge_error <= kEdgeError * size() ? 0 : 1;
+}
+
+FidelityStrategy::FidelityStrategy(const FidelityOptions& options, const Domain& domain,
+                                   std::vector<ExperimentTarget> targets)
+    : options_(options),
+      domain_(domain),
+      levels_(options.scale_factors, options.target),
+      targets_(std::move(targets)) {
+  const int d = domain_.num_parameters;
+  const int size = options_.num_initial > 0 ? options_.num_initial : 4 * d + 4;
+  Points points = domain_.guesses;
+  for (const Eigen::VectorXd& point : LatinHypercube(size, d, options_.seed)) {
+    if (domain_.Contains(point) && static_cast<int>(points.size()) < size) points.push_back(point);
+  }
+  design_.resize(static_cast<Eigen::Index>(points.size()), d);
+  for (Eigen::Index i = 0; i < design_.rows(); ++i) {
+    design_.row(i) = points[static_cast<std::size_t>(i)];
+  }
+  for (const ExperimentTarget& target : targets_) {
+    Told told;
+    if (target.image.width > 0) {
+      const surrogate::FieldSize field{.width = target.image.width, .height = target.image.height};
+      told.codes = {std::make_shared<surrogate::EdgeCode>(field, target.image.target),
+                    std::make_shared<surrogate::PixelCode>(field, target.image.target)};
+    }
+    told.by_code.resize(std::max<std::size_t>(1, told.codes.size()));
+    told.cost.resize(static_cast<std::size_t>(levels_.size()));
+    told.count.resize(static_cast<std::size_t>(levels_.size()));
+    told_.push_back(std::move(told));
+  }
+}
+
+void FidelityStrategy::Tell(const Observation& observation) {
+  posterior_.reset();
+  sample_.reset();
+  observations_.push_back(observation);
+  observations_.back().field.clear();
+  Told& told = told_[static_cast<std::size_t>(observation.experiment)];
+  const int level = levels_.LevelOf(observation.scale_factor);
+  if (observation.cost > 0) {
+    told.cost[static_cast<std::size_t>(level)] += observation.cost;
+    ++told.count[static_cast<std::size_t>(level)];
+  }
+  // An image that was lost leaves nothing to learn from.
+  if (observation.failed || (!told.codes.empty() && observation.field.empty())) return;
+  for (std::size_t c = 0; c < told.by_code.size(); ++c) {
+    ExperimentData& data = told.by_code[c];
+    data.points.push_back(observation.point);
+    data.level.push_back(level);
+    data.scalars.push_back(observation.scalars);
+    if (!told.codes.empty()) data.vectors.push_back(told.codes[c]->Encode(observation.field));
+  }
+  if (!told.codes.empty()) {
+    told.edge_error +=
+        EdgeError(*told.codes.front(), observation.field, told.by_code.front().vectors.back());
+  }
+}
+
+bool FidelityStrategy::CanModel() const {
+  return std::all_of(told_.begin(), told_.end(),
+                     [](const Told& told) { return told.size() >= kFewest; });
+}
+
+Posterior FidelityStrategy::MakePosterior() {
+  std::vector<ExperimentModel> models;
+  std::vector<ExperimentData> data;
+  for (std::size_t e = 0; e < told_.size(); ++e) {
+    Told& told = told_[e];
+    const std::size_t code = told.code();
+    const ExperimentModel::Setup setup{.target = &targets_[e],
+                                       .code = told.codes.empty() ? nullptr : told.codes[code],
+                                       .levels = &levels_,
+                                       .model_error = options_.model_error};
+    data.push_back(told.by_code[code]);
+    const int count = SizeToFit(told.size());
+    if (!told.state || told.num_fitted != count || told.fitted_code != code) {
+      const ExperimentModel fitted(setup, FirstOf(data.back(), count), nullptr);
+      told.state = fitted.state();
+      told.num_fitted = count;
+      told.fitted_code = code;
+    }
+    models.emplace_back(setup, data.back(), &*told.state);
+  }
+  return {std::move(models), data};
+}
+
+const Posterior& FidelityStrategy::Model() {
+  if (!posterior_) posterior_.emplace(MakePosterior());
+  return *posterior_;
+}
+
+const PosteriorSample& FidelityStrategy::Sample() {
+  if (!sample_) {
+    const int start = domain_.num_parameters <= 2 ? 3000 : 6000;
+    sample_ = Model().Sample(domain_, start, 1, options_.seed);
+  }
+  return *sample_;
+}
+
+double FidelityStrategy::CostOf(std::size_t experiment, int level) const {
+  const auto l = static_cast<std::size_t>(level);
+  const Told& told = told_[experiment];
+  if (told.count[l] > 0) return told.cost[l] / told.count[l];
+  const std::vector<double>& estimates = targets_[experiment].costs;
+  if (l < estimates.size() && estimates[l] > 0) return estimates[l];
+  return std::pow(levels_.factor(level), -4);
+}
+
+std::vector<Proposal> FidelityStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
+  std::vector<Proposal> asked;
+  for (const Eigen::VectorXd& point : pending) {
+    asked.push_back({.point = point, .scale_factor = levels_.factor(0)});
+  }
+  return AskAt(count, asked);
+}
+
+std::vector<Proposal> FidelityStrategy::AskAt(int count, std::span<const Proposal> pending) {
+  std::vector<Proposal> asked(pending.begin(), pending.end());
+  for (int i = 0; i < count; ++i) asked.push_back(Next(asked));
+  return {asked.begin() + static_cast<std::ptrdiff_t>(pending.size()), asked.end()};
+}
+
+Proposal FidelityStrategy::Next(std::span<const Proposal> asked) {
+  if (auto first = FromDesign(asked)) return *first;
+  if (CanModel()) return ByGain(asked);
+  // Most of the design has failed: more of the same.
+  const int index = static_cast<int>(observations_.size() + asked.size());
+  const Eigen::VectorXd point = Sobol(index + 1, domain_.num_parameters, options_.seed).back();
+  return {.point = point,
+          .origin = Origin::kDesign,
+          .experiment = index % static_cast<int>(targets_.size()),
+          .scale_factor = levels_.factor(0)};
+}
+
+// Every experiment at the same points: what their residuals share is part of the posterior.
+std::optional<Proposal> FidelityStrategy::FromDesign(std::span<const Proposal> asked) const {
+  for (Eigen::Index i = 0; i < design_.rows(); ++i) {
+    const Eigen::VectorXd point = design_.row(i);
+    for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
+      const auto is_it = [&](const auto& other) {
+        return other.experiment == e && SamePoint(other.point, point);
+      };
+      if (std::any_of(asked.begin(), asked.end(), is_it) ||
+          std::any_of(observations_.begin(), observations_.end(), is_it)) {
+        continue;
+      }
+      return Proposal{.point = point,
+                      .origin = Origin::kDesign,
+                      .experiment = e,
+                      .scale_factor = levels_.factor(0)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Proposal> FidelityStrategy::TooFewAt(const Eigen::VectorXd& point,
+                                                   std::span<const Proposal> asked) const {
+  for (int level = 1; level < levels_.size(); ++level) {
+    for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
+      const auto is_it = [&](const auto& other) {
+        return other.experiment == e && levels_.LevelOf(other.scale_factor) == level;
+      };
+      const auto count = std::count_if(asked.begin(), asked.end(), is_it) +
+                         std::count_if(observations_.begin(), observations_.end(), is_it);
+      if (count >= kFewestFiner) continue;
+      return Proposal{.point = point,
+                      .origin = Origin::kModel,
+                      .experiment = e,
+                      .scale_factor = levels_.factor(level)};
+    }
+  }
+  return std::nullopt;
+}
+
+Proposal FidelityStrategy::ByGain(std::span<const Proposal> asked) {
+  const std::size_t turn = observations_.size() + asked.size();
+  const std::uint64_t seed = options_.seed + 7919 * turn;
+  Posterior believed = Model();
+  for (const Proposal& p : asked) {
+    believed.models()[static_cast<std::size_t>(p.experiment)].Believe(
+        p.point, levels_.LevelOf(p.scale_factor));
+  }
+  const double softness = turn % 2 == 0 ? 1 : kExploring;
+  const int start = domain_.num_parameters <= 2 ? 1000 : 2000;
+  const PosteriorSample sample = Model().Sample(domain_, start, softness, seed);
+  Eigen::MatrixXd points = sample.Draws(kCandidates, seed);
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(points.rows());
+  for (const ExperimentModel& model : believed.models()) score += model.GainOfAll(points);
+  const Feasibility feasibility(MakeHistory(observations_, domain_.num_parameters));
+  score += feasibility.Penalty(points);
+  constexpr Eigen::Index kBest = 6;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return score[a] > score[b]; });
+  order.resize(std::min<std::size_t>(order.size(), kBest));
+  points = Eigen::MatrixXd(points(order, Eigen::all));
+  if (auto few = TooFewAt(points.row(0), asked)) return *few;
+  return MostPerCost(believed, points);
+}
+
+Proposal FidelityStrategy::MostPerCost(const Posterior& believed,
+                                       const Eigen::MatrixXd& points) const {
+  Proposal best;
+  double most = -1;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    for (std::size_t e = 0; e < targets_.size(); ++e) {
+      for (int level = 0; level < levels_.size(); ++level) {
+        const double rate = believed.models()[e].Gain(points.row(i), level) / CostOf(e, level);
+        if (rate <= most) continue;
+        most = rate;
+        best = {.point = points.row(i),
+                .origin = Origin::kModel,
+                .experiment = static_cast<int>(e),
+                .scale_factor = levels_.factor(level)};
+      }
+    }
+  }
+  return best;
+}
+
+std::optional<std::string> FidelityStrategy::StopReason() {
+  constexpr int kDraws = 64;
+  if (options_.stop_share == 0 || !CanModel() || FromDesign({}) ||
+      TooFewAt(Eigen::VectorXd(), {})) {
+    return std::nullopt;
+  }
+  const Eigen::MatrixXd draws = Sample().Draws(kDraws, options_.seed);
+  double gain = 0;
+  double outputs = 0;
+  for (const ExperimentModel& model : Model().models()) {
+    gain += model.GainOfAll(draws).mean();
+    outputs += model.num_outputs();
+  }
+  const double share = std::expm1(2 * gain / outputs);  // V/B of the typical output
+  if (share >= options_.stop_share) return std::nullopt;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "over the posterior the surrogate's variance is %.2g of what the experiment leaves "
+                "open, below %.2g",
+                share, options_.stop_share);
+  return text;
+}
+
+std::vector<double> FidelityStrategy::UnlearntLevels() const {
+  constexpr int kEnough = 2;
+  std::vector<double> unlearnt;
+  for (int level = 0; level < levels_.size(); ++level) {
+    for (const Told& told : told_) {
+      const std::vector<int>& levels = told.by_code.front().level;
+      const bool few = std::count(levels.begin(), levels.end(), level) < kEnough;
+      const bool is_target = level == levels_.finest() && !levels_.is_extrapolated();
+      if (few && (is_target || level == 0)) unlearnt.push_back(levels_.factor(level));
+    }
+  }
+  unlearnt.erase(std::unique(unlearnt.begin(), unlearnt.end()), unlearnt.end());
+  return unlearnt;
+}
+
+void FidelityStrategy::Summarise(Answer& answer) {
+  constexpr int kDraws = 2000;
+  const Posterior& posterior = Model();
+  const PosteriorSample& sample = Sample();
+  PosteriorSummary summary{.draws = sample.Draws(kDraws, options_.seed),
+                           .region_volume = sample.RegionVolume(),
+                           .branches = FindBranches(posterior, sample, options_.seed),
+                           .temper = posterior.temper(),
+                           .raw_coverage = posterior.coverage().raw,
+                           .tempered_coverage = posterior.coverage().tempered,
+                           .num_left_out = posterior.coverage().count,
+                           .target_scale_factor = levels_.target(),
+                           .is_extrapolated = levels_.is_extrapolated(),
+                           .unlearnt_levels = UnlearntLevels(),
+                           .experiments = {}};
+  answer.point = summary.branches.front().point;
+  for (const ExperimentModel& model : posterior.models()) {
+    summary.experiments.push_back(model.StandingAt(answer.point));
+  }
+  answer.posterior = std::move(summary);
+}
+
+Answer FidelityStrategy::Recommend() {
+  if (!CanModel()) return BestObserved(observations_, domain_, "the search over scale factors");
+  constexpr int kMostTied = 200;
+  Answer answer;
+  Summarise(answer);
+  const PosteriorSummary& summary = *answer.posterior;
+  answer.credible = CredibleRanges(summary.draws, 0.9);
+  const Eigen::MatrixXd centred = summary.draws.rowwise() - summary.draws.colwise().mean();
+  const Eigen::MatrixXd covariance = centred.transpose() * centred;
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt().cwiseMax(1e-12);
+  answer.correlation = sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
+  for (int i = 0; i < kMostTied; ++i) {
+    answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));
+  }
+  answer.tied_volume = summary.region_volume;
+  answer.warnings = BoundWarnings(answer.point);
+  const std::vector<ExperimentModel>& models = Model().models();
+  const auto image = std::find_if(models.begin(), models.end(),
+                                  [](const ExperimentModel& m) { return m.has_image(); });
+  if (image != models.end()) {
+    const Moments at = image->Objective(answer.point.transpose());
+    answer.predicted_value = at.mean[0];
+    answer.predicted_sd = at.sd[0];
+    answer.noise_sd = image->ObjectiveNoise(answer.point);
+    const SobolIndices sobol = EstimateSobolIndices(
+        [&](const Eigen::MatrixXd& points) { return image->Objective(points).mean; },
+        {.dimension = domain_.num_parameters, .num_base = 128, .seed = options_.seed});
+    answer.sobol_first = sobol.first;
+    answer.sobol_total = sobol.total;
+  }
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "posterior of %zu evaluations at %d scale factors; leave-one-out coverage of 90 %% "
+                "regions %.0f %%, %.0f %% after tempering by %.2f",
+                observations_.size(), levels_.size(), 100 * summary.raw_coverage,
+                100 * summary.tempered_coverage, summary.temper);
+  answer.model = text;
+  return answer;
+}
+
+std::optional<Standing> FidelityStrategy::Consider(const Eigen::VectorXd& point) {
+  if (!CanModel()) return std::nullopt;
+  Standing standing;
+  standing.credible_level = Sample().CredibleLevel(Model().LogDensity(point.transpose())[0]);
+  for (const ExperimentModel& model : Model().models()) {
+    standing.experiments.push_back(model.StandingAt(point));
+  }
+  return standing;
+}
+
+std::unique_ptr<Strategy> MakeFidelityStrategy(const FidelityOptions& options, const Domain& domain,
+                                               std::vector<ExperimentTarget> targets) {
+  return std::make_unique<FidelityStrategy>(options, domain, std::move(targets));
+}
+
+}  // namespace talus::optimizer

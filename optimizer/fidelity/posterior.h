@@ -1,0 +1,73 @@
+// The posterior of the parameters: how likely the measured outputs of all experiments are at a set.
+//
+//   ln p(x | data) = -Σ ln sdₖ(x) - ½ (ν + K) ln(1 + M(x)/(ν T)) + const,   M = rᵀ C⁻¹ r
+//
+// r residuals of the K outputs in standard deviations (experiment_model.h: the experiment's own
+// error, model error and the surrogate's), C their correlation from leave-one-out residuals of all
+// experiments together, so that two tests are not added as if independent; ν degrees of freedom of
+// the heavy-tailed (Student-t) misfit; T >= 1 tempers it until leave-one-out coverage is right. The
+// prior is uniform over the domain.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "optimizer/fidelity/experiment_model.h"
+#include "optimizer/space/domain.h"
+
+namespace talus::optimizer {
+
+// Coverage of nominal 90 % regions of the outputs, each evaluation left out in turn.
+struct LeaveOneOutCoverage {
+  int count = 0;  // evaluations
+  double raw = 0;
+  double tempered = 0;
+};
+
+// A weighted sample of the posterior.
+struct PosteriorSample {
+  Eigen::MatrixXd points;         // one a row
+  Eigen::VectorXd log_density;    // of each, up to a constant
+  Eigen::VectorXd weight;         // of each, for expectations under the posterior; sums to 1
+  Eigen::VectorXd volume;         // of each, for integrals over the cube; sums to about 1
+  double region_log_density = 0;  // at the edge of the joint 90 % region
+
+  // Share of the posterior where the density is higher than this.
+  double CredibleLevel(double log_density) const;
+  double RegionVolume() const;
+  // Equally likely draws.
+  Eigen::MatrixXd Draws(int count, std::uint64_t seed) const;
+};
+
+class Posterior {
+ public:
+  // Of one experiment a model each; `places` groups evaluations of different experiments at one
+  // set and scale factor (see posterior.cc).
+  Posterior(std::vector<ExperimentModel> models, const std::vector<ExperimentData>& data);
+
+  // Up to a constant, one point a row. `softness` >= 1 divides the misfits once more, for
+  // exploration.
+  Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points, double softness = 1) const;
+
+  // By importance sampling from an even start, refined where the weights are [cappe2004]: the
+  // posterior may be curved and have several branches.
+  PosteriorSample Sample(const Domain& domain, int num_start, double softness,
+                         std::uint64_t seed) const;
+
+  std::vector<ExperimentModel>& models() { return models_; }
+  const std::vector<ExperimentModel>& models() const { return models_; }
+  double temper() const { return temper_; }
+  const LeaveOneOutCoverage& coverage() const { return coverage_; }
+
+ private:
+  void Correlate(const Eigen::MatrixXd& stacked);
+  void Temper(const Eigen::MatrixXd& stacked);
+
+  std::vector<ExperimentModel> models_;
+  Eigen::MatrixXd inverse_root_;  // L⁻¹ of the correlation C = L Lᵀ
+  double temper_ = 1;
+  LeaveOneOutCoverage coverage_;
+};
+
+}  // namespace talus::optimizer

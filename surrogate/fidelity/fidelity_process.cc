@@ -1,0 +1,198 @@
+#include "surrogate/fidelity/fidelity_process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "surrogate/nlopt_minimize.h"
+#include "surrogate/process/warp.h"
+#include "surrogate/spread.h"
+
+namespace talus::surrogate {
+namespace {
+
+struct Prior {
+  Eigen::VectorXd median;
+  Eigen::VectorXd sd;
+};
+
+Prior PriorOf(const FidelityLayout& layout, const FidelityFitOptions& options) {
+  const Eigen::Index d = layout.dimension;
+  const FidelityHyper median{.length = Eigen::VectorXd::Constant(d, 0.7),
+                             .signal = 1,
+                             .trend = 0.5,
+                             .discrepancy = 0.3,
+                             .noise = options.noise_median,
+                             .warp = Eigen::VectorXd::Zero(d)};
+  Prior prior{.median = layout.Pack(median), .sd = Eigen::VectorXd(layout.size())};
+  prior.sd.head(d).setConstant(0.4);
+  prior.sd[layout.signal()] = 0.7;
+  prior.sd[layout.trend()] = 1.0;
+  prior.sd[layout.discrepancy()] = 0.7;
+  prior.sd.segment(layout.noise(), layout.num_levels).setConstant(options.noise_log_sd);
+  prior.sd.tail(d).setConstant(2.0);
+  return prior;
+}
+
+FidelityHyper Search(const FidelityData& data, const FidelityLayout& layout,
+                     const FidelityFitOptions& options) {
+  constexpr double kMostSds = 4;  // of the prior: the box of the search
+  constexpr double kLargestWarp = 5;
+  const Prior prior = PriorOf(layout, options);
+  const SearchFunction cost = [&](const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
+    const double log_posterior =
+        FidelityLogPosterior(data, layout, prior.median, prior.sd, theta, gradient);
+    if (gradient != nullptr && std::isfinite(log_posterior)) *gradient *= -1;
+    return -log_posterior;
+  };
+  SearchTask task{.algorithm = SearchAlgorithm::kLbfgs,
+                  .lower = prior.median - kMostSds * prior.sd,
+                  .upper = prior.median + kMostSds * prior.sd,
+                  .start = prior.median,
+                  .max_evaluations = 50,
+                  .relative_tolerance = 1e-6};
+  task.lower.tail(layout.dimension).setConstant(-kLargestWarp);
+  task.upper.tail(layout.dimension).setConstant(kLargestWarp);
+  return layout.Unpack(Minimize(cost, task).point);
+}
+
+}  // namespace
+
+FidelityProcess::FidelityProcess(FidelityData data, FidelityState state)
+    : data_(std::move(data)), state_(std::move(state)) {
+  Factorise();
+}
+
+FidelityProcess FidelityProcess::Fit(FidelityData data, const FidelityFitOptions& options) {
+  FidelityState state;
+  if (options.frozen) {
+    state = *options.frozen;
+  } else {
+    state.centre = data.values.mean();
+    state.scale = Spread(data.values);
+    if (!(state.scale > 0)) state.scale = 1;
+  }
+  data.values = (data.values.array() - state.centre) / state.scale;
+  if (!options.frozen) {
+    const FidelityLayout layout{.dimension = data.points.rows(),
+                                .num_levels = options.noise_median.size()};
+    state.hyper = Search(data, layout, options);
+  }
+  return FidelityProcess(std::move(data), std::move(state));
+}
+
+void FidelityProcess::Factorise() {
+  warped_ = BendAll(data_.points, state_.hyper.warp);
+  const Eigen::Index size = data_.values.size();
+  Eigen::MatrixXd k(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    for (Eigen::Index i = j; i < size; ++i) {
+      const FidelityPair pair =
+          FidelityPair::Of(state_.hyper, warped_.col(i).data(), warped_.col(j).data());
+      k(i, j) =
+          FidelityCovarianceOf(state_.hyper, pair, SharedGrowth(data_.growth[i], data_.growth[j]));
+    }
+    const double noise = state_.hyper.noise[data_.level[j]];
+    k(j, j) += noise * noise + 1e-10;  // rounding alone must not make K indefinite
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(k.selfadjointView<Eigen::Lower>());
+  lower_ = factor.matrixL();
+  alpha_ = factor.solve(data_.values);
+}
+
+Eigen::MatrixXd FidelityProcess::Cross(const Eigen::MatrixXd& warped, double growth) const {
+  Eigen::MatrixXd cross(data_.values.size(), warped.cols());
+  for (Eigen::Index j = 0; j < warped.cols(); ++j) {
+    for (Eigen::Index i = 0; i < cross.rows(); ++i) {
+      const FidelityPair pair =
+          FidelityPair::Of(state_.hyper, warped_.col(i).data(), warped.col(j).data());
+      cross(i, j) = FidelityCovarianceOf(state_.hyper, pair, SharedGrowth(data_.growth[i], growth));
+    }
+  }
+  return cross;
+}
+
+Predictions FidelityProcess::Predict(const Eigen::MatrixXd& points, double growth) const {
+  const Eigen::MatrixXd warped = BendAll(points.transpose(), state_.hyper.warp);
+  const Eigen::MatrixXd cross = Cross(warped, growth);
+  const Eigen::MatrixXd half = lower_.triangularView<Eigen::Lower>().solve(cross);
+  const double shared = SharedGrowth(growth, growth);
+  Predictions result{.mean = cross.transpose() * alpha_, .variance = Eigen::VectorXd(cross.cols())};
+  for (Eigen::Index j = 0; j < cross.cols(); ++j) {
+    const double* x = warped.col(j).data();
+    const double prior =
+        FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x), shared);
+    result.variance[j] = std::max(0.0, prior - half.col(j).squaredNorm());
+  }
+  result.mean = state_.centre + state_.scale * result.mean.array();
+  result.variance *= state_.scale * state_.scale;
+  return result;
+}
+
+FidelityProcess::Bridge FidelityProcess::BridgeAt(const FidelityPoint& at) const {
+  const Eigen::MatrixXd warped = BendAll(at.x, state_.hyper.warp);
+  const auto lower = lower_.triangularView<Eigen::Lower>();
+  const Eigen::VectorXd fine = lower.solve(Cross(warped, 0));
+  const Eigen::VectorXd coarse = lower.solve(Cross(warped, at.growth));
+  const FidelityPair same =
+      FidelityPair::Of(state_.hyper, warped.col(0).data(), warped.col(0).data());
+  const double prior = FidelityCovarianceOf(state_.hyper, same, 0);
+  const double coarse_prior =
+      FidelityCovarianceOf(state_.hyper, same, SharedGrowth(at.growth, at.growth));
+  const double unit = state_.scale * state_.scale;
+  return {.variance = unit * std::max(0.0, prior - fine.squaredNorm()),
+          .covariance = unit * (prior - fine.dot(coarse)),
+          .coarse_variance = unit * std::max(0.0, coarse_prior - coarse.squaredNorm())};
+}
+
+// Residuals and variances from the inverse [dubrule1983].
+Predictions FidelityProcess::LeaveOneOut() const {
+  const Eigen::Index size = data_.values.size();
+  const Eigen::MatrixXd root =
+      lower_.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
+  const Eigen::VectorXd precision = root.colwise().squaredNorm().transpose();
+  Predictions result{.mean = data_.values - alpha_.cwiseQuotient(precision),
+                     .variance = precision.cwiseInverse()};
+  result.mean = state_.centre + state_.scale * result.mean.array();
+  result.variance *= state_.scale * state_.scale;
+  return result;
+}
+
+void FidelityProcess::Believe(const FidelityPoint& at, int level) {
+  const double value =
+      (Predict(at.x.transpose(), at.growth).mean[0] - state_.centre) / state_.scale;
+  const Eigen::Index n = data_.values.size();
+  data_.points.conservativeResize(Eigen::NoChange, n + 1);
+  data_.points.col(n) = at.x;
+  data_.growth.conservativeResize(n + 1);
+  data_.growth[n] = at.growth;
+  data_.level.conservativeResize(n + 1);
+  data_.level[n] = level;
+  data_.values.conservativeResize(n + 1);
+  data_.values[n] = value;
+  Factorise();
+}
+
+double FidelityProcess::noise_variance(int level) const {
+  const double noise = state_.scale * state_.hyper.noise[level];
+  return noise * noise;
+}
+
+double FidelityProcess::DiscrepancyLeft() const {
+  const auto lower = lower_.triangularView<Eigen::Lower>();
+  double left = 0;
+  double prior = 0;
+  for (Eigen::Index j = 0; j < data_.values.size(); ++j) {
+    const Eigen::MatrixXd x = warped_.col(j);
+    // z(x, 1) - z(x, 0) is the linear discrepancy: the quadratic one vanishes at both.
+    const Eigen::VectorXd step = Cross(x, 1) - Cross(x, 0);
+    const FidelityPair same = FidelityPair::Of(state_.hyper, x.data(), x.data());
+    const double own =
+        FidelityCovarianceOf(state_.hyper, same, 1) - FidelityCovarianceOf(state_.hyper, same, 0);
+    prior += own;
+    left += std::max(0.0, own - lower.solve(step).squaredNorm());
+  }
+  return prior > 0 ? std::sqrt(left / prior) : 0;
+}
+
+}  // namespace talus::surrogate
