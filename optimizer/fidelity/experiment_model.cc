@@ -11,6 +11,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double kCaution = 1.5;  // see MisfitOf
 constexpr int kMostModes = 8;
 constexpr std::size_t kNumOwn = 4;  // outputs with hyper-parameters of their own, of the modes
 constexpr int kNumDraws = 16;       // of an objective, half of them mirror images of the others
@@ -192,12 +193,14 @@ void ExperimentModel::MeasureScalars() {
   }
 }
 
+// The surrogate's sd is inflated by kCaution: point-estimated hyper-parameters and constant noise
+// make it overconfident where the posterior selects (bench/optimizers/fidelity_twins).
 OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
   OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
                       .log_sd = Eigen::VectorXd::Zero(points.rows())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
-    const Eigen::ArrayXd variance = all.variance.array() + open_[k];
+    const Eigen::ArrayXd variance = kCaution * kCaution * all.variance.array() + open_[k];
     misfit.residual.col(k) = (measured_[k] - all.mean.array()) / variance.sqrt();
     misfit.log_sd.array() += 0.5 * variance.log();
   }
