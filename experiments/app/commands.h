@@ -2,16 +2,11 @@
 // verb's callback throws base::ConfigError or base::Error; main turns them into exit statuses.
 #pragma once
 
-#include <string>
-
 namespace CLI {
 class App;
 }
 
 namespace talus::experiments {
-
-// "0.1.0"
-std::string Version();
 
 void AddCompareCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);

@@ -27,7 +27,7 @@ void PrintEnd(const Campaign& campaign, CampaignEnd end, const std::filesystem::
 }  // namespace
 
 void GoOn(const std::filesystem::path& folder, const ResumeOptions& options) {
-  const InterruptGuard interrupt;
+  const base::InterruptGuard interrupt;
   Console console(CampaignFolder{folder}.log());
   OpenedCampaign opened = OpenCampaign(folder, options, console);
   CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),

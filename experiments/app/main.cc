@@ -3,13 +3,13 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "base/version.h"
 #include "experiments/app/commands.h"
 
 namespace {
-
 int Run(int argc, char** argv) {
   CLI::App app("talus: calibrates discrete element models of powders from photographs of heaps");
-  app.set_version_flag("--version", "talus " + talus::experiments::Version());
+  app.set_version_flag("--version", "talus " + talus::base::Version());
   app.require_subcommand(1);
   talus::experiments::AddCompareCommand(app);
   talus::experiments::AddReportCommand(app);

@@ -50,19 +50,19 @@ double Campaign::Elapsed() const {
   return elapsed_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-CampaignEnd Campaign::Run(const InterruptGuard& interrupt) {
+CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
   journal_.SetProgress({.elapsed_s = Elapsed()});
   TellFinished();
   TakeUpRunning();
   bool announced = false;
   while (true) {
-    const Interrupt asked = interrupt.Asked();
-    if (asked == Interrupt::kDrop) {
+    const base::Interrupt asked = interrupt.Asked();
+    if (asked == base::Interrupt::kDrop) {
       DropRunning();
       return End(asked);
     }
-    const bool started = asked == Interrupt::kNone && StartTrials();
-    if (asked == Interrupt::kDrain && !std::exchange(announced, true)) {
+    const bool started = asked == base::Interrupt::kNone && StartTrials();
+    if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
     }
@@ -274,8 +274,8 @@ void Campaign::DropRunning() {
   running_.clear();
 }
 
-CampaignEnd Campaign::End(Interrupt interrupt) {
-  const bool finished = interrupt == Interrupt::kNone && waiting_.empty();
+CampaignEnd Campaign::End(base::Interrupt interrupt) {
+  const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
   ProgressRecord progress{.state = finished ? "finished" : "interrupted",
                           .stop_reason = finished ? planner_.stop_reason() : "it was interrupted",
                           .elapsed_s = Elapsed(),

@@ -12,10 +12,10 @@
 #include <optional>
 #include <string>
 
+#include "base/interrupt.h"
 #include "experiments/campaign/campaign_folder.h"
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/campaign/console.h"
-#include "experiments/campaign/interrupt.h"
 #include "experiments/campaign/planner.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -43,7 +43,7 @@ class Campaign {
   // Until the budget is used, the strategy says stop, or somebody interrupts. Throws base::Error
   // when the journal or the folder cannot be written; the running trials are then run again by the
   // next process.
-  CampaignEnd Run(const InterruptGuard& interrupt);
+  CampaignEnd Run(const base::InterruptGuard& interrupt);
 
   const std::optional<CampaignResult>& result() const { return result_; }
 
@@ -63,7 +63,7 @@ class Campaign {
   void Close(TrialRecord& trial, const imaging::GrayImage* profile);
   void NoteElapsed();
   void DropRunning();
-  CampaignEnd End(Interrupt interrupt);
+  CampaignEnd End(base::Interrupt interrupt);
   void NoteBest(const TrialRecord& trial);
   void Report(const TrialRecord& trial);
   void ShowStatus();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/app/commands.h"
+#include "base/version.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::experiments {
@@ -161,7 +161,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   if (!answer) return std::nullopt;
   CampaignResult result;
   result.name = of.spec.name;
-  result.talus_version = Version();
+  result.talus_version = base::Version();
   result.stop_reason = planner.stop_reason();
   result.objective = of.reference.key();
   result.objective_unit = of.reference.unit();

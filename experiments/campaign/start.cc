@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
-#include "experiments/app/commands.h"
+#include "base/version.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/image_file.h"
@@ -89,7 +89,7 @@ CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) 
   record.spec_text = base::ReadFile(file.path);
   record.spec_json = SpecText(spec);
   record.spec_hash = base::Hex(base::Checksum(record.spec_json));
-  record.talus_version = Version();
+  record.talus_version = base::Version();
   record.created_utc = UtcNow();
   record.objective = base::NameOf(spec.objective);
   record.parameters = ParametersOf(SpaceOf(spec));

@@ -111,7 +111,7 @@ inline std::filesystem::path WriteFakeSpec(const std::filesystem::path& folder,
 // One session of a campaign with drawn heaps.
 inline CampaignEnd RunFake(const std::filesystem::path& folder, const FakeEngineOptions& engine,
                            const ResumeOptions& resume = {}) {
-  const InterruptGuard interrupt;
+  const base::InterruptGuard interrupt;
   Console console(folder / "campaign.log", Console::Output::kQuiet);
   OpenedCampaign opened = OpenCampaign(folder, resume, console);
   CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),

@@ -13,6 +13,8 @@ MAY_INCLUDE = {
     "optimizer": {"base", "surrogate", "optimizer"},
     "experiments": {"base", "engine", "imaging", "surrogate", "optimizer", "experiments"},
 }
+# experiments/ is a wing with floors: each includes only what stands below it.
+FLOORS = {"rigs": 1, "runners": 2, "journal": 2, "trials": 3, "campaign": 4, "analysis": 5, "app": 6}
 FENCES = [  # (include, files that may have it)
     (r"nlopt", r"(surrogate|optimizer)/nlopt_\w+\.cc$"),
     (r"ceres/", r"(surrogate|imaging)/[\w/]+\.cc$"),
@@ -26,6 +28,14 @@ FENCES = [  # (include, files that may have it)
     (r"nlohmann/", r"(base/json_\w+\.h|json_file\.(h|cc)|\w+\.cc|\w*json\w*\.h)$"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def upward(name: str, target: str) -> bool:
+    """Whether an include inside experiments/ does not lead to a lower floor or stay in its folder."""
+    own, other = name.split("/")[1], target.split("/")[1]
+    if own not in FLOORS or other not in FLOORS:
+        return True
+    return own != other and FLOORS[own] <= FLOORS[other]
 
 
 def main() -> int:
@@ -47,6 +57,8 @@ def main() -> int:
                 first = target.split("/")[0]
                 if first in MAY_INCLUDE and first not in allowed:
                     wrong.append(f"{name}:{number}: {folder} may not include {target}")
+                if first == folder == "experiments" and upward(name, target):
+                    wrong.append(f"{name}:{number}: {target} is not on a lower floor")
                 for pattern, files in FENCES:
                     if re.match(pattern, target) and not re.search(files, name):
                         wrong.append(f"{name}:{number}: {target} outside its fence ({files})")

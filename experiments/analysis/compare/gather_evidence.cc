@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/json_file.h"
 #include "base/json_reader.h"
+#include "base/version.h"
 #include "experiments/analysis/report/labels.h"
-#include "experiments/app/commands.h"
 #include "experiments/journal/journal.h"
 #include "imaging/formats/image_file.h"
 
@@ -152,7 +152,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign) {
   }
   AddTimes(evidence, progress.elapsed_s);
   evidence.versions = {{"talus that started the campaign", record.talus_version},
-                       {"talus that wrote this report", Version()},
+                       {"talus that wrote this report", base::Version()},
                        {"started", record.created_utc},
                        {"strategy", evidence.strategy},
                        {"spec", record.spec_path},

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
-#include "experiments/app/commands.h"
+#include "base/version.h"
 
 namespace talus::experiments {
 namespace {
@@ -84,7 +84,7 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
   result["kind"] = "heap";
   result["status"] = "ok";
   result["reason"] = Reason(state);
-  result["talus_version"] = Version();
+  result["talus_version"] = base::Version();
   result["input_hash"] = base::Hex(HeapCaseHash(c));
   result["phases"] = Phases(c, state);
   result["num_grains"] = state.num_filled;

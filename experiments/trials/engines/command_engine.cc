@@ -7,9 +7,9 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
-#include "experiments/app/commands.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
@@ -85,7 +85,7 @@ std::string ResultText(const HeapCase& heap_case, const Measured& measured, cons
   nlohmann::ordered_json result;
   result["kind"] = kKind;
   result["status"] = "done";
-  result["talus_version"] = Version();
+  result["talus_version"] = base::Version();
   result["result_file"] = file.filename().string();
   result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};
   result["conditions"] = {{"scale_factor", heap_case.coarse_graining.scale_factor},
@@ -202,7 +202,7 @@ void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder
     nlohmann::ordered_json result;
     result["kind"] = kKind;
     result["status"] = "failed";
-    result["talus_version"] = Version();
+    result["talus_version"] = base::Version();
     result["reason"] = error.what();
     base::WriteFileAtomically(folder / "result.json", result.dump(2) + "\n");
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is

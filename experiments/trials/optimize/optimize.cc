@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "experiments/campaign/interrupt.h"
+#include "base/interrupt.h"
 #include "experiments/trials/optimize/evaluator.h"
 
 namespace talus::experiments {
@@ -45,7 +45,7 @@ class Loop {
 
  private:
   std::string WhyStop(bool nothing_left) {
-    if (guard_.Asked() != Interrupt::kNone) return "interrupted";
+    if (guard_.Asked() != base::Interrupt::kNone) return "interrupted";
     if (num_told_ >= problem_.evaluations) return "all evaluations are used";
     if (nothing_left) return "the strategy has no more points";
     return strategy_->StopReason().value_or("");
@@ -158,7 +158,7 @@ class Loop {
   Evaluator evaluator_;
   std::unique_ptr<optimizer::Strategy> strategy_;
   std::ofstream log_;
-  InterruptGuard guard_;
+  base::InterruptGuard guard_;
   int num_told_ = 0;
   int num_failed_ = 0;
   double best_value_ = 0;

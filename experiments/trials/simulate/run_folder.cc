@@ -9,8 +9,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "experiments/app/commands.h"
-#include "experiments/campaign/interrupt.h"
+#include "base/interrupt.h"
+#include "base/version.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::experiments {
@@ -108,7 +108,7 @@ void WriteFailure(const RunJob& job, const fs::path& folder, const std::string& 
   result["kind"] = job.kind;
   result["status"] = "failed";
   result["reason"] = reason;
-  result["talus_version"] = Version();
+  result["talus_version"] = base::Version();
   result["input_hash"] = base::Hex(job.input_hash);
   result["timing"] = {{"wall_time_s", watch.Total().wall_time},
                       {"cpu_time_s", watch.Total().cpu_time}};
@@ -122,7 +122,7 @@ void Report(engine::Run& run, RunLog& log) {
 // Slices until the end, with checkpoints in between.
 void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Stopwatch& watch,
           RunLog& log) {
-  const InterruptGuard interrupt;
+  const base::InterruptGuard interrupt;
   const auto save = [&] {
     base::WriteFileAtomically(folder / kCheckpoint, run.Checkpoint(watch.Total()));
   };
@@ -130,7 +130,7 @@ void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Sto
   while (run.Advance()) {
     Report(run, log);
     log.Progress(run.Progress());
-    if (interrupt.Asked() != Interrupt::kNone) {
+    if (interrupt.Asked() != base::Interrupt::kNone) {
       save();
       throw base::Interrupted("interrupted; the same command goes on from " +
                               (folder / kCheckpoint).string());

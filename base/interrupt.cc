@@ -1,10 +1,10 @@
-#include "experiments/campaign/interrupt.h"
+#include "base/interrupt.h"
 
 #include <signal.h>
 
 #include <atomic>
 
-namespace talus::experiments {
+namespace talus::base {
 namespace {
 
 // What a signal handler can reach is global by nature.
@@ -44,4 +44,4 @@ Interrupt InterruptGuard::Asked() const {
   return num_interrupts == 1 ? Interrupt::kDrain : Interrupt::kNone;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::base

@@ -1,7 +1,7 @@
-// Ctrl-C and SIGTERM, as a campaign understands them.
+// Ctrl-C and SIGTERM, noted instead of ending the program.
 #pragma once
 
-namespace talus::experiments {
+namespace talus::base {
 
 enum class Interrupt {
   kNone,
@@ -20,4 +20,4 @@ class InterruptGuard {
   Interrupt Asked() const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::base
