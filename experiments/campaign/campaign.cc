@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/conclude.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/campaign/start.h"
@@ -39,8 +40,8 @@ Campaign::Campaign(CampaignFolder folder, CampaignLock lock, Journal journal,
       journal_(std::move(journal)),
       spec_(spec),
       record_(journal_.Campaign()),
-      reference_(ReferenceOf(record_, spec_)),
-      planner_(spec_, reference_),
+      references_(ReferencesOf(record_, spec_)),
+      planner_(spec_, references_, MakeCampaignStrategy(spec_, record_, references_)),
       parts_(std::move(parts)),
       console_(console),
       start_(Clock::now()),
@@ -89,7 +90,7 @@ void Campaign::TellFinished() {
     std::vector<float> field;
     if (trial.status == TrialStatus::kOk && trial.kind != TrialKind::kConfirm) {
       if (const auto profile = StoredProfile(journal_, folder_, trial.id)) {
-        field = reference_.Field(*profile);
+        field = ReferenceOf(trial).Field(*profile);
       }
     }
     planner_.Finished(trial, std::move(field));
@@ -178,14 +179,13 @@ Job Campaign::JobOf(const TrialRecord& trial) const {
 }
 
 HeapCase Campaign::CaseOfTrial(const TrialRecord& trial) const {
-  const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(
-      trial.unit.data(), static_cast<Eigen::Index>(trial.unit.size()));
-  const std::vector<double> values = planner_.space().ToNative(point);
+  const std::vector<double> values = planner_.space().ToNative(PointOf(trial));
   return CaseOf(spec_,
                 {.values = values,
                  .seed = static_cast<std::uint64_t>(trial.seed),
-                 .scale_factor = trial.scale_factor},
-                reference_.frame());
+                 .scale_factor = trial.scale_factor,
+                 .experiment = trial.experiment},
+                ReferenceOf(trial).frame());
 }
 
 void Campaign::HandleEnd(const FinishedJob& job) {
@@ -216,7 +216,7 @@ void Campaign::Collect(TrialRecord& trial, const FinishedJob&) {
   TrialOutput output;
   try {
     output = parts_.engine->Collect(CaseOfTrial(trial), folder_.trial(trial.id));
-    trial.metrics = reference_.Measure(output.profile);
+    trial.metrics = ReferenceOf(trial).Measure(output.profile);
   } catch (const base::Error& error) {
     FailOrRetry(trial, error.what());
     return;
@@ -253,7 +253,8 @@ void Campaign::Close(TrialRecord& trial, const imaging::GrayImage* profile) {
   trial.finished_utc = UtcNow();
   journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
   NoteElapsed();
-  planner_.Finished(trial, profile == nullptr ? std::vector<float>() : reference_.Field(*profile));
+  planner_.Finished(trial,
+                    profile == nullptr ? std::vector<float>() : ReferenceOf(trial).Field(*profile));
   NoteBest(trial);
   Report(trial);
 }
@@ -285,7 +286,7 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
         planner_,
         {.spec = spec_,
          .campaign = record_,
-         .reference = reference_,
+         .references = references_,
          .profile = [this](std::int64_t id) { return StoredProfile(journal_, folder_, id); },
          .elapsed = Elapsed()});
     if (result_) progress.result_json = ResultText(*result_);
@@ -300,7 +301,7 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
 }
 
 void Campaign::NoteBest(const TrialRecord& trial) {
-  const auto value = reference_.Value(trial);
+  const auto value = ReferenceOf(trial).Value(trial);
   if (trial.status != TrialStatus::kOk || trial.kind == TrialKind::kConfirm || !value) return;
   if (!best_ || *value < best_->first) best_ = {*value, trial.id};
 }
@@ -313,8 +314,8 @@ void Campaign::Report(const TrialRecord& trial) {
   }
   if (trial.status == TrialStatus::kFailed) {
     text += " failed: " + trial.reason;
-  } else if (const auto value = reference_.Value(trial)) {
-    text += ": " + NumberText4(*value) + " " + reference_.unit();
+  } else if (const auto value = ReferenceOf(trial).Value(trial)) {
+    text += ": " + NumberText4(*value) + " " + references_.front().unit();
     if (best_ && best_->second == trial.id) text += ", the best so far";
   } else {
     text += ": the objective is not defined";
@@ -332,14 +333,19 @@ void Campaign::ShowStatus() {
     seconds += trial.duration_s;
     ++num_finished;
   }
-  std::string text = "trial " + std::to_string(num_search) + " of " +
-                     std::to_string(spec_.budget.simulations) + ", " +
-                     std::to_string(running_.size()) + " running";
+  const BudgetOptions& budget = spec_.budget;
+  std::string text = "trial " + std::to_string(num_search);
+  if (budget.simulations > 0) text += " of " + std::to_string(budget.simulations);
+  if (budget.core_time) {
+    text += ", " + DurationText(planner_.CoreTimeOfSearch()) + " of " +
+            DurationText(*budget.core_time) + " core time";
+  }
+  text += ", " + std::to_string(running_.size()) + " running";
   if (best_) {
-    text += ", best " + NumberText4(best_->first) + " " + reference_.unit() + " (trial " +
+    text += ", best " + NumberText4(best_->first) + " " + references_.front().unit() + " (trial " +
             std::to_string(best_->second) + ")";
   }
-  if (num_finished > 0) {
+  if (num_finished > 0 && budget.simulations > 0) {
     const int to_go = std::max(0, spec_.budget.simulations - num_search) +
                       spec_.confirm.candidates * spec_.confirm.replicates +
                       static_cast<int>(running_.size()) / 2;

@@ -68,13 +68,16 @@ class Campaign {
   void Report(const TrialRecord& trial);
   void ShowStatus();
   double Elapsed() const;  // [s], all sessions
+  const Reference& ReferenceOf(const TrialRecord& trial) const {
+    return references_[static_cast<std::size_t>(trial.experiment)];
+  }
 
   CampaignFolder folder_;
   CampaignLock lock_;
   Journal journal_;
   CampaignSpec spec_;
   CampaignRecord record_;
-  Reference reference_;
+  std::vector<Reference> references_;  // of the experiments
   Planner planner_;
   CampaignParts parts_;
   Console& console_;

@@ -31,6 +31,10 @@ std::filesystem::path CampaignFolder::trial(std::int64_t id) const {
   return root / "trials" / name;
 }
 
+std::filesystem::path CampaignFolder::experiment(std::size_t index) const {
+  return index == 0 ? root : root / ("experiment_" + std::to_string(index + 1));
+}
+
 CampaignLock::CampaignLock(const std::filesystem::path& root) {
   const std::string path = (root / "campaign.lock").string();
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);

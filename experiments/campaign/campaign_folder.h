@@ -14,8 +14,8 @@ struct CampaignFolder {
   std::filesystem::path log() const { return root / "campaign.log"; }
   std::filesystem::path result() const { return root / "result.json"; }
   std::filesystem::path campaign() const { return root / "campaign.json"; }
-  std::filesystem::path aehp() const { return root / "aehp.png"; }
-  std::filesystem::path aehp_sd() const { return root / "aehp_sd.png"; }
+  // Of an experiment's images, from 0: the root itself for the first.
+  std::filesystem::path experiment(std::size_t index) const;
 };
 
 // Held while a process works on the campaign; it goes with the process, however that ends.

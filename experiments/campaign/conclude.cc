@@ -48,7 +48,7 @@ ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::si
   for (const TrialRecord& trial : planner.trials()) {
     if (trial.kind != TrialKind::kConfirm || trial.set != planner.ConfirmSet(index)) continue;
     candidate.scale_factor = trial.scale_factor;
-    if (const auto value = of.reference.Value(trial)) objective.push_back(*value);
+    if (const auto value = of.references.front().Value(trial)) objective.push_back(*value);
     if (trial.status == TrialStatus::kOk) {
       if (auto profile = of.profile(trial.id)) profiles.push_back(std::move(*profile));
     }
@@ -61,7 +61,7 @@ ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::si
   if (!sad.empty()) candidate.sad_mm2 = SampleOf(sad).mean;
   if (!profiles.empty()) {
     TrialRecord mean;
-    mean.metrics = of.reference.Measure(imaging::MeanImage(profiles));
+    mean.metrics = of.references.front().Measure(imaging::MeanImage(profiles));
     candidate.profile_sad_mm2 = mean.Metric(MetricOf(Objective::kSad));
   }
   return candidate;
@@ -163,13 +163,13 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   result.name = of.spec.name;
   result.talus_version = base::Version();
   result.stop_reason = planner.stop_reason();
-  result.objective = of.reference.key();
-  result.objective_unit = of.reference.unit();
+  result.objective = of.references.front().key();
+  result.objective_unit = of.references.front().unit();
   AddParameters(*answer, planner, result);
   result.predicted = answer->predicted_value;
   result.predicted_sd = answer->predicted_sd;
   result.noise_sd = answer->noise_sd;
-  result.noise_floor = of.campaign.noise_mm2;
+  result.noise_floor = of.campaign.experiments.front().noise_mm2;
   result.tied_volume = answer->tied_volume;
   for (std::size_t i = 0; i < std::min(answer->tied.size(), kMostTied); ++i) {
     result.tied.push_back(FreeValues(planner.space(), answer->tied[i]));
@@ -185,7 +185,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   std::vector<double> noise;
   for (const TrialRecord& trial : planner.trials()) {
     if (trial.kind != TrialKind::kNoise) continue;
-    if (const auto value = of.reference.Value(trial)) noise.push_back(*value);
+    if (const auto value = of.references.front().Value(trial)) noise.push_back(*value);
   }
   if (noise.size() >= 2) result.replicates_sd = SampleOf(noise).sd;
   AddConfirmation(*answer, planner, of, result);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/campaign/planner.h"
@@ -14,7 +15,7 @@ namespace talus::experiments {
 struct Evidenced {
   const CampaignSpec& spec;
   const CampaignRecord& campaign;
-  const Reference& reference;
+  const std::vector<Reference>& references;  // of the experiments
   // A trial's ANHP.
   std::function<std::optional<imaging::GrayImage>(std::int64_t)> profile;
   double elapsed = 0;  // [s]

@@ -33,49 +33,119 @@ double MeasureSpeed(HeapCase heap_case, std::int64_t num_grains) {
   return (rig.state().particle_steps - before) / seconds;
 }
 
-double GrainSteps(const HeapSize& size) {
-  return static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
+TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double scale_factor) {
+  // Peak resident memory of runs with 6,000, 48,000 and 280,000 grains (20, 46 and 193 MB).
+  constexpr double kProgram = 16e6;
+  constexpr double kGrain = 650;
+  const HeapSize size = EstimateHeap(TypicalCase(spec, experiment, scale_factor));
+  return {.experiment = experiment,
+          .scale_factor = scale_factor,
+          .num_grains = size.num_grains,
+          .mean_diameter = size.mean_diameter,
+          .time_step = size.time_step,
+          .num_steps = size.simulated_time / size.time_step,
+          .memory = kProgram + kGrain * static_cast<double>(size.num_grains)};
 }
 
-HeapCase ConfirmingCase(const CampaignSpec& spec, HeapCase heap_case) {
-  double& factor = heap_case.coarse_graining.scale_factor;
-  factor = spec.confirm.scale_factor.value_or(factor);
-  return heap_case;
+double GrainSteps(const TrialEstimate& trial) {
+  return static_cast<double>(trial.num_grains) * trial.num_steps;
+}
+
+// [s] of one candidate's replicate, at every experiment.
+double ConfirmTime(const CampaignSpec& spec, double speed) {
+  const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
+  double time = 0;
+  for (int e = 0; e < static_cast<int>(ExperimentsOf(spec).size()); ++e) {
+    time += GrainSteps(EstimateTrial(spec, e, factor)) / speed;
+  }
+  return time;
+}
+
+std::string OneTrialText(const CampaignEstimate& e) {
+  const TrialEstimate& trial = e.trials.front();
+  return "  a trial           " + std::to_string(trial.num_grains) + " grains of " +
+         NumberText4(1e3 * trial.mean_diameter) + " mm, " +
+         NumberText4(std::round(trial.num_steps)) + " steps of " +
+         NumberText4(1e6 * trial.time_step) + " us, " +
+         NumberText4(std::round(1e-6 * trial.memory)) + " MB\n";
+}
+
+// What the budget would buy, if it were all spent on such trials.
+std::string BoughtText(const BudgetOptions& budget, const TrialEstimate& trial) {
+  std::string text;
+  if (budget.core_time) {
+    text += "; " + DurationText(*budget.core_time) + " of core time buy " +
+            std::to_string(static_cast<std::int64_t>(*budget.core_time / trial.core_seconds));
+  }
+  if (budget.simulations > 0) {
+    text += "; " + std::to_string(budget.simulations) + " simulations take " +
+            DurationText(budget.simulations * trial.core_seconds) + " of core time";
+  }
+  return text;
+}
+
+std::string TrialLines(const CampaignSpec& spec, const CampaignEstimate& e) {
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  std::string text;
+  for (const TrialEstimate& trial : e.trials) {
+    const std::string& name = experiments[static_cast<std::size_t>(trial.experiment)].name;
+    text += "  scale factor " + NumberText4(trial.scale_factor) +
+            (experiments.size() > 1 ? " (" + name + ")" : "") + ": " +
+            std::to_string(trial.num_grains) + " grains of " +
+            NumberText4(1e3 * trial.mean_diameter) + " mm, " +
+            NumberText4(std::round(trial.num_steps)) + " steps, " +
+            NumberText4(std::round(1e-6 * trial.memory)) + " MB, " +
+            DurationText(trial.core_seconds) + " of a core" + BoughtText(spec.budget, trial) + "\n";
+  }
+  return text;
+}
+
+std::string TimeText(const CampaignEstimate& e) {
+  const double trial_time = e.trials.front().core_seconds;
+  return "  time              about " + DurationText(trial_time) + " a trial, " +
+         (e.confirm_time == trial_time ? ""
+                                       : DurationText(e.confirm_time) + " a confirming one, ") +
+         DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) + " trials, " +
+         std::to_string(e.num_workers) + " at a time\n";
 }
 
 }  // namespace
 
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
-  const HeapCase heap_case = TypicalCase(spec);
-  const HeapSize size = EstimateHeap(heap_case);
   CampaignEstimate e;
-  e.num_grains = size.num_grains;
-  e.mean_diameter = size.mean_diameter;
-  e.time_step = size.time_step;
-  e.num_steps = size.simulated_time / size.time_step;
-  e.grain_steps_per_s = MeasureSpeed(heap_case, size.num_grains);
-  e.trial_time = GrainSteps(size) / e.grain_steps_per_s;
-  e.confirm_time = GrainSteps(EstimateHeap(ConfirmingCase(spec, heap_case))) / e.grain_steps_per_s;
+  for (int i = 0; i < static_cast<int>(ExperimentsOf(spec).size()); ++i) {
+    for (const double factor : spec.coarse_graining.Levels()) {
+      e.trials.push_back(EstimateTrial(spec, i, factor));
+    }
+  }
+  const TrialEstimate& first = e.trials.front();
+  e.grain_steps_per_s = MeasureSpeed(TypicalCase(spec, 0, first.scale_factor), first.num_grains);
+  double dearest = 0;
+  for (TrialEstimate& trial : e.trials) {
+    trial.core_seconds = GrainSteps(trial) / e.grain_steps_per_s;
+    dearest = std::max(dearest, trial.core_seconds);
+  }
+  e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
   const int num_confirming = spec.confirm.candidates * spec.confirm.replicates;
-  e.num_trials = spec.budget.simulations + num_confirming;
+  if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
   e.num_workers = spec.workers > 0
                       ? spec.workers
                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations
+                                                    : spec.budget.core_time.value_or(0);
   e.campaign_time =
-      (e.trial_time * spec.budget.simulations + e.confirm_time * num_confirming) / e.num_workers;
+      (std::min(search, spec.budget.core_time.value_or(search)) + e.confirm_time * num_confirming) /
+      e.num_workers;
   return e;
 }
 
-std::string EstimateText(const CampaignEstimate& e) {
-  return "  a trial           " + std::to_string(e.num_grains) + " grains of " +
-         NumberText4(1e3 * e.mean_diameter) + " mm, " + NumberText4(std::round(e.num_steps)) +
-         " steps of " + NumberText4(1e6 * e.time_step) + " us\n  this machine      " +
-         NumberText4(1e-6 * e.grain_steps_per_s) +
-         " million grain steps a second on a core\n  time              about " +
-         DurationText(e.trial_time) + " a trial, " +
-         (e.confirm_time == e.trial_time ? ""
-                                         : DurationText(e.confirm_time) + " a confirming one, ") +
-         DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) + " trials, " +
+std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& e) {
+  const bool one = e.trials.size() == 1 && !spec.budget.core_time;
+  const std::string speed = "  this machine      " + NumberText4(1e-6 * e.grain_steps_per_s) +
+                            " million grain steps a second on a core\n";
+  if (one) return OneTrialText(e) + speed + TimeText(e);
+  return TrialLines(spec, e) + speed + "  time              at most " +
+         DurationText(e.campaign_time) + " with the confirmation, " +
          std::to_string(e.num_workers) + " at a time\n";
 }
 

@@ -3,20 +3,29 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
 
 namespace talus::experiments {
 
+// A trial of one experiment at one scale factor.
+struct TrialEstimate {
+  int experiment = 0;
+  double scale_factor = 1;
+  std::int64_t num_grains = 0;
+  double mean_diameter = 0;  // of the scaled grains, D50 by volume [m]
+  double time_step = 0;      // [s]
+  double num_steps = 0;
+  double memory = 0;        // [bytes]
+  double core_seconds = 0;  // [s] of one core
+};
+
 struct CampaignEstimate {
-  std::int64_t num_grains = 0;   // of a trial
-  double mean_diameter = 0;      // of the scaled grains, D50 by volume [m]
-  double time_step = 0;          // [s]
-  double num_steps = 0;          // of a trial
-  double grain_steps_per_s = 0;  // of one core, measured here
-  double trial_time = 0;         // [s]
-  double confirm_time = 0;       // [s], of a trial that confirms, maybe of finer grains
-  int num_trials = 0;            // at most: noise, search and confirmation
+  std::vector<TrialEstimate> trials;  // by experiment, then the coarsest first
+  double grain_steps_per_s = 0;       // of one core, measured here
+  double confirm_time = 0;            // [s], of a trial that confirms, maybe of finer grains
+  int num_trials = 0;  // at most: noise, search and confirmation; 0: only core time ends it
   int num_workers = 0;
   double campaign_time = 0;  // [s], at most
 };
@@ -24,6 +33,6 @@ struct CampaignEstimate {
 // Simulates about a second of wall-clock time.
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
 
-std::string EstimateText(const CampaignEstimate& estimate);
+std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& estimate);
 
 }  // namespace talus::experiments

@@ -1,10 +1,14 @@
 #include "experiments/campaign/planner.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "base/random.h"
+#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/trials/simulate/run_log.h"
 #include "optimizer/designs/design.h"
 
 namespace talus::experiments {
@@ -17,11 +21,6 @@ constexpr int kFailuresToGiveUp = 8;  // as the first trials of all: the set-up 
 constexpr std::int64_t kMostCandidates = 1000;
 
 bool IsOfSearch(const TrialRecord& trial) { return trial.kind != TrialKind::kConfirm; }
-
-Eigen::VectorXd PointOf(const TrialRecord& trial) {
-  return Eigen::Map<const Eigen::VectorXd>(trial.unit.data(),
-                                           static_cast<Eigen::Index>(trial.unit.size()));
-}
 
 const char* NameOfOrigin(optimizer::Origin origin) {
   switch (origin) {
@@ -50,11 +49,14 @@ std::uint64_t StreamOf(TrialKind kind) {
 
 }  // namespace
 
-Planner::Planner(const CampaignSpec& spec, const Reference& reference)
-    : spec_(spec), reference_(reference), space_(SpaceOf(spec)), domain_(space_.MakeDomain()) {
-  const optimizer::FieldObjective field = reference_.MakeFieldObjective();
-  strategy_ = optimizer::MakeStrategy(spec_.strategy, domain_, &field, spec_.seed);
-}
+Planner::Planner(const CampaignSpec& spec, std::vector<Reference> references,
+                 std::unique_ptr<optimizer::Strategy> strategy)
+    : spec_(spec),
+      references_(std::move(references)),
+      space_(SpaceOf(spec)),
+      domain_(space_.MakeDomain()),
+      strategy_(std::move(strategy)),
+      core_time_(spec_) {}
 
 void Planner::Started(const TrialRecord& trial) {
   trials_.push_back(trial);
@@ -66,11 +68,7 @@ void Planner::Finished(const TrialRecord& trial, std::vector<float> field) {
                                   [&](const TrialRecord& t) { return t.id == trial.id; });
   *known = trial;
   if (!IsOfSearch(trial)) return;
-  const std::optional<double> value = reference_.Value(trial);
-  strategy_->Tell({.point = PointOf(trial),
-                   .failed = trial.status != TrialStatus::kOk || !value,
-                   .value = value.value_or(0),
-                   .field = std::move(field)});
+  strategy_->Tell(ObservationOf(trial, ReferenceOf(trial), std::move(field)));
   CheckThatSomeSucceed();
 }
 
@@ -113,11 +111,14 @@ std::vector<TrialRecord> Planner::Next(int count) {
   return planned;
 }
 
-TrialRecord Planner::Make(TrialKind kind, const Eigen::VectorXd& point) const {
+TrialRecord Planner::Make(TrialKind kind, const optimizer::Proposal& proposal) const {
   TrialRecord trial;
   trial.kind = kind;
   trial.objective = base::NameOf(spec_.objective);
-  trial.scale_factor = spec_.coarse_graining.scale_factor;
+  trial.experiment = proposal.experiment;
+  trial.scale_factor =
+      proposal.scale_factor > 0 ? proposal.scale_factor : spec_.coarse_graining.scale_factor;
+  const Eigen::VectorXd& point = proposal.point;
   trial.unit.assign(point.data(), point.data() + point.size());
   const std::vector<double> values = space_.ToNative(point);
   for (const int i : space_.Free()) trial.native.push_back(values[static_cast<std::size_t>(i)]);
@@ -155,7 +156,7 @@ Eigen::VectorXd Planner::NoisePoint() const {
 
 bool Planner::PlanNoise(std::vector<TrialRecord>& planned) {
   if (!stop_reason_.empty() || Count(TrialKind::kNoise) >= spec_.noise.replicates) return false;
-  Append(Make(TrialKind::kNoise, NoisePoint()), planned);
+  Append(Make(TrialKind::kNoise, {.point = NoisePoint()}), planned);
   return true;
 }
 
@@ -170,8 +171,11 @@ bool Planner::PlanReplicate(std::vector<TrialRecord>& planned) {
   }
   for (const auto& [set, members] : sets) {
     if (members.first >= spec_.replicates) continue;
-    TrialRecord trial = Make(members.second->kind, PointOf(*members.second));
-    trial.origin = members.second->origin;
+    const TrialRecord& first = *members.second;
+    TrialRecord trial = Make(first.kind, {.point = PointOf(first),
+                                          .experiment = first.experiment,
+                                          .scale_factor = first.scale_factor});
+    trial.origin = first.origin;
     trial.set = set;
     Append(std::move(trial), planned);
     return true;
@@ -179,12 +183,34 @@ bool Planner::PlanReplicate(std::vector<TrialRecord>& planned) {
   return false;
 }
 
+double Planner::CoreTimeOfSearch() {
+  std::vector<TrialRecord> of_search;
+  std::copy_if(trials_.begin(), trials_.end(), std::back_inserter(of_search), IsOfSearch);
+  return core_time_.Of(of_search);
+}
+
+// Proposals that the budget of simulations has room for.
+int Planner::SetsLeft() const {
+  if (spec_.budget.simulations == 0) return kMostAsked;
+  const int left = spec_.budget.simulations - NumOfSearch();
+  return (left + spec_.replicates - 1) / spec_.replicates;
+}
+
+std::optional<std::string> Planner::WhyBudgetIsUsed() {
+  const int most = spec_.budget.simulations;
+  if (most > 0 && NumOfSearch() >= most) {
+    return "the budget of " + std::to_string(most) + " simulations is used";
+  }
+  if (spec_.budget.core_time && CoreTimeOfSearch() >= *spec_.budget.core_time) {
+    return "the budget of " + DurationText(*spec_.budget.core_time) + " core time is used";
+  }
+  return std::nullopt;
+}
+
 bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
   if (!stop_reason_.empty()) return false;
-  const int left = spec_.budget.simulations - NumOfSearch();
-  if (left <= 0) {
-    StopSearch("the budget of " + std::to_string(spec_.budget.simulations) +
-               " simulations is used");
+  if (const auto reason = WhyBudgetIsUsed()) {
+    StopSearch(*reason);
     return false;
   }
   if (NumOfSearch() >= spec_.budget.min_simulations) {
@@ -193,17 +219,18 @@ bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
       return false;
     }
   }
-  std::vector<Eigen::VectorXd> pending;
+  std::vector<optimizer::Proposal> pending;
   for (const TrialRecord& trial : trials_) {
     if (IsOfSearch(trial) && trial.status == TrialStatus::kRunning) {
-      pending.push_back(PointOf(trial));
+      pending.push_back({.point = PointOf(trial),
+                         .experiment = trial.experiment,
+                         .scale_factor = trial.scale_factor});
     }
   }
-  const int sets = (left + spec_.replicates - 1) / spec_.replicates;
-  const auto proposals = strategy_->Ask(std::min({count, sets, kMostAsked}), pending);
+  const auto proposals = strategy_->AskAt(std::min({count, SetsLeft(), kMostAsked}), pending);
   for (const optimizer::Proposal& proposal : proposals) {
     const bool design = proposal.origin == optimizer::Origin::kDesign;
-    TrialRecord trial = Make(design ? TrialKind::kDesign : TrialKind::kSearch, proposal.point);
+    TrialRecord trial = Make(design ? TrialKind::kDesign : TrialKind::kSearch, proposal);
     trial.origin = NameOfOrigin(proposal.origin);
     trial.set = 1;  // 0 is the noise's
     for (const TrialRecord& other : trials_) {
@@ -217,7 +244,7 @@ bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
 
 std::optional<optimizer::Answer> Planner::Recommend() {
   const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
-    return IsOfSearch(t) && t.status == TrialStatus::kOk && reference_.Value(t);
+    return IsOfSearch(t) && t.status == TrialStatus::kOk && ReferenceOf(t).Value(t);
   });
   if (!any) return std::nullopt;
   return strategy_->Recommend();
@@ -227,7 +254,16 @@ std::int64_t Planner::ConfirmSet(std::size_t candidate) const {
   return NumOfSearch() * kMostCandidates + static_cast<std::int64_t>(candidate);
 }
 
-std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer) const {
+// The points of a joint search are of several experiments and sizes, whose objectives do not
+// compare: other branches of the posterior are what is worth a look beside the recommended set.
+std::vector<Eigen::VectorXd> Planner::RankedPoints(const optimizer::Answer& answer) const {
+  std::vector<Eigen::VectorXd> points;
+  if (spec_.IsJoint()) {
+    if (!answer.posterior) return points;
+    for (const optimizer::PosteriorBranch& b : answer.posterior->branches)
+      points.push_back(b.point);
+    return points;
+  }
   struct Set {
     double sum = 0;
     int count = 0;
@@ -236,7 +272,7 @@ std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer
   };
   std::map<std::int64_t, Set> by_number;
   for (const TrialRecord& trial : trials_) {
-    const auto value = reference_.Value(trial);
+    const auto value = ReferenceOf(trial).Value(trial);
     if (!IsOfSearch(trial) || trial.status != TrialStatus::kOk || !value) continue;
     Set& set = by_number[trial.set];
     set.sum += *value;
@@ -247,6 +283,11 @@ std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer
   for (const auto& [number, set] : by_number) sets.push_back(set);
   std::stable_sort(sets.begin(), sets.end(),
                    [](const Set& a, const Set& b) { return a.mean() < b.mean(); });
+  for (const Set& set : sets) points.push_back(set.point);
+  return points;
+}
+
+std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer) const {
   std::vector<Eigen::VectorXd> candidates;
   const auto add = [&](const Eigen::VectorXd& point) {
     const bool near = std::any_of(candidates.begin(), candidates.end(), [&](const auto& other) {
@@ -257,7 +298,7 @@ std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer
     }
   };
   add(answer.point);
-  for (const Set& set : sets) add(set.point);
+  for (const Eigen::VectorXd& point : RankedPoints(answer)) add(point);
   return candidates;
 }
 
@@ -272,15 +313,19 @@ bool Planner::PlanConfirmation(std::vector<TrialRecord>& planned) {
     candidates_ = Candidates(*answer);
   }
   for (std::size_t c = 0; c < candidates_->size(); ++c) {
-    const auto done = std::count_if(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
-      return t.kind == TrialKind::kConfirm && t.set == ConfirmSet(c);
-    });
-    if (done >= spec_.confirm.replicates) continue;
-    TrialRecord trial = Make(TrialKind::kConfirm, (*candidates_)[c]);
-    trial.set = ConfirmSet(c);
-    trial.scale_factor = spec_.confirm.scale_factor.value_or(trial.scale_factor);
-    Append(std::move(trial), planned);
-    return true;
+    for (int e = 0; e < static_cast<int>(references_.size()); ++e) {
+      const auto done = std::count_if(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
+        return t.kind == TrialKind::kConfirm && t.set == ConfirmSet(c) && t.experiment == e;
+      });
+      if (done >= spec_.confirm.replicates) continue;
+      TrialRecord trial =
+          Make(TrialKind::kConfirm, {.point = (*candidates_)[c],
+                                     .experiment = e,
+                                     .scale_factor = spec_.confirm.scale_factor.value_or(0)});
+      trial.set = ConfirmSet(c);
+      Append(std::move(trial), planned);
+      return true;
+    }
   }
   return false;
 }

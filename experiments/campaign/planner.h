@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/campaign/core_time.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
@@ -19,7 +20,9 @@ namespace talus::experiments {
 
 class Planner {
  public:
-  Planner(const CampaignSpec& spec, const Reference& reference);
+  // `references` are of the campaign's experiments.
+  Planner(const CampaignSpec& spec, std::vector<Reference> references,
+          std::unique_ptr<optimizer::Strategy> strategy);
 
   // A trial that is running, started now or by an earlier process.
   void Started(const TrialRecord& trial);
@@ -45,6 +48,9 @@ class Planner {
   const std::vector<TrialRecord>& trials() const { return trials_; }  // by id
   const optimizer::ParameterSpace& space() const { return space_; }
 
+  // Processor time of noise and search so far [core seconds], the running ones estimated.
+  double CoreTimeOfSearch();
+
   // A fresh seed for each trial and attempt; small enough for any engine.
   std::int64_t SeedOf(const TrialRecord& trial) const;
 
@@ -53,7 +59,13 @@ class Planner {
   bool PlanReplicate(std::vector<TrialRecord>& planned);
   bool PlanSearch(int count, std::vector<TrialRecord>& planned);
   bool PlanConfirmation(std::vector<TrialRecord>& planned);
-  TrialRecord Make(TrialKind kind, const Eigen::VectorXd& point) const;
+  TrialRecord Make(TrialKind kind, const optimizer::Proposal& proposal) const;
+  const Reference& ReferenceOf(const TrialRecord& trial) const {
+    return references_[static_cast<std::size_t>(trial.experiment)];
+  }
+  std::vector<Eigen::VectorXd> RankedPoints(const optimizer::Answer& answer) const;
+  int SetsLeft() const;
+  std::optional<std::string> WhyBudgetIsUsed();
   void Append(TrialRecord trial, std::vector<TrialRecord>& planned);
   Eigen::VectorXd NoisePoint() const;
   int Count(TrialKind kind) const;
@@ -61,13 +73,14 @@ class Planner {
   void CheckThatSomeSucceed();
 
   const CampaignSpec spec_;
-  const Reference reference_;
+  const std::vector<Reference> references_;
   const optimizer::ParameterSpace space_;
   const optimizer::Domain domain_;
   std::unique_ptr<optimizer::Strategy> strategy_;
   std::vector<TrialRecord> trials_;
   std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
   std::string stop_reason_;
+  CoreTime core_time_;
 };
 
 }  // namespace talus::experiments

@@ -16,7 +16,8 @@ namespace talus::experiments {
 struct ReferenceOptions {
   imaging::MetricOptions metrics = {};
   Objective objective = Objective::kSad;
-  int num_heaps = 1;  // that the experiment's profile is the mean of
+  int num_heaps = 1;                       // that the experiment's profile is the mean of
+  std::vector<ScalarRecord> scalars = {};  // what else the experiment has measured
 };
 
 class Reference {
@@ -25,6 +26,7 @@ class Reference {
   Reference(imaging::Profile aehp, ReferenceOptions options);
 
   const imaging::Frame& frame() const { return aehp_.profile.frame; }
+  const std::vector<ScalarRecord>& scalars() const { return options_.scalars; }
 
   // Every metric of a trial's profile.
   std::vector<MetricRecord> Measure(const imaging::GrayImage& profile) const;

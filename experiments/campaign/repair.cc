@@ -13,6 +13,12 @@ namespace talus::experiments {
 namespace {
 
 constexpr const char* kTrialFile = "trial.json";
+constexpr const char* kAehp = "aehp.png";
+constexpr const char* kAehpSd = "aehp_sd.png";
+
+std::string RunFile(std::size_t index) {
+  return "run_" + std::string(index < 9 ? "0" : "") + std::to_string(index + 1) + ".png";
+}
 
 template <class Record>
 Record ReadRecord(const std::filesystem::path& path) {
@@ -36,6 +42,37 @@ void PutAside(const std::filesystem::path& journal) {
   }
 }
 
+// Before schema 3 there was one experiment, whose keys stood beside the campaign's own.
+std::string WithExperiments(const std::string& text) {
+  auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!json.is_object() || json.contains("experiments")) return text;
+  nlohmann::ordered_json experiment;
+  experiment["name"] = "heap";
+  for (const char* key :
+       {"reference", "frame_json", "nebp_px", "num_heaps", "experimental_noise_floor_mm2"}) {
+    if (!json.contains(key)) continue;
+    experiment[key] = json[key];
+    json.erase(key);
+  }
+  json["experiments"] = nlohmann::ordered_json::array({experiment});
+  return json.dump();
+}
+
+CampaignRecord KeptCampaign(const CampaignFolder& folder) {
+  auto record = ParseRecord<CampaignRecord>(WithExperiments(base::ReadFile(folder.campaign())),
+                                            folder.campaign().string());
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    ExperimentRecord& experiment = record.experiments[e];
+    const std::filesystem::path place = folder.experiment(e);
+    experiment.aehp_png = base::ReadFile(place / kAehp);
+    experiment.aehp_sd_png = IfThere(place / kAehpSd);
+    for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+      experiment.runs[r].png = base::ReadFile(place / RunFile(r));
+    }
+  }
+  return record;
+}
+
 std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
   std::vector<TrialRecord> trials;
   if (!std::filesystem::exists(folder.root / "trials")) return trials;
@@ -54,8 +91,18 @@ std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
 }  // namespace
 
 void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record) {
-  base::WriteFileAtomically(folder.aehp(), record.aehp_png);
-  if (!record.aehp_sd_png.empty()) base::WriteFileAtomically(folder.aehp_sd(), record.aehp_sd_png);
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    const ExperimentRecord& experiment = record.experiments[e];
+    const std::filesystem::path place = folder.experiment(e);
+    std::filesystem::create_directories(place);
+    base::WriteFileAtomically(place / kAehp, experiment.aehp_png);
+    if (!experiment.aehp_sd_png.empty()) {
+      base::WriteFileAtomically(place / kAehpSd, experiment.aehp_sd_png);
+    }
+    for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+      base::WriteFileAtomically(place / RunFile(r), experiment.runs[r].png);
+    }
+  }
   base::WriteFileAtomically(folder.campaign(), base::ToJson(record).dump(2) + "\n");
 }
 
@@ -65,9 +112,7 @@ void KeepTrial(const CampaignFolder& folder, const TrialRecord& trial) {
 }
 
 Journal RebuildJournal(const CampaignFolder& folder) {
-  auto record = ReadRecord<CampaignRecord>(folder.campaign());
-  record.aehp_png = base::ReadFile(folder.aehp());
-  record.aehp_sd_png = IfThere(folder.aehp_sd());
+  const CampaignRecord record = KeptCampaign(folder);
   const std::vector<TrialRecord> trials = KeptTrials(folder);
   PutAside(JournalPath(folder.root));
   Journal journal = Journal::Create(JournalPath(folder.root), record);

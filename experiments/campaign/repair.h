@@ -7,7 +7,7 @@
 
 namespace talus::experiments {
 
-// campaign.json, aehp.png and aehp_sd.png.
+// campaign.json, and of each experiment aehp.png, aehp_sd.png and its runs as run_01.png …
 void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record);
 
 // trials/0001/trial.json: why there is such a trial.

@@ -27,6 +27,36 @@ std::vector<ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space
   return records;
 }
 
+ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
+  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
+  ExperimentRecord record;
+  record.name = spec.name;
+  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
+  if (!experiment.standard_deviation.pixels.empty()) {
+    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
+  }
+  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
+  record.nebp_px = imaging::Nebp(experiment.aehp.image);
+  record.num_heaps =
+      experiment.runs.empty() ? spec.images.map_heaps : static_cast<int>(experiment.runs.size());
+  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
+  for (const imaging::Metric& metric : experiment.metrics) {
+    record.reference.push_back({.name = metric.name,
+                                .value = metric.value.value,
+                                .unit = metric.unit,
+                                .undefined = metric.value.not_defined,
+                                .standard_error = metric.value.standard_error});
+  }
+  for (const imaging::MeasuredRun& run : experiment.runs) {
+    record.runs.push_back({.name = run.name, .png = imaging::EncodePng(run.profile.image)});
+  }
+  for (const ScalarSpec& scalar : ScalarsOf(spec)) {
+    record.scalars.push_back(
+        {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
+  }
+  return record;
+}
+
 // The journal, or a new one from what the folder keeps beside it.
 Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   const std::filesystem::path path = JournalPath(folder.root);
@@ -75,6 +105,7 @@ void AddSimulations(Journal& journal, CampaignSpec& spec, int num_more) {
   const int from = finished ? num_search : std::max(num_search, spec.budget.simulations);
   spec.budget.simulations = from + num_more;
   spec.budget.min_simulations = spec.budget.simulations;
+  spec.budget.core_time.reset();  // it is counted in simulations from now on
   journal.SetSpec(journal.Campaign().spec_text, SpecText(spec));
   journal.AddEvent("extend", 0, "by " + std::to_string(num_more) + " simulations");
 }
@@ -82,7 +113,6 @@ void AddSimulations(Journal& journal, CampaignSpec& spec, int num_more) {
 }  // namespace
 
 CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {
-  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.experiment);
   CampaignRecord record;
   record.name = spec.name;
   record.spec_path = std::filesystem::absolute(file.path).lexically_normal().string();
@@ -93,23 +123,10 @@ CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) 
   record.created_utc = UtcNow();
   record.objective = base::NameOf(spec.objective);
   record.parameters = ParametersOf(SpaceOf(spec));
-  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
-  if (!experiment.standard_deviation.pixels.empty()) {
-    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
+  for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {
+    record.experiments.push_back(MakeExperimentRecord(experiment));
   }
-  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
-  record.nebp_px = imaging::Nebp(experiment.aehp.image);
-  record.num_heaps = experiment.runs.empty() ? spec.experiment.map_heaps
-                                             : static_cast<int>(experiment.runs.size());
-  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
-  for (const imaging::Metric& metric : experiment.metrics) {
-    record.reference.push_back({.name = metric.name,
-                                .value = metric.value.value,
-                                .unit = metric.unit,
-                                .undefined = metric.value.not_defined,
-                                .standard_error = metric.value.standard_error});
-  }
-  ReferenceOf(record, spec);  // throws where the experiment does not have what is to be met
+  ReferencesOf(record, spec);  // throws where the experiment does not have what is to be met
   return record;
 }
 
@@ -147,12 +164,21 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
           .spec = std::move(spec)};
 }
 
-Reference ReferenceOf(const CampaignRecord& record, const CampaignSpec& spec) {
-  return Reference({.image = imaging::DecodeGrayImage(record.aehp_png, "the journal's AEHP"),
-                    .frame = ParseRecord<imaging::Frame>(record.frame_json, "the journal's frame")},
-                   {.metrics = spec.experiment.metrics,
-                    .objective = spec.objective,
-                    .num_heaps = record.num_heaps});
+std::vector<Reference> ReferencesOf(const CampaignRecord& record, const CampaignSpec& spec) {
+  const std::vector<ExperimentSpec> specs = ExperimentsOf(spec);
+  std::vector<Reference> references;
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    const ExperimentRecord& experiment = record.experiments[e];
+    references.emplace_back(
+        imaging::Profile{
+            .image = imaging::DecodeGrayImage(experiment.aehp_png, "the journal's AEHP"),
+            .frame = ParseRecord<imaging::Frame>(experiment.frame_json, "the journal's frame")},
+        ReferenceOptions{.metrics = specs.at(e).images.metrics,
+                         .objective = spec.objective,
+                         .num_heaps = experiment.num_heaps,
+                         .scalars = experiment.scalars});
+  }
+  return references;
 }
 
 std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/campaign/campaign.h"
 #include "imaging/photos/experiment.h"
@@ -36,8 +37,8 @@ struct OpenedCampaign {
 OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
                             Console& console);
 
-// The experiment as the journal keeps it.
-Reference ReferenceOf(const CampaignRecord& record, const CampaignSpec& spec);
+// The experiments as the journal keeps them.
+std::vector<Reference> ReferencesOf(const CampaignRecord& record, const CampaignSpec& spec);
 
 // A trial's profile: from the journal, or from its folder if the journal's copy is damaged.
 std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,

@@ -76,7 +76,7 @@ std::string StatusText(const std::filesystem::path& root) {
   const ProgressRecord progress = journal.Progress();
   const std::vector<TrialRecord> trials = journal.Trials();
   const CampaignSpec spec = ParseSpecText(campaign.spec_json);
-  const Reference reference = ReferenceOf(campaign, spec);
+  const Reference reference = ReferencesOf(campaign, spec).front();
   const Counts counts(trials);
   const bool alive = IsWorkedOn(folder.root);
 
@@ -85,17 +85,18 @@ std::string StatusText(const std::filesystem::path& root) {
   const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
   std::string text = campaign.name + ": " + state + "\n";
   if (!progress.stop_reason.empty()) text += "  because           " + progress.stop_reason + "\n";
-  text += "  trials            " + std::to_string(searched) + " of " +
-          std::to_string(spec.budget.simulations) + " (" + std::to_string(counts.by_kind[0]) +
-          " for the noise, " + std::to_string(counts.by_kind[1]) + " of the design, " +
+  text += "  trials            " + std::to_string(searched) +
+          (spec.budget.simulations > 0 ? " of " + std::to_string(spec.budget.simulations) : "") +
+          " (" + std::to_string(counts.by_kind[0]) + " for the noise, " +
+          std::to_string(counts.by_kind[1]) + " of the design, " +
           std::to_string(counts.by_kind[2]) + " of the search), " +
           std::to_string(counts.by_kind[3]) + " to confirm\n";
   text += "  now               " + std::to_string(counts.running) +
           (alive ? " running\n" : " to be run again\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
   text += BestLine(trials, campaign, reference);
-  if (campaign.noise_mm2) {
-    text += "  noise floor       " + NumberText4(*campaign.noise_mm2) + " mm² (experiment)\n";
+  if (const auto floor = campaign.experiments.front().noise_mm2) {
+    text += "  noise floor       " + NumberText4(*floor) + " mm² (experiment)\n";
   }
   if (counts.finished > 0) {
     text += "  a trial takes     " + DurationText(counts.seconds / counts.finished) + "\n";

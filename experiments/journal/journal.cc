@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "experiments/journal/experiment_tables.h"
 #include "experiments/journal/schema.h"
 
 namespace talus::experiments {
@@ -52,7 +53,7 @@ void Migrate(Database& database) {
 constexpr std::string_view kTrialColumns =
     "id, kind, kind_index, set_index, origin, objective, seed, scale_factor, status, reason, "
     "attempts, finish_order, started_utc, finished_utc, duration_s, cpu_s, num_steps, "
-    "num_particles, host, job";
+    "num_particles, host, job, experiment";
 
 TrialRecord ReadTrial(const Statement& row) {
   TrialRecord trial;
@@ -76,6 +77,7 @@ TrialRecord ReadTrial(const Statement& row) {
   trial.num_particles = row.Integer(17);
   trial.host = row.Text(18);
   trial.job = row.Text(19);
+  trial.experiment = static_cast<int>(row.Integer(20));
   return trial;
 }
 
@@ -163,11 +165,9 @@ Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
 void Journal::InsertCampaign(const CampaignRecord& c) {
   database_
       .Prepare(
-          "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, "
-          "?13, 'running', '', 0, '', ?14)")
+          "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', 0, '')")
       .Bind(c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
-            c.created_utc, c.objective, Blob{c.aehp_png}, Blob{c.aehp_sd_png}, c.frame_json,
-            c.nebp_px, c.noise_mm2.value_or(std::nan("")), static_cast<std::int64_t>(c.num_heaps))
+            c.created_utc, c.objective)
       .Finish();
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const ParameterRecord& p = c.parameters[i];
@@ -175,11 +175,8 @@ void Journal::InsertCampaign(const CampaignRecord& c) {
         .Bind(static_cast<std::int64_t>(i), p.name, p.low, p.high, p.scale, p.unit)
         .Finish();
   }
-  for (std::size_t i = 0; i < c.reference.size(); ++i) {
-    const MetricRecord& m = c.reference[i];
-    database_.Prepare("INSERT INTO reference_metrics VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
-        .Bind(static_cast<std::int64_t>(i), m.name, m.value, m.unit, m.undefined, m.standard_error)
-        .Finish();
+  for (std::size_t i = 0; i < c.experiments.size(); ++i) {
+    InsertExperiment(database_, static_cast<std::int64_t>(i), c.experiments[i]);
   }
 }
 
@@ -198,26 +195,22 @@ void Journal::CreateView(const CampaignRecord& campaign) {
                std::string(metric) + "') AS " + metric;
   }
   database_.Execute("CREATE VIEW results AS " + columns +
-                    ",\n t.duration_s, t.seed, t.reason FROM trials t ORDER BY t.id");
+                    ",\n t.scale_factor, (SELECT name FROM experiments WHERE position = "
+                    "t.experiment) AS experiment,"
+                    "\n t.duration_s, t.seed, t.reason FROM trials t ORDER BY t.id");
 }
 
 CampaignRecord Journal::Campaign() {
   Statement row = database_.Prepare(
       "SELECT name, spec_path, spec_text, spec_json, spec_hash, talus_version, created_utc, "
-      "objective, "
-      "aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, num_heaps, "
-      "experimental_noise_floor_mm2 FROM campaign");
+      "objective FROM campaign");
   if (!row.Step()) throw base::Error("the journal holds no campaign");
   CampaignRecord c;
   int column = 0;
-  for (std::string* text :
-       {&c.name, &c.spec_path, &c.spec_text, &c.spec_json, &c.spec_hash, &c.talus_version,
-        &c.created_utc, &c.objective, &c.aehp_png, &c.aehp_sd_png, &c.frame_json}) {
+  for (std::string* text : {&c.name, &c.spec_path, &c.spec_text, &c.spec_json, &c.spec_hash,
+                            &c.talus_version, &c.created_utc, &c.objective}) {
     *text = row.Bytes(column++);
   }
-  c.nebp_px = row.Real(column++);
-  c.num_heaps = static_cast<int>(row.Integer(column++));
-  if (!row.IsNull(column)) c.noise_mm2 = row.Real(column);
   Statement list =
       database_.Prepare("SELECT name, low, high, scale, unit FROM parameters ORDER BY position");
   while (list.Step()) {
@@ -227,16 +220,7 @@ CampaignRecord Journal::Campaign() {
                             .scale = list.Text(3),
                             .unit = list.Text(4)});
   }
-  Statement metrics = database_.Prepare(
-      "SELECT name, value, unit, undefined, standard_error FROM reference_metrics ORDER BY "
-      "position");
-  while (metrics.Step()) {
-    c.reference.push_back({.name = metrics.Text(0),
-                           .value = metrics.Real(1),
-                           .unit = metrics.Text(2),
-                           .undefined = metrics.Text(3),
-                           .standard_error = metrics.Real(4)});
-  }
+  c.experiments = ReadExperiments(database_);
   return c;
 }
 
@@ -316,9 +300,9 @@ void Journal::Insert(const TrialRecord& t) {
   database_
       .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
                ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', NULL, "
-               "NULL, 0, 0, '', ?11)")
+               "NULL, 0, 0, '', ?11, ?12)")
       .Bind(t.id, base::NameOf(t.kind), t.kind_index, t.set, t.origin, t.objective, t.seed,
-            t.scale_factor, t.attempts, t.started_utc, t.job)
+            t.scale_factor, t.attempts, t.started_utc, t.job, t.experiment)
       .Finish();
   for (std::size_t i = 0; i < t.unit.size(); ++i) {
     database_.Prepare("INSERT INTO points VALUES (?1, ?2, ?3, ?4)")

@@ -81,6 +81,58 @@ struct MetricRecord {
   }
 };
 
+// The image of one of an experiment's runs.
+struct RunRecord {
+  std::string name;
+  std::string png;  // mean of its views, in the experiment's frame
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+  }
+};
+
+// A number that an experiment has measured beside its images.
+struct ScalarRecord {
+  std::string name;  // of the metric that trials are measured by: "mass_fallen_kg"
+  double value = 0;
+  double standard_error = 0;  // of the value, > 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("value", self.value);
+    visit("standard_error", self.standard_error);
+  }
+};
+
+// What trials are compared with: what was measured on the real powder by one test.
+struct ExperimentRecord {
+  std::string name;
+  std::vector<MetricRecord> reference;  // metrics of the experiment itself
+  std::string aehp_png;                 // its profile, bytes of a PNG
+  std::string aehp_sd_png;          // its standard deviation image; empty for a map without runs
+  std::string frame_json;           // the profile's frame, as imaging::Frame is written
+  double nebp_px = 0;               // of the AEHP, equivalent black pixels
+  int num_heaps = 1;                // that the AEHP is the mean of: runs, not views
+  std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
+  std::vector<RunRecord> runs;      // empty for a map, and in journals of schema 2
+  std::vector<ScalarRecord> scalars;
+
+  // All but the images.
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("reference", self.reference);
+    visit("frame_json", self.frame_json);
+    visit("nebp_px", self.nebp_px);
+    visit("num_heaps", self.num_heaps);
+    visit("experimental_noise_floor_mm2", self.noise_mm2);
+    visit("runs", self.runs);
+    visit("scalars", self.scalars);
+  }
+};
+
 // What holds for the campaign as a whole. Written once, when it starts.
 struct CampaignRecord {
   std::string name;
@@ -92,13 +144,7 @@ struct CampaignRecord {
   std::string created_utc;    // 2026-01-31T12:00:00Z
   std::string objective;      // name of the metric that is minimised, or of the angle to be met
   std::vector<ParameterRecord> parameters;
-  std::vector<MetricRecord> reference;  // metrics of the experiment itself
-  std::string aehp_png;                 // the experiment's profile, bytes of a PNG
-  std::string aehp_sd_png;          // its standard deviation image; empty for a map without runs
-  std::string frame_json;           // the profile's frame, as imaging::Frame is written
-  double nebp_px = 0;               // of the AEHP, equivalent black pixels
-  int num_heaps = 1;                // that the AEHP is the mean of: runs, not views
-  std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
+  std::vector<ExperimentRecord> experiments;  // one at least
 
   // All but the images.
   template <class Self, class Visitor>
@@ -112,11 +158,7 @@ struct CampaignRecord {
     visit("created_utc", self.created_utc);
     visit("objective", self.objective);
     visit("parameters", self.parameters);
-    visit("reference", self.reference);
-    visit("frame_json", self.frame_json);
-    visit("nebp_px", self.nebp_px);
-    visit("num_heaps", self.num_heaps);
-    visit("experimental_noise_floor_mm2", self.noise_mm2);
+    visit("experiments", self.experiments);
   }
 };
 
@@ -138,6 +180,7 @@ struct TrialRecord {
   std::vector<double> unit;     // unit cube, in the order of the campaign's parameters
   std::vector<double> native;   // SI
   std::int64_t seed = 0;
+  int experiment = 0;  // which of the campaign's is simulated, from 0
   double scale_factor = 1;
   TrialStatus status = TrialStatus::kRunning;
   std::string reason;             // why it failed, or how it ended
@@ -164,6 +207,7 @@ struct TrialRecord {
     visit("unit_point", self.unit);
     visit("values", self.native);
     visit("seed", self.seed);
+    visit("experiment", self.experiment);
     visit("scale_factor", self.scale_factor);
     visit("status", self.status);
     visit("reason", self.reason);

@@ -101,6 +101,59 @@ ALTER TABLE campaign ADD COLUMN num_heaps INTEGER NOT NULL DEFAULT 1;  -- the AE
 ALTER TABLE reference_metrics ADD COLUMN standard_error REAL;          -- NULL when nothing tells it
 )sql";
 
-inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2};
+// Several experiments in a campaign, the runs that each is the mean of, and numbers with errors.
+inline constexpr const char* kSchemaVersion3 = R"sql(
+CREATE TABLE experiments (
+  position INTEGER PRIMARY KEY,   -- from 0
+  name TEXT NOT NULL UNIQUE,
+  aehp_png BLOB NOT NULL,
+  aehp_sd_png BLOB NOT NULL,
+  frame_json TEXT NOT NULL,
+  aehp_nebp_px REAL,
+  num_heaps INTEGER NOT NULL,     -- the AEHP is the mean of
+  experimental_noise_floor_mm2 REAL
+);
+INSERT INTO experiments
+  SELECT 0, 'heap', aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, num_heaps,
+         experimental_noise_floor_mm2 FROM campaign;
+ALTER TABLE campaign DROP COLUMN aehp_png;
+ALTER TABLE campaign DROP COLUMN aehp_sd_png;
+ALTER TABLE campaign DROP COLUMN frame_json;
+ALTER TABLE campaign DROP COLUMN aehp_nebp_px;
+ALTER TABLE campaign DROP COLUMN num_heaps;
+ALTER TABLE campaign DROP COLUMN experimental_noise_floor_mm2;
+CREATE TABLE experiment_runs (    -- images of the single heaps, in the frame of their mean
+  experiment INTEGER NOT NULL REFERENCES experiments(position),
+  position INTEGER NOT NULL,
+  name TEXT NOT NULL,
+  png BLOB NOT NULL,
+  PRIMARY KEY (experiment, position)
+);
+CREATE TABLE experiment_scalars (
+  experiment INTEGER NOT NULL REFERENCES experiments(position),
+  position INTEGER NOT NULL,
+  name TEXT NOT NULL,             -- of the trials' metric, with the unit: mass_fallen_kg
+  value REAL NOT NULL,
+  standard_error REAL NOT NULL,
+  PRIMARY KEY (experiment, position)
+) WITHOUT ROWID;
+ALTER TABLE reference_metrics RENAME TO reference_metrics_2;
+CREATE TABLE reference_metrics (  -- of the experiments themselves
+  experiment INTEGER NOT NULL REFERENCES experiments(position),
+  position INTEGER NOT NULL,
+  name TEXT NOT NULL,             -- with the unit: repose_angle_1_mean_deg
+  value REAL,                     -- NULL when not defined
+  unit TEXT NOT NULL,
+  undefined TEXT NOT NULL,        -- why it is not defined
+  standard_error REAL,            -- NULL when nothing tells it
+  PRIMARY KEY (experiment, position)
+) WITHOUT ROWID;
+INSERT INTO reference_metrics
+  SELECT 0, position, name, value, unit, undefined, standard_error FROM reference_metrics_2;
+DROP TABLE reference_metrics_2;
+ALTER TABLE trials ADD COLUMN experiment INTEGER NOT NULL DEFAULT 0;
+)sql";
+
+inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2, kSchemaVersion3};
 
 }  // namespace talus::experiments

@@ -80,10 +80,11 @@ class FakeEngine : public TrialEngine {
   bool IsComplete(const std::filesystem::path& folder) override {
     return std::filesystem::exists(folder / "profile.png");
   }
-  TrialOutput Collect(const HeapCase&, const std::filesystem::path& folder) override {
+  TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) override {
+    const HeapSize size = EstimateHeap(heap_case);
     return {.profile = imaging::ReadGrayImage(folder / "profile.png"),
-            .num_steps = 1,
-            .num_particles = 1,
+            .num_steps = std::llround(size.simulated_time / size.time_step),
+            .num_particles = size.num_grains,
             .note = ""};
   }
 

@@ -45,13 +45,21 @@ class JournalTest : public ::testing::Test {
                   .high = 1e-4,
                   .scale = "log",
                   .unit = "J/m^2"}},
-            .reference =
-                {{.name = "repose_angle_2_mean_deg", .value = 33, .unit = "deg", .undefined = ""}},
+            .experiments = {Experiment("heap", 33), Experiment("wide plate", 12)}};
+  }
+  static ExperimentRecord Experiment(const std::string& name, double angle) {
+    return {.name = name,
+            .reference = {{.name = "repose_angle_2_mean_deg",
+                           .value = angle,
+                           .unit = "deg",
+                           .undefined = ""}},
             .aehp_png = std::string("\0PNG", 4),
             .aehp_sd_png = "",
             .frame_json = "{}",
             .nebp_px = 12,
-            .noise_mm2 = 0.5};
+            .noise_mm2 = 0.5,
+            .runs = {{.name = "1", .png = name + " one"}, {.name = "2", .png = name + " two"}},
+            .scalars = {{.name = "mass_fallen_kg", .value = 2e-5, .standard_error = 1e-6}}};
   }
   static TrialRecord Trial(std::int64_t id) {
     TrialRecord trial;
@@ -59,6 +67,7 @@ class JournalTest : public ::testing::Test {
     trial.unit = {0.25, 0.5};
     trial.native = {0.25, 1e-5};
     trial.seed = 100 + id;
+    trial.experiment = static_cast<int>(id % 2);
     trial.started_utc = UtcNow();
     return trial;
   }
@@ -98,10 +107,16 @@ TEST_F(JournalTest, OneOfTheFirstVersionIsBroughtUpToDateWhenItIsOpened) {
   { Journal::Open(File()); }
   const CampaignRecord campaign = Journal::OpenReadOnly(File()).Campaign();
   EXPECT_EQ(campaign.name, "old");
-  EXPECT_EQ(campaign.num_heaps, 1);
-  ASSERT_EQ(campaign.reference.size(), 1u);
-  EXPECT_EQ(campaign.reference[0].value, 7);
-  EXPECT_TRUE(std::isnan(campaign.reference[0].standard_error));
+  ASSERT_EQ(campaign.experiments.size(), 1u);
+  const ExperimentRecord& heap = campaign.experiments[0];
+  EXPECT_EQ(heap.name, "heap");
+  EXPECT_EQ(heap.num_heaps, 1);
+  EXPECT_EQ(heap.nebp_px, 1);
+  EXPECT_EQ(heap.frame_json, "{}");
+  ASSERT_EQ(heap.reference.size(), 1u);
+  EXPECT_EQ(heap.reference[0].value, 7);
+  EXPECT_TRUE(std::isnan(heap.reference[0].standard_error));
+  EXPECT_TRUE(heap.runs.empty());
 }
 
 TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
@@ -116,6 +131,8 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   ASSERT_EQ(trials.size(), 2u);
   EXPECT_EQ(trials[0].status, TrialStatus::kRunning);
   EXPECT_EQ(trials[1].status, TrialStatus::kOk);
+  EXPECT_EQ(trials[0].experiment, 1);
+  EXPECT_EQ(trials[1].experiment, 0);
   EXPECT_EQ(trials[1].finish_order, 1);
   EXPECT_EQ(trials[1].native, (std::vector<double>{0.25, 1e-5}));
   EXPECT_EQ(trials[1].Metric("sad_mm2"), 1.5);
@@ -125,11 +142,16 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   EXPECT_EQ(reader.ProfilePng(1), "");
   EXPECT_EQ(reader.Events().at(0).trial, 2);
   const CampaignRecord campaign = reader.Campaign();
-  EXPECT_EQ(campaign.aehp_png.size(), 4u);  // a zero byte does not end it
+  ASSERT_EQ(campaign.experiments.size(), 2u);
+  EXPECT_EQ(campaign.experiments[0].aehp_png.size(), 4u);  // a zero byte does not end it
+  EXPECT_EQ(campaign.experiments[1].name, "wide plate");
+  EXPECT_EQ(campaign.experiments[1].runs.at(1).png, "wide plate two");
+  EXPECT_EQ(campaign.experiments[1].scalars.at(0).standard_error, 1e-6);
   EXPECT_EQ(campaign.parameters.at(1).unit, "J/m^2");
-  EXPECT_EQ(campaign.noise_mm2, 0.5);
+  EXPECT_EQ(campaign.experiments[0].noise_mm2, 0.5);
   EXPECT_EQ(campaign.spec_path, "/spec.json");
-  EXPECT_EQ(campaign.reference.at(0).value, 33);
+  EXPECT_EQ(campaign.experiments[0].reference.at(0).value, 33);
+  EXPECT_EQ(campaign.experiments[1].reference.at(0).value, 12);
 }
 
 TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
@@ -235,7 +257,7 @@ TEST_F(JournalTest, TenThousandTrialsAreReadInASecond) {
     database.Execute(
         "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 10000) "
         "INSERT INTO trials SELECT i, 'search', i, i, 'model', 'sad', i, 1, 'ok', '', 1, i, '', "
-        "'', 1, 1, 1, 1, '', '' FROM n;"
+        "'', 1, 1, 1, 1, '', '', 0 FROM n;"
         "INSERT INTO points SELECT t.id, p.position, 0.5, 0.5 FROM trials t, parameters p;"
         "INSERT INTO metrics SELECT id, m.column1, 1, '', '' FROM trials, (VALUES ('sad'), "
         "('rmse'), ('aor1'), ('aor2'), ('aor3')) m;"

@@ -41,7 +41,7 @@ std::string ErrorOf(const std::string& text) {
 TEST(Spec, DefaultsAreTheThreeUsualParametersAndTheFilesName) {
   const CampaignSpec spec = Read(kGood);
   EXPECT_EQ(spec.name, "powder");
-  EXPECT_EQ(spec.experiment.map, "/folder/map.png");  // relative to the spec
+  EXPECT_EQ(spec.experiment->map, "/folder/map.png");  // relative to the spec
   const auto space = SpaceOf(spec);
   ASSERT_EQ(space.Free().size(), 3u);
   EXPECT_EQ(space.parameters[2].name, "surface_energy");

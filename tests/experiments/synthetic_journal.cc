@@ -39,10 +39,13 @@ CampaignRecord CampaignOf(const Evidence& evidence) {
                                  .scale = std::string(base::NameOf(p.range.scale)),
                                  .unit = p.unit == "J/m²" ? "J/m^2" : p.unit});
   }
-  record.reference = RecordsOf(evidence, evidence.reference.metrics);
-  record.aehp_png = imaging::EncodePng(evidence.reference.aehp.image);
-  record.frame_json = base::ToJson(evidence.reference.aehp.frame).dump();
-  record.noise_mm2 = evidence.reference.noise_floor;
+  ExperimentRecord experiment;
+  experiment.name = "heap";
+  experiment.reference = RecordsOf(evidence, evidence.reference.metrics);
+  experiment.aehp_png = imaging::EncodePng(evidence.reference.aehp.image);
+  experiment.frame_json = base::ToJson(evidence.reference.aehp.frame).dump();
+  experiment.noise_mm2 = evidence.reference.noise_floor;
+  record.experiments.push_back(experiment);
   return record;
 }
 

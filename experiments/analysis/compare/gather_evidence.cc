@@ -77,7 +77,7 @@ TrialEvidence EvidenceOf(const TrialRecord& record, std::vector<MetricInfo>& col
   return trial;
 }
 
-imaging::Profile ReadReference(const CampaignRecord& record) {
+imaging::Profile ReadReference(const ExperimentRecord& record) {
   imaging::Profile aehp;
   base::Problems problems("the journal's frame", {});
   base::ReadOptions(base::ParseJson(record.frame_json, "frame").root, aehp.frame, {problems, {}});
@@ -88,7 +88,7 @@ imaging::Profile ReadReference(const CampaignRecord& record) {
 
 void AddTrials(Evidence& evidence, const CampaignRecord& record,
                const std::vector<TrialRecord>& trials) {
-  evidence.reference.metrics = InColumns(record.reference, evidence.metrics);
+  evidence.reference.metrics = InColumns(record.experiments.front().reference, evidence.metrics);
   for (const TrialRecord& trial : trials) {
     evidence.trials.push_back(EvidenceOf(trial, evidence.metrics));
   }
@@ -96,7 +96,7 @@ void AddTrials(Evidence& evidence, const CampaignRecord& record,
     trial.metrics.resize(evidence.metrics.size(), kUndefined);
   }
   evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
-  std::vector<MetricRecord> errors = record.reference;
+  std::vector<MetricRecord> errors = record.experiments.front().reference;
   for (MetricRecord& metric : errors) metric.value = metric.standard_error;
   evidence.reference.errors = InColumns(errors, evidence.metrics);
   if (!trials.empty()) evidence.scale_factor = trials.front().scale_factor;
@@ -144,8 +144,8 @@ Evidence GatherEvidence(const std::filesystem::path& campaign) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
   AddTrials(evidence, record, journal->Trials());
-  evidence.reference.aehp = ReadReference(record);
-  evidence.reference.noise_floor = record.noise_mm2.value_or(kUndefined);
+  evidence.reference.aehp = ReadReference(record.experiments.front());
+  evidence.reference.noise_floor = record.experiments.front().noise_mm2.value_or(kUndefined);
   if (!progress.result_json.empty()) {
     evidence.conclusion = ConclusionOf(progress.result_json);
     evidence.objective = evidence.conclusion->objective;

@@ -37,13 +37,14 @@ std::vector<std::string> MetricNames(const std::vector<TrialRecord>& trials) {
 
 std::string TrialsCsv(const CampaignRecord& campaign, const std::vector<TrialRecord>& trials) {
   const std::vector<std::string> metrics = MetricNames(trials);
-  std::string csv = "trial,kind,origin,status,seed,scale_factor";
+  std::string csv = "trial,kind,origin,status,seed,experiment,scale_factor";
   for (const ParameterRecord& p : campaign.parameters) csv += "," + ColumnName(p);
   for (const std::string& metric : metrics) csv += "," + metric;
   csv += ",duration_s,cpu_s,num_steps,num_particles,attempts,finish_order,host,reason\n";
   for (const TrialRecord& t : trials) {
     csv += std::to_string(t.id) + "," + std::string(base::NameOf(t.kind)) + "," + t.origin + "," +
            std::string(base::NameOf(t.status)) + "," + std::to_string(t.seed) + "," +
+           Quoted(campaign.experiments.at(static_cast<std::size_t>(t.experiment)).name) + "," +
            Exact(t.scale_factor);
     for (const double value : t.native) csv += "," + Exact(value);
     for (const std::string& metric : metrics) csv += "," + Exact(t.Metric(metric).value_or(NAN));

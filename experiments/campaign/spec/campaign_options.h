@@ -9,16 +9,21 @@
 namespace talus::experiments {
 
 struct BudgetOptions {
-  int simulations = 60;                // trials of noise and search together, >= 1
+  int simulations = 60;                // trials of noise and search together, >= 1; 0: any number
   int min_simulations = 0;             // before the strategy may end the search, >= 0
+  std::optional<double> core_time{};   // [s], of the trials of noise and search together, > 0
   std::optional<double> wall_clock{};  // [s], all sessions together, > 0
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("simulations", self.simulations,
-          {.doc = "trials for noise and search; the confirmation comes on top; >= 1"});
+          {.doc = "trials for noise and search; the confirmation comes on top; >= 1, or 0 for any "
+                  "number, which is what it is beside core_time"});
     visit("min_simulations", self.min_simulations,
           {.doc = "so many trials before the strategy may end the search early, >= 0"});
+    visit("core_time", self.core_time,
+          {.dimension = base::Dimension::kTime,
+           .doc = "processor time for noise and search; no new trial of the search after it, > 0"});
     visit("wall_clock", self.wall_clock,
           {.dimension = base::Dimension::kTime,
            .doc = "no new trial of the search after this time of work, > 0"});
@@ -33,6 +38,23 @@ struct NoiseOptions {
   static void Visit(Self& self, Visitor&& visit) {
     visit("replicates", self.replicates,
           {.doc = "trials at one point before the search, for the run-to-run scatter; 0 or >= 2"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+// What a posterior over several grain sizes or experiments is made with.
+struct PosteriorOptions {
+  double model_error = 0.5;  // sd of what no simulation can match, in run-to-run sds, >= 0
+  double stop_shrink = 0;    // expected narrowing by the next core minute [-], in [0, 1)
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("model_error", self.model_error,
+          {.doc = "standard deviation of what no simulation can match, over that of the "
+                  "experiment's runs; >= 0"});
+    visit("stop_shrink", self.stop_shrink,
+          {.doc = "the search ends when its next core minute is expected to narrow the posterior "
+                  "by less than this share, in [0, 1); 0 never"});
   }
   void Validate(base::Problems& problems) const;
 };

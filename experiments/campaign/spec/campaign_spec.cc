@@ -1,6 +1,7 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/json_reader.h"
@@ -66,8 +67,69 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
 
 }  // namespace
 
+namespace {
+
+constexpr double kFewestAcross = 10;  // grains across the plate
+
+bool IsGiven(const nlohmann::json& root, const char* section, const char* key) {
+  return root.contains(section) && root[section].is_object() && root[section].contains(key);
+}
+
+// Defaults that depend on other keys.
+void CompleteDefaults(CampaignSpec& spec, const nlohmann::json& root) {
+  // Beside core time the number of trials is free.
+  if (spec.budget.core_time && !IsGiven(root, "budget", "simulations")) spec.budget.simulations = 0;
+  // A posterior learns the noise from the search itself, at every scale factor.
+  const bool several = spec.experiments || spec.coarse_graining.scale_factors;
+  if (several && spec.IsJoint() && !IsGiven(root, "noise", "replicates")) spec.noise.replicates = 0;
+}
+
+void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
+  problems.Require(spec.experiment || spec.experiments, "experiment", "is missing");
+  problems.Require(!spec.experiment || !spec.experiments, "experiments",
+                   "stands beside experiment: give one of the two");
+  if (!spec.experiments) return;
+  problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
+  std::set<std::string> names;
+  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
+  for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
+    const ExperimentSpec& e = all[i];
+    const std::string place = "experiments[" + std::to_string(i) + "]";
+    problems.Require(names.insert(e.name).second, place + ".name",
+                     "\"" + e.name + "\" stands there twice: results could not tell them apart");
+    const double plate = e.device->plate_diameter;
+    problems.Require(std::abs(e.images.plate_diameter - plate) <= 0.01 * plate,
+                     place + ".plate_diameter", e.images.plate_diameter,
+                     "is not the device's plate_diameter: the images are of another test, or the "
+                     "experiment needs a device of its own");
+  }
+}
+
+// What shows only when it is put together, such as a tube that cannot hold the mass.
+void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    for (const double factor : spec.coarse_graining.Levels()) {
+      const HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
+      heap_case.Validate(problems);
+      if (!problems.empty()) return;  // the same for every scale factor
+      const double across = heap_case.device.plate_diameter / EstimateHeap(heap_case).mean_diameter;
+      problems.Require(across >= kFewestAcross, "coarse_graining",
+                       "leaves " + std::to_string(across).substr(0, 4) +
+                           " grains across the plate of \"" + experiments[e].name +
+                           "\" at scale factor " + std::to_string(factor).substr(0, 4) +
+                           ", must be 10 or more: their heap says nothing of the powder");
+    }
+  }
+}
+
+}  // namespace
+
 void BudgetOptions::Validate(base::Problems& problems) const {
-  problems.Require(simulations >= 1, "simulations", simulations, "must be at least 1");
+  problems.Require(simulations >= 1 || (simulations == 0 && core_time), "simulations", simulations,
+                   "must be at least 1");
+  problems.Require(!core_time || *core_time > 0, "core_time", core_time.value_or(0),
+                   "must be positive");
   problems.Require(min_simulations >= 0, "min_simulations", min_simulations,
                    "must not be negative");
   problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
@@ -77,6 +139,12 @@ void BudgetOptions::Validate(base::Problems& problems) const {
 void NoiseOptions::Validate(base::Problems& problems) const {
   problems.Require(replicates == 0 || replicates >= 2, "replicates", replicates,
                    "must be 0, or at least 2: one trial has no scatter");
+}
+
+void PosteriorOptions::Validate(base::Problems& problems) const {
+  problems.Require(model_error >= 0, "model_error", model_error, "must not be negative");
+  problems.Require(stop_shrink >= 0 && stop_shrink < 1, "stop_shrink", stop_shrink,
+                   "must be in [0, 1)");
 }
 
 void ConfirmOptions::Validate(base::Problems& problems) const {
@@ -95,8 +163,16 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(workers >= 0, "workers", workers, "must not be negative");
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");
   problems.Require(trial_time_cap > 0, "trial_time_cap", trial_time_cap, "must be positive");
-  problems.Require(budget.simulations > noise.replicates, "budget.simulations", budget.simulations,
-                   "must be more than noise.replicates");
+  problems.Require(budget.simulations == 0 || budget.simulations > noise.replicates,
+                   "budget.simulations", budget.simulations, "must be more than noise.replicates");
+  ValidateExperiments(*this, problems);
+  problems.Require(!IsJoint() || strategy.kind == optimizer::StrategyKind::kSurrogate,
+                   "strategy.kind",
+                   "must be \"surrogate\" with several scale factors or experiments: the others "
+                   "know one of each only");
+  problems.Require(!posterior || IsJoint(), "posterior",
+                   "has no effect with one scale factor and one experiment without numbers; leave "
+                   "it out");
   if (!parameters) return;
   problems.Within("parameters", [&] { ValidateRanges(*parameters, powder.material, problems); });
   problems.Require(!parameters->surface_energy || models.adhesion != engine::Adhesion::kNone,
@@ -105,6 +181,27 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(!parameters->rolling_friction || models.rolling != engine::Rolling::kNone,
                    "parameters.rolling_friction",
                    "has no effect without a rolling model; set models.rolling or leave it out");
+}
+
+bool CampaignSpec::IsJoint() const {
+  if (coarse_graining.AreSeveral()) return true;
+  return experiments && (experiments->size() > 1 ||
+                         (!experiments->empty() && !ScalarsOf(experiments->front()).empty()));
+}
+
+std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
+  std::vector<ExperimentSpec> list = spec.experiments.value_or(std::vector<ExperimentSpec>{});
+  if (spec.experiment) {
+    ExperimentSpec only;
+    only.name = "heap";
+    only.images = *spec.experiment;
+    list.push_back(std::move(only));
+  }
+  for (ExperimentSpec& experiment : list) {
+    if (!experiment.device) experiment.device = spec.device;
+    if (!experiment.rules) experiment.rules = spec.rules;
+  }
+  return list;
 }
 
 CampaignSpec ParseSpecText(const std::string& text) {
@@ -118,6 +215,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
                     {problems, std::filesystem::absolute(file.path).parent_path()});
   if (spec.name.empty()) spec.name = file.path.stem().string();
   if (!spec.parameters) spec.parameters = UsualRanges(spec.models.adhesion);
+  CompleteDefaults(spec, file.root);
   base::TreeValidator(problems).Check(spec);
   if (problems.empty()) {
     const optimizer::ParameterSpace space = SpaceOf(spec);
@@ -127,10 +225,10 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
     });
   }
   problems.ThrowIfAny();
+  spec.coarse_graining.scale_factor = spec.coarse_graining.Levels().back();
   engine::ReadSizeFile(spec.powder.sizes);
   CompleteEngine(spec, problems);
-  // What shows only when it is put together, such as a tube that cannot hold the mass.
-  TypicalCase(spec).Validate(problems);
+  ValidateCases(spec, problems);
   problems.ThrowIfAny();
   return spec;
 }
@@ -151,11 +249,14 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
                 const imaging::Frame& frame) {
   HeapCase heap_case;
   heap_case.powder = spec.powder;
-  heap_case.device = spec.device;
+  const ExperimentSpec experiment =
+      ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
+  heap_case.device = *experiment.device;
   heap_case.models = spec.models;
-  heap_case.coarse_graining = spec.coarse_graining;
-  heap_case.coarse_graining.scale_factor = settings.scale_factor;
-  heap_case.rules = spec.rules;
+  heap_case.coarse_graining = {
+      .scale_factor = settings.scale_factor,
+      .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent};
+  heap_case.rules = *experiment.rules;
   heap_case.gravity = spec.gravity;
   heap_case.rayleigh_fraction = spec.rayleigh_fraction;
   heap_case.seed = settings.seed;
@@ -169,20 +270,22 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   return heap_case;
 }
 
-HeapCase TypicalCase(const CampaignSpec& spec) {
+HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor) {
   const optimizer::ParameterSpace space = SpaceOf(spec);
   const auto num_free = static_cast<Eigen::Index>(space.Free().size());
   const std::vector<double> values = space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
-  const imaging::Frame frame{.pixel_size = 1e-4, .plate_diameter = spec.device.plate_diameter};
-  return CaseOf(
+  HeapCase heap_case = CaseOf(
       spec,
-      {.values = values, .seed = spec.seed, .scale_factor = spec.coarse_graining.scale_factor},
-      frame);
+      {.values = values, .seed = spec.seed, .scale_factor = scale_factor, .experiment = experiment},
+      {});
+  heap_case.frame = {.pixel_size = 1e-4, .plate_diameter = heap_case.device.plate_diameter};
+  return heap_case;
 }
 
 std::vector<std::string> ForbiddenChanges(const std::string& old_text,
                                           const std::string& new_text) {
-  ordered_json old_spec = ordered_json::parse(old_text);
+  // Read and written again, as keys may have come with their defaults since it was written.
+  ordered_json old_spec = ordered_json::parse(SpecText(ParseSpecText(old_text)));
   ordered_json new_spec = ordered_json::parse(new_text);
   for (const std::string_view key : kMayChange) {
     old_spec.erase(std::string(key));

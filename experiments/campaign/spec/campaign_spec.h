@@ -9,6 +9,8 @@
 
 #include "base/json_file.h"
 #include "experiments/campaign/spec/campaign_options.h"
+#include "experiments/campaign/spec/experiment_spec.h"
+#include "experiments/campaign/spec/grain_sizes.h"
 #include "experiments/campaign/spec/objective.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/campaign/spec/where_options.h"
@@ -23,11 +25,12 @@ struct CampaignSpec {
   Powder powder;
   Device device;
   engine::ContactModels models;
-  CoarseGraining coarse_graining;
+  GrainSizes coarse_graining;
   HeapRules rules;
   double gravity = 9.81;            // [m/s²], > 0
   double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest grain [-], in (0, 0.4]
-  imaging::ExperimentOptions experiment;
+  std::optional<imaging::ExperimentOptions> experiment{};  // of a campaign with one only
+  std::optional<std::vector<ExperimentSpec>> experiments{};
   int num_views = 16;  // of a simulated profile, >= 1
   std::optional<ParameterRanges> parameters{};
   std::vector<optimizer::LinearConstraint> constraints{};
@@ -35,7 +38,8 @@ struct CampaignSpec {
   optimizer::StrategyOptions strategy;
   BudgetOptions budget;
   NoiseOptions noise;
-  int replicates = 1;  // seeds of each proposed set, >= 1
+  int replicates = 1;                           // seeds of each proposed set, >= 1
+  std::optional<PosteriorOptions> posterior{};  // with several scale factors or experiments only
   ConfirmOptions confirm;
   std::uint64_t seed = 1;
   int workers = 0;                   // trials at the same time, >= 0; 0: as many as cores
@@ -58,7 +62,12 @@ struct CampaignSpec {
           {.dimension = Dimension::kAcceleration, .doc = "downwards, > 0"});
     visit("rayleigh_fraction", self.rayleigh_fraction,
           {.doc = "time step over Rayleigh time of the smallest grain, in (0, 0.4]"});
-    visit("experiment", self.experiment, {.required = true, .doc = "photographs or a map"});
+    visit("experiment", self.experiment,
+          {.doc = "photographs or a map; this or `experiments` is needed"});
+    visit(
+        "experiments", self.experiments,
+        {.doc = "several tests of the same powder, each with a name and the keys of `experiment`, "
+                "to be met by one parameter set"});
     visit("num_views", self.num_views, {.doc = "of a simulated profile over 180 deg, >= 1"});
     visit("parameters", self.parameters,
           {.doc = "what is searched; default: sliding and rolling friction, surface energy"});
@@ -68,6 +77,9 @@ struct CampaignSpec {
     visit("budget", self.budget, {.doc = "when the search ends at the latest"});
     visit("noise", self.noise, {.doc = "how the run-to-run scatter is estimated first"});
     visit("replicates", self.replicates, {.doc = "seeds of each proposed set, >= 1"});
+    visit("posterior", self.posterior,
+          {.doc = "what the observations are held to say, with several scale factors or "
+                  "experiments"});
     visit("confirm", self.confirm, {.doc = "what is simulated again at the end"});
     visit("seed", self.seed, {.doc = "every random choice follows from it"});
     visit("workers", self.workers, {.doc = "trials at the same time; 0: as many as cores"});
@@ -81,6 +93,10 @@ struct CampaignSpec {
   }
   // What each part cannot see by itself.
   void Validate(base::Problems& problems) const;
+
+  // Whether trials of several scale factors or experiments, or numbers beside images, make one
+  // answer: then a posterior over all of them chooses and answers.
+  bool IsJoint() const;
 };
 
 // Reads, completes and validates a spec; throws one ConfigError with every problem.
@@ -94,17 +110,21 @@ CampaignSpec ParseSpecText(const std::string& text);
 // What is searched.
 optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec);
 
+// The campaign's experiments, one at least, each with its device and rules filled in.
+std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec);
+
 // The case of a trial: `values` of all of the space's parameters, in its order.
 struct TrialSettings {
   std::span<const double> values;
   std::uint64_t seed = 0;
   double scale_factor = 1;
+  int experiment = 0;
 };
 HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
                 const imaging::Frame& frame);
 
 // A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
-HeapCase TypicalCase(const CampaignSpec& spec);
+HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);
 
 // What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
 // what a running campaign may change is left out.

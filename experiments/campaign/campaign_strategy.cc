@@ -1,0 +1,83 @@
+#include "experiments/campaign/campaign_strategy.h"
+
+#include <limits>
+#include <utility>
+
+#include "experiments/campaign/core_time.h"
+#include "imaging/formats/image_file.h"
+#include "optimizer/strategies/make_strategy.h"
+
+namespace talus::experiments {
+
+std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
+                                                   const CampaignRecord& record,
+                                                   const std::vector<Reference>& references) {
+  std::vector<optimizer::ExperimentTarget> targets;
+  for (std::size_t e = 0; e < references.size(); ++e) {
+    const ExperimentRecord& experiment = record.experiments[e];
+    optimizer::ExperimentTarget target{.name = experiment.name,
+                                       .image = references[e].MakeFieldObjective()};
+    for (const RunRecord& run : experiment.runs) {
+      target.runs.push_back(
+          references[e].Field(imaging::DecodeGrayImage(run.png, "the journal's run " + run.name)));
+    }
+    for (const ScalarRecord& scalar : experiment.scalars) {
+      target.scalars.push_back(
+          {.name = scalar.name, .value = scalar.value, .standard_error = scalar.standard_error});
+    }
+    for (const double factor : spec.coarse_graining.Levels()) {
+      target.costs.push_back(GrainStepsOf(spec, static_cast<int>(e), factor) / kUsualSpeed);
+    }
+    targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
+std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
+                                                       const CampaignRecord& record,
+                                                       const std::vector<Reference>& references) {
+  const PosteriorOptions posterior = spec.posterior.value_or(PosteriorOptions{});
+  return optimizer::MakeFidelityStrategy({.scale_factors = spec.coarse_graining.Levels(),
+                                          .target = spec.coarse_graining.Target(),
+                                          .num_initial = spec.strategy.num_initial,
+                                          .model_error = posterior.model_error,
+                                          .stop_shrink = posterior.stop_shrink,
+                                          .seed = spec.seed},
+                                         SpaceOf(spec).MakeDomain(),
+                                         TargetsOf(spec, record, references));
+}
+
+std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(
+    const CampaignSpec& spec, const CampaignRecord& record,
+    const std::vector<Reference>& references) {
+  if (spec.IsJoint()) return MakeJointStrategy(spec, record, references);
+  const optimizer::FieldObjective field = references.front().MakeFieldObjective();
+  return optimizer::MakeStrategy(spec.strategy, SpaceOf(spec).MakeDomain(), &field, spec.seed);
+}
+
+Eigen::VectorXd PointOf(const TrialRecord& trial) {
+  return Eigen::Map<const Eigen::VectorXd>(trial.unit.data(),
+                                           static_cast<Eigen::Index>(trial.unit.size()));
+}
+
+optimizer::Observation ObservationOf(const TrialRecord& trial, const Reference& reference,
+                                     std::vector<float> field) {
+  const std::optional<double> value = reference.Value(trial);
+  optimizer::Observation observation{
+      .point = PointOf(trial),
+      .experiment = trial.experiment,
+      .scale_factor = trial.scale_factor,
+      // Not the processor time, which differs from run to run and would take proposals with it.
+      .cost = static_cast<double>(trial.num_particles) * static_cast<double>(trial.num_steps) /
+              kUsualSpeed,
+      .failed = trial.status != TrialStatus::kOk || !value,
+      .value = value.value_or(0),
+      .field = std::move(field)};
+  for (const ScalarRecord& scalar : reference.scalars()) {
+    observation.scalars.push_back(
+        trial.Metric(scalar.name).value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return observation;
+}
+
+}  // namespace talus::experiments

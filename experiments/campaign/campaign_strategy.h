@@ -1,0 +1,38 @@
+// The strategy that chooses a campaign's trials, and what it is told of them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "experiments/campaign/reference.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/records.h"
+#include "optimizer/strategies/strategy.h"
+
+namespace talus::experiments {
+
+// What the optimiser is to meet, one an experiment.
+std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
+                                                   const CampaignRecord& record,
+                                                   const std::vector<Reference>& references);
+
+// The spec's own, or the one over all scale factors and experiments where there are several.
+std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(const CampaignSpec& spec,
+                                                          const CampaignRecord& record,
+                                                          const std::vector<Reference>& references);
+
+// The one over all scale factors and experiments, also where there is one of each only.
+std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
+                                                       const CampaignRecord& record,
+                                                       const std::vector<Reference>& references);
+
+// The unit cube's point of a trial.
+Eigen::VectorXd PointOf(const TrialRecord& trial);
+
+// A finished trial as a strategy is told it; the field is empty when it failed or its image is
+// lost.
+optimizer::Observation ObservationOf(const TrialRecord& trial, const Reference& reference,
+                                     std::vector<float> field);
+
+}  // namespace talus::experiments

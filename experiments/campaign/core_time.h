@@ -1,0 +1,44 @@
+// What trials cost in processor time: as measured once they have ended, as estimated before.
+#pragma once
+
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/records.h"
+
+namespace talus::experiments {
+
+// Of a usual core [grain steps/s]. Estimates that a strategy is told use it rather than the speed
+// of this machine, so that equal specs and seeds make equal proposals everywhere.
+inline constexpr double kUsualSpeed = 1e7;
+
+// Grain steps of a trial in the middle of the ranges.
+double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor);
+
+class CoreTime {
+ public:
+  explicit CoreTime(const CampaignSpec& spec) : spec_(spec) {}
+
+  // [core seconds] of all these trials: those that run still count by what others of their
+  // experiment and scale factor took.
+  double Of(std::span<const TrialRecord> trials);
+
+ private:
+  using Kind = std::pair<int, double>;  // experiment and scale factor
+
+  double Estimate(const TrialRecord& trial);
+  double GrainSteps(const TrialRecord& trial);
+
+  const CampaignSpec& spec_;
+  std::map<Kind, double> grain_steps_;
+  struct Total {
+    double seconds = 0;
+    int count = 0;
+  };
+  std::map<Kind, Total> measured_;
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,95 @@
+#include "experiments/journal/experiment_tables.h"
+
+#include <cmath>
+
+namespace talus::experiments {
+namespace {
+
+// The record of a row whose first column is its experiment's position.
+ExperimentRecord& OwnerOf(const Statement& row, std::vector<ExperimentRecord>& experiments) {
+  return experiments.at(static_cast<std::size_t>(row.Integer(0)));
+}
+
+void ReadMetrics(Database& database, std::vector<ExperimentRecord>& experiments) {
+  Statement row = database.Prepare(
+      "SELECT experiment, name, value, unit, undefined, standard_error FROM reference_metrics "
+      "ORDER BY experiment, position");
+  while (row.Step()) {
+    OwnerOf(row, experiments)
+        .reference.push_back({.name = row.Text(1),
+                              .value = row.Real(2),
+                              .unit = row.Text(3),
+                              .undefined = row.Text(4),
+                              .standard_error = row.Real(5)});
+  }
+}
+
+void ReadRuns(Database& database, std::vector<ExperimentRecord>& experiments) {
+  Statement row = database.Prepare(
+      "SELECT experiment, name, png FROM experiment_runs ORDER BY experiment, position");
+  while (row.Step()) {
+    OwnerOf(row, experiments).runs.push_back({.name = row.Text(1), .png = row.Bytes(2)});
+  }
+}
+
+void ReadScalars(Database& database, std::vector<ExperimentRecord>& experiments) {
+  Statement row = database.Prepare(
+      "SELECT experiment, name, value, standard_error FROM experiment_scalars ORDER BY experiment, "
+      "position");
+  while (row.Step()) {
+    OwnerOf(row, experiments)
+        .scalars.push_back(
+            {.name = row.Text(1), .value = row.Real(2), .standard_error = row.Real(3)});
+  }
+}
+
+}  // namespace
+
+void InsertExperiment(Database& database, std::int64_t position, const ExperimentRecord& e) {
+  database.Prepare("INSERT INTO experiments VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)")
+      .Bind(position, e.name, Blob{e.aehp_png}, Blob{e.aehp_sd_png}, e.frame_json, e.nebp_px,
+            e.num_heaps, e.noise_mm2.value_or(std::nan("")))
+      .Finish();
+  std::int64_t i = 0;
+  for (const MetricRecord& m : e.reference) {
+    database.Prepare("INSERT INTO reference_metrics VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)")
+        .Bind(position, i++, m.name, m.value, m.unit, m.undefined, m.standard_error)
+        .Finish();
+  }
+  i = 0;
+  for (const RunRecord& run : e.runs) {
+    database.Prepare("INSERT INTO experiment_runs VALUES (?1, ?2, ?3, ?4)")
+        .Bind(position, i++, run.name, Blob{run.png})
+        .Finish();
+  }
+  i = 0;
+  for (const ScalarRecord& scalar : e.scalars) {
+    database.Prepare("INSERT INTO experiment_scalars VALUES (?1, ?2, ?3, ?4, ?5)")
+        .Bind(position, i++, scalar.name, scalar.value, scalar.standard_error)
+        .Finish();
+  }
+}
+
+std::vector<ExperimentRecord> ReadExperiments(Database& database) {
+  std::vector<ExperimentRecord> experiments;
+  Statement row = database.Prepare(
+      "SELECT name, aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, num_heaps, "
+      "experimental_noise_floor_mm2 FROM experiments ORDER BY position");
+  while (row.Step()) {
+    ExperimentRecord e;
+    e.name = row.Text(0);
+    e.aehp_png = row.Bytes(1);
+    e.aehp_sd_png = row.Bytes(2);
+    e.frame_json = row.Text(3);
+    e.nebp_px = row.Real(4);
+    e.num_heaps = static_cast<int>(row.Integer(5));
+    if (!row.IsNull(6)) e.noise_mm2 = row.Real(6);
+    experiments.push_back(std::move(e));
+  }
+  ReadMetrics(database, experiments);
+  ReadRuns(database, experiments);
+  ReadScalars(database, experiments);
+  return experiments;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,131 @@
+// Several scale factors in one spec: what it means, and what is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/json_file.h"
+#include "experiments/campaign/core_time.h"
+#include "experiments/campaign/estimate.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+
+namespace talus::experiments {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// 10 mm of plate over 0.2 mm grains: 50 across at true size.
+CampaignSpec Read(const std::string& members) {
+  return ReadCampaignSpec(base::ParseJson(R"({
+    "experiment": {"map": "map.png", "plate_diameter": "10 mm"},
+    "powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},
+    )" + members + "}",
+                                          "/folder/powder.json"));
+}
+
+std::string ErrorOf(const std::string& members) {
+  try {
+    Read(members);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ScaleFactors, TheSmallestIsTheTargetUnlessTheSpecAsksForLess) {
+  const CampaignSpec several = Read(R"("coarse_graining": {"scale_factors": [1.5, 3, 2]})");
+  EXPECT_THAT(several.coarse_graining.Levels(), ElementsAre(3, 2, 1.5));
+  EXPECT_EQ(several.coarse_graining.Target(), 1.5);
+  EXPECT_EQ(several.coarse_graining.scale_factor, 1.5);  // of the confirmation
+  EXPECT_TRUE(several.IsJoint());
+  EXPECT_EQ(several.noise.replicates, 0);  // the search itself shows the noise
+  const CampaignSpec beyond =
+      Read(R"("coarse_graining": {"scale_factor": 2, "target": 1}, "noise": {"replicates": 2})");
+  EXPECT_EQ(beyond.coarse_graining.Target(), 1);
+  EXPECT_TRUE(beyond.IsJoint());
+  EXPECT_EQ(beyond.noise.replicates, 2);  // as the user says
+  const CampaignSpec one = Read(R"("coarse_graining": {"scale_factors": [2]})");
+  EXPECT_FALSE(one.IsJoint());
+  EXPECT_EQ(one.noise.replicates, 3);
+}
+
+TEST(ScaleFactors, TheSpecReadsBackWithThem) {
+  const std::string text = SpecText(Read(R"("coarse_graining": {"scale_factors": [3, 2]})"));
+  EXPECT_EQ(SpecText(ParseSpecText(text)), text);
+  // A spec without the keys is written as before they were known.
+  const std::string plain = SpecText(Read(R"("seed": 1)"));
+  for (const char* key : {"scale_factors", "target", "core_time", "experiments", "posterior"}) {
+    EXPECT_EQ(plain.find(std::string("\"") + key), std::string::npos) << key;
+  }
+}
+
+TEST(ScaleFactors, WhatCannotBeIsRefusedWithItsPlace) {
+  const auto graining = [](const std::string& keys) {
+    return ErrorOf("\"coarse_graining\": {" + keys + "}");
+  };
+  EXPECT_THAT(graining(R"("scale_factors": [2, 0.5])"),
+              HasSubstr("coarse_graining.scale_factors[1]: is 0.5, must be 1 or more"));
+  EXPECT_THAT(graining(R"("scale_factors": [2, 3, 2])"),
+              HasSubstr("coarse_graining.scale_factors[2]: is 2, stands there twice"));
+  EXPECT_THAT(graining(R"("scale_factors": [])"), HasSubstr("coarse_graining.scale_factors: is"));
+  EXPECT_THAT(graining(R"("scale_factors": [2, 3], "target": 2.5)"),
+              HasSubstr("coarse_graining.target: is 2.5, must not be larger than the smallest"));
+  EXPECT_THAT(graining(R"("scale_factors": [2, 3], "scale_factor": 4)"),
+              HasSubstr("coarse_graining.scale_factor: stands beside scale_factors"));
+  EXPECT_THAT(graining(R"("scale_factors": [1, 6])"),
+              HasSubstr("coarse_graining: leaves 8.33 grains across the plate of \"heap\" at scale "
+                        "factor 6"));
+  EXPECT_EQ(graining(R"("scale_factors": [1, 5])"), "");  // ten across
+  EXPECT_THAT(ErrorOf(R"("coarse_graining": {"scale_factors": [1, 2]},
+                         "strategy": {"kind": "lhs"})"),
+              HasSubstr("strategy.kind: must be \"surrogate\""));
+  EXPECT_THAT(ErrorOf(R"("posterior": {"model_error": 1})"), HasSubstr("posterior: has no effect"));
+}
+
+TEST(ScaleFactors, CoreTimeTakesThePlaceOfANumberOfSimulations) {
+  const CampaignSpec spec = Read(R"("budget": {"core_time": "16 min"})");
+  EXPECT_EQ(spec.budget.core_time, 960);
+  EXPECT_EQ(spec.budget.simulations, 0);
+  const CampaignSpec both = Read(R"("budget": {"core_time": "16 min", "simulations": 40})");
+  EXPECT_EQ(both.budget.simulations, 40);
+  EXPECT_THAT(ErrorOf(R"("budget": {"core_time": 0})"), HasSubstr("budget.core_time: is 0"));
+}
+
+TrialRecord Trial(double scale_factor, TrialStatus status, double cpu_s) {
+  TrialRecord trial;
+  trial.scale_factor = scale_factor;
+  trial.status = status;
+  trial.cpu_s = cpu_s;
+  return trial;
+}
+
+TEST(CoreTime, RunningTrialsCountByWhatOthersOfTheirSizeTook) {
+  const CampaignSpec spec = Read(R"("coarse_graining": {"scale_factors": [2, 1]})");
+  CoreTime time(spec);
+  const std::vector<TrialRecord> trials{Trial(2, TrialStatus::kOk, 10),
+                                        Trial(2, TrialStatus::kFailed, 14),
+                                        Trial(2, TrialStatus::kRunning, 0)};
+  EXPECT_DOUBLE_EQ(time.Of(trials), 10 + 14 + 12);
+  // Of another size: by grain steps. f⁻³ grains times f⁻¹ steps, but for rounding to whole grains.
+  std::vector<TrialRecord> finer = trials;
+  finer[2].scale_factor = 1;
+  EXPECT_NEAR(time.Of(finer), 24 + 12 * 16, 0.5);
+  // Before any has ended: by the speed of a usual core.
+  const std::vector<TrialRecord> first{Trial(2, TrialStatus::kRunning, 0)};
+  EXPECT_DOUBLE_EQ(CoreTime(spec).Of(first), GrainStepsOf(spec, 0, 2) / kUsualSpeed);
+}
+
+TEST(Estimate, SaysForEachScaleFactorWhatATrialTakesAndTheBudgetBuys) {
+  const CampaignSpec spec = Read(R"("coarse_graining": {"scale_factors": [4, 2]},
+                                    "budget": {"core_time": "16 min"})");
+  const CampaignEstimate estimate = EstimateCampaign(spec);
+  ASSERT_EQ(estimate.trials.size(), 2u);
+  EXPECT_NEAR(estimate.trials[1].core_seconds / estimate.trials[0].core_seconds, 16, 0.2);
+  const std::string text = EstimateText(spec, estimate);
+  EXPECT_THAT(text, HasSubstr("scale factor 4: 746 grains of 0.8 mm"));
+  EXPECT_THAT(text, HasSubstr("scale factor 2: 5968 grains of 0.4 mm"));
+  EXPECT_THAT(text, HasSubstr("16 min of core time buy"));
+}
+
+}  // namespace
+}  // namespace talus::experiments
