@@ -26,7 +26,7 @@ struct CampaignSpec {
   CoarseGraining coarse_graining;
   HeapRules rules;
   double gravity = 9.81;            // [m/s²], > 0
-  double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest grain [-], in (0, 0.4]
+  double rayleigh_fraction = kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
   imaging::ExperimentOptions experiment;
   int num_views = 16;  // of a simulated profile, >= 1
   std::optional<ParameterRanges> parameters{};
