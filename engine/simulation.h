@@ -17,6 +17,7 @@ struct ContactInfo {
   std::int64_t first = 0;   // particle id
   std::int64_t second = 0;  // particle id, or -1 - wall index
   double overlap = 0;       // δ [m] (K1)
+  Vec3 normal;              // n [-], from `first` to `second`
   Vec3 force;               // on `first` [N]
 };
 

@@ -58,6 +58,9 @@ struct ViscousRolling {
 };
 
 // A spring and a dashpot in rolling with a limit on the spring [ai2011, model C].
+//
+// The spring is kept perpendicular to the normal (R2). When the normal turns, a part of M would
+// come to lie along it and drive twist, which nothing resists: energy from nowhere.
 struct EpsdRolling {
   static constexpr bool kHasMoment = true;
   template <class V>
@@ -68,6 +71,7 @@ struct EpsdRolling {
     const V stiffness = V(p.rolling_stiffness) * s.area.s * c.r_star * c.r_star;        // R1
     const V damping = V(p.rolling_damping) * c.r_star * s.area.root_s * c.root_i_star;  // R3
     moment = moment - (stiffness * s.dt) * omega;                                       // R2
+    moment = moment - Dot(moment, c.normal) * c.normal;
     const V square = Dot(moment, moment);
     const V limit = V(p.rolling_friction) * c.r_star * Abs(s.limiting);  // R4
     const auto mobilised = square > limit * limit;

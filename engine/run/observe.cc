@@ -112,9 +112,10 @@ std::vector<ContactInfo> SimulationState::Contacts() const {
         History<double> history = HistoryOf(block, lane);
         const Vec3 force = ToVec3(law(constants[run.constants], contact, dt, history).force);
         ContactInfo info{particles.ids[i], run.wall < 0 ? particles.ids[j] : -1 - run.wall,
-                         contact.overlap, force};
+                         contact.overlap, ToVec3(contact.normal), force};
         if (run.wall < 0 && info.second < info.first) {
           std::swap(info.first, info.second);
+          info.normal = -info.normal;
           info.force = -info.force;
         }
         result.push_back(info);

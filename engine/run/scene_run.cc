@@ -31,7 +31,13 @@ SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::p
       folder_(std::move(folder)),
       simulation_(scene),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
-      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {}
+      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
+  if (simulation_.time_step() > kWarnRayleighFraction * SmallestRayleighTime(scene)) {
+    messages_.push_back(
+        "the time step is above 0.2 Rayleigh times of the smallest sphere: single collisions are "
+        "resolved poorly");
+  }
+}
 
 SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,
                    const RunCheckpoint& checkpoint)

@@ -38,14 +38,6 @@ void ValidateParticles(const Scene& scene, base::Problems& problems) {
   }
 }
 
-double SmallestRayleighTime(const Scene& scene) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Particle& p : scene.particles) {
-    smallest = std::min(smallest, RayleighTime(scene.materials[p.material], p.radius));
-  }
-  return smallest;
-}
-
 void ValidateStep(const Scene& scene, base::Problems& problems) {
   problems.Require(scene.time_step >= 0 && scene.time_step < 1e100, "time_step", scene.time_step,
                    "must be positive, or 0 to have rayleigh_fraction decide");
@@ -82,6 +74,14 @@ double RayleighTime(const Material& material, double radius) {
   const double shear = material.youngs_modulus / (2 * (1 + material.poisson_ratio));
   return std::numbers::pi * radius * std::sqrt(material.density / shear) /
          (0.1631 * material.poisson_ratio + 0.8766);
+}
+
+double SmallestRayleighTime(const Scene& scene) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Particle& p : scene.particles) {
+    smallest = std::min(smallest, RayleighTime(scene.materials[p.material], p.radius));
+  }
+  return smallest;
 }
 
 double TimeStep(const Scene& scene) {

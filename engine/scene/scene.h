@@ -36,12 +36,17 @@ struct Scene {
   void Validate(base::Problems& problems) const;
 };
 
-inline constexpr double kMaxRayleighFraction = 0.40;  // of Δt: beyond it a run is refused (M4)
+// Of Δt (M4): a scene is warned of beyond the first, and refused beyond the second.
+inline constexpr double kWarnRayleighFraction = 0.20;
+inline constexpr double kMaxRayleighFraction = 0.40;
 
 double SphereMass(const Material& material, double radius);  // [kg]
 
 // Rayleigh time of a sphere [s] (M4).
 double RayleighTime(const Material& material, double radius);
+
+// Of all spheres of a scene [s], infinite without any.
+double SmallestRayleighTime(const Scene& scene);
 
 // Δt that the scene asks for [s]: `time_step`, or `rayleigh_fraction` of the smallest t_R.
 double TimeStep(const Scene& scene);

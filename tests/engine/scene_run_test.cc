@@ -39,5 +39,15 @@ TEST(SceneRun, ASphereThatLeavesTheDomainLeavesTheScene) {
   EXPECT_EQ(result["reason"], "time");
 }
 
+TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfTheRayleighTime) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_step";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << kEdge;
+  LoadedScene loaded = LoadScene(folder / "scene.json");
+  EXPECT_TRUE(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().empty());
+  loaded.scene.rayleigh_fraction = 0.21;
+  EXPECT_EQ(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().size(), 1u);
+}
+
 }  // namespace
 }  // namespace talus::engine

@@ -27,8 +27,8 @@ struct CampaignSpec {
   engine::ContactModels models;
   GrainSizes coarse_graining;
   HeapRules rules;
-  double gravity = 9.81;            // [m/s²], > 0
-  double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest grain [-], in (0, 0.4]
+  double gravity = 9.81;                             // [m/s²], > 0
+  double rayleigh_fraction = kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
   std::optional<imaging::ExperimentOptions> experiment{};  // of a campaign with one only
   std::optional<std::vector<ExperimentSpec>> experiments{};
   int num_views = 16;  // of a simulated profile, >= 1

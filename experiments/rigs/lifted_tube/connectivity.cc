@@ -24,14 +24,14 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
+}  // namespace
+
 std::size_t IndexOf(std::span<const engine::Particle> particles, std::int64_t id) {
   const auto found =
       std::lower_bound(particles.begin(), particles.end(), id,
                        [](const engine::Particle& p, std::int64_t value) { return p.id < value; });
   return static_cast<std::size_t>(found - particles.begin());
 }
-
-}  // namespace
 
 Connectivity Connect(std::span<const engine::Particle> particles,
                      std::span<const engine::ContactInfo> contacts) {

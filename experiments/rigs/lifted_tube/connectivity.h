@@ -15,6 +15,9 @@ struct Connectivity {
   bool tube_touches_heap = false;  // a grain that is on_plate touches the tube
 };
 
+// Where the particle with this id is in `particles`, which are by id.
+std::size_t IndexOf(std::span<const engine::Particle> particles, std::int64_t id);
+
 // `particles` by id, as Simulation::Particles gives them.
 Connectivity Connect(std::span<const engine::Particle> particles,
                      std::span<const engine::ContactInfo> contacts);

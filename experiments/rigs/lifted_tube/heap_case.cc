@@ -50,6 +50,8 @@ void Device::Validate(base::Problems& problems) const {
 
 void RestRule::Validate(base::Problems& problems) const {
   RequirePositive(problems, "energy_fraction", energy_fraction);
+  problems.Require(moving_share >= 0 && moving_share < 1, "moving_share", moving_share,
+                   "must be in [0, 1)");
   RequirePositive(problems, "hold_time", hold_time);
   RequirePositive(problems, "max_time", max_time);
   problems.Require(!(hold_time > max_time), "hold_time", hold_time, "must not exceed max_time");

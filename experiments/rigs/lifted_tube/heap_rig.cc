@@ -11,21 +11,6 @@ namespace {
 using engine::Particle;
 using engine::Vec3;
 
-// Mean kinetic energy of a grain, relative to a velocity, over m g d. Translation only: nothing
-// resists the spin about a contact's normal, so that it may last for ever.
-struct EnergyRatio {
-  double kinetic = 0;  // Σ m v²/2, without the density and 4π/3
-  double weight = 0;   // Σ m g d, likewise
-
-  void Add(const Particle& p, const Vec3& velocity, double gravity) {
-    const Vec3 relative = p.velocity - velocity;
-    const double cube = p.radius * p.radius * p.radius;
-    kinetic += cube * Dot(relative, relative) / 2;
-    weight += cube * gravity * 2 * p.radius;
-  }
-  double Value() const { return weight > 0 ? kinetic / weight : 0; }
-};
-
 // Mean kinetic energy relative to the tube, over m g d, below which grains stick to it: falling off
 // it they would have that after a fiftieth of a diameter, swinging in their bonds they stay below.
 constexpr double kStuckEnergy = 0.02;
@@ -35,6 +20,13 @@ std::string Format(const char* format, Values... values) {
   char text[200];
   std::snprintf(text, sizeof text, format, values...);
   return text;
+}
+
+// `ids` ascending.
+std::int64_t Remove(const std::vector<std::int64_t>& ids, engine::Simulation& simulation) {
+  if (ids.empty()) return 0;
+  return simulation.RemoveIf(
+      [&](const Particle& p) { return std::binary_search(ids.begin(), ids.end(), p.id); });
 }
 
 // Grains fall an eighth of a diameter between two checks.
@@ -83,12 +75,11 @@ bool HeapRig::Advance(double until) {
 }
 
 void HeapRig::Check() {
-  RemoveFallen();
-  const std::vector<Particle> particles = simulation_.Particles();
+  const View view = LookWithoutFallen();
   const double phase_time = simulation_.time() - Record().start_time;
   switch (state_.phase) {
     case HeapPhase::kSettling:
-      if (Held(AtRest(particles), case_.rules.settling.hold_time)) {
+      if (Held(AtRest(view, case_.rules.settling), case_.rules.settling.hold_time)) {
         EndPhase(PhaseEnd::kAtRest, HeapPhase::kLifting);
       } else if (phase_time >= case_.rules.settling.max_time) {
         EndPhase(PhaseEnd::kTimeCap, HeapPhase::kLifting);
@@ -96,12 +87,12 @@ void HeapRig::Check() {
       if (state_.phase == HeapPhase::kLifting) LiftTube();
       break;
     case HeapPhase::kLifting:
-      CheckLifting(particles);
+      CheckLifting(view);
       break;
     case HeapPhase::kResting:
-      if (particles.empty()) {
+      if (view.particles.empty()) {
         EndPhase(PhaseEnd::kEmpty, HeapPhase::kEnded);
-      } else if (Held(AtRest(particles), case_.rules.heap.hold_time)) {
+      } else if (Held(AtRest(view, case_.rules.heap), case_.rules.heap.hold_time)) {
         EndPhase(PhaseEnd::kAtRest, HeapPhase::kEnded);
       } else if (phase_time >= case_.rules.heap.max_time) {
         EndPhase(PhaseEnd::kTimeCap, HeapPhase::kEnded);
@@ -114,47 +105,67 @@ void HeapRig::Check() {
 
 // The lifting ends when the tube's edge is above the heap, the tube does not touch the heap, and
 // what sticks to the tube, if anything, moves with it; all that held for a time.
-void HeapRig::CheckLifting(Particles particles) {
-  const Connectivity connected = Connect(particles, simulation_.Contacts());
+void HeapRig::CheckLifting(const View& view) {
+  const auto& [particles, contacts, connected] = view;
   double top = 0;
-  EnergyRatio stuck;
+  EnergyRatio stuck(case_.gravity);
+  const Vec3 lifting{0, 0, case_.device.lift_velocity};
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Particle& p = particles[i];
     if (connected.on_plate[i]) top = std::max(top, p.position.z + p.radius);
-    if (connected.on_tube[i]) stuck.Add(p, {0, 0, case_.device.lift_velocity}, case_.gravity);
+    if (connected.on_tube[i]) stuck.Add(p, p.velocity - lifting, {});
   }
   Record().energy_ratio = stuck.Value();
   const bool cleared =
       TubeEdge() > top && !connected.tube_touches_heap && stuck.Value() < kStuckEnergy;
   const bool held = Held(cleared, case_.rules.heap.hold_time);
   if (!held && simulation_.time() - Record().start_time < LiftMaxTime()) return;
-  DropTube(particles, connected);
+  DropTube(view);
   EndPhase(held ? PhaseEnd::kCleared : PhaseEnd::kTimeCap, HeapPhase::kResting);
 }
 
-void HeapRig::DropTube(Particles particles, const Connectivity& connected) {
+void HeapRig::DropTube(const View& view) {
   std::vector<std::int64_t> carried;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (connected.on_tube[i]) carried.push_back(particles[i].id);
+  for (std::size_t i = 0; i < view.particles.size(); ++i) {
+    if (view.connected.on_tube[i]) carried.push_back(view.particles[i].id);
   }
   simulation_.RemoveWall(kTube);
-  if (carried.empty()) return;
-  state_.num_carried += simulation_.RemoveIf(
-      [&](const Particle& p) { return std::binary_search(carried.begin(), carried.end(), p.id); });
+  state_.num_carried += Remove(carried, simulation_);
 }
 
-void HeapRig::RemoveFallen() {
-  state_.num_fallen += simulation_.RemoveIf(
-      [&](const Particle& p) { return p.position.z + p.radius < leave_height_; });
+HeapRig::View HeapRig::Look() const {
+  View view{
+      .particles = simulation_.Particles(), .contacts = simulation_.Contacts(), .connected = {}};
+  view.connected = Connect(view.particles, view.contacts);
+  return view;
 }
 
-bool HeapRig::AtRest(Particles particles) {
-  EnergyRatio energy;
-  for (const Particle& p : particles) energy.Add(p, {}, case_.gravity);
-  Record().energy_ratio = energy.Value();
-  const RestRule& rule =
-      state_.phase == HeapPhase::kSettling ? case_.rules.settling : case_.rules.heap;
-  return energy.Value() < rule.energy_fraction;
+// Before the tube is lifted nothing can fall.
+HeapRig::View HeapRig::LookWithoutFallen() {
+  View view = Look();
+  if (state_.phase == HeapPhase::kSettling) return view;
+  std::vector<std::int64_t> fallen =
+      CanOnlyFall(view.particles, view.connected, case_.device, case_.gravity);
+  for (const Particle& p : view.particles) {
+    if (p.position.z + p.radius < leave_height_) fallen.push_back(p.id);
+  }
+  std::sort(fallen.begin(), fallen.end());
+  const std::int64_t num_fallen = Remove(fallen, simulation_);
+  state_.num_fallen += num_fallen;
+  return num_fallen > 0 ? Look() : view;
+}
+
+// Without friction nothing resists any spin, so that it does not count.
+bool HeapRig::AtRest(const View& view, const RestRule& rule) {
+  const bool spins_count = case_.powder.material.sliding_friction > 0;
+  const std::vector<Vec3> spins = ResistedSpins(view.particles, view.contacts);
+  EnergyRatio energy(case_.gravity);
+  for (std::size_t i = 0; i < view.particles.size(); ++i) {
+    const Particle& p = view.particles[i];
+    energy.Add(p, p.velocity, spins_count ? spins[i] : Vec3());
+  }
+  Record().energy_ratio = energy.ValueWithoutFastest(rule.moving_share);
+  return Record().energy_ratio < rule.energy_fraction;
 }
 
 bool HeapRig::Held(bool holds, double hold_time) {

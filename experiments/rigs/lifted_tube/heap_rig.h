@@ -13,6 +13,7 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/lifted_tube/heap_state.h"
+#include "experiments/rigs/lifted_tube/rest.h"
 
 namespace talus::experiments {
 
@@ -34,15 +35,21 @@ class HeapRig {
   std::vector<std::string> TakeMessages();
 
  private:
-  using Particles = std::span<const engine::Particle>;
+  // The state at a check.
+  struct View {
+    std::vector<engine::Particle> particles;
+    std::vector<engine::ContactInfo> contacts;
+    Connectivity connected;
+  };
 
   HeapRig(const HeapCase& heap_case, const HeapScene& made);
 
   void Check();
-  void RemoveFallen();
-  void CheckLifting(Particles particles);
-  void DropTube(Particles particles, const Connectivity& connected);
-  bool AtRest(Particles particles);
+  View Look() const;
+  View LookWithoutFallen();
+  void CheckLifting(const View& view);
+  void DropTube(const View& view);
+  bool AtRest(const View& view, const RestRule& rule);
   bool Held(bool holds, double hold_time);
   void EndPhase(PhaseEnd reason, HeapPhase next);
   void LiftTube();

@@ -10,14 +10,17 @@ namespace talus::experiments {
 
 // When a phase ends: at rest, or at the cap, which the result then says.
 struct RestRule {
-  double energy_fraction = 1e-4;  // mean kinetic energy of a grain / (m g d) [-], > 0
-  double hold_time = 0.01;        // that it must stay below for [s], > 0
-  double max_time = 1;            // cap of the phase [s], > 0
+  double energy_fraction = 1e-4;  // mean kinetic energy of the others / (m g d) [-], > 0
+  double moving_share = 0.005;  // of the weight, fastest first, that may still move [-], in [0, 1)
+  double hold_time = 0.01;      // that it must stay below for [s], > 0
+  double max_time = 1;          // cap of the phase [s], > 0
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("energy_fraction", self.energy_fraction,
           {.doc = "at rest below this mean kinetic energy of a grain over m g d, > 0"});
+    visit("moving_share", self.moving_share,
+          {.doc = "share of the weight, fastest grains first, that this leaves out, in [0, 1)"});
     visit("hold_time", self.hold_time,
           {.dimension = base::Dimension::kTime, .doc = "that it must stay below for, > 0"});
     visit("max_time", self.max_time,

@@ -84,8 +84,8 @@ std::vector<std::string> HeapWarnings(const HeapCase& c) {
     text << "only " << across << " grains across the plate; 30 or more are advised";
   }
   if (across < 30) warnings.push_back(text.str());
-  if (c.rayleigh_fraction > 0.2) {
-    warnings.push_back("rayleigh_fraction is above 0.2: contacts are resolved poorly");
+  if (c.rayleigh_fraction > kHeapRayleighFraction) {
+    warnings.push_back("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }
   return warnings;
 }

@@ -1,0 +1,50 @@
+// When a heap is at rest, and which grains have left it for good (docs/physics.md, 7).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/simulation.h"
+#include "experiments/rigs/lifted_tube/connectivity.h"
+#include "experiments/rigs/lifted_tube/device.h"
+
+namespace talus::experiments {
+
+// Mean kinetic energy of a grain over its m g d: Σ E / Σ m g d, weighted by mass.
+class EnergyRatio {
+ public:
+  explicit EnergyRatio(double gravity) : gravity_(gravity) {}
+
+  // `spin` is ω where its energy counts, zero where it does not [rad/s].
+  void Add(const engine::Particle& grain, const engine::Vec3& velocity, const engine::Vec3& spin);
+  double Value() const;
+
+  // Without the fastest grains that make up `share` of the weight, rounded up to a whole grain.
+  double ValueWithoutFastest(double share) const;
+
+ private:
+  struct Grain {
+    double energy;  // in units of m g d
+    double weight;  // m g d, without the density and 4π/3
+  };
+  double gravity_;  // [m/s²]
+  std::vector<Grain> grains_;
+};
+
+// Of each grain, the spin that friction or rolling resistance act on. A grain with one contact may
+// twist about its normal for ever, which no law resists: that part is left out. `particles` and
+// `contacts` as Simulation gives them.
+std::vector<engine::Vec3> ResistedSpins(std::span<const engine::Particle> particles,
+                                        std::span<const engine::ContactInfo> contacts);
+
+// Ids, ascending, of the grains that can only fall. They hang together with neither plate nor tube,
+// or fall faster than after a free fall over their own diameter, and are
+// - whole below the plate's top (and, if slow, below all that hangs on it), too slow to come back
+// up;
+// - or beyond plate, tube and all that hangs on them, and moving outwards.
+std::vector<std::int64_t> CanOnlyFall(std::span<const engine::Particle> particles,
+                                      const Connectivity& connected, const Device& device,
+                                      double gravity);
+
+}  // namespace talus::experiments
