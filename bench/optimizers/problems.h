@@ -1,5 +1,5 @@
 // Nine three-parameter problems that imitate the calibration of a powder, noise-free and noisy; two
-// of them are synthetic heaps whose every evaluation is an image. docs/optimizers.md says how the
+// of them are synthetic heaps whose every evaluation is an image. README.md says how the
 // score is made of them. An instance number draws position, rotation, reflection, warp and target.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Image {
 };
 
 // All points are in the unit cube. `level` of the noise: 0 none, 1 standard, 2 three times, 3 as
-// much as heaps of 524 simulated grains scatter; noise is a function of problem, instance, point
+// noisy as heaps of 524 simulated grains; noise is a function of problem, instance, point
 // and seed.
 struct Problem {
   std::string name;

@@ -1,5 +1,5 @@
 // How often the stated ranges hold the truth: twin calibrations on synthetic heaps, whose target is
-// the mean of a few heaps made with known parameters. docs/optimizers.md prints the table.
+// the mean of a few heaps made with known parameters. README.md prints the table.
 //
 //   range_coverage [--first 1] [--last 24] [--budget 40] [--heaps 5] [--proposals PREFIX]
 //

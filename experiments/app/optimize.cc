@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_schema.h"
 #include "experiments/app/commands.h"
@@ -16,7 +15,6 @@ void AddOptimizeCommand(CLI::App& app) {
   struct Options {
     std::string problem;
     std::vector<std::string> command;
-    std::string out;
     OptimizeOutput output;
   };
   auto options = std::make_shared<Options>();
@@ -26,23 +24,20 @@ void AddOptimizeCommand(CLI::App& app) {
       ->required();
   command->add_option("COMMAND", options->command, "after --: the command and its arguments")
       ->required();
-  command->add_option("--out", options->out, "file for the result; default: standard output");
-  command->add_option("--log", options->output.log, "file for one JSON line an evaluation");
+  command->add_option("--out", options->output.folder,
+                      "folder for log, images and result; run again, the search goes on there");
   command->add_flag("--quiet", options->output.quiet, "no progress on standard error");
   command->footer(
       "COMMAND reads the parameters as one JSON object, {\"mu_t\": 0.3, …, \"seed\": 17}, and "
       "writes\n"
-      "{\"value\": …}, {\"profile\": \"file.png\"} or {\"field\": [[…], …]}. Any other exit status "
-      "than\n"
-      "0 is a failed evaluation.");
+      "{\"value\": …}, {\"profile\": \"file.png\"} or {\"field\": [[…], …]}. Another exit status "
+      "than "
+      "0,\n"
+      "and an answer that makes no sense, is a failed evaluation.");
   command->callback([options] {
     const auto problem = base::LoadOptions<OptimizeProblem>(base::ReadJsonFile(options->problem));
     const std::string result = Optimize(problem, options->command, options->output);
-    if (options->out.empty()) {
-      std::cout << result;
-    } else {
-      base::WriteFileAtomically(options->out, result);
-    }
+    if (options->output.folder.empty()) std::cout << result;
   });
 }
 

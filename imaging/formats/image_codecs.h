@@ -28,6 +28,7 @@ RawImage DecodePng(std::string_view bytes, const std::string& name);
 RawImage DecodeJpeg(std::string_view bytes, const std::string& name);
 RawImage DecodeTiff(std::string_view bytes, const std::string& name);
 RawImage DecodeBmp(std::string_view bytes, const std::string& name);
+RawImage DecodePgm(std::string_view bytes, const std::string& name);
 
 // Throws ConfigError unless both sides are 1 … 65500 and the area is at most 200 Mpx: a damaged
 // header must not ask for all memory.

@@ -17,8 +17,9 @@ RawImage Decode(std::string_view bytes, const std::string& name) {
     return DecodeTiff(bytes, name);
   }
   if (bytes.starts_with("BM")) return DecodeBmp(bytes, name);
+  if (bytes.starts_with("P5") || bytes.starts_with("P2")) return DecodePgm(bytes, name);
   throw base::ConfigError(name + ": " + (bytes.empty() ? "is empty" : "is no image we can read") +
-                          "; give a PNG, JPEG, TIFF or BMP file");
+                          "; give a PNG, JPEG, TIFF, BMP or PGM file");
 }
 
 // Cameras store 10, 12 or 14 bits in 16; the largest sample tells which.

@@ -1,4 +1,4 @@
-// Images in files: PNG, JPEG, TIFF and BMP in, PNG out.
+// Images in files: PNG, JPEG, TIFF, BMP and PGM in, PNG out.
 //
 // The codecs are used directly, not through OpenCV: its imgcodecs links some 140 libraries, and the
 // program is started thousands of times in a campaign.

@@ -20,7 +20,7 @@ struct Acquisition {
 Acquisition LogExpectedImprovement(double mean, double sd, double incumbent);
 
 // Expected improvement weighted for noise [huang2006]: EI (1 - n / √(s² + n²)), which does not
-// return to places where one more noisy evaluation would change little. In log form.
+// return to points where one more noisy evaluation would change little. In log form.
 Acquisition AugmentedLogExpectedImprovement(double mean, double sd, double incumbent, double noise);
 
 Acquisition NegativeLowerBound(double mean, double sd, double num_sds);

@@ -15,7 +15,7 @@ namespace {
 
 struct LocalFit {
   std::optional<surrogate::GaussianProcess> process;  // of coordinates as FitNeighbours says
-  double incumbent = 0;                               // least of the fitted and believed values
+  double incumbent = 0;                               // least of the fitted and fantasised values
   double log_posterior = -std::numeric_limits<double>::infinity();
 };
 
@@ -56,15 +56,14 @@ LocalFit FitNeighbours(const History& history, const Neighbours& near, std::uint
   return best;
 }
 
-// Takes the predictions at pending points in the process's cube for evaluations. The incumbent
-// follows, or the next step would land beside the most promising of them. What the process would
-// say of points farther off means nothing.
-void Believe(std::span<const Eigen::VectorXd> pending, const Neighbours& near, LocalFit& fit) {
+// Adds pending points in the process's cube at their predicted means. The incumbent follows, or the
+// next step would land beside the most promising of them. Predictions farther off mean nothing.
+void AddFantasies(std::span<const Eigen::VectorXd> pending, const Neighbours& near, LocalFit& fit) {
   const double radius = near.distances.back();
   for (const Eigen::VectorXd& point : pending) {
     if ((point - near.middle).lpNorm<Eigen::Infinity>() > radius) continue;
     const Eigen::VectorXd u = ((point - near.middle) / (2 * radius)).array() + 0.5;
-    fit.incumbent = std::min(fit.incumbent, fit.process->Believe(u));
+    fit.incumbent = std::min(fit.incumbent, fit.process->AddFantasy(u));
   }
 }
 
@@ -113,7 +112,7 @@ std::optional<Eigen::VectorXd> LocalStep(const History& history, const Domain& d
                         return domain.Contains(to_cube(u));
                       }};
   LocalFit fit = FitNeighbours(history, near, seed);
-  Believe(pending, near, fit);
+  AddFantasies(pending, near, fit);
   const Eigen::VectorXd found =
       SearchCube(NegativeImprovement(fit, reach / near.distances.back()), region,
                  Eigen::MatrixXd::Constant(1, dimension, 0.5), {.seed = seed})

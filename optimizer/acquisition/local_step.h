@@ -19,7 +19,7 @@
 
 namespace talus::optimizer {
 
-// Of a deterministic objective. `pending` points are taken to give what the process predicts. No
+// Of a deterministic objective. `pending` points are fantasised at their predicted mean. No
 // point when there are too few evaluations.
 std::optional<Eigen::VectorXd> LocalStep(const History& history, const Domain& domain,
                                          std::span<const Eigen::VectorXd> pending,

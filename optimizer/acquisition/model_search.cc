@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "optimizer/designs/lattice.h"
-#include "optimizer/space/places.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/point_rows.h"
 #include "surrogate/nlopt_minimize.h"
 
 namespace talus::optimizer {
@@ -21,17 +21,17 @@ Eigen::MatrixXd Candidates(const Domain& domain, const Eigen::MatrixXd& centers,
   const int dimension = domain.num_parameters;
   base::Random random(options.seed, base::Stream("model search"));
   const int num_even = centers.rows() > 0 ? options.num_candidates / 2 : options.num_candidates;
-  Eigen::MatrixXd places(options.num_candidates, dimension);
-  places.topRows(num_even) = Lattice(num_even, dimension, options.seed);
+  Eigen::MatrixXd points(options.num_candidates, dimension);
+  points.topRows(num_even) = RSequence(num_even, dimension, options.seed);
   for (int i = num_even; i < options.num_candidates; ++i) {
     const auto center = static_cast<Eigen::Index>(i) % centers.rows();
     const double radius = 0.3 * std::pow(10.0, -2.5 * random.Uniform());
     for (int k = 0; k < dimension; ++k) {
-      places(i, k) = std::clamp(centers(center, k) + radius * random.Normal(), 0.0, 1.0);
+      points(i, k) = std::clamp(centers(center, k) + radius * random.Normal(), 0.0, 1.0);
     }
   }
-  places = Inside(domain, places);
-  return centers.rows() > 0 ? Stack(centers, places) : places;
+  points = Inside(domain, points);
+  return centers.rows() > 0 ? Stack(centers, points) : points;
 }
 
 // The best candidates, none within 0.02 of a better one in every coordinate, so that the local

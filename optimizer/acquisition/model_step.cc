@@ -5,26 +5,22 @@
 #include <vector>
 
 #include "optimizer/acquisition/acquisition.h"
-#include "optimizer/acquisition/model_search.h"
 
 namespace talus::optimizer {
 namespace {
 
 constexpr int kNumCenters = 5;
 
-// The evaluated points of the lowest predicted mean.
-Eigen::MatrixXd Centers(const ModelView& view) {
-  const Eigen::VectorXd mean = view.model.Predict(view.points).mean;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(mean.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return mean[a] < mean[b]; });
-  order.resize(std::min<std::size_t>(order.size(), kNumCenters));
-  return view.points(order, Eigen::all);
+// A function of one point that is computed for many at once, without gradient.
+CheapFunction WithoutGradient(
+    const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values) {
+  return {values, [values](const Eigen::VectorXd& x, Eigen::VectorXd*) {
+            return values(x.transpose())[0];
+          }};
 }
 
 // Minus an acquisition, a function of mean and standard deviation, plus the penalty for the risk to
-// fail.
+// fail. With gradient.
 template <class Score>
 CheapFunction Negative(const ModelView& view, const Score& score, double feasibility_weight) {
   const auto values = [&view, score, feasibility_weight](const Eigen::MatrixXd& points) {
@@ -50,33 +46,59 @@ CheapFunction Negative(const ModelView& view, const Score& score, double feasibi
   return {values, value_and_gradient};
 }
 
+Eigen::VectorXd Search(const ModelView& view, const CheapFunction& function,
+                       const Eigen::MatrixXd& centers, SearchOptions options) {
+  options.seed = view.seed;
+  return SearchCube(function, view.domain, centers, options).point;
+}
+
 }  // namespace
 
-Eigen::VectorXd MostExpectedImprovement(const ModelView& view, double incumbent, double noise) {
-  const auto score = [incumbent, noise](double mean, double sd) {
-    return AugmentedLogExpectedImprovement(mean, sd, incumbent, noise);
-  };
-  return SearchCube(Negative(view, score, 1), view.domain, Centers(view), {.seed = view.seed})
-      .point;
+Eigen::MatrixXd BestEvaluated(const ModelView& view) {
+  const Eigen::VectorXd mean = view.model.Means(view.points);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(mean.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return mean[a] < mean[b]; });
+  order.resize(std::min<std::size_t>(order.size(), kNumCenters));
+  return view.points(order, Eigen::all);
 }
 
+Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& incumbent,
+                                        const Eigen::MatrixXd& centers) {
+  if (view.searches.improvement.kinked) {
+    const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+      return -view.model.LogImprovement(points, incumbent.value, incumbent.noise) -
+             view.feasibility.Penalty(points);
+    };
+    return Search(view, WithoutGradient(values), centers, view.searches.improvement);
+  }
+  const auto score = [&](double mean, double sd) {
+    return AugmentedLogExpectedImprovement(mean, sd, incumbent.value, incumbent.noise);
+  };
+  return Search(view, Negative(view, score, 1), centers, view.searches.improvement);
+}
+
+// The mean has a unit, the logarithm of a probability has none: a failure costs `failure_cost`.
 Eigen::VectorXd LowestMean(const ModelView& view) {
-  // The mean has a unit, the logarithm of a probability has none: a failure costs as much as the
-  // spread of the means seen.
-  const Eigen::VectorXd seen = view.model.Predict(view.points).mean;
-  const double spread = seen.maxCoeff() - seen.minCoeff();
+  const Eigen::MatrixXd centers = BestEvaluated(view);
+  if (view.searches.mean.kinked) {
+    const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+      return view.model.Means(points) - view.failure_cost * view.feasibility.Penalty(points);
+    };
+    return Search(view, WithoutGradient(values), centers, view.searches.mean);
+  }
   const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, 0); };
-  return SearchCube(Negative(view, score, spread), view.domain, Centers(view),
-                    {.num_local = 6, .seed = view.seed})
-      .point;
+  return Search(view, Negative(view, score, view.failure_cost), centers, view.searches.mean);
 }
 
-double LowestBound(const ModelView& view, double num_sds) {
-  const auto score = [num_sds](double mean, double sd) {
-    return NegativeLowerBound(mean, sd, num_sds);
-  };
-  return SearchCube(Negative(view, score, 0), view.domain, Centers(view), {.seed = view.seed})
-      .value;
+double LowestBound(const ModelView& view, const Eigen::MatrixXd& centers) {
+  SearchOptions options = view.searches.bound;
+  options.seed = view.seed;
+  const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, kBoundSds); };
+  CheapFunction function = Negative(view, score, 0);
+  if (options.kinked) function = WithoutGradient(function.values);
+  return SearchCube(function, view.domain, centers, options).value;
 }
 
 }  // namespace talus::optimizer

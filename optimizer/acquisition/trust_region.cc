@@ -16,9 +16,9 @@ struct Quadratic {
   Eigen::MatrixXd hessian;
 
   double At(const Eigen::VectorXd& s, Eigen::VectorXd* slope) const {
-    const Eigen::VectorXd bend = hessian * s;
-    if (slope != nullptr) *slope = gradient + bend;
-    return gradient.dot(s) + 0.5 * s.dot(bend);
+    const Eigen::VectorXd curvature = hessian * s;
+    if (slope != nullptr) *slope = gradient + curvature;
+    return gradient.dot(s) + 0.5 * s.dot(curvature);
   }
 };
 

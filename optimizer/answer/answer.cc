@@ -7,23 +7,23 @@
 #include "base/random.h"
 #include "optimizer/answer/credible_ranges.h"
 #include "optimizer/answer/sobol_indices.h"
-#include "optimizer/designs/lattice.h"
-#include "optimizer/space/places.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
 namespace {
 
-// Places round `point` at distances from 3e-5 to 0.3, since the minimum may be known that well.
+// Candidates round `point` at distances from 3e-5 to 0.3, since the minimum may be known that well.
 Eigen::MatrixXd Around(const Eigen::VectorXd& point, int count, std::uint64_t seed) {
   base::Random random(seed, base::Stream("around the answer"));
-  Eigen::MatrixXd places(count, point.size());
+  Eigen::MatrixXd candidates(count, point.size());
   for (int i = 0; i < count; ++i) {
     const double radius = 0.3 * std::pow(10.0, -4 * random.Uniform());
     for (Eigen::Index k = 0; k < point.size(); ++k) {
-      places(i, k) = std::clamp(point[k] + radius * random.Normal(), 0.0, 1.0);
+      candidates(i, k) = std::clamp(point[k] + radius * random.Normal(), 0.0, 1.0);
     }
   }
-  return places;
+  return candidates;
 }
 
 struct Box {
@@ -39,9 +39,9 @@ Box Wrap(const Eigen::MatrixXd& points) {
   return {(low - margin).cwiseMax(0.0), (high + margin).cwiseMin(1.0)};
 }
 
-Eigen::MatrixXd LatticeIn(const Box& box, const AnswerOptions& options) {
+Eigen::MatrixXd RSequenceIn(const Box& box, const AnswerOptions& options) {
   const Eigen::MatrixXd unit =
-      Lattice(options.num_places, static_cast<int>(box.low.size()), options.seed + 1);
+      RSequence(options.num_candidates, static_cast<int>(box.low.size()), options.seed + 1);
   return (unit * (box.high - box.low).asDiagonal()).rowwise() + box.low.transpose();
 }
 
@@ -53,66 +53,67 @@ Eigen::MatrixXd FewOf(const Eigen::MatrixXd& points, Eigen::Index count) {
   return points(kept, Eigen::all);
 }
 
-// Rows of `places` where the minimum may be: within three posterior standard deviations of its
+// Rows of `candidates` where the minimum may be: within three posterior standard deviations of its
 // value.
-Eigen::MatrixXd Plausible(const ObjectiveModel& model, const Eigen::MatrixXd& places,
+Eigen::MatrixXd Plausible(const ObjectiveModel& model, const Eigen::MatrixXd& candidates,
                           double lowest) {
-  const Moments moments = model.Predict(places);
+  const Moments moments = model.Predict(candidates);
   std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+  for (Eigen::Index i = 0; i < candidates.rows(); ++i) {
     if (moments.mean[i] - 3 * moments.sd[i] <= lowest) kept.push_back(i);
   }
-  return places(kept, Eigen::all);
+  return candidates(kept, Eigen::all);
 }
 
-// Where draws are minimised: the answer, half the places even over the box of all plausible ones,
-// and half as they come, which are dense near the answer. Not the most plausible ones: those all
-// lie close to the answer, and every credible range would be narrow.
-Eigen::MatrixXd DrawPlaces(const ObjectiveModel& model, const Domain& domain,
-                           const Eigen::MatrixXd& places, const Answer& answer,
-                           const AnswerOptions& options) {
+// Where draws are minimised: the answer, half the candidates even over the box of all plausible
+// ones, and half as they come, which are dense near the answer. Not the most plausible ones: those
+// all lie close to the answer, and every credible range would be narrow.
+Eigen::MatrixXd DrawCandidates(const ObjectiveModel& model, const Domain& domain,
+                               const Eigen::MatrixXd& candidates, const Answer& answer,
+                               const AnswerOptions& options) {
   const Eigen::MatrixXd plausible =
-      Stack(answer.point.transpose(), Plausible(model, places, answer.predicted_value));
-  const Eigen::MatrixXd even =
-      Plausible(model, Inside(domain, LatticeIn(Wrap(plausible), options)), answer.predicted_value);
-  const Eigen::Index half = options.num_draw_places / 2;
+      Stack(answer.point.transpose(), Plausible(model, candidates, answer.predicted_value));
+  const Eigen::MatrixXd even = Plausible(
+      model, Inside(domain, RSequenceIn(Wrap(plausible), options)), answer.predicted_value);
+  const Eigen::Index half = options.num_draw_candidates / 2;
   return Stack(FewOf(plausible, half), FewOf(even, half));
 }
 
 // One minimiser of each posterior draw, a row each.
-Eigen::MatrixXd MinimisersAmong(const ObjectiveModel& model, const Eigen::MatrixXd& places,
+Eigen::MatrixXd MinimisersAmong(const ObjectiveModel& model, const Eigen::MatrixXd& candidates,
                                 const AnswerOptions& options) {
   const Eigen::MatrixXd draws = model.Draw(
-      places, options.num_draws, base::Random(options.seed, base::Stream("answer draws")));
-  Eigen::MatrixXd minimisers(draws.rows(), places.cols());
+      candidates, options.num_draws, base::Random(options.seed, base::Stream("answer draws")));
+  Eigen::MatrixXd minimisers(draws.rows(), candidates.cols());
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
     Eigen::Index lowest = 0;
     draws.row(i).minCoeff(&lowest);
-    minimisers.row(i) = places.row(lowest);
+    minimisers.row(i) = candidates.row(lowest);
   }
   return minimisers;
 }
 
-// New places where minimisers have been found: each is one of these, moved by half the difference
-// of two others, so that the places follow the shape of the cloud, however thin or bent it is.
+// New candidates where minimisers have been found: each is one of these, moved by half the
+// difference of two others, so that the candidates follow the shape of the cloud, however thin or
+// curved it is.
 Eigen::MatrixXd Among(const Eigen::MatrixXd& minimisers, int count, base::Random random) {
   const auto any = [&] {
     return static_cast<Eigen::Index>(random.Below(static_cast<std::uint64_t>(minimisers.rows())));
   };
-  Eigen::MatrixXd places(count, minimisers.cols());
+  Eigen::MatrixXd candidates(count, minimisers.cols());
   for (int i = 0; i < count; ++i) {
     const Eigen::RowVectorXd from = minimisers.row(any());
     const Eigen::RowVectorXd step = minimisers.row(any()) - minimisers.row(any());
     const double reach = 0.5 * random.Normal();
-    for (Eigen::Index k = 0; k < places.cols(); ++k) {
+    for (Eigen::Index k = 0; k < candidates.cols(); ++k) {
       const double jitter = 1e-3 * random.Normal();  // where the cloud is a point or a line
-      places(i, k) = std::clamp(from[k] + reach * step[k] + jitter, 0.0, 1.0);
+      candidates(i, k) = std::clamp(from[k] + reach * step[k] + jitter, 0.0, 1.0);
     }
   }
-  return places;
+  return candidates;
 }
 
-// The first places are everywhere the minimum may be, too far from each other to tell where in
+// The first candidates are everywhere the minimum may be, too far from each other to tell where in
 // there the minimisers lie. So most of them are moved to where minimisers were found, twice.
 Eigen::MatrixXd DrawMinimisers(const ObjectiveModel& model, const Domain& domain,
                                const Eigen::MatrixXd& first, const AnswerOptions& options) {
@@ -149,19 +150,20 @@ Eigen::MatrixXd Correlation(const Eigen::MatrixXd& sample) {
   return result;
 }
 
-// Rows of `places` whose mean is at most `level`.
-Eigen::MatrixXd Below(const ObjectiveModel& model, const Eigen::MatrixXd& places, double level) {
-  const Eigen::VectorXd mean = model.Predict(places).mean;
+// Rows of `candidates` whose mean is at most `level`.
+Eigen::MatrixXd Below(const ObjectiveModel& model, const Eigen::MatrixXd& candidates,
+                      double level) {
+  const Eigen::VectorXd mean = model.Predict(candidates).mean;
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < mean.size(); ++i) {
     if (mean[i] <= level) kept.push_back(i);
   }
-  return places(kept, Eigen::all);
+  return candidates(kept, Eigen::all);
 }
 
 // A few of the points, each the farthest from those before; the first is farthest from `point`.
-std::vector<Eigen::VectorXd> Spread(const Eigen::MatrixXd& points, const Eigen::VectorXd& point,
-                                    int count) {
+std::vector<Eigen::VectorXd> FarthestApart(const Eigen::MatrixXd& points,
+                                           const Eigen::VectorXd& point, int count) {
   std::vector<Eigen::VectorXd> chosen;
   Eigen::VectorXd nearest = (points.rowwise() - point.transpose()).rowwise().squaredNorm();
   while (static_cast<int>(chosen.size()) < std::min<Eigen::Index>(count, points.rows())) {
@@ -175,17 +177,17 @@ std::vector<Eigen::VectorXd> Spread(const Eigen::MatrixXd& points, const Eigen::
 
 // The tied set is found in the cube and near the answer, then measured by an even sample of the box
 // it lies in, so that its volume is known however small it is.
-void DescribeTies(const ObjectiveModel& model, const Domain& domain, const Eigen::MatrixXd& places,
-                  const AnswerOptions& options, Answer& answer) {
+void DescribeTies(const ObjectiveModel& model, const Domain& domain,
+                  const Eigen::MatrixXd& candidates, const AnswerOptions& options, Answer& answer) {
   constexpr int kNumTied = 12;
   const double tolerance = answer.noise_sd > 0 ? answer.noise_sd : answer.predicted_sd;
   const double level = answer.predicted_value + tolerance;
-  const Eigen::MatrixXd tied = Stack(Below(model, places, level), answer.point.transpose());
+  const Eigen::MatrixXd tied = Stack(Below(model, candidates, level), answer.point.transpose());
   const Box box = Wrap(tied);
-  const Eigen::MatrixXd inside = Below(model, Inside(domain, LatticeIn(box, options)), level);
+  const Eigen::MatrixXd inside = Below(model, Inside(domain, RSequenceIn(box, options)), level);
   answer.tied_volume =
-      (box.high - box.low).prod() * static_cast<double>(inside.rows()) / options.num_places;
-  answer.tied = Spread(inside, answer.point, kNumTied);
+      (box.high - box.low).prod() * static_cast<double>(inside.rows()) / options.num_candidates;
+  answer.tied = FarthestApart(inside, answer.point, kNumTied);
 }
 
 }  // namespace
@@ -209,15 +211,15 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
   answer.predicted_value = at.mean[0];
   answer.predicted_sd = at.sd[0];
   answer.noise_sd = model.NoiseSd(point);
-  const Eigen::MatrixXd places =
-      Inside(domain, Stack(Lattice(options.num_places, domain.num_parameters, options.seed),
-                           Around(point, options.num_places / 2, options.seed)));
-  const Eigen::MatrixXd minimisers =
-      DrawMinimisers(model, domain, DrawPlaces(model, domain, places, answer, options), options);
+  const Eigen::MatrixXd candidates =
+      Inside(domain, Stack(RSequence(options.num_candidates, domain.num_parameters, options.seed),
+                           Around(point, options.num_candidates / 2, options.seed)));
+  const Eigen::MatrixXd minimisers = DrawMinimisers(
+      model, domain, DrawCandidates(model, domain, candidates, answer, options), options);
   answer.credible = CredibleRanges(minimisers, options.confidence);
   Include(point, answer.credible);
   answer.correlation = Correlation(minimisers);
-  DescribeTies(model, domain, places, options, answer);
+  DescribeTies(model, domain, candidates, options, answer);
   SobolIndices indices = EstimateSobolIndices(
       [&](const Eigen::MatrixXd& points) { return model.Predict(points).mean; },
       {.dimension = domain.num_parameters, .num_base = options.num_sobol, .seed = options.seed});

@@ -14,11 +14,11 @@
 namespace talus::optimizer {
 
 struct AnswerOptions {
-  int num_places = 4000;      // where the model is asked over the cube, > 0
-  int num_draw_places = 400;  // plausible ones, at which draws are minimised, > 1
-  int num_draws = 400;        // posterior draws, > 1
-  int num_sobol = 512;        // base sample of the Sobol indices, > 1
-  double confidence = 0.9;    // of the credible ranges together, in (0, 1)
+  int num_candidates = 4000;      // over the cube, > 0
+  int num_draw_candidates = 400;  // plausible ones, at which draws are minimised, > 1
+  int num_draws = 400;            // posterior draws, > 1
+  int num_sobol = 512;            // base sample of the Sobol indices, > 1
+  double confidence = 0.9;        // of the credible ranges together, in (0, 1)
   std::uint64_t seed = 1;
 };
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 
 namespace talus::optimizer {
 
@@ -11,7 +11,7 @@ namespace talus::optimizer {
 SobolIndices EstimateSobolIndices(
     const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values,
     const SobolSample& sample) {
-  const Eigen::MatrixXd both = Lattice(sample.num_base, 2 * sample.dimension, sample.seed);
+  const Eigen::MatrixXd both = RSequence(sample.num_base, 2 * sample.dimension, sample.seed);
   const Eigen::MatrixXd a = both.leftCols(sample.dimension);
   const Eigen::MatrixXd b = both.rightCols(sample.dimension);
   const Eigen::ArrayXd at_a = values(a);

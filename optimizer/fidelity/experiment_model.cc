@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "surrogate/spread.h"
+#include "surrogate/standard_deviation.h"
 
 namespace talus::optimizer {
 namespace {
@@ -40,14 +40,14 @@ Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
 
 // The strongest mode left out is nearly all noise, and noise is somewhat larger along strong modes.
 double NoiseOfMode(double next_sd, const Eigen::VectorXd& coefficients) {
-  const double spread = surrogate::Spread(coefficients);
+  const double spread = surrogate::StandardDeviation(coefficients);
   return spread > 0 ? std::clamp(1.5 * next_sd / spread, 0.1, 0.8) : 0.8;
 }
 
 // A state for a weak mode: the correlation of a stronger one at its own scale.
 surrogate::FidelityState Rescaled(surrogate::FidelityState state, const Eigen::VectorXd& values) {
   state.centre = values.mean();
-  state.scale = surrogate::Spread(values);
+  state.scale = surrogate::StandardDeviation(values);
   if (!(state.scale > 0)) state.scale = 1;
   return state;
 }
@@ -296,7 +296,8 @@ Moments ExperimentModel::Objective(const Eigen::MatrixXd& points) const {
   Moments moments{.mean = Eigen::VectorXd(points.rows()), .sd = Eigen::VectorXd(points.rows())};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     moments.mean[i] = ObjectiveOf(mean.row(i), variance.row(i));
-    moments.sd[i] = surrogate::Spread(ObjectiveDraws(mean.row(i), variance.row(i).cwiseSqrt()));
+    moments.sd[i] =
+        surrogate::StandardDeviation(ObjectiveDraws(mean.row(i), variance.row(i).cwiseSqrt()));
   }
   return moments;
 }
@@ -309,7 +310,7 @@ double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
     mean[k] = outputs_[static_cast<std::size_t>(k)].Predict(x.transpose(), 0).mean[0];
     sd[k] = std::sqrt(TargetNoise(static_cast<std::size_t>(k)));
   }
-  return surrogate::Spread(ObjectiveDraws(mean, sd));
+  return surrogate::StandardDeviation(ObjectiveDraws(mean, sd));
 }
 
 ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "base/random.h"
-#include "optimizer/designs/lattice.h"
-#include "optimizer/space/places.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
 namespace {
@@ -247,7 +247,7 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
   constexpr double kEnough = 600;  // effective draws
   base::Random random(seed, base::Stream("posterior"));
   PosteriorSample sample;
-  sample.points = Inside(domain, Lattice(num_start, domain.num_parameters, seed));
+  sample.points = Inside(domain, RSequence(num_start, domain.num_parameters, seed));
   const double share_inside = static_cast<double>(sample.points.rows()) / num_start;
   sample.log_density = LogDensity(sample.points, softness);
   std::vector<KernelMixture> mixtures;

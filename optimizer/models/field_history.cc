@@ -2,25 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
+
+#include "optimizer/answer/words.h"
 
 namespace talus::optimizer {
 namespace {
 
 constexpr int kFewest = 5;        // evaluations a model can stand on
 constexpr double kGrowth = 1.15;  // of the evaluations, from one fit to the next
-// A model of the images is given up only where it is off by this much more than a process of the
-// values: under noise both errors are mostly the scatter of what was left out, and images know more
-// than that shows.
+// A model of the images is given up only where its error is this many times that of a process of
+// the values: under noise both errors are mostly the noise of what was left out, and images know
+// more than that shows.
 constexpr double kPreference = 1.5;
-
-std::string Percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-  return text;
-}
 
 double Rms(const Eigen::ArrayXd& errors) { return std::sqrt(errors.square().mean()); }
 
@@ -57,7 +52,7 @@ void FieldHistory::Add(const Observation& observation) {
     const Eigen::VectorXd& vector = coded.vectors.back();
     const double decoded = objective_.metric ? objective_.metric(coded.code->Decode(vector))
                                              : objective_.sad_scale * coded.code->Sad(vector);
-    coded.losses.push_back(observation.value - decoded);
+    coded.reconstruction_errors.push_back(observation.value - decoded);
   }
 }
 
@@ -73,13 +68,13 @@ CodedFields FieldHistory::First(const Coded& coded, int count) const {
   CodedFields data{.points = Eigen::MatrixXd(count, points_.front().size()),
                    .vectors = Eigen::MatrixXd(count, coded.vectors.front().size()),
                    .values = Eigen::VectorXd(count),
-                   .losses = Eigen::VectorXd(count)};
+                   .reconstruction_errors = Eigen::VectorXd(count)};
   for (int i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     data.points.row(i) = points_[k];
     data.vectors.row(i) = coded.vectors[k];
     data.values[i] = values_[k];
-    data.losses[i] = coded.losses[k];
+    data.reconstruction_errors[i] = coded.reconstruction_errors[k];
   }
   return data;
 }
@@ -87,7 +82,7 @@ CodedFields FieldHistory::First(const Coded& coded, int count) const {
 double FieldHistory::ErrorOfValues(const CodedFields& data, bool deterministic) const {
   const auto process = surrogate::GaussianProcess::Fit(data.points, data.values,
                                                        {.trend = surrogate::Trend::kQuadratic,
-                                                        .bend_inputs = !deterministic,
+                                                        .warp_inputs = !deterministic,
                                                         .deterministic = deterministic,
                                                         .seed = seed_});
   return ErrorOf(process.LeaveOneOut().mean, process.values());
@@ -99,9 +94,9 @@ void FieldHistory::Choose(int count, bool deterministic) {
   verdict_.clear();
   double lowest = ErrorOfValues(First(codes_.front(), count), deterministic);
   const CodedFields data = First(codes_.front(), count);
-  const double spread = Rms(data.values.array() - data.values.mean());
-  verdict_ = "left out, each of the better half is missed by " + Percent(lowest / spread) +
-             " of the spread by a process of the values";
+  const double sd = Rms(data.values.array() - data.values.mean());
+  verdict_ = "left out, each of the better half is missed by " + Percent(lowest / sd) +
+             " of their standard deviation by a process of the values";
   if (!deterministic) lowest *= kPreference;
   if (always_) lowest = std::numeric_limits<double>::infinity();
   for (const Coded& coded : codes_) {
@@ -109,7 +104,7 @@ void FieldHistory::Choose(int count, bool deterministic) {
     const FieldModel model(coded.code, objective_, fields,
                            {.deterministic = deterministic, .seed = seed_}, nullptr);
     const double error = ErrorOf(model, fields);
-    verdict_ += ", by " + Percent(error / spread) + " by modes of " + coded.code->name();
+    verdict_ += ", by " + Percent(error / sd) + " by modes of " + coded.code->name();
     if (!(error < lowest)) continue;
     lowest = error;
     choice_.coded = &coded;

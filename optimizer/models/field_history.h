@@ -34,7 +34,7 @@ class FieldHistory {
   struct Coded {
     std::shared_ptr<const surrogate::FieldCode> code;
     std::vector<Eigen::VectorXd> vectors;
-    std::vector<double> losses;
+    std::vector<double> reconstruction_errors;
   };
   struct Choice {
     int num_fitted = 0;

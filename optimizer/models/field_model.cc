@@ -6,29 +6,28 @@
 
 #include "base/random.h"
 #include "optimizer/acquisition/acquisition.h"
-#include "surrogate/spread.h"
+#include "surrogate/standard_deviation.h"
 
 namespace talus::optimizer {
 namespace {
 
-using surrogate::Spread;
+using surrogate::StandardDeviation;
 
 constexpr int kNumDraws = 16;  // half of them the mirror images of the others
-// Without scatter every mode that is more than rounding is signal.
+// Without noise every mode that is more than rounding is signal.
 constexpr int kModesIfDeterministic = 12;
-// A code that loses less than this share of the spread of the objective needs no process for it.
-constexpr double kSmallLoss = 1e-3;
-// Every evaluation brings as many numbers as there are modes, so they may bend more than one number
-// could tell.
+// Reconstruction errors below this share of the objective's standard deviation need no process.
+constexpr double kSmallError = 1e-3;
+// Every evaluation brings as many numbers as there are modes, so they support stronger input
+// warping than one number would.
 constexpr surrogate::HyperPriors kNoisyPriors{.length = {.median = 0.7, .log_sd = 0.4},
-                                              .bend_sd = 2};
+                                              .warp_sd = 2};
 constexpr double kHopeless = -1e6;  // below every logarithm of an improvement
-// Draws lie so many times farther from the mean than the processes say. These take their
-// hyper-parameters for known and the scatter for the same everywhere, and evaluations crowd where
-// they were too hopeful. Found on synthetic heaps, by bench/optimizers/range_coverage.cc.
-constexpr double kCaution = 1.5;
+// Posterior sd is inflated by this factor: point-estimated hyper-parameters and constant noise make
+// it overconfident. Calibrated on synthetic heaps by bench/optimizers/range_coverage.cc.
+constexpr double kInflation = 1.5;
 
-// With scatter the weak modes are noise, until there are evaluations enough to tell.
+// The weak modes are noise until there are evaluations enough to tell.
 int ModesIfNoisy(Eigen::Index num_evaluations) {
   constexpr int kFewest = 6;
   constexpr int kMost = 10;
@@ -45,24 +44,25 @@ surrogate::ModeOptions OptionsOf(const CodedFields& data, const FieldModelOption
   modes.process.trend = surrogate::Trend::kQuadratic;
   modes.process.deterministic = options.deterministic;
   modes.process.seed = options.seed;
-  modes.process.bend_inputs = !options.deterministic;
+  modes.process.warp_inputs = !options.deterministic;
   if (!options.deterministic) modes.process.priors = kNoisyPriors;
   if (frozen != nullptr) modes.frozen = frozen->modes;
   return modes;
 }
 
-std::optional<surrogate::GaussianProcess> FitLoss(const CodedFields& data,
-                                                  const FieldModelOptions& options,
-                                                  const FieldState* frozen) {
+std::optional<surrogate::GaussianProcess> FitReconstruction(const CodedFields& data,
+                                                            const FieldModelOptions& options,
+                                                            const FieldState* frozen) {
   surrogate::GaussianProcessOptions process{.deterministic = options.deterministic,
                                             .seed = options.seed};
   if (frozen != nullptr) {
-    if (!frozen->loss) return std::nullopt;
-    process.frozen = frozen->loss;
-  } else if (data.losses.cwiseAbs().maxCoeff() <= kSmallLoss * Spread(data.values)) {
+    if (!frozen->reconstruction) return std::nullopt;
+    process.frozen = frozen->reconstruction;
+  } else if (data.reconstruction_errors.cwiseAbs().maxCoeff() <=
+             kSmallError * StandardDeviation(data.values)) {
     return std::nullopt;
   }
-  return surrogate::GaussianProcess::Fit(data.points, data.losses, process);
+  return surrogate::GaussianProcess::Fit(data.points, data.reconstruction_errors, process);
 }
 
 Eigen::MatrixXd MirroredNormals(Eigen::Index num_modes, std::uint64_t seed) {
@@ -84,7 +84,7 @@ FieldModel::FieldModel(std::shared_ptr<const surrogate::FieldCode> code,
       objective_(objective),
       modes_(
           surrogate::ModeProcess::Fit(data.points, data.vectors, OptionsOf(data, options, frozen))),
-      loss_(FitLoss(data, options, frozen)),
+      reconstruction_(FitReconstruction(data, options, frozen)),
       residuals_(data.vectors.rowwise() - modes_.modes().mean.transpose()),
       normals_(MirroredNormals(modes_.modes().basis.cols(), options.seed)) {
   const Eigen::MatrixXd& basis = modes_.modes().basis;
@@ -99,7 +99,9 @@ FieldModel::FieldModel(std::shared_ptr<const surrogate::FieldCode> code,
 int FieldModel::num_parameters() const { return modes_.num_parameters(); }
 
 FieldState FieldModel::state() const {
-  return {.modes = modes_.state(), .loss = loss_ ? std::optional(loss_->state()) : std::nullopt};
+  return {
+      .modes = modes_.state(),
+      .reconstruction = reconstruction_ ? std::optional(reconstruction_->state()) : std::nullopt};
 }
 
 Eigen::VectorXd FieldModel::Vector(const Eigen::VectorXd& coefficients) const {
@@ -116,12 +118,12 @@ double FieldModel::Value(const Eigen::VectorXd& vector) const {
   return objective_.sad_scale * code_->Sad(vector);
 }
 
-double FieldModel::Expected(const At& at, const Eigen::VectorXd& scatter) const {
+double FieldModel::Expected(const At& at, const Eigen::VectorXd& noise) const {
   if (objective_.metric) return ValuesOfDraws(at).mean();
   Eigen::VectorXd variance = modes_.modes().basis.cwiseAbs2() * at.variance;
-  if (scatter.size() > 0) variance += scatter;
-  // With scatter it is one evaluation that is expected, not a mean of them.
-  const Eigen::VectorXd vector = scatter.size() > 0 ? Vector(at.mean) : MeanVector(at.mean);
+  if (noise.size() > 0) variance += noise;
+  // With noise it is one evaluation that is expected, not a mean of them.
+  const Eigen::VectorXd vector = noise.size() > 0 ? Vector(at.mean) : MeanVector(at.mean);
   return objective_.sad_scale * code_->ExpectedSad(vector, variance);
 }
 
@@ -134,26 +136,33 @@ Eigen::VectorXd FieldModel::ValuesOfDraws(const At& at) const {
   return values;
 }
 
-surrogate::Predictions FieldModel::Loss(const Eigen::MatrixXd& points) const {
-  if (loss_) return loss_->PredictAll(points);
+surrogate::Predictions FieldModel::ReconstructionError(const Eigen::MatrixXd& points) const {
+  if (reconstruction_) return reconstruction_->PredictAll(points);
   return {.mean = Eigen::VectorXd::Zero(points.rows()),
           .variance = Eigen::VectorXd::Zero(points.rows())};
 }
 
 double FieldModel::Mean(const Eigen::VectorXd& x) const {
   const surrogate::ModeMoments modes = modes_.Predict(x.transpose());
-  return Expected({modes.mean.row(0), modes.variance.row(0)}, {}) + Loss(x.transpose()).mean[0];
+  return Expected({modes.mean.row(0), modes.variance.row(0)}, {}) +
+         ReconstructionError(x.transpose()).mean[0];
+}
+
+Eigen::VectorXd FieldModel::Means(const Eigen::MatrixXd& points) const {
+  Eigen::VectorXd means(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) means[i] = Mean(points.row(i));
+  return means;
 }
 
 Moments FieldModel::Predict(const Eigen::MatrixXd& points) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
-  const surrogate::Predictions loss = Loss(points);
-  Moments moments{.mean = loss.mean, .sd = Eigen::VectorXd(points.rows())};
+  const surrogate::Predictions error = ReconstructionError(points);
+  Moments moments{.mean = error.mean, .sd = Eigen::VectorXd(points.rows())};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const At at{modes.mean.row(i), modes.variance.row(i)};
-    const double spread = Spread(ValuesOfDraws(at));
+    const double sd_of_draws = StandardDeviation(ValuesOfDraws(at));
     moments.mean[i] += Expected(at, {});
-    moments.sd[i] = std::sqrt(spread * spread + loss.variance[i]);
+    moments.sd[i] = std::sqrt(sd_of_draws * sd_of_draws + error.variance[i]);
   }
   return moments;
 }
@@ -175,11 +184,11 @@ double FieldModel::Reach(const At& at) const {
 Eigen::VectorXd FieldModel::LogImprovement(const Eigen::MatrixXd& points, double incumbent,
                                            double noise) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
-  const surrogate::Predictions loss = Loss(points);
+  const surrogate::Predictions error = ReconstructionError(points);
   Eigen::VectorXd result(points.rows());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const At at{modes.mean.row(i), modes.variance.row(i)};
-    const double goal = incumbent - loss.mean[i];
+    const double goal = incumbent - error.mean[i];
     const double reach = objective_.metric ? std::numeric_limits<double>::infinity() : Reach(at);
     const double excess = objective_.metric ? 0 : Value(MeanVector(at.mean)) - goal;
     if (excess > reach) {
@@ -188,8 +197,8 @@ Eigen::VectorXd FieldModel::LogImprovement(const Eigen::MatrixXd& points, double
     }
     const Eigen::VectorXd draws = ValuesOfDraws(at);
     if (noise > 0) {
-      const double spread = Spread(draws);
-      const double sd = std::sqrt(spread * spread + loss.variance[i]);
+      const double sd_of_draws = StandardDeviation(draws);
+      const double sd = std::sqrt(sd_of_draws * sd_of_draws + error.variance[i]);
       result[i] = AugmentedLogExpectedImprovement(draws.mean(), sd, goal, noise).value;
     } else {
       result[i] = LogImprovementOfDraws(draws, goal);
@@ -210,8 +219,9 @@ FieldModel::At FieldModel::Nearest(const surrogate::ModeMoments& modes) const {
   return {modes.mean.row(nearest), modes.variance.row(nearest)};
 }
 
-// The target's heaps scatter as evaluations do. Where even the best image misses the target by more
-// than that, as one of another powder than any simulated may, the errors are larger by as much.
+// The target's heaps are as noisy as evaluations. Where even the best image misses the target by
+// more than that, as one of another powder than any simulated may, the errors are larger by as
+// much.
 Eigen::MatrixXd FieldModel::TargetErrors(const At& nearest, int num_draws,
                                          base::Random random) const {
   const Eigen::MatrixXd& basis = modes_.modes().basis;
@@ -219,7 +229,7 @@ Eigen::MatrixXd FieldModel::TargetErrors(const At& nearest, int num_draws,
   const double expected =
       (basis.cwiseAbs2() * nearest.variance + share * modes_.ElementNoise()).sum();
   const double missed = (target_ - MeanVector(nearest.mean)).squaredNorm() / expected;
-  const double scale = kCaution * std::sqrt(std::max(1.0, missed) * share);
+  const double scale = kInflation * std::sqrt(std::max(1.0, missed) * share);
   const Eigen::VectorXd sd = scale * modes_.ModeNoise().cwiseSqrt();
   const double of_one = scale / std::sqrt(static_cast<double>(residuals_.rows()));
   Eigen::MatrixXd errors(num_draws, basis.rows());
@@ -238,8 +248,8 @@ Eigen::MatrixXd FieldModel::TargetErrors(const At& nearest, int num_draws,
 Eigen::MatrixXd FieldModel::Draw(const Eigen::MatrixXd& points, int num_draws,
                                  base::Random random) const {
   std::vector<Eigen::MatrixXd> modes = modes_.Draw(points, num_draws, random.Next());
-  Eigen::MatrixXd draws = loss_ ? loss_->Draw(points, num_draws, random)
-                                : Eigen::MatrixXd::Zero(num_draws, points.rows());
+  Eigen::MatrixXd draws = reconstruction_ ? reconstruction_->Draw(points, num_draws, random)
+                                          : Eigen::MatrixXd::Zero(num_draws, points.rows());
   const bool exact = objective_.num_target_heaps == 0 || target_.size() == 0;
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(exact ? 0 : num_draws, target_.size());
   if (!exact) {
@@ -249,7 +259,7 @@ Eigen::MatrixXd FieldModel::Draw(const Eigen::MatrixXd& points, int num_draws,
     for (std::size_t k = 0; k < modes.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const Eigen::RowVectorXd mean = at.mean.col(column).transpose();
-      modes[k] = (kCaution * (modes[k].rowwise() - mean)).rowwise() + mean;
+      modes[k] = (kInflation * (modes[k].rowwise() - mean)).rowwise() + mean;
     }
   }
   Eigen::VectorXd coefficients(static_cast<Eigen::Index>(modes.size()));
@@ -268,15 +278,16 @@ Eigen::MatrixXd FieldModel::Draw(const Eigen::MatrixXd& points, int num_draws,
 
 double FieldModel::NoiseSd(const Eigen::VectorXd& x) const {
   const surrogate::ModeMoments modes = modes_.Predict(x.transpose());
-  const double loss = loss_ ? loss_->noise_variance() : 0;
-  const double spread = Spread(ValuesOfDraws({modes.mean.row(0), modes_.ModeNoise()}));
-  return std::sqrt(spread * spread + loss);
+  const double error = reconstruction_ ? reconstruction_->noise_variance() : 0;
+  const double sd_of_draws =
+      StandardDeviation(ValuesOfDraws({modes.mean.row(0), modes_.ModeNoise()}));
+  return std::sqrt(sd_of_draws * sd_of_draws + error);
 }
 
 Eigen::VectorXd FieldModel::LeaveOneOut() const {
   const surrogate::ModeMoments modes = modes_.LeaveOneOut();
-  Eigen::VectorXd values =
-      loss_ ? loss_->LeaveOneOut().mean : Eigen::VectorXd::Zero(modes.mean.rows());
+  Eigen::VectorXd values = reconstruction_ ? reconstruction_->LeaveOneOut().mean
+                                           : Eigen::VectorXd::Zero(modes.mean.rows());
   const Eigen::VectorXd discarded = modes_.modes().discarded;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     values[i] += Expected({modes.mean.row(i), modes.variance.row(i)}, discarded);
@@ -284,9 +295,9 @@ Eigen::VectorXd FieldModel::LeaveOneOut() const {
   return values;
 }
 
-void FieldModel::Believe(const Eigen::VectorXd& x) {
+void FieldModel::AddFantasy(const Eigen::VectorXd& x) {
   modes_.Add(x, Vector(modes_.Predict(x.transpose()).mean.row(0).transpose()));
-  if (loss_) loss_->Believe(x);
+  if (reconstruction_) reconstruction_->AddFantasy(x);
 }
 
 }  // namespace talus::optimizer

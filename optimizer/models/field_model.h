@@ -2,9 +2,9 @@
 //
 //   objective(x) = E[metric(image of c)] + r(x),   c the coefficients of the image's modes at x
 //
-// The expectation is over what is not known of the mean coefficients (not over the scatter of
-// single evaluations, which a recommendation does not care about). r is what the code of the image
-// loses, evaluation by evaluation: known exactly there, hence a process of its own.
+// The expectation is over the posterior of the mean coefficients, not over the noise of single
+// evaluations. r is the reconstruction error: the objective of the image less that of its decoded
+// code, known exactly at each evaluation, hence a process of its own.
 #pragma once
 
 #include <memory>
@@ -22,14 +22,14 @@ namespace talus::optimizer {
 struct CodedFields {
   Eigen::MatrixXd points;
   Eigen::MatrixXd vectors;
-  Eigen::VectorXd values;  // of the objective
-  Eigen::VectorXd losses;  // objective of the image less objective of the decoded image
+  Eigen::VectorXd values;                 // of the objective
+  Eigen::VectorXd reconstruction_errors;  // objective of the image less that of the decoded image
 };
 
 // Everything that fitting decides.
 struct FieldState {
   surrogate::ModeState modes;
-  std::optional<surrogate::GaussianProcessState> loss;  // none where the code loses next to nothing
+  std::optional<surrogate::GaussianProcessState> reconstruction;  // none where errors are tiny
 };
 
 struct FieldModelOptions {
@@ -50,22 +50,22 @@ class FieldModel : public ObjectiveModel {
                        base::Random random) const override;
   double NoiseSd(const Eigen::VectorXd& x) const override;
 
-  // The objective alone, which costs less than Predict.
   double Mean(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd Means(const Eigen::MatrixXd& points) const override;
 
-  // ln E[max(0, incumbent - objective)]. Without scatter by draws; where no draw is better, a
-  // number below all that says by how much it is missed. With scatter, `noise` > 0, from the mean
-  // and standard deviation of the draws and weighted for noise (acquisition.h): a handful of draws
-  // never finds the small chance that a place far off is better, and the search would not leave the
-  // first valley it sees.
+  // ln E[max(0, incumbent - objective)]. Without noise by draws; where no draw improves, a number
+  // below all others that says by how much the incumbent is missed. With noise, `noise` > 0, from
+  // the mean and standard deviation of the draws and weighted for noise (acquisition.h): a handful
+  // of draws never finds the small chance that a point far off is better, and the search would not
+  // leave the first valley it sees.
   Eigen::VectorXd LogImprovement(const Eigen::MatrixXd& points, double incumbent,
-                                 double noise) const;
+                                 double noise) const override;
 
-  // What evaluations are expected to give, each from the others: scatter included.
+  // What evaluations are expected to give, each from the others: noise included.
   Eigen::VectorXd LeaveOneOut() const;
 
-  // Takes the prediction at x for an evaluation.
-  void Believe(const Eigen::VectorXd& x);
+  // Adds the prediction at x as if it were an evaluation.
+  void AddFantasy(const Eigen::VectorXd& x);
 
   FieldState state() const;
   int num_modes() const { return static_cast<int>(modes_.modes().basis.cols()); }
@@ -80,12 +80,12 @@ class FieldModel : public ObjectiveModel {
   // The same as an image of the target's kind, the mean of several heaps.
   Eigen::VectorXd MeanVector(const Eigen::VectorXd& coefficients) const;
   double Value(const Eigen::VectorXd& vector) const;
-  // `scatter`: variance of each element on top of that of the modes; empty for none.
-  double Expected(const At& at, const Eigen::VectorXd& scatter) const;
+  // `noise`: variance of each element on top of that of the modes; empty for none.
+  double Expected(const At& at, const Eigen::VectorXd& noise) const;
   Eigen::VectorXd ValuesOfDraws(const At& at) const;
   double Reach(const At& at) const;
   double LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const;
-  surrogate::Predictions Loss(const Eigen::MatrixXd& points) const;
+  surrogate::Predictions ReconstructionError(const Eigen::MatrixXd& points) const;
   // What the target may be off by, a draw a row; empty where it is exact. `nearest`: the
   // coefficients that fit the target best.
   Eigen::MatrixXd TargetErrors(const At& nearest, int num_draws, base::Random random) const;
@@ -94,7 +94,7 @@ class FieldModel : public ObjectiveModel {
   std::shared_ptr<const surrogate::FieldCode> code_;
   FieldObjective objective_;
   surrogate::ModeProcess modes_;
-  std::optional<surrogate::GaussianProcess> loss_;
+  std::optional<surrogate::GaussianProcess> reconstruction_;
   Eigen::MatrixXd residuals_;  // what the modes leave of each evaluation, a row each
   Eigen::VectorXd blur_;       // variance of each element among the target's heaps; may be empty
   Eigen::VectorXd target_;     // as the code writes it; empty without a target

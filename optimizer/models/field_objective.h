@@ -20,8 +20,8 @@ struct FieldObjective {
   // … unless this is set: any other functional of a field, such as |angle of repose - reference|.
   std::function<double(std::span<const float>)> metric = {};
 
-  // The target is the mean of so many heaps, each of which scatters as an evaluation does: then it
-  // is not known exactly either, and credible ranges are wider. 0: it is exact.
+  // The target is the mean of so many heaps, each as noisy as an evaluation: then it is not known
+  // exactly either, and credible intervals are wider. 0: it is exact.
   int num_target_heaps = 0;
 
   double Value(std::span<const float> field) const;

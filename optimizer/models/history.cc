@@ -28,16 +28,16 @@ History MakeHistory(std::span<const Observation> told, int num_parameters) {
 
 Repeats FindRepeats(const History& history) {
   Repeats repeats;
-  bool scatters = false;
+  bool differs = false;
   for (Eigen::Index i = 1; i < history.values.size(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
       if (!SamePoint(history.points.row(i), history.points.row(j))) continue;
       ++repeats.num_repeats;
-      scatters = scatters || history.values[i] != history.values[j];
+      differs = differs || history.values[i] != history.values[j];
       break;
     }
   }
-  repeats.deterministic = repeats.num_repeats > 0 && !scatters;
+  repeats.deterministic = repeats.num_repeats > 0 && !differs;
   return repeats;
 }
 

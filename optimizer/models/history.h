@@ -19,7 +19,7 @@ struct History {
 
 History MakeHistory(std::span<const Observation> told, int num_parameters);
 
-// What repeated points say of the scatter.
+// What repeated points say of the noise.
 struct Repeats {
   int num_repeats = 0;         // evaluations at a point evaluated before
   bool deterministic = false;  // there are repeats, and all gave the same value

@@ -1,6 +1,19 @@
 #include "optimizer/models/objective_model.h"
 
+#include "optimizer/acquisition/acquisition.h"
+
 namespace talus::optimizer {
+
+Eigen::VectorXd ObjectiveModel::LogImprovement(const Eigen::MatrixXd& points, double incumbent,
+                                               double noise) const {
+  const Moments moments = Predict(points);
+  Eigen::VectorXd result(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    result[i] =
+        AugmentedLogExpectedImprovement(moments.mean[i], moments.sd[i], incumbent, noise).value;
+  }
+  return result;
+}
 
 MomentsGradient ObjectiveModel::PredictWithGradient(const Eigen::VectorXd& x) const {
   constexpr double kStep = 1e-4;  // of the cube: far below any correlation length, above rounding

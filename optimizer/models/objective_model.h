@@ -8,7 +8,7 @@
 
 namespace talus::optimizer {
 
-// Posterior mean and standard deviation of the objective's mean function, one place each.
+// Posterior mean and standard deviation of the objective's mean function, one point each.
 struct Moments {
   Eigen::VectorXd mean;
   Eigen::VectorXd sd;
@@ -30,6 +30,16 @@ class ObjectiveModel {
   // One point of the unit cube a row.
   virtual Moments Predict(const Eigen::MatrixXd& points) const = 0;
 
+  // Posterior means alone, which may cost less.
+  virtual Eigen::VectorXd Means(const Eigen::MatrixXd& points) const {
+    return Predict(points).mean;
+  }
+
+  // Log expected improvement on `incumbent`, one point each; weighted for noise where noise > 0
+  // (acquisition.h).
+  virtual Eigen::VectorXd LogImprovement(const Eigen::MatrixXd& points, double incumbent,
+                                         double noise) const;
+
   // Central differences unless a model knows better.
   virtual MomentsGradient PredictWithGradient(const Eigen::VectorXd& x) const;
 
@@ -37,7 +47,7 @@ class ObjectiveModel {
   virtual Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
                                base::Random random) const = 0;
 
-  // Scatter of one evaluation at x; 0 when deterministic.
+  // Noise standard deviation of one evaluation at x; 0 when deterministic.
   virtual double NoiseSd(const Eigen::VectorXd& x) const = 0;
 };
 

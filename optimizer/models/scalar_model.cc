@@ -28,7 +28,7 @@ ValueTransform TransformOf(const Eigen::VectorXd& values, double delta_share) {
 
 surrogate::GaussianProcessOptions ProcessOptions(bool deterministic, std::uint64_t seed) {
   return {.trend = surrogate::Trend::kQuadratic,
-          .bend_inputs = true,
+          .warp_inputs = true,
           .deterministic = deterministic,
           .seed = seed};
 }

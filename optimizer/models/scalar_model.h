@@ -1,8 +1,8 @@
 // The objective as a Gaussian process of numbers.
 //
-// A deterministic objective may be fitted through t(v) = ln(v - least + δ), which spreads the small
-// values of an objective that spans decades; δ, or none at all, is chosen by the marginal
-// likelihood of the values themselves (the Jacobian included). Never under noise, whose lowest
+// A deterministic objective may be fitted through t(v) = ln(v - least + δ), which resolves the
+// small values of an objective that spans decades; δ, or none at all, is chosen by the marginal
+// likelihood of the values themselves (the Jacobian included). Never under noise, where the lowest
 // values are luck.
 #pragma once
 

@@ -17,47 +17,37 @@ Points Inside(const Domain& domain, const Points& points) {
 }  // namespace
 
 DesignStrategy::DesignStrategy(const Domain& domain, const Points& points, std::string name)
-    : domain_(domain), name_(std::move(name)) {
-  Append(domain.guesses);
-  Append(Inside(domain, points));
-}
+    : domain_(domain), queue_(domain, points), name_(std::move(name)) {}
 
 void DesignStrategy::Append(const Points& points) {
   for (const Eigen::VectorXd& point : points) {
     const bool is_told = std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
       return SamePoint(seen.point, point);
     });
-    places_.push_back({point, is_told});
+    queue_.Append(point, is_told);
   }
 }
 
 void DesignStrategy::Tell(const Observation& observation) {
-  for (Place& place : places_) {
-    if (!place.is_told) place.is_told = SamePoint(place.point, observation.point);
-  }
+  queue_.MarkEvaluated(observation.point);
   told_.push_back(observation);
 }
 
-bool DesignStrategy::IsDone() const {
-  return std::all_of(places_.begin(), places_.end(),
-                     [](const Place& place) { return place.is_told; });
-}
-
 std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
+  Points asked(pending.begin(), pending.end());
   std::vector<Proposal> proposals;
-  for (const Place& place : places_) {
-    if (static_cast<int>(proposals.size()) >= count) break;
-    const bool runs = std::any_of(pending.begin(), pending.end(), [&](const Eigen::VectorXd& p) {
-      return SamePoint(p, place.point);
-    });
-    if (!runs && !place.is_told) proposals.push_back({place.point, Origin::kDesign});
+  while (static_cast<int>(proposals.size()) < count) {
+    const auto point = queue_.Next(asked);
+    if (!point) break;
+    proposals.push_back({*point, Origin::kDesign});
+    asked.push_back(*point);
   }
   return proposals;
 }
 
 std::optional<std::string> DesignStrategy::StopReason() {
   if (!IsDone()) return std::nullopt;
-  return "all " + std::to_string(places_.size()) + " points of " + name_ + " are evaluated";
+  return "all " + std::to_string(queue_.size()) + " points of " + name_ + " are evaluated";
 }
 
 Answer DesignStrategy::Recommend() { return BestObserved(told_, domain_, name_); }

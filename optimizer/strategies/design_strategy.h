@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "optimizer/designs/design.h"
+#include "optimizer/designs/design_queue.h"
 #include "optimizer/space/domain.h"
 #include "optimizer/strategies/strategy.h"
 
@@ -24,19 +25,14 @@ class DesignStrategy : public Strategy {
 
  protected:
   const std::vector<Observation>& told() const { return told_; }
-  bool IsDone() const;  // all points are told
+  bool IsDone() const { return queue_.IsDone(); }  // all points are told
   // Points to go on with after those there are.
   void Append(const Points& points);
 
   const Domain domain_;
 
  private:
-  struct Place {
-    Eigen::VectorXd point;
-    bool is_told = false;
-  };
-
-  std::vector<Place> places_;
+  DesignQueue queue_;
   const std::string name_;
   std::vector<Observation> told_;
 };

@@ -92,10 +92,10 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
   problems.Require(options.kind != StrategyKind::kField || field != nullptr, "kind",
                    "is \"field\", but evaluations bring no images here: use \"surrogate\"");
   problems.ThrowIfAny();
-  const ScalarOptions surrogate{.num_initial = options.num_initial,
-                                .stop_multiple = options.stop_multiple,
-                                .max_replicates = options.max_replicates,
-                                .seed = seed};
+  const SurrogateOptions surrogate{.num_initial = options.num_initial,
+                                   .stop_multiple = options.stop_multiple,
+                                   .max_replicates = options.max_replicates,
+                                   .seed = seed};
   switch (options.kind) {
     case StrategyKind::kSurrogate:
     case StrategyKind::kField: {

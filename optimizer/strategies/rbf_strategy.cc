@@ -10,8 +10,9 @@
 namespace talus::optimizer {
 namespace {
 
-// Weight of the promise, the rest of the distance: from exploring to polishing.
-constexpr std::array kPromise{0.3, 0.5, 0.8, 0.95, 1.0};
+// Weight of the predicted value, in turn; the rest is that of the distance: from exploring to
+// polishing.
+constexpr std::array kValueWeight{0.3, 0.5, 0.8, 0.95, 1.0};
 
 double NearestDistance(const Eigen::VectorXd& x, const Eigen::MatrixXd& points,
                        const std::vector<Eigen::VectorXd>& asked) {
@@ -22,36 +23,10 @@ double NearestDistance(const Eigen::VectorXd& x, const Eigen::MatrixXd& points,
 
 }  // namespace
 
-RbfStrategy::RbfStrategy(const Domain& domain, const ScalarOptions& options)
-    : domain_(domain), options_(options), scalar_(domain, options) {}
-
-void RbfStrategy::Tell(const Observation& observation) {
-  scalar_.Tell(observation);
-  told_.push_back(observation);
-  told_.back().field.clear();
-}
-
-std::vector<Proposal> RbfStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
-  Points asked(pending.begin(), pending.end());
-  std::vector<Proposal> proposals;
-  for (int i = 0; i < count; ++i) {
-    const auto first = scalar_.BeforeModel(asked);
-    if (first) {
-      proposals.push_back(*first);
-    } else if (scalar_.history().size() < 2) {
-      proposals.push_back(scalar_.Ask(1, asked).front());
-    } else {
-      proposals.push_back(scalar_.NotByAccident(ByModel(asked), asked));
-    }
-    asked.push_back(proposals.back().point);
-  }
-  return proposals;
-}
-
 surrogate::RadialBasis RbfStrategy::Fit() const {
   using surrogate::RadialBasis;
   using surrogate::RadialFunction;
-  const History& history = scalar_.history();
+  const History& history = record().history();
   RadialBasis cubic = RadialBasis::Fit(history.points, history.values, RadialFunction::kCubic);
   RadialBasis plate = RadialBasis::Fit(history.points, history.values, RadialFunction::kThinPlate);
   const double of_cubic = (cubic.LeaveOneOut() - history.values).squaredNorm();
@@ -69,47 +44,49 @@ Eigen::VectorXd RbfStrategy::Lowest(const surrogate::RadialBasis& basis) const {
     if (gradient != nullptr) *gradient = basis.Gradient(x);
     return basis.Predict(x);
   };
-  const History& history = scalar_.history();
+  const History& history = record().history();
   Eigen::Index best = 0;
   history.values.minCoeff(&best);
-  return SearchCube({values, value}, domain_, history.points.row(best), {.seed = options_.seed})
+  return SearchCube({values, value}, record().domain(), history.points.row(best),
+                    {.seed = record().options().seed})
       .point;
 }
 
-Eigen::VectorXd RbfStrategy::ByModel(const Points& asked) const {
+Proposal RbfStrategy::ByModel(const Points& asked) {
   const surrogate::RadialBasis basis = Fit();
-  const History& history = scalar_.history();
-  const std::size_t index = told_.size() + asked.size();
-  const double promise = kPromise[index % kPromise.size()];
+  const History& history = record().history();
+  const std::size_t index = record().told().size() + asked.size();
+  const double value_weight = kValueWeight[index % kValueWeight.size()];
   const Eigen::VectorXd lowest = Lowest(basis);
   const double least = basis.Predict(lowest);
-  const double spread = std::max(history.values.maxCoeff() - least, 1e-300);
+  const double range = std::max(history.values.maxCoeff() - least, 1e-300);
   const auto values = [&](const Eigen::MatrixXd& points) {
-    Eigen::VectorXd result = -scalar_.feasibility().Penalty(points);
+    Eigen::VectorXd result = -record().feasibility().Penalty(points);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       const Eigen::VectorXd x = points.row(i);
-      result[i] += promise * (basis.Predict(x) - least) / spread -
-                   (1 - promise) * NearestDistance(x, history.points, asked);
+      result[i] += value_weight * (basis.Predict(x) - least) / range -
+                   (1 - value_weight) * NearestDistance(x, history.points, asked);
     }
     return result;
   };
   const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
     return values(x.transpose())[0];
   };
-  return SearchCube({values, value}, domain_, lowest.transpose(),
-                    {.num_local = 2, .kinked = true, .seed = options_.seed + 7919 * index})
-      .point;
+  const Found found =
+      SearchCube({values, value}, record().domain(), lowest.transpose(),
+                 {.num_local = 2, .kinked = true, .seed = record().StepSeed(asked)});
+  return record().ReplicateOrPerturb(found.point, asked);
 }
 
 Answer RbfStrategy::Recommend() {
-  Answer answer = BestObserved(told_, domain_, "radial basis functions");
-  if (scalar_.history().size() < 2) return answer;
+  Answer answer = BestObserved(record().told(), record().domain(), "radial basis functions");
+  if (record().history().size() < 2) return answer;
   const surrogate::RadialBasis basis = Fit();
-  answer.model = "radial basis functions of " + std::to_string(scalar_.history().size()) +
+  answer.model = "radial basis functions of " + std::to_string(record().history().size()) +
                  " evaluations" + (basis.smoothing() > 0 ? ", smoothed" : "") +
                  "; they say nothing of their own uncertainty";
-  // An interpolant is right at the evaluations and only there; a smooth one sees through luck.
-  if (scalar_.deterministic()) return answer;
+  // An interpolant is right at the evaluations and only there; a smooth one averages the noise.
+  if (record().deterministic()) return answer;
   answer.point = Lowest(basis);
   answer.predicted_value = basis.Predict(answer.point);
   answer.warnings = BoundWarnings(answer.point);

@@ -117,12 +117,12 @@ std::optional<Eigen::VectorXd> ReplayedSearch::Replay(
 }
 
 std::vector<Proposal> ReplayedSearch::Ask(int count, std::span<const Eigen::VectorXd> pending) {
-  std::vector<Eigen::VectorXd> believed(pending.begin(), pending.end());
+  std::vector<Eigen::VectorXd> asked(pending.begin(), pending.end());
   std::vector<Proposal> proposals;
   while (static_cast<int>(proposals.size()) < count) {
-    const auto point = Replay(believed);
+    const auto point = Replay(asked);
     if (!point) break;
-    believed.push_back(*point);
+    asked.push_back(*point);
     proposals.push_back({*point, Origin::kSearch});
   }
   return proposals;

@@ -1,7 +1,7 @@
 // Ask–tell: what every way of choosing the next simulations looks like to a campaign.
 //
-// A strategy works in the unit cube; what it knows is what it was told. Telling a fresh one the
-// same observations in the same order gives the same next proposal, bit for bit.
+// A strategy works in the unit cube. Its state = the observations told so far, in order: a fresh
+// one told the same makes the same next proposal, bit for bit.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,7 +49,7 @@ struct Answer {
   Eigen::VectorXd point;              // minimiser of the posterior mean, unit cube
   double predicted_value = 0;         // posterior mean there
   double predicted_sd = 0;            // posterior standard deviation of that mean
-  double noise_sd = 0;                // scatter of one evaluation there; 0 when deterministic
+  double noise_sd = 0;                // noise sd of one evaluation there; 0 when deterministic
   std::vector<Range> credible;        // one a parameter, 90 % for all of them together
   Eigen::MatrixXd correlation;        // between parameters, of the posterior of the minimiser
   std::vector<Eigen::VectorXd> tied;  // points that tie with `point` within the noise
@@ -71,7 +71,7 @@ class Strategy {
   virtual std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) = 0;
   virtual void Tell(const Observation& observation) = 0;
 
-  // In words, when going on is not worth it ("what is left to gain is below 1 × the noise").
+  // In words, when going on is not worth it ("what is left to gain is below 0.7 × the noise sd").
   virtual std::optional<std::string> StopReason() = 0;
   virtual Answer Recommend() = 0;
 

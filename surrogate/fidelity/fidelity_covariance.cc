@@ -117,7 +117,7 @@ double FidelityLogPosterior(const FidelityData& data, const FidelityLayout& layo
                             const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
   const FidelityHyper hyper = layout.Unpack(theta);
   FidelityData warped = data;
-  warped.points = BendAll(data.points, hyper.warp);
+  warped.points = WarpAll(data.points, hyper.warp);
   const Eigen::LLT<Eigen::MatrixXd> factor(NoisyCovariance(warped, hyper));
   if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
   const Eigen::VectorXd alpha = factor.solve(data.values);
@@ -130,7 +130,7 @@ double FidelityLogPosterior(const FidelityData& data, const FidelityLayout& layo
     Eigen::MatrixXd slopes(data.points.rows(), size);
     for (Eigen::Index j = 0; j < size; ++j) {
       for (Eigen::Index k = 0; k < slopes.rows(); ++k) {
-        slopes(k, j) = BendAt(data.points(k, j), hyper.warp[k]).bend_slope;
+        slopes(k, j) = WarpAt(data.points(k, j), hyper.warp[k]).warp_slope;
       }
     }
     *gradient = GradientSum(warped, slopes, hyper, layout).Of(w) - z.cwiseQuotient(sd);

@@ -6,7 +6,7 @@
 
 #include "surrogate/nlopt_minimize.h"
 #include "surrogate/process/warp.h"
-#include "surrogate/spread.h"
+#include "surrogate/standard_deviation.h"
 
 namespace talus::surrogate {
 namespace {
@@ -69,7 +69,7 @@ FidelityProcess FidelityProcess::Fit(FidelityData data, const FidelityFitOptions
     state = *options.frozen;
   } else {
     state.centre = data.values.mean();
-    state.scale = Spread(data.values);
+    state.scale = StandardDeviation(data.values);
     if (!(state.scale > 0)) state.scale = 1;
   }
   data.values = (data.values.array() - state.centre) / state.scale;
@@ -82,7 +82,7 @@ FidelityProcess FidelityProcess::Fit(FidelityData data, const FidelityFitOptions
 }
 
 void FidelityProcess::Factorise() {
-  warped_ = BendAll(data_.points, state_.hyper.warp);
+  warped_ = WarpAll(data_.points, state_.hyper.warp);
   const Eigen::Index size = data_.values.size();
   Eigen::MatrixXd k(size, size);
   for (Eigen::Index j = 0; j < size; ++j) {
@@ -113,7 +113,7 @@ Eigen::MatrixXd FidelityProcess::Cross(const Eigen::MatrixXd& warped, double gro
 }
 
 Predictions FidelityProcess::Predict(const Eigen::MatrixXd& points, double growth) const {
-  const Eigen::MatrixXd warped = BendAll(points.transpose(), state_.hyper.warp);
+  const Eigen::MatrixXd warped = WarpAll(points.transpose(), state_.hyper.warp);
   const Eigen::MatrixXd cross = Cross(warped, growth);
   const Eigen::MatrixXd half = lower_.triangularView<Eigen::Lower>().solve(cross);
   const double shared = SharedGrowth(growth, growth);
@@ -130,7 +130,7 @@ Predictions FidelityProcess::Predict(const Eigen::MatrixXd& points, double growt
 }
 
 FidelityProcess::Bridge FidelityProcess::BridgeAt(const FidelityPoint& at) const {
-  const Eigen::MatrixXd warped = BendAll(at.x, state_.hyper.warp);
+  const Eigen::MatrixXd warped = WarpAll(at.x, state_.hyper.warp);
   const auto lower = lower_.triangularView<Eigen::Lower>();
   const Eigen::VectorXd fine = lower.solve(Cross(warped, 0));
   const Eigen::VectorXd coarse = lower.solve(Cross(warped, at.growth));

@@ -5,8 +5,8 @@
 // h height, s width of the edge [px]. From the sums over a column, exact for s ≳ 0.5 px well inside
 // the image:
 //   Σ pixel = h          Σ pixel (1 - pixel) = s / √π
-// An average of silhouettes is grey where they differ, so s is mostly their scatter. Heights are
-// smooth functions of the parameters where pixels jump from black to white.
+// An average of silhouettes is grey where they differ, so s is mostly their standard deviation.
+// Heights are smooth functions of the parameters where pixels jump from black to white.
 #pragma once
 
 #include <Eigen/Core>

@@ -19,7 +19,7 @@ class FieldCode {
   virtual Eigen::VectorXd Encode(std::span<const float> field) const = 0;
   virtual std::vector<float> Decode(const Eigen::VectorXd& vector) const = 0;
 
-  // The mean of images whose vectors scatter about `vector` with this variance of each element.
+  // The mean of images whose vectors are normal about `vector` with this variance of each element.
   virtual Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
                                        const Eigen::VectorXd& variance) const = 0;
 

@@ -3,29 +3,29 @@
 #include <algorithm>
 #include <utility>
 
-#include "surrogate/spread.h"
+#include "surrogate/standard_deviation.h"
 
 namespace talus::surrogate {
 namespace {
 
-// The strongest mode left out is nearly all scatter, and one evaluation scatters about as much
-// along every mode, somewhat more along the strong ones. Without this the weak modes, seen a few
-// times, pass for signal.
+// The strongest mode left out is nearly all noise, and the noise of one evaluation is about the
+// same along every mode, somewhat larger along the strong ones. Without this prior the weak modes,
+// seen a few times, pass for signal.
 LogNormal NoisePrior(double next_sd, const Eigen::VectorXd& coefficients) {
   constexpr double kStronger = 1.5;
-  // Of the spread. Scatter may also be of few dimensions, all of them among the modes kept; and a
-  // mode is kept for some signal.
+  // Shares of the standard deviation of the coefficients. Noise may also have few dimensions, all
+  // of them among the modes kept; and a mode is kept for some signal.
   constexpr double kLeast = 0.1;
   constexpr double kMost = 0.8;
   constexpr double kLogSd = 0.7;
-  const double expected = kStronger * next_sd / Spread(coefficients);
+  const double expected = kStronger * next_sd / StandardDeviation(coefficients);
   return {.median = std::clamp(expected, kLeast, kMost), .log_sd = kLogSd};
 }
 
 // A state for a weak mode: the correlation of a stronger one at its own scale.
 GaussianProcessState Rescaled(GaussianProcessState state, const Eigen::VectorXd& values) {
   state.centre = values.mean();
-  state.scale = Spread(values);
+  state.scale = StandardDeviation(values);
   if (!(state.scale > 0)) state.scale = 1;
   return state;
 }

@@ -53,7 +53,7 @@ class ModeProcess {
 
   void Add(const Eigen::VectorXd& x, const Eigen::VectorXd& vector);
 
-  // What one evaluation scatters by: of each mode; of each element, by all modes and by what they
+  // Noise variance of one evaluation: of each mode; of each element, by all modes and by what they
   // leave out.
   Eigen::VectorXd ModeNoise() const;
   Eigen::VectorXd ElementNoise() const;

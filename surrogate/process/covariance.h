@@ -6,7 +6,7 @@
 // p and p² are the kernels of a linear and of a full quadratic polynomial; t = 0 is the constant
 // trend. ℓ correlation lengths [-], s signal, t trend, n noise, c constant: standard deviations in
 // units of the scaled values (GaussianProcess scales them to mean 0, standard deviation 1). x are
-// bent coordinates (warp.h) where there are bends; GaussianProcess bends them.
+// warped coordinates (warp.h) where there is input warping; GaussianProcess warps them.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct Hyperparameters {
   double signal = 1;            // s
   double trend = 0;             // t
   double noise = 0;             // n, of one evaluation
-  Eigen::VectorXd bend = {};    // of each coordinate (warp.h); empty: none
+  Eigen::VectorXd warp = {};    // strength of each coordinate (warp.h); empty: none
 };
 
 // c: wide enough that the mean of the values costs nothing, since they are scaled to mean 0.

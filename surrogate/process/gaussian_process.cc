@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "surrogate/process/map_fit.h"
 #include "surrogate/process/warp.h"
-#include "surrogate/spread.h"
+#include "surrogate/standard_deviation.h"
 
 namespace talus::surrogate {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 // Mean and standard deviation of the values, with a standard deviation that is safe to divide by.
 GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
   const double centre = values.mean();
-  const double sd = Spread(values);
+  const double sd = StandardDeviation(values);
   const bool constant = !(sd > 1e-12 * std::abs(centre)) || sd == 0;
   return {
       .hyper = {}, .centre = centre, .scale = constant ? std::max(1e-12, std::abs(centre)) : sd};
@@ -36,7 +36,7 @@ GaussianProcess GaussianProcess::Fit(const Eigen::MatrixXd& points, const Eigen:
                            .free_trend = options.trend == Trend::kQuadratic,
                            .free_noise = !options.deterministic,
                            .fixed_noise = std::sqrt(options.noise_floor),
-                           .free_bend = options.bend_inputs};
+                           .free_warp = options.warp_inputs};
   double log_prior = 0;
   if (!options.frozen) {
     const MapFit fit = FitHyperparameters(data, layout, options);
@@ -54,13 +54,13 @@ GaussianProcess::GaussianProcess(PooledData data, GaussianProcessState state, Ke
 }
 
 Eigen::MatrixXd GaussianProcess::Columns(const Eigen::MatrixXd& points) const {
-  return BendAll(points.transpose(), state_.hyper.bend);
+  return WarpAll(points.transpose(), state_.hyper.warp);
 }
 
 void GaussianProcess::Factorise() {
-  bent_ = BendAll(data_.points, state_.hyper.bend);
+  warped_ = WarpAll(data_.points, state_.hyper.warp);
   PooledData seen = data_;
-  seen.points = bent_;
+  seen.points = warped_;
   Eigen::MatrixXd k = NoisyCovariance(covariance_, seen);
   Eigen::LLT<Eigen::MatrixXd> factor(k);
   const double largest = k.diagonal().maxCoeff();
@@ -85,7 +85,7 @@ void GaussianProcess::Add(const Eigen::VectorXd& x, double value) {
   }
 }
 
-double GaussianProcess::Believe(const Eigen::VectorXd& x) {
+double GaussianProcess::AddFantasy(const Eigen::VectorXd& x) {
   const double mean = Predict(x).mean;
   Add(x, mean);
   return mean;
@@ -94,18 +94,18 @@ double GaussianProcess::Believe(const Eigen::VectorXd& x) {
 // Rank one: the new last row of L is (L⁻¹ k, √(k(x, x) + n² - |L⁻¹ k|²)).
 void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
   const Eigen::Index size = lower_.rows();
-  const Eigen::VectorXd bent = Columns(x.transpose());
-  const Eigen::MatrixXd k = covariance_.Between(bent_, bent);
+  const Eigen::VectorXd warped = Columns(x.transpose());
+  const Eigen::MatrixXd k = covariance_.Between(warped_, warped);
   const Eigen::VectorXd row = lower_.triangularView<Eigen::Lower>().solve(k.col(0));
   const double noise2 = state_.hyper.noise * state_.hyper.noise;
-  const double prior = covariance_.At(bent.data(), bent.data());
+  const double prior = covariance_.At(warped.data(), warped.data());
   const double pivot = prior + noise2 + jitter_ - row.squaredNorm();
   if (!(pivot > 0)) {
     Factorise();
     return;
   }
-  bent_.conservativeResize(Eigen::NoChange, size + 1);
-  bent_.col(size) = bent;
+  warped_.conservativeResize(Eigen::NoChange, size + 1);
+  warped_.col(size) = warped;
   lower_.conservativeResize(size + 1, size + 1);
   lower_.col(size).setZero();
   lower_.row(size).head(size) = row;
@@ -115,17 +115,17 @@ void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
 }
 
 Prediction GaussianProcess::Predict(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd bent = Columns(x.transpose());
-  const Eigen::VectorXd k = covariance_.Between(bent_, bent).col(0);
+  const Eigen::VectorXd warped = Columns(x.transpose());
+  const Eigen::VectorXd k = covariance_.Between(warped_, warped).col(0);
   const Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
-  const double variance = covariance_.At(bent.data(), bent.data()) - v.squaredNorm();
+  const double variance = covariance_.At(warped.data(), warped.data()) - v.squaredNorm();
   return {.mean = state_.centre + state_.scale * k.dot(alpha_),
           .variance = state_.scale * state_.scale * std::max(0.0, variance)};
 }
 
 Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
   const Eigen::MatrixXd columns = Columns(points);
-  Eigen::MatrixXd k = covariance_.Between(bent_, columns);
+  Eigen::MatrixXd k = covariance_.Between(warped_, columns);
   Predictions result;
   result.mean = state_.centre + state_.scale * (k.transpose() * alpha_).array();
   lower_.triangularView<Eigen::Lower>().solveInPlace(k);
@@ -137,20 +137,20 @@ Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
 }
 
 PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd bent = Columns(x.transpose());
-  const Eigen::VectorXd k = covariance_.Between(bent_, bent).col(0);
-  const Eigen::MatrixXd slope = covariance_.Gradient(bent, bent_);  // d × u
+  const Eigen::VectorXd warped = Columns(x.transpose());
+  const Eigen::VectorXd k = covariance_.Between(warped_, warped).col(0);
+  const Eigen::MatrixXd slope = covariance_.Gradient(warped, warped_);  // d × u
   Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
-  const double variance = covariance_.At(bent.data(), bent.data()) - v.squaredNorm();
+  const double variance = covariance_.At(warped.data(), warped.data()) - v.squaredNorm();
   lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(v);  // now K⁻¹ k
   PredictionGradient result;
   const double scale2 = state_.scale * state_.scale;
   result.value = {.mean = state_.centre + state_.scale * k.dot(alpha_),
                   .variance = scale2 * std::max(0.0, variance)};
   result.mean = state_.scale * (slope * alpha_);
-  result.variance = scale2 * (covariance_.DiagonalGradient(bent) - 2 * (slope * v));
-  for (Eigen::Index i = 0; i < state_.hyper.bend.size(); ++i) {  // from d/dw to d/dx
-    const double factor = BendAt(x[i], state_.hyper.bend[i]).slope;
+  result.variance = scale2 * (covariance_.DiagonalGradient(warped) - 2 * (slope * v));
+  for (Eigen::Index i = 0; i < state_.hyper.warp.size(); ++i) {  // from d/dw to d/dx
+    const double factor = WarpAt(x[i], state_.hyper.warp[i]).slope;
     result.mean[i] *= factor;
     result.variance[i] *= factor;
   }
@@ -160,7 +160,7 @@ PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x
 Eigen::MatrixXd GaussianProcess::Draw(const Eigen::MatrixXd& points, int num_draws,
                                       base::Random random) const {
   const Eigen::MatrixXd columns = Columns(points);
-  Eigen::MatrixXd v = covariance_.Between(bent_, columns);
+  Eigen::MatrixXd v = covariance_.Between(warped_, columns);
   const Eigen::VectorXd mean = v.transpose() * alpha_;
   lower_.triangularView<Eigen::Lower>().solveInPlace(v);
   Eigen::MatrixXd posterior = covariance_.Between(columns, columns) - v.transpose() * v;
@@ -194,7 +194,7 @@ double GaussianProcess::LogLikelihood() const {
   const auto size = static_cast<double>(data_.values.size());
   return -0.5 * data_.values.dot(alpha_) - lower_.diagonal().array().log().sum() -
          0.5 * size * std::log(2 * std::numbers::pi) +
-         ScatterTerm(data_, state_.hyper.noise * state_.hyper.noise) -
+         PoolingTerm(data_, state_.hyper.noise * state_.hyper.noise) -
          static_cast<double>(data_.num_values) * std::log(state_.scale);
 }
 

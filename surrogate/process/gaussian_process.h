@@ -3,7 +3,7 @@
 //   mean(x) = b + a kᵀ K⁻¹ y,   variance(x) = a² (k(x, x) - kᵀ K⁻¹ k),   y = (values - b) / a
 //
 // b, a: mean and standard deviation of the values; k, K: covariance.h, likelihood.h. The variance
-// is that of the mean function; one evaluation scatters by noise_variance() on top of it.
+// is that of the mean function; one evaluation has noise_variance() on top of it.
 // Replicates are pooled exactly. Hyper-parameters by maximum a posteriori from several starts,
 // unless frozen. Points have one point a row, as everywhere outside this folder.
 #pragma once
@@ -29,7 +29,7 @@ struct GaussianProcessState {
 struct GaussianProcessOptions {
   Kernel kernel = Kernel::kMatern52;
   Trend trend = Trend::kConstant;
-  bool bend_inputs = false;    // infer a bend of each coordinate (warp.h)
+  bool warp_inputs = false;    // infer an input warping of each coordinate (warp.h)
   bool deterministic = false;  // the same point always gives the same value: noise = floor
   double noise_floor = 1e-8;   // least noise variance / variance of the values, > 0
   HyperPriors priors = {};
@@ -76,8 +76,8 @@ class GaussianProcess {
 
   // Adds one evaluation in O(n²); hyper-parameters, centre and scale stay.
   void Add(const Eigen::VectorXd& x, double value);
-  // Takes the prediction at x for an evaluation, and says what it is (the kriging believer).
-  double Believe(const Eigen::VectorXd& x);
+  // Adds the prediction at x as if it were an evaluation, and returns it (the kriging believer).
+  double AddFantasy(const Eigen::VectorXd& x);
 
   double noise_variance() const;  // of one evaluation
   double LogLikelihood() const;   // of the values, in their own units
@@ -90,12 +90,12 @@ class GaussianProcess {
 
  private:
   GaussianProcess(PooledData data, GaussianProcessState state, Kernel kernel);
-  Eigen::MatrixXd Columns(const Eigen::MatrixXd& points) const;  // bent, one a column
+  Eigen::MatrixXd Columns(const Eigen::MatrixXd& points) const;  // warped, one a column
   void Factorise();
   void AppendRow(const Eigen::VectorXd& x);
 
-  PooledData data_;       // values scaled
-  Eigen::MatrixXd bent_;  // points as the covariance sees them, d × u
+  PooledData data_;         // values scaled
+  Eigen::MatrixXd warped_;  // points as the covariance sees them, d × u
   GaussianProcessState state_;
   Covariance covariance_;
   Eigen::MatrixXd lower_;  // L, K = L Lᵀ; only the lower triangle is meant

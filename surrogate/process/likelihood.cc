@@ -13,11 +13,11 @@ namespace {
 const double kLog2Pi = std::log(2 * std::numbers::pi);
 
 // dw/dc of every coordinate of every point.
-Eigen::MatrixXd BendSlopes(const Eigen::MatrixXd& points, const Eigen::VectorXd& bends) {
+Eigen::MatrixXd WarpSlopes(const Eigen::MatrixXd& points, const Eigen::VectorXd& strengths) {
   Eigen::MatrixXd slopes(points.rows(), points.cols());
   for (Eigen::Index j = 0; j < points.cols(); ++j) {
     for (Eigen::Index k = 0; k < points.rows(); ++k) {
-      slopes(k, j) = BendAt(points(k, j), bends[k]).bend_slope;
+      slopes(k, j) = WarpAt(points(k, j), strengths[k]).warp_slope;
     }
   }
   return slopes;
@@ -26,11 +26,11 @@ Eigen::MatrixXd BendSlopes(const Eigen::MatrixXd& points, const Eigen::VectorXd&
 // ½ Σᵢⱼ Wᵢⱼ ∂Kᵢⱼ/∂θ for symmetric W, over the pairs i < j twice and the diagonal once.
 class TraceSum {
  public:
-  // `data` with bent points; `bend_slopes` of the points before, empty without bends.
-  TraceSum(const PooledData& data, Eigen::MatrixXd bend_slopes, Kernel kernel,
+  // `data` with warped points; `warp_slopes` of the points before, empty without input warping.
+  TraceSum(const PooledData& data, Eigen::MatrixXd warp_slopes, Kernel kernel,
            const Hyperparameters& hyper, const HyperLayout& layout)
       : data_(data),
-        bend_slopes_(std::move(bend_slopes)),
+        warp_slopes_(std::move(warp_slopes)),
         kernel_(kernel),
         hyper_(hyper),
         layout_(layout) {
@@ -72,7 +72,7 @@ class TraceSum {
     if (layout_.free_trend) {
       sum[layout_.trend_index()] += 2 * weight * hyper_.trend * hyper_.trend * (p + p * p);
     }
-    if (layout_.free_bend) {
+    if (layout_.free_warp) {
       AddBends(i, j, {signal2 * rho.slope, weight * hyper_.trend * hyper_.trend * (1 + 2 * p)},
                sum);
     }
@@ -87,16 +87,16 @@ class TraceSum {
     for (Eigen::Index k = 0; k < layout_.dimension; ++k) {
       const double a = data_.points(k, i);
       const double b = data_.points(k, j);
-      const double da = bend_slopes_(k, i);
-      const double db = bend_slopes_(k, j);
+      const double da = warp_slopes_(k, i);
+      const double db = warp_slopes_(k, j);
       const double dq = 2 * (a - b) * (da - db) * inverse_length_[k] * inverse_length_[k];
       const double dp = 2 * da * (2 * b - 1) + 2 * db * (2 * a - 1);
-      sum[layout_.bend_index() + k] += slope.q * dq + slope.p * dp;
+      sum[layout_.warp_index() + k] += slope.q * dq + slope.p * dp;
     }
   }
 
   const PooledData& data_;
-  Eigen::MatrixXd bend_slopes_;
+  Eigen::MatrixXd warp_slopes_;
   Kernel kernel_;
   const Hyperparameters& hyper_;
   const HyperLayout& layout_;
@@ -112,7 +112,7 @@ Hyperparameters HyperLayout::Unpack(const Eigen::VectorXd& theta) const {
   hyper.signal = std::exp(theta[dimension]);
   hyper.trend = free_trend ? std::exp(theta[trend_index()]) : 0;
   hyper.noise = free_noise ? std::exp(theta[noise_index()]) : fixed_noise;
-  if (free_bend) hyper.bend = theta.tail(dimension);
+  if (free_warp) hyper.warp = theta.tail(dimension);
   return hyper;
 }
 
@@ -122,7 +122,7 @@ Eigen::VectorXd HyperLayout::Pack(const Hyperparameters& hyper) const {
   theta[dimension] = std::log(hyper.signal);
   if (free_trend) theta[trend_index()] = std::log(hyper.trend);
   if (free_noise) theta[noise_index()] = std::log(hyper.noise);
-  if (free_bend) theta.tail(dimension) = hyper.bend;
+  if (free_warp) theta.tail(dimension) = hyper.warp;
   return theta;
 }
 
@@ -139,19 +139,19 @@ Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& 
   return k.selfadjointView<Eigen::Lower>();
 }
 
-double ScatterTerm(const PooledData& data, double noise_variance) {
+double PoolingTerm(const PooledData& data, double noise_variance) {
   const auto num_extra = static_cast<double>(data.num_values - data.values.size());
   if (num_extra == 0) return 0;
-  return -0.5 * (num_extra * (kLog2Pi + std::log(noise_variance)) + data.scatter / noise_variance +
-                 data.counts.array().log().sum());
+  return -0.5 * (num_extra * (kLog2Pi + std::log(noise_variance)) +
+                 data.sum_of_squares / noise_variance + data.counts.array().log().sum());
 }
 
 double LogLikelihood(const PooledData& raw, Kernel kernel, const HyperLayout& layout,
                      const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
   const Covariance covariance(kernel, layout.Unpack(theta));
-  const Eigen::VectorXd& bend = covariance.hyper().bend;
+  const Eigen::VectorXd& strengths = covariance.hyper().warp;
   PooledData data = raw;
-  data.points = BendAll(raw.points, bend);
+  data.points = WarpAll(raw.points, strengths);
   const Eigen::LLT<Eigen::MatrixXd> factor(NoisyCovariance(covariance, data));
   if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
   const Eigen::VectorXd alpha = factor.solve(data.values);
@@ -162,15 +162,15 @@ double LogLikelihood(const PooledData& raw, Kernel kernel, const HyperLayout& la
     Eigen::MatrixXd w = -factor.solve(Eigen::MatrixXd::Identity(size, size));
     w.noalias() += alpha * alpha.transpose();
     const Eigen::MatrixXd slopes =
-        layout.free_bend ? BendSlopes(raw.points, bend) : Eigen::MatrixXd();
+        layout.free_warp ? WarpSlopes(raw.points, strengths) : Eigen::MatrixXd();
     *gradient = TraceSum(data, slopes, kernel, covariance.hyper(), layout).Of(w);
     if (layout.free_noise) {
       const auto num_extra = static_cast<double>(data.num_values - size);
-      (*gradient)[layout.noise_index()] += data.scatter / noise2 - num_extra;
+      (*gradient)[layout.noise_index()] += data.sum_of_squares / noise2 - num_extra;
     }
   }
   return -0.5 * data.values.dot(alpha) - log_root - 0.5 * static_cast<double>(size) * kLog2Pi +
-         ScatterTerm(data, noise2);
+         PoolingTerm(data, noise2);
 }
 
 Eigen::VectorXd PriorMedian(const HyperPriors& priors, const HyperLayout& layout) {
@@ -178,7 +178,7 @@ Eigen::VectorXd PriorMedian(const HyperPriors& priors, const HyperLayout& layout
                       .signal = priors.signal.median,
                       .trend = priors.trend.median,
                       .noise = priors.noise.median,
-                      .bend = Eigen::VectorXd::Zero(layout.dimension)});
+                      .warp = Eigen::VectorXd::Zero(layout.dimension)});
 }
 
 Eigen::VectorXd PriorSd(const HyperPriors& priors, const HyperLayout& layout) {
@@ -187,7 +187,7 @@ Eigen::VectorXd PriorSd(const HyperPriors& priors, const HyperLayout& layout) {
   sd[layout.dimension] = priors.signal.log_sd;
   if (layout.free_trend) sd[layout.trend_index()] = priors.trend.log_sd;
   if (layout.free_noise) sd[layout.noise_index()] = priors.noise.log_sd;
-  if (layout.free_bend) sd.tail(layout.dimension).setConstant(priors.bend_sd);
+  if (layout.free_warp) sd.tail(layout.dimension).setConstant(priors.warp_sd);
   return sd;
 }
 

@@ -1,11 +1,12 @@
 // How probable the values are under a Gaussian process, as a function of its hyper-parameters, with
 // the analytic gradient.
 //
-//   L = -½ yᵀ K⁻¹ y - ½ ln|K| - (u/2) ln 2π - ½ [(N - u) ln(2π n²) + scatter/n² + Σ ln mᵢ]
+//   L = -½ yᵀ K⁻¹ y - ½ ln|K| - (u/2) ln 2π - ½ [(N - u) ln(2π n²) + S/n² + Σ ln mᵢ]
 //   dL/dθ = ½ tr((α αᵀ - K⁻¹) dK/dθ) + …,   α = K⁻¹ y,   K = k(X, X) + n² diag(1/mᵢ)
 //
-// The bracket is what pooling N values into u points leaves (replicates.h). θ are logarithms of the
-// hyper-parameters, bends themselves, and the prior is normal in θ.
+// The bracket is what pooling N values into u points leaves; S is PooledData::sum_of_squares
+// (replicates.h). θ are logarithms of the hyper-parameters, but warp strengths themselves; the
+// prior is normal in θ.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,30 +28,30 @@ struct HyperPriors {
   LogNormal signal{.median = 1.0, .log_sd = 0.7};
   LogNormal trend{.median = 0.5, .log_sd = 1.0};
   LogNormal noise{.median = 0.1, .log_sd = 1.0};
-  double bend_sd = 1.0;  // bends are normal round 0
+  double warp_sd = 1.0;  // warp strengths are normal about 0
 };
 
-// Which hyper-parameters are free, and how they map to θ = (ln ℓ…, ln s, [ln t], [ln n], [bends]).
+// Which hyper-parameters are free, and how they map to θ = (ln ℓ…, ln s, [ln t], [ln n], [warp]).
 struct HyperLayout {
   Eigen::Index dimension = 0;
   bool free_trend = false;  // else t = 0
   bool free_noise = false;  // else n = fixed_noise
   double fixed_noise = 0;
-  bool free_bend = false;  // else none
+  bool free_warp = false;  // else none
 
-  Eigen::Index size() const { return bend_index() + (free_bend ? dimension : 0); }
+  Eigen::Index size() const { return warp_index() + (free_warp ? dimension : 0); }
   Eigen::Index trend_index() const { return dimension + 1; }
   Eigen::Index noise_index() const { return dimension + 1 + (free_trend ? 1 : 0); }
-  Eigen::Index bend_index() const { return noise_index() + (free_noise ? 1 : 0); }
+  Eigen::Index warp_index() const { return noise_index() + (free_noise ? 1 : 0); }
   Hyperparameters Unpack(const Eigen::VectorXd& theta) const;
   Eigen::VectorXd Pack(const Hyperparameters& hyper) const;
 };
 
-// K = k(X, X) + n² diag(1/m), of points bent already.
+// K = k(X, X) + n² diag(1/m), of points warped already.
 Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& data);
 
 // What pooling leaves of the likelihood, the bracket above: a function of the noise alone.
-double ScatterTerm(const PooledData& data, double noise_variance);
+double PoolingTerm(const PooledData& data, double noise_variance);
 
 // L alone; `gradient`, where not null, gets dL/dθ. Minus infinity where K is not positive definite.
 double LogLikelihood(const PooledData& raw, Kernel kernel, const HyperLayout& layout,

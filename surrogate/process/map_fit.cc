@@ -33,7 +33,7 @@ void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) 
     task.lower[layout.noise_index()] = 0.5 * std::log(noise_floor);
     task.upper[layout.noise_index()] = std::log(3.0);
   }
-  if (layout.free_bend) {
+  if (layout.free_warp) {
     task.lower.tail(layout.dimension).setConstant(-kLargestBend);
     task.upper.tail(layout.dimension).setConstant(kLargestBend);
   }

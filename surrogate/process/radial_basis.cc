@@ -46,7 +46,7 @@ RadialBasis RadialBasis::Fit(const Eigen::MatrixXd& points, const Eigen::VectorX
     lowest = error;
     best = basis;
   }
-  if (std::isinf(lowest)) {  // a single point, or all at one place
+  if (std::isinf(lowest)) {  // a single point, or all at one point
     best.weights_ = Eigen::VectorXd::Zero(values.size());
     best.constant_ = values.mean();
     best.slope_ = Eigen::VectorXd::Zero(points.cols());

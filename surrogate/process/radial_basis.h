@@ -7,7 +7,7 @@
 //   [Pᵀ        0] [c] = [0]      P = [1 X]
 //
 // ρ >= 0 smooths; it is chosen by leave-one-out cross-validation, whose residuals come from the
-// inverse, λᵢ / (A⁻¹)ᵢᵢ, as for a Gaussian process [dubrule1983]. Without scatter the choice is 0,
+// inverse, λᵢ / (A⁻¹)ᵢᵢ, as for a Gaussian process [dubrule1983]. Without noise the choice is 0,
 // which interpolates.
 #pragma once
 

@@ -6,11 +6,11 @@ Eigen::Index AddTo(PooledData& data, const Eigen::VectorXd& point, double value)
   ++data.num_values;
   const Eigen::Index size = data.values.size();
   for (Eigen::Index i = 0; i < size; ++i) {
-    if ((data.points.col(i) - point).lpNorm<Eigen::Infinity>() > kSamePlace) continue;
+    if ((data.points.col(i) - point).lpNorm<Eigen::Infinity>() > kSamePoint) continue;
     const double count = data.counts[i] + 1;
     const double difference = value - data.values[i];
     data.values[i] += difference / count;
-    data.scatter += difference * (value - data.values[i]);  // Welford's update
+    data.sum_of_squares += difference * (value - data.values[i]);  // Welford's update
     data.counts[i] = count;
     return i;
   }

@@ -162,11 +162,38 @@ TEST(ImageFile, Bmp) {
   EXPECT_THROW(DecodeGrayImage(Bmp().substr(0, 500), "half.bmp"), base::ConfigError);
 }
 
+// White is 255, 65535 or any number between, in bytes, big-endian pairs or text with comments.
+std::string Pgm(bool is_text, int white) {
+  const GrayImage ramp = Ramp();
+  std::string bytes =
+      (is_text ? "P2\n# by hand\n37 21\n" : "P5 37 21 ") + std::to_string(white) + "\n";
+  for (const std::uint8_t level : ramp.pixels) {
+    const int sample = (level * white + 127) / 255;
+    if (is_text) {
+      bytes += std::to_string(sample) + " ";
+    } else {
+      if (white > 255) bytes += static_cast<char>(sample >> 8);
+      bytes += static_cast<char>(sample & 255);
+    }
+  }
+  return bytes;
+}
+
+TEST(ImageFile, PgmOfEveryWhite) {
+  for (const bool is_text : {false, true}) {
+    for (const int white : {255, 1023, 65535}) {
+      EXPECT_EQ(DecodeGrayImage(Pgm(is_text, white), "ramp.pgm"), Ramp()) << is_text << white;
+    }
+  }
+  EXPECT_THROW(DecodeGrayImage(Pgm(false, 255).substr(0, 500), "half.pgm"), base::ConfigError);
+  EXPECT_THROW(DecodeGrayImage("P2 1 1 9 10", "bright.pgm"), base::ConfigError);
+}
+
 // Cut anywhere, or with any one byte turned over, a file is an image or an error that names it;
 // with the sanitizers this also shows reads beyond the end.
 TEST(ImageFile, DamagedFilesAreImagesOrErrors) {
   const std::string png = EncodePng(Ramp());
-  for (const std::string& good : {png, Bmp()}) {
+  for (const std::string& good : {png, Bmp(), Pgm(false, 255), Pgm(true, 1023)}) {
     for (std::size_t at = 0; at < good.size(); at += 7) {
       std::string turned = good;
       turned[at] = static_cast<char>(~turned[at]);

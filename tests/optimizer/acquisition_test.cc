@@ -55,7 +55,7 @@ TEST(Acquisition, StaysFiniteAndOrderedWhereImprovementUnderflows) {
   EXPECT_TRUE(std::isfinite(LogExpectedImprovement(1, 0, 0).value));
 }
 
-// Nothing is learnt where the posterior is much sharper than the scatter of an evaluation.
+// Nothing is learnt where the posterior is much sharper than the noise of an evaluation.
 TEST(Acquisition, NoiseTakesTheWorthOutOfWellKnownPlaces) {
   const double known = AugmentedLogExpectedImprovement(0, 0.01, 0, 1).value;
   const double vague = AugmentedLogExpectedImprovement(0, 1, 0, 1).value;

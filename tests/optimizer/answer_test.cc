@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "optimizer/answer/sobol_indices.h"
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 #include "optimizer/models/scalar_model.h"
 
 namespace talus::optimizer {
@@ -115,7 +115,7 @@ TEST(SobolIndices, AConstantDependsOnNothing) {
 
 // The default gradient of a model is by differences: against the process's own, analytic one.
 TEST(ObjectiveModel, DifferencesAgreeWithTheAnalyticGradient) {
-  const Eigen::MatrixXd points = Lattice(20, 3, 1);
+  const Eigen::MatrixXd points = RSequence(20, 3, 1);
   const Eigen::VectorXd values = (points * Eigen::Vector3d(2, 3, 4)).array().sin();
   const auto process = surrogate::GaussianProcess::Fit(points, values, {});
   const TransformedModel model(process);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 #include "optimizer/strategies/make_strategy.h"
 #include "surrogate/images/column_edges.h"
 
@@ -101,7 +101,7 @@ TEST(FieldStrategy, SeesThroughTheScatterOfSingleRuns) {
   for (const Range& range : answer.credible) EXPECT_LE(range.low, range.high);
 }
 
-// One heap as target is off by its own scatter, here as large as an evaluation's. Taken for exact,
+// One heap as target is off by its own noise, here as large as an evaluation's. Taken for exact,
 // the ranges hold the minimum for this target, which is not the truth.
 TEST(FieldStrategy, ATargetOfOneHeapWidensTheRangesUntilTheyHoldTheTruth) {
   FieldObjective objective = SadTo(HeapImage(kTruth, 0.05, 999));
@@ -111,7 +111,7 @@ TEST(FieldStrategy, ATargetOfOneHeapWidensTheRangesUntilTheyHoldTheTruth) {
     const auto strategy = Make(StrategyKind::kField, objective);
     for (int i = 0; i < 30; ++i) {
       const Eigen::VectorXd point =
-          kTruth + 0.3 * (Lattice(30, 2, 1).row(i).transpose().array() - 0.5).matrix();
+          kTruth + 0.3 * (RSequence(30, 2, 1).row(i).transpose().array() - 0.5).matrix();
       const auto field = Noisy(point, static_cast<std::uint64_t>(i));
       strategy->Tell({.point = point, .value = objective.Value(field), .field = field});
     }

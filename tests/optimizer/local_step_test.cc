@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 #include "optimizer/space/neighbours.h"
 
 namespace talus::optimizer {
@@ -25,7 +25,7 @@ double Cone(const Eigen::VectorXd& x) {
 
 template <class Objective>
 History Sampled(const Objective& objective, int count, double reach) {
-  History history{.points = Lattice(count, 3, 1), .values = Eigen::VectorXd(count), .failed = {}};
+  History history{.points = RSequence(count, 3, 1), .values = Eigen::VectorXd(count), .failed = {}};
   history.points = (0.5 + reach * (history.points.array() - 0.5)).matrix();
   for (int i = 0; i < count; ++i) history.values[i] = objective(history.points.row(i));
   return history;
@@ -71,8 +71,8 @@ TEST(LocalStep, StaysWithinTheReachOfTheNeighboursAndTheDomain) {
   EXPECT_TRUE(right.Contains(*inside));
 }
 
-// With the prediction at the first step believed, the next one has more to find elsewhere; were the
-// incumbent still the best evaluation, it would at times land within a hundredth of the reach.
+// With the prediction at the first step fantasised, the next one has more to find elsewhere; were
+// the incumbent still the best evaluation, it would at times land within a hundredth of the reach.
 TEST(LocalStep, KeepsAwayFromPendingPoints) {
   for (int count = 12; count < 30; ++count) {
     const History history = Sampled(CurvedValley, count, 0.4);

@@ -1,4 +1,4 @@
-// No seed fails outright: on a curved valley with scatter, the worst of 20 seeds recommends a
+// No seed fails outright: on a curved valley with noise, the worst of 20 seeds recommends a
 // better point than the median of as many random searches, which take their best evaluation at its
 // word.
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/random.h"
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 
 namespace talus::optimizer {
 namespace {
@@ -64,7 +64,7 @@ TEST(ScalarStrategy, DesignThenOneRepeatOfTheBestThenTheModel) {
   EXPECT_EQ(strategy.Ask(1, {}).at(0).origin, Origin::kModel);
 }
 
-// The incumbent of the second is what the first is believed to give; were it the best evaluation,
+// The incumbent of the second is what the first is fantasised to give; were it the best evaluation,
 // the second would land beside the first, within 1e-3 of it.
 TEST(ScalarStrategy, SpreadsABatch) {
   for (const bool noisy : {false, true}) {
@@ -79,7 +79,7 @@ TEST(ScalarStrategy, SpreadsABatch) {
   }
 }
 
-// A smooth bowl without noise is known to 1e-4 of a range after 40 evaluations; with scatter 0.03,
+// A smooth bowl without noise is known to 1e-4 of a range after 40 evaluations; with noise sd 0.03,
 // a tenth of the bowl's depth at the walls, to the few per cent that the curvature allows.
 TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
   ScalarStrategy exact = Fresh();
@@ -220,8 +220,8 @@ TEST(ScalarStrategy, StopsInWordsOnceTheScatterHidesWhatIsLeft) {
   ASSERT_TRUE(strategy.StopReason());
   EXPECT_GT(evaluations, 18);  // never before twice the design
   EXPECT_LT(evaluations, 120);
-  EXPECT_NE(strategy.StopReason()->find("scatter of one evaluation"), std::string::npos);
-  // The promise of the rule: what was left to gain was within the scatter.
+  EXPECT_NE(strategy.StopReason()->find("noise sd of one evaluation"), std::string::npos);
+  // The promise of the rule: what was left to gain was within the noise.
   EXPECT_LT(Bowl(strategy.Recommend().point) - Bowl(kBottom), 0.03);
 }
 
@@ -232,7 +232,7 @@ TEST(ScalarStrategy, ProposesWithinASecondAfterTwoHundredEvaluations) {
 #endif
   for (const bool noisy : {false, true}) {
     ScalarStrategy strategy = Fresh();
-    const Eigen::MatrixXd points = Lattice(199, 3, 1);
+    const Eigen::MatrixXd points = RSequence(199, 3, 1);
     for (int i = 0; i < 199; ++i) strategy.Tell(Evaluated(points.row(i), noisy, i));
     strategy.Tell(Evaluated(points.row(0), noisy, 199));
     // The first proposal after a resume also makes the thorough fit of a milestone.

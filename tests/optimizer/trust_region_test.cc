@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 
 namespace talus::optimizer {
 namespace {
@@ -13,7 +13,7 @@ double Quadratic(const Eigen::VectorXd& x) {
 }
 
 History Sampled(int count, double reach) {
-  History history{.points = Lattice(count, 3, 1), .values = Eigen::VectorXd(count), .failed = {}};
+  History history{.points = RSequence(count, 3, 1), .values = Eigen::VectorXd(count), .failed = {}};
   history.points = (0.5 + reach * (history.points.array() - 0.5)).matrix();
   for (int i = 0; i < count; ++i) history.values[i] = Quadratic(history.points.row(i));
   return history;

@@ -79,21 +79,21 @@ TEST(GaussianProcess, PredictionsEqualTheDenseFormulaWithReplicatesUnpooled) {
   }
 }
 
-TEST(GaussianProcess, BendingIsFittingAtBentPoints) {
+TEST(GaussianProcess, WarpingIsFittingAtWarpedPoints) {
   const Sample sample = WithReplicates();
   const GaussianProcessState plain = KnownState(0.1);
-  GaussianProcessState bent = plain;
-  bent.hyper.bend = Eigen::Vector3d(-3, 0, 2);
-  const auto bend = [&](const Eigen::MatrixXd& points) -> Eigen::MatrixXd {
-    return BendAll(points.transpose(), bent.hyper.bend).transpose();
+  GaussianProcessState warped = plain;
+  warped.hyper.warp = Eigen::Vector3d(-3, 0, 2);
+  const auto warp = [&](const Eigen::MatrixXd& points) -> Eigen::MatrixXd {
+    return WarpAll(points.transpose(), warped.hyper.warp).transpose();
   };
   auto process =
-      GaussianProcess::Fit(sample.points.topRows(12), sample.values.head(12), {.frozen = bent});
+      GaussianProcess::Fit(sample.points.topRows(12), sample.values.head(12), {.frozen = warped});
   for (int i = 12; i < 16; ++i) process.Add(sample.points.row(i), sample.values[i]);
-  const auto same = GaussianProcess::Fit(bend(sample.points), sample.values, {.frozen = plain});
+  const auto same = GaussianProcess::Fit(warp(sample.points), sample.values, {.frozen = plain});
   const Eigen::MatrixXd places = RandomPoints(10, 3, 4);
   const Predictions here = process.PredictAll(places);
-  const Predictions there = same.PredictAll(bend(places));
+  const Predictions there = same.PredictAll(warp(places));
   EXPECT_LT((here.mean - there.mean).norm(), 1e-10);
   EXPECT_LT((here.variance - there.variance).norm(), 1e-10);
   EXPECT_NEAR(process.LogLikelihood(), same.LogLikelihood(), 1e-8);
@@ -104,8 +104,8 @@ TEST(GaussianProcess, InfersWhichEndOfACoordinateIsStretched) {
   const Eigen::MatrixXd points = RandomPoints(60, 2, 11);
   const Eigen::VectorXd values = points.col(0).array() / (0.1 + points.col(0).array());
   const auto process =
-      GaussianProcess::Fit(points, values, {.bend_inputs = true, .deterministic = true});
-  EXPECT_LT(process.state().hyper.bend[0], -1);  // steep near 0
+      GaussianProcess::Fit(points, values, {.warp_inputs = true, .deterministic = true});
+  EXPECT_LT(process.state().hyper.warp[0], -1);  // steep near 0
 }
 
 TEST(GaussianProcess, PooledLikelihoodIsTheDensityOfAllValues) {

@@ -46,7 +46,7 @@ class Gradients : public testing::TestWithParam<std::tuple<Kernel, Trend, bool>>
  protected:
   Kernel kernel() const { return std::get<0>(GetParam()); }
   Trend trend() const { return std::get<1>(GetParam()); }
-  bool bends() const { return std::get<2>(GetParam()); }
+  bool warps() const { return std::get<2>(GetParam()); }
   double trend_sd() const { return trend() == Trend::kQuadratic ? 0.8 : 0; }
 };
 
@@ -77,7 +77,7 @@ TEST_P(Gradients, LikelihoodAndPriorWithReplicates) {
   const HyperLayout layout{.dimension = 3,
                            .free_trend = trend() == Trend::kQuadratic,
                            .free_noise = true,
-                           .free_bend = bends()};
+                           .free_warp = warps()};
   Eigen::VectorXd theta = PriorMedian({}, layout);
   for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += 0.3 * (k % 3) - 0.4;
   Eigen::VectorXd gradient;
@@ -98,7 +98,7 @@ TEST_P(Gradients, PredictedMeanAndVariance) {
   const Eigen::MatrixXd points = RandomPoints(20, 3, 4);
   const auto process =
       GaussianProcess::Fit(points, 50 + 7 * Waves(points).array(),
-                           {.kernel = kernel(), .trend = trend(), .bend_inputs = bends()});
+                           {.kernel = kernel(), .trend = trend(), .warp_inputs = warps()});
   const Eigen::VectorXd x = RandomPoints(3, 1, 5);
   const PredictionGradient gradient = process.PredictWithGradient(x);
   const auto mean = [&](const Eigen::VectorXd& p) { return process.Predict(p).mean; };
@@ -115,16 +115,16 @@ INSTANTIATE_TEST_SUITE_P(All, Gradients,
                                           testing::Values(Trend::kConstant, Trend::kQuadratic),
                                           testing::Bool()));
 
-// Bends on both sides of the switch to the series at 1e-3; the differences do not step over it.
-TEST(Bend, SlopesAreThoseOfTheMapAndItsEndsStay) {
-  for (const double bend : {-4.0, -1.02e-3, -0.98e-3, 0.0, 0.98e-3, 1.02e-3, 2.5}) {
-    EXPECT_NEAR(BendAt(0, bend).value, 0, 1e-15);
-    EXPECT_NEAR(BendAt(1, bend).value, 1, 1e-15);
-    const Eigen::Vector2d at(0.3, bend);
-    const auto value = [](const Eigen::VectorXd& x) { return BendAt(x[0], x[1]).value; };
+// Strengths on both sides of the switch to the series at 1e-3; the differences do not step over it.
+TEST(Warp, SlopesAreThoseOfTheMapAndItsEndsStay) {
+  for (const double strength : {-4.0, -1.02e-3, -0.98e-3, 0.0, 0.98e-3, 1.02e-3, 2.5}) {
+    EXPECT_NEAR(WarpAt(0, strength).value, 0, 1e-15);
+    EXPECT_NEAR(WarpAt(1, strength).value, 1, 1e-15);
+    const Eigen::Vector2d at(0.3, strength);
+    const auto value = [](const Eigen::VectorXd& x) { return WarpAt(x[0], x[1]).value; };
     const Eigen::VectorXd slopes = Differences(value, at);
-    EXPECT_NEAR(BendAt(0.3, bend).slope, slopes[0], 1e-8) << bend;
-    EXPECT_NEAR(BendAt(0.3, bend).bend_slope, slopes[1], 1e-8) << bend;
+    EXPECT_NEAR(WarpAt(0.3, strength).slope, slopes[0], 1e-8) << strength;
+    EXPECT_NEAR(WarpAt(0.3, strength).warp_slope, slopes[1], 1e-8) << strength;
   }
 }
 

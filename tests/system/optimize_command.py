@@ -1,7 +1,9 @@
 """Stands for somebody else's simulation in optimize_test.cc; the first argument says how it acts."""
 import json
 import math
+import os
 import pathlib
+import signal
 import struct
 import sys
 import zlib
@@ -41,5 +43,20 @@ elif kind == "profile":
     name = f"heap_{p['seed']}.png"
     pathlib.Path(name).write_bytes(png(heap(p["a"], p["b"])))
     print(json.dumps({"profile": name}))
+elif kind == "csv":
+    rows = heap(p["a"], p["b"])
+    number = p.get("seed", 1000003) - 1000003
+    if "kill" in sys.argv and number == 8:
+        os.kill(os.getppid(), signal.SIGKILL)
+    name = f"heap_{number}.csv"
+    pathlib.Path(name).write_text("\n".join(",".join(map(str, row)) for row in rows) + "\n")
+    print(json.dumps({"profile": name}))
+elif kind in ("bowl", "moody"):
+    number = p["seed"] - 1000003
+    moods = ["{}", '{"value": NaN}', '{"value": 1e400}', '{"value": null}', ""]
+    value = json.dumps({"value": (p["a"] - 0.3) ** 2 + (p["b"] - 0.6) ** 2})
+    sensible = kind == "bowl" or number % 6 != 5
+    print(value if sensible else "warning: cold\n" + value if number == 5
+          else moods[number // 6])
 elif kind == "nonsense":
     print("0.25")

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "base/file.h"
@@ -62,26 +63,28 @@ TEST_F(Optimize, FindsTheMinimumOfACommandThatReturnsValuesAndSometimesFails) {
       {"name": "a", "low": 0, "high": 1},
       {"name": "b", "low": 1e-6, "high": 1e-2, "scale": "log"}],
     "evaluations": 25, "workers": 2})");
-  ASSERT_EQ(Talus("problem.json --log log.jsonl --quiet -- " + kCommand + "value"), 0) << errors_;
-  const json result = json::parse(out_);
-  // The function is a bowl of width 1 in a and of a decade in b; 25 evaluations without scatter.
+  ASSERT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "value"), 0) << errors_;
+  const json result = json::parse(base::ReadFile(folder_ / "search/result.json"));
+  // The function is a bowl of width 1 in a and of a decade in b; 25 evaluations without noise.
   EXPECT_NEAR(result["recommended"]["a"], 0.3, 0.02);
   EXPECT_NEAR(std::log10(result["recommended"]["b"].get<double>()), -4, 0.05);
   EXPECT_LE(result["ranges_90"]["a"]["low"], result["recommended"]["a"]);
   EXPECT_GE(result["ranges_90"]["a"]["high"], result["recommended"]["a"]);
   EXPECT_FALSE(result["stopped"].get<std::string>().empty());
   EXPECT_EQ(errors_, "");
-  std::ifstream log(folder_ / "log.jsonl");
-  int num_lines = 0;
-  for (std::string line; std::getline(log, line); ++num_lines) {
+  std::ifstream log(folder_ / "search/evaluations.jsonl");
+  std::set<int> numbers;  // two run at a time: either may end first
+  for (std::string line; std::getline(log, line);) {
     const json evaluation = json::parse(line);
-    EXPECT_EQ(evaluation["evaluation"], num_lines + 1);
+    numbers.insert(evaluation["evaluation"].get<int>());
     const bool failed = evaluation["parameters"]["a"] > 0.9;
     EXPECT_EQ(evaluation.contains("failed"), failed);
     if (!failed) continue;
     EXPECT_THAT(evaluation["failed"].get<std::string>(), HasSubstr("no heap formed"));
   }
-  EXPECT_EQ(num_lines, result["evaluations"]);
+  EXPECT_EQ(numbers.size(), result["evaluations"]);
+  EXPECT_EQ(*numbers.begin(), 1);
+  EXPECT_EQ(*numbers.rbegin(), result["evaluations"]);
 }
 
 TEST_F(Optimize, MeetsATargetImageGivenAsNumbersOrAsAFileTheSameWayTwice) {
@@ -108,18 +111,18 @@ TEST_F(Optimize, MeetsATargetImageGivenAsNumbersOrAsAFileTheSameWayTwice) {
 TEST_F(Optimize, ReportsBadInputWithItsPlaceAndWritesNothing) {
   Write("bad.json", R"({"parameters": [{"name": "seed", "low": 2, "high": 1}],
   "strategy": {"kind": "grit"}, "evaluation": 3, "target": {"profile": "x.png", "field": [[0, 2]]}})");
-  EXPECT_EQ(Talus("bad.json --out result.json -- true"), 2);
+  EXPECT_EQ(Talus("bad.json --out search -- true"), 2);
   for (const char* part :
        {"bad.json:1:", "parameters[0].high", "must not be \"seed\"", "strategy.kind",
         "did you mean \"evaluations\"?", "target.profile", "field[0]: is 2"}) {
     EXPECT_THAT(errors_, HasSubstr(part));
   }
-  EXPECT_FALSE(fs::exists(folder_ / "result.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "search"));
   EXPECT_EQ(Talus("missing.json -- true"), 2);
   EXPECT_THAT(errors_, HasSubstr("missing.json"));
 }
 
-TEST_F(Optimize, ACommandThatMakesNoSenseEndsItWithAReason) {
+TEST_F(Optimize, ACommandThatNeverMakesSenseEndsItWithAReason) {
   Write("problem.json", "{\"parameters\": " + std::string(kUnitSquare) + "}");
   EXPECT_EQ(Talus("problem.json -- no_such_command"), 1);
   EXPECT_THAT(errors_, HasSubstr("cannot be run: no_such_command"));
@@ -129,6 +132,50 @@ TEST_F(Optimize, ACommandThatMakesNoSenseEndsItWithAReason) {
   EXPECT_THAT(errors_, HasSubstr("no \"target\""));
   EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "crash"), 1);
   EXPECT_THAT(errors_, HasSubstr("have all failed, the last with exit status 1"));
+}
+
+// Every sixth evaluation prints a stray line, nothing, NaN, 1e400 or null.
+TEST_F(Optimize, SenselessAnswersAreFailedEvaluations) {
+  Write("problem.json", "{\"evaluations\": 30, \"parameters\": " + std::string(kUnitSquare) + "}");
+  ASSERT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "moody"), 0) << errors_;
+  const json result = json::parse(base::ReadFile(folder_ / "search/result.json"));
+  EXPECT_EQ(result["evaluations"], 30);
+  EXPECT_EQ(result["failed"], 5);
+  EXPECT_THAT(base::ReadFile(folder_ / "search/evaluations.jsonl"),
+              HasSubstr("must be one JSON object and nothing else"));
+  // The bowl of the values; a fifth of the range would be missed if a failure counted as a value.
+  EXPECT_NEAR(result["recommended"]["a"], 0.3, 0.05);
+}
+
+// Killed in the middle of an evaluation and run again, a search of images ends like one that was
+// left alone; so does one whose last line was cut off.
+TEST_F(Optimize, ResumesAfterAKillWithTheSameResult) {
+  ASSERT_EQ(Run("echo '{\"a\": 0.62, \"b\": 0.35}' | " + kCommand + "csv"), 0);
+  Write("problem.json", "{\"target\": " + out_ + ", \"evaluations\": 12, \"workers\": 2" +
+                            ", \"parameters\": " + std::string(kUnitSquare) + "}");
+  ASSERT_EQ(Talus("problem.json --out whole --quiet -- " + kCommand + "csv"), 0) << errors_;
+  ASSERT_EQ(Talus("problem.json --out killed --quiet -- " + kCommand + "csv kill"), 128 + 9);
+  EXPECT_FALSE(fs::exists(folder_ / "killed/result.json"));
+  ASSERT_EQ(Talus("problem.json --out killed -- " + kCommand + "csv"), 0) << errors_;
+  EXPECT_THAT(errors_, HasSubstr("goes on after"));
+  EXPECT_EQ(base::ReadFile(folder_ / "killed/result.json"),
+            base::ReadFile(folder_ / "whole/result.json"));
+  const fs::path log = folder_ / "killed/evaluations.jsonl";
+  fs::resize_file(log, fs::file_size(log) - 20);
+  ASSERT_EQ(Talus("problem.json --out killed --quiet -- " + kCommand + "csv"), 0) << errors_;
+  EXPECT_EQ(base::ReadFile(folder_ / "killed/result.json"),
+            base::ReadFile(folder_ / "whole/result.json"));
+}
+
+TEST_F(Optimize, AFolderOfAnotherProblemIsLeftAlone) {
+  Write("one.json", "{\"evaluations\": 3, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write("two.json",
+        "{\"evaluations\": 3, \"seed\": 2, \"parameters\": " + std::string(kUnitSquare) + "}");
+  ASSERT_EQ(Talus("one.json --out search --quiet -- " + kCommand + "bowl"), 0) << errors_;
+  const std::string before = base::ReadFile(folder_ / "search/evaluations.jsonl");
+  EXPECT_EQ(Talus("two.json --out search --quiet -- " + kCommand + "bowl"), 2);
+  EXPECT_THAT(errors_, HasSubstr("holds a search of another problem"));
+  EXPECT_EQ(base::ReadFile(folder_ / "search/evaluations.jsonl"), before);
 }
 
 }  // namespace

@@ -6,36 +6,18 @@
 
 #include "base/error.h"
 #include "experiments/runners/tool.h"
-#include "imaging/formats/image_file.h"
 
 namespace talus::experiments {
 namespace {
 
-struct Image {
-  std::vector<float> field;
-  int width = 0;
-};
-
-Image FromFile(const std::filesystem::path& path) {
-  const imaging::GrayImage gray = imaging::ReadGrayImage(path);
-  Image image{.field = {}, .width = gray.width};
-  for (const std::uint8_t pixel : gray.pixels) {
-    image.field.push_back(1.0F - static_cast<float>(pixel) / 255.0F);
-  }
-  return image;
-}
-
-Image FromRows(const std::vector<std::vector<double>>& rows) {
-  Image image{.field = {}, .width = static_cast<int>(rows.front().size())};
-  for (const auto& row : rows) {
-    for (const double pixel : row) image.field.push_back(static_cast<float>(pixel));
-  }
-  return image;
-}
-
 std::string Excerpt(const std::string& text) {
   constexpr std::size_t kLongest = 200;
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + " …";
+}
+
+AnswerImage TargetImage(const OptimizeTarget& target) {
+  return target.profile.empty() ? FromRows(target.field, "target.field")
+                                : ReadAnswerImage(target.profile);
 }
 
 }  // namespace
@@ -43,8 +25,7 @@ std::string Excerpt(const std::string& text) {
 Evaluator::Evaluator(const OptimizeProblem& problem, std::vector<std::string> command)
     : problem_(problem), command_(std::move(command)) {
   if (!problem.target) return;
-  Image target = problem.target->profile.empty() ? FromRows(problem.target->field)
-                                                 : FromFile(problem.target->profile);
+  AnswerImage target = TargetImage(*problem.target);
   const auto num_pixels = static_cast<int>(target.field.size());
   field_ = optimizer::FieldObjective{.width = target.width,
                                      .height = num_pixels / target.width,
@@ -71,64 +52,58 @@ Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed) const
     throw base::Error("the command cannot be run: " + Excerpt(result.errors));
   }
   if (result.ok()) {
-    TakeAnswer(result.output, evaluated.observation);
-    return evaluated;
+    const std::string wrong = TakeAnswer(result.output, evaluated.observation);
+    if (wrong.empty()) return evaluated;
+    evaluated.failure = "the command's answer " + wrong + "; it wrote: " + Excerpt(result.output);
+  } else {
+    evaluated.failure =
+        "exit status " + std::to_string(result.status) + ": " + Excerpt(result.errors);
   }
   evaluated.observation.failed = true;
-  evaluated.failure =
-      "exit status " + std::to_string(result.status) + ": " + Excerpt(result.errors);
   return evaluated;
 }
 
-void Evaluator::TakeAnswer(const std::string& output, optimizer::Observation& observation) const {
+std::string Evaluator::TakeAnswer(const std::string& output,
+                                  optimizer::Observation& observation) const {
   const auto answer = nlohmann::json::parse(output, nullptr, false);
-  const auto wrong = [&](const std::string& what) {
-    return base::Error("the command's answer " + what + "; it wrote: " + Excerpt(output));
-  };
   if (!answer.is_object()) {
-    throw wrong(
-        R"(must be one JSON object, {"value": …}, {"profile": "file.png"} or {"field": …})");
+    return R"(must be one JSON object and nothing else, {"value": …}, {"profile": "file.png"} or )"
+           R"({"field": …})";
   }
   if (answer.contains("value")) {
-    if (!answer["value"].is_number()) throw wrong("has a \"value\" that is no number");
+    if (!answer["value"].is_number()) return "has a \"value\" that is no number";
+    if (field_) return "is a \"value\", but the problem has a target image: take one of them away";
     observation.value = answer["value"].get<double>();
-    if (!field_) return;
-    throw wrong("is a \"value\", but the problem has a target image: take one of them away");
+    return "";
   }
-  if (answer.contains("profile") && answer["profile"].is_string()) {
-    Image image = FromFile(answer["profile"].get<std::string>());
-    return TakeImage(output, std::move(image.field), image.width, observation);
-  }
-  if (answer.contains("field") && answer["field"].is_array()) {
-    std::vector<std::vector<double>> rows;
-    try {
-      rows = answer["field"].get<std::vector<std::vector<double>>>();
-    } catch (const nlohmann::json::exception&) {
-      throw wrong("has a \"field\" that is no list of rows of numbers");
+  try {
+    if (answer.contains("profile")) {
+      return TakeImage(ReadAnswerImage(answer["profile"].get<std::string>()), observation);
     }
-    if (rows.empty() || rows.front().empty()) throw wrong("has an empty \"field\"");
-    Image image = FromRows(rows);
-    return TakeImage(output, std::move(image.field), image.width, observation);
+    if (answer.contains("field")) {
+      const auto rows = answer["field"].get<std::vector<std::vector<double>>>();
+      return TakeImage(FromRows(rows, "\"field\""), observation);
+    }
+  } catch (const nlohmann::json::exception&) {
+    return "has a \"profile\" that is no file name or a \"field\" that is no list of rows of "
+           "numbers";
+  } catch (const base::ConfigError& error) {
+    return std::string("has an image that cannot be used: ") + error.what();
   }
-  throw wrong("has neither \"value\", \"profile\" nor \"field\"");
+  return "has neither \"value\", \"profile\" nor \"field\"";
 }
 
-void Evaluator::TakeImage(const std::string& output, std::vector<float> image, int width,
-                          optimizer::Observation& observation) const {
-  if (!field_) {
-    throw base::Error(
-        "the command returns an image, but the problem has no \"target\" to compare "
-        "it with; it wrote: " +
-        Excerpt(output));
+std::string Evaluator::TakeImage(AnswerImage image, optimizer::Observation& observation) const {
+  if (!field_) return "is an image, but the problem has no \"target\" to compare it with";
+  if (image.width != field_->width || image.field.size() != field_->target.size()) {
+    return "is an image of " + std::to_string(image.width) + " columns and " +
+           std::to_string(image.field.size()) + " pixels, the target has " +
+           std::to_string(field_->width) + " and " + std::to_string(field_->target.size()) +
+           ": make them the same size";
   }
-  if (width != field_->width || image.size() != field_->target.size()) {
-    throw base::Error("the command's image has " + std::to_string(width) + " columns and " +
-                      std::to_string(image.size()) + " pixels, the target " +
-                      std::to_string(field_->width) + " and " +
-                      std::to_string(field_->target.size()) + ": make them the same size");
-  }
-  observation.value = field_->Value(image);
-  observation.field = std::move(image);
+  observation.value = field_->Value(image.field);
+  observation.field = std::move(image.field);
+  return "";
 }
 
 }  // namespace talus::experiments

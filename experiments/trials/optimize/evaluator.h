@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/trials/optimize/answer_image.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 #include "optimizer/models/field_objective.h"
 #include "optimizer/strategies/strategy.h"
@@ -30,15 +31,14 @@ class Evaluator {
   // What the command reads: {"mu_t": 0.3, …, "seed": 17}, one line.
   std::string InputOf(const Eigen::VectorXd& point, std::uint64_t seed) const;
 
-  // An exit status other than 0 and the time cap are failures, which are results. Throws
-  // base::Error when the command cannot be run or its answer makes no sense: that no search can
-  // repair.
+  // An exit status other than 0, the time cap and an answer that makes no sense are failures, which
+  // are results. Throws base::Error only when the command cannot be started.
   Evaluated Run(const Eigen::VectorXd& point, std::uint64_t seed) const;
 
  private:
-  void TakeAnswer(const std::string& output, optimizer::Observation& observation) const;
-  void TakeImage(const std::string& output, std::vector<float> image, int width,
-                 optimizer::Observation& observation) const;
+  // What is wrong with the answer, in words; empty when it was taken.
+  std::string TakeAnswer(const std::string& output, optimizer::Observation& observation) const;
+  std::string TakeImage(AnswerImage image, optimizer::Observation& observation) const;
 
   const OptimizeProblem& problem_;
   std::vector<std::string> command_;

@@ -1,7 +1,6 @@
 #include "experiments/trials/optimize/optimize.h"
 
 #include <algorithm>
-#include <fstream>
 #include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,9 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "experiments/trials/optimize/evaluator.h"
+#include "experiments/trials/optimize/optimize_folder.h"
+#include "experiments/trials/optimize/optimize_result_json.h"
+#include "optimizer/space/domain.h"
 
 namespace talus::experiments {
 namespace {
@@ -27,43 +29,74 @@ class Loop {
         evaluator_(problem, command),
         strategy_(optimizer::MakeStrategy(problem.strategy, problem.space.MakeDomain(),
                                           evaluator_.field(), problem.seed)) {
-    if (output.log.empty()) return;
-    log_.open(output.log, std::ios::trunc);
-    if (!log_) throw base::ConfigError(output.log.string() + ": cannot be written");
+    if (!output.folder.empty()) folder_.emplace(output.folder, problem, command);
   }
 
   std::string Run() {
-    std::string stopped;
+    TellRecorded();
+    std::string stopped = num_told() == 0 ? "" : WhyStop(false);
     while (stopped.empty()) {
-      const int left = problem_.evaluations - num_told_;
+      const int left = problem_.evaluations - num_told();
       const auto batch = strategy_->Ask(std::min(problem_.workers, left), {});
       EvaluateAndTell(batch);
       stopped = WhyStop(batch.empty());
     }
-    return Result(stopped).dump(2) + "\n";
+    const std::string result =
+        OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped).dump(2) + "\n";
+    if (folder_) folder_->WriteResult(result);
+    return result;
   }
 
  private:
+  int num_told() const { return tally_.num_evaluations; }
+
   std::string WhyStop(bool nothing_left) {
     if (guard_.Asked() != base::Interrupt::kNone) return "interrupted";
-    if (num_told_ >= problem_.evaluations) return "all evaluations are used";
+    if (num_told() >= problem_.evaluations) return "all evaluations are used";
     if (nothing_left) return "the strategy has no more points";
     return strategy_->StopReason().value_or("");
+  }
+
+  // Whole batches of an earlier run. What there is of the next one is taken when it is asked for.
+  void TellRecorded() {
+    if (!folder_) return;
+    int complete = 0;
+    while (folder_->Recorded(complete + 1)) ++complete;
+    complete = std::min(complete, problem_.evaluations);
+    if (complete < problem_.evaluations) complete -= complete % problem_.workers;
+    for (int number = 1; number <= complete; ++number) Tell(*folder_->Recorded(number));
+    if (folder_->num_recorded() > 0 && !output_.quiet) {
+      std::cerr << output_.folder.string() << ": goes on after " << folder_->num_recorded()
+                << " evaluations" << std::endl;
+    }
+  }
+
+  // From the record of an earlier run, where it has this very point.
+  Evaluated Evaluate(const Eigen::VectorXd& point, int number) {
+    if (folder_) {
+      const auto recorded = folder_->Recorded(number);
+      if (recorded && optimizer::SamePoint(recorded->observation.point, point)) return *recorded;
+    }
+    const Evaluated evaluated =
+        evaluator_.Run(point, problem_.seed * 1000003 + static_cast<std::uint64_t>(number));
+    const int width = evaluator_.field() == nullptr ? 0 : evaluator_.field()->width;
+    if (folder_) folder_->Record(number, evaluated, width);
+    return evaluated;
   }
 
   // Told in the order of asking, whichever ends first, so that a run can be repeated.
   void EvaluateAndTell(const std::vector<optimizer::Proposal>& batch) {
     std::vector<std::future<Evaluated>> running;
     for (const optimizer::Proposal& proposal : batch) {
-      const auto number = static_cast<std::uint64_t>(num_told_) + running.size() + 1;
+      const int number = num_told() + static_cast<int>(running.size()) + 1;
       running.push_back(std::async(std::launch::async, [this, point = proposal.point, number] {
-        return evaluator_.Run(point, problem_.seed * 1000003 + number);
+        return Evaluate(point, number);
       }));
     }
     for (auto& one : running) one.wait();
     for (auto& one : running) Tell(one.get());
-    if (num_told_ >= kHopeless && num_failed_ == num_told_) {
-      throw base::Error("the first " + std::to_string(num_told_) +
+    if (num_told() >= kHopeless && tally_.num_failed == num_told()) {
+      throw base::Error("the first " + std::to_string(num_told()) +
                         " evaluations have all failed, the last with " + last_failure_);
     }
   }
@@ -71,98 +104,30 @@ class Loop {
   void Tell(const Evaluated& evaluated) {
     const optimizer::Observation& observation = evaluated.observation;
     strategy_->Tell(observation);
-    ++num_told_;
+    ++tally_.num_evaluations;
+    json line{{"evaluation", num_told()},
+              {"parameters", NativeParameters(problem_, observation.point)}};
     if (observation.failed) {
-      ++num_failed_;
+      ++tally_.num_failed;
       last_failure_ = evaluated.failure;
-    } else if (num_told_ - num_failed_ == 1 || observation.value < best_value_) {
-      best_value_ = observation.value;
-      best_point_ = observation.point;
-    }
-    json line{{"evaluation", num_told_}, {"parameters", Native(observation.point)}};
-    if (observation.failed) {
       line["failed"] = evaluated.failure;
     } else {
+      if (!tally_.best || observation.value < tally_.best->value) {
+        tally_.best = {.point = observation.point, .value = observation.value};
+      }
       line["value"] = observation.value;
     }
-    if (log_.is_open()) log_ << line.dump() << std::endl;
-    if (!output_.quiet) std::cerr << line.dump() << std::endl;
-  }
-
-  json Native(const Eigen::VectorXd& point) const {
-    json native;
-    const std::vector<double> values = problem_.space.ToNative(point);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      native[problem_.space.parameters[i].name] = values[i];
-    }
-    return native;
-  }
-
-  const optimizer::Parameter& Free(std::size_t i) const {
-    return problem_.space.parameters[static_cast<std::size_t>(problem_.space.Free()[i])];
-  }
-
-  // Strategies know parameters by number only.
-  std::string WithNames(std::string text) const {
-    for (std::size_t i = 0; i < problem_.space.Free().size(); ++i) {
-      const std::string number = "parameter " + std::to_string(i);
-      const auto place = text.find(number);
-      if (place != std::string::npos) text.replace(place, number.size(), Free(i).name);
-    }
-    return text;
-  }
-
-  json PerParameter(const optimizer::Answer& answer) const {
-    json all;
-    for (std::size_t i = 0; i < answer.credible.size(); ++i) {
-      json one;
-      one["low"] = Free(i).ToNative(answer.credible[i].low);
-      one["high"] = Free(i).ToNative(answer.credible[i].high);
-      if (i < answer.sobol_first.size()) one["sobol_first"] = answer.sobol_first[i];
-      if (i < answer.sobol_total.size()) one["sobol_total"] = answer.sobol_total[i];
-      all[Free(i).name] = one;
-    }
-    return all;
-  }
-
-  json Result(const std::string& stopped) {
-    const optimizer::Answer answer = strategy_->Recommend();
-    json result{{"recommended", Native(answer.point)},
-                {"predicted_value", answer.predicted_value},
-                {"predicted_sd", answer.predicted_sd},
-                {"noise_sd", answer.noise_sd},
-                {"ranges_90", PerParameter(answer)}};
-    result["correlation"] = json::array();
-    for (const auto row : answer.correlation.rowwise()) {
-      result["correlation"].push_back(std::vector<double>(row.begin(), row.end()));
-    }
-    result["tied_volume"] = answer.tied_volume;
-    result["tied"] = json::array();
-    for (const Eigen::VectorXd& point : answer.tied) result["tied"].push_back(Native(point));
-    if (num_told_ > num_failed_) {
-      result["best_observed"] = {{"parameters", Native(best_point_)}, {"value", best_value_}};
-    }
-    result["evaluations"] = num_told_;
-    result["failed"] = num_failed_;
-    result["stopped"] = stopped;
-    result["model"] = answer.model;
-    result["warnings"] = json::array();
-    for (const std::string& warning : answer.warnings) {
-      result["warnings"].push_back(WithNames(warning));
-    }
-    return result;
+    if (output_.quiet) return;
+    std::cerr << line.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
   }
 
   const OptimizeProblem& problem_;
   const OptimizeOutput& output_;
   Evaluator evaluator_;
   std::unique_ptr<optimizer::Strategy> strategy_;
-  std::ofstream log_;
+  std::optional<OptimizeFolder> folder_;
   base::InterruptGuard guard_;
-  int num_told_ = 0;
-  int num_failed_ = 0;
-  double best_value_ = 0;
-  Eigen::VectorXd best_point_;
+  SearchTally tally_;
   std::string last_failure_;
 };
 

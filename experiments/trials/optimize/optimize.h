@@ -10,11 +10,13 @@
 namespace talus::experiments {
 
 struct OptimizeOutput {
-  std::filesystem::path log;  // one JSON object a line and evaluation; none when empty
-  bool quiet = false;         // no progress on standard error
+  // Log, images and result; a search that was killed goes on from there. Nothing is kept when
+  // empty.
+  std::filesystem::path folder;
+  bool quiet = false;  // no progress on standard error
 };
 
-// The recommendation as JSON: docs/optimizers.md lists the keys.
+// The recommendation as JSON: docs/optimize.md lists the keys.
 std::string Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
                      const OptimizeOutput& output);
 

@@ -1,4 +1,4 @@
-#include "optimizer/designs/lattice.h"
+#include "optimizer/designs/r_sequence.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace talus::optimizer {
 
-Eigen::MatrixXd Lattice(int num_points, int dimension, std::uint64_t seed) {
+Eigen::MatrixXd RSequence(int num_points, int dimension, std::uint64_t seed) {
   double golden = 2;  // the root of g^(d+1) = g + 1, by fixed-point iteration
   for (int i = 0; i < 40; ++i) golden = std::pow(1 + golden, 1.0 / (dimension + 1));
   base::Random random(seed, base::Stream("lattice"));

@@ -1,7 +1,8 @@
-// Points as the models take them: one a row.
+// Sets of points: as models take them, one a row, and as lists.
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "optimizer/space/domain.h"
 
@@ -10,6 +11,10 @@ namespace talus::optimizer {
 // Those of the rows that the domain contains, in their order.
 Eigen::MatrixXd Inside(const Domain& domain, const Eigen::MatrixXd& points);
 
+// One matrix above the other.
 Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom);
+
+// Whether one of `points` is the same point (domain.h).
+bool IsAmong(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> points);
 
 }  // namespace talus::optimizer

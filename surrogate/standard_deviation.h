@@ -1,4 +1,4 @@
-// How far values lie from their mean.
+// Standard deviation of a set of values.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,8 +6,8 @@
 
 namespace talus::surrogate {
 
-// Standard deviation of the values themselves, as of a whole population. At least one value.
-inline double Spread(const Eigen::VectorXd& values) {
+// Of the whole population: divides by n, not n - 1. At least one value.
+inline double StandardDeviation(const Eigen::VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
 }
 

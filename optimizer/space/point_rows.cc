@@ -1,5 +1,6 @@
-#include "optimizer/space/places.h"
+#include "optimizer/space/point_rows.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace talus::optimizer {
@@ -16,6 +17,11 @@ Eigen::MatrixXd Stack(const Eigen::MatrixXd& top, const Eigen::MatrixXd& bottom)
   Eigen::MatrixXd both(top.rows() + bottom.rows(), bottom.cols());
   both << top, bottom;
   return both;
+}
+
+bool IsAmong(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> points) {
+  return std::any_of(points.begin(), points.end(),
+                     [&](const Eigen::VectorXd& other) { return SamePoint(point, other); });
 }
 
 }  // namespace talus::optimizer

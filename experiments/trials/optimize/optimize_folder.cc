@@ -1,0 +1,161 @@
+#include "experiments/trials/optimize/optimize_folder.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/file_lock.h"
+#include "base/json_writer.h"
+
+namespace talus::experiments {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr const char* kProblem = "problem.json";
+constexpr const char* kLog = "evaluations.jsonl";
+
+int Open(const std::filesystem::path& path, int flags) {
+  const int file = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) throw base::Error(path.string() + ": cannot be written: " + std::strerror(errno));
+  return file;
+}
+
+// What must stay the same for the recorded evaluations to count.
+json Lasting(json problem) {
+  for (const char* key : {"evaluations", "workers", "time_cap", "time_cap_s"}) problem.erase(key);
+  return problem;
+}
+
+std::vector<double> ToList(const Eigen::VectorXd& point) { return {point.begin(), point.end()}; }
+
+}  // namespace
+
+OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem& problem,
+                               const std::vector<std::string>& command)
+    : root_(std::move(root)), problem_(problem) {
+  std::error_code code;
+  std::filesystem::create_directories(root_, code);
+  if (code) {
+    throw base::ConfigError(root_.string() + ": cannot be made a folder: " + code.message());
+  }
+  lock_ = Open(root_ / "optimize.lock", O_RDWR);
+  constexpr std::chrono::milliseconds kPatience{2000};
+  constexpr std::chrono::milliseconds kPause{50};
+  if (!base::LockWithin(lock_, kPatience, kPause)) {
+    ::close(lock_);
+    throw base::Error(root_.string() +
+                      ": another process works on this search; end it first, or wait");
+  }
+  CheckProblem(command);
+  Load();
+  log_ = Open(root_ / kLog, O_WRONLY | O_APPEND);
+}
+
+OptimizeFolder::~OptimizeFolder() {
+  if (log_ >= 0) ::close(log_);
+  ::close(lock_);
+}
+
+void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
+  const std::filesystem::path path = root_ / kProblem;
+  const json now = base::ToJson(problem_);
+  if (std::filesystem::exists(path)) {
+    const json before = json::parse(base::ReadFile(path), nullptr, false);
+    if (before.is_discarded() || !before.contains("problem")) {
+      throw base::ConfigError(path.string() + ": is damaged; give another folder as --out");
+    }
+    if (Lasting(before["problem"]) != Lasting(now)) {
+      throw base::ConfigError(root_.string() +
+                              ": holds a search of another problem (see its problem.json); only "
+                              "evaluations, workers and time_cap may change. Give another folder "
+                              "as --out");
+    }
+  }
+  base::WriteFileAtomically(path, json{{"problem", now}, {"command", command}}.dump(2) + "\n");
+}
+
+std::filesystem::path OptimizeFolder::ImagePath(int number) const {
+  char name[32];
+  std::snprintf(name, sizeof name, "%04d.csv", number);
+  return root_ / "images" / name;
+}
+
+// A line that a kill has cut off is no evaluation: it is taken away, and made again.
+void OptimizeFolder::Load() {
+  const std::filesystem::path path = root_ / kLog;
+  if (!std::filesystem::exists(path)) return;
+  const std::string text = base::ReadFile(path);
+  const std::size_t complete = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
+  int line_number = 0;
+  for (std::size_t start = 0; start < complete;) {
+    const std::size_t end = text.find('\n', start);
+    ++line_number;
+    const auto line = json::parse(text.substr(start, end - start), nullptr, false);
+    start = end + 1;
+    if (!line.is_object() || !line.contains("evaluation") || !line.contains("point")) {
+      throw base::ConfigError(path.string() + ":" + std::to_string(line_number) +
+                              ": is no evaluation; take the line away, it will be made again");
+    }
+    const int number = line["evaluation"].get<int>();
+    const auto point = line["point"].get<std::vector<double>>();
+    Evaluated evaluated;
+    evaluated.observation.point =
+        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    evaluated.observation.failed = line.contains("failed");
+    if (evaluated.observation.failed) {
+      evaluated.failure = line["failed"].get<std::string>();
+    } else {
+      evaluated.observation.value = line.value("value", 0.0);
+      if (problem_.target) {
+        evaluated.observation.field = ReadAnswerImage(ImagePath(number)).field;
+      }
+    }
+    recorded_.insert_or_assign(number, std::move(evaluated));
+  }
+  if (complete < text.size()) std::filesystem::resize_file(path, complete);
+}
+
+std::optional<Evaluated> OptimizeFolder::Recorded(int number) const {
+  const auto found = recorded_.find(number);
+  return found == recorded_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_width) {
+  const optimizer::Observation& observation = evaluated.observation;
+  json native;
+  const std::vector<double> values = problem_.space.ToNative(observation.point);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    native[problem_.space.parameters[i].name] = values[i];
+  }
+  json line{{"evaluation", number}, {"parameters", native}, {"point", ToList(observation.point)}};
+  if (observation.failed) {
+    line["failed"] = evaluated.failure;
+  } else {
+    line["value"] = observation.value;
+  }
+  if (!observation.field.empty()) {
+    std::filesystem::create_directories(root_ / "images");
+    base::WriteFileAtomically(ImagePath(number), ToCsv(observation.field, image_width),
+                              base::Outlives::kProgram);
+  }
+  const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::lock_guard guard(writing_);
+  if (::write(log_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    throw base::Error((root_ / kLog).string() + ": cannot be written: " + std::strerror(errno));
+  }
+}
+
+void OptimizeFolder::WriteResult(const std::string& json) const {
+  base::WriteFileAtomically(root_ / "result.json", json);
+}
+
+}  // namespace talus::experiments

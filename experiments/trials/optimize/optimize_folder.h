@@ -1,0 +1,53 @@
+// The folder of a search by `talus optimize`: what makes it resume where it was killed.
+//
+//   problem.json        the problem and the command, as they were read
+//   evaluations.jsonl   one line an evaluation, written when it ends
+//   images/0007.csv     the image of evaluation 7, where the command returns images
+//   result.json         the recommendation, when the search has ended
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/trials/optimize/evaluator.h"
+
+namespace talus::experiments {
+
+class OptimizeFolder {
+ public:
+  // Makes the folder, or takes over one of the same problem; `evaluations`, `workers` and
+  // `time_cap` may differ. Throws base::ConfigError where the problem is another one or files are
+  // damaged, and base::Error while another process works in it.
+  OptimizeFolder(std::filesystem::path root, const OptimizeProblem& problem,
+                 const std::vector<std::string>& command);
+  OptimizeFolder(const OptimizeFolder&) = delete;
+  OptimizeFolder& operator=(const OptimizeFolder&) = delete;
+  ~OptimizeFolder();
+
+  // Evaluation `number`, from 1, if it ended in an earlier run.
+  std::optional<Evaluated> Recorded(int number) const;
+  int num_recorded() const { return static_cast<int>(recorded_.size()); }
+
+  // Safe from several threads. The line is there, complete, when this returns.
+  void Record(int number, const Evaluated& evaluated, int image_width);
+
+  void WriteResult(const std::string& json) const;
+
+ private:
+  std::filesystem::path ImagePath(int number) const;
+  void CheckProblem(const std::vector<std::string>& command) const;
+  void Load();
+
+  std::filesystem::path root_;
+  const OptimizeProblem& problem_;
+  std::map<int, Evaluated> recorded_;
+  std::mutex writing_;
+  int lock_ = -1;
+  int log_ = -1;
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,80 @@
+#include "experiments/trials/optimize/optimize_result_json.h"
+
+#include <vector>
+
+namespace talus::experiments {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+const optimizer::Parameter& Free(const OptimizeProblem& problem, std::size_t i) {
+  return problem.space.parameters[static_cast<std::size_t>(problem.space.Free()[i])];
+}
+
+// Strategies know parameters by number only.
+std::string WithNames(const OptimizeProblem& problem, std::string text) {
+  for (std::size_t i = 0; i < problem.space.Free().size(); ++i) {
+    const std::string number = "parameter " + std::to_string(i);
+    const auto at = text.find(number);
+    if (at != std::string::npos) text.replace(at, number.size(), Free(problem, i).name);
+  }
+  return text;
+}
+
+json PerParameter(const OptimizeProblem& problem, const optimizer::Answer& answer) {
+  json all;
+  for (std::size_t i = 0; i < answer.credible.size(); ++i) {
+    const optimizer::Parameter& parameter = Free(problem, i);
+    json one;
+    one["low"] = parameter.ToNative(answer.credible[i].low);
+    one["high"] = parameter.ToNative(answer.credible[i].high);
+    if (i < answer.sobol_first.size()) one["sobol_first"] = answer.sobol_first[i];
+    if (i < answer.sobol_total.size()) one["sobol_total"] = answer.sobol_total[i];
+    all[parameter.name] = one;
+  }
+  return all;
+}
+
+}  // namespace
+
+json NativeParameters(const OptimizeProblem& problem, const Eigen::VectorXd& point) {
+  json native;
+  const std::vector<double> values = problem.space.ToNative(point);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    native[problem.space.parameters[i].name] = values[i];
+  }
+  return native;
+}
+
+json OptimizeResult(const OptimizeProblem& problem, const optimizer::Answer& answer,
+                    const SearchTally& tally, const std::string& stopped) {
+  json result{{"recommended", NativeParameters(problem, answer.point)},
+              {"predicted_value", answer.predicted_value},
+              {"predicted_sd", answer.predicted_sd},
+              {"noise_sd", answer.noise_sd},
+              {"ranges_90", PerParameter(problem, answer)}};
+  result["correlation"] = json::array();
+  for (const auto row : answer.correlation.rowwise()) {
+    result["correlation"].push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  result["tied_volume"] = answer.tied_volume;
+  result["tied"] = json::array();
+  for (const Eigen::VectorXd& point : answer.tied) {
+    result["tied"].push_back(NativeParameters(problem, point));
+  }
+  if (tally.best) {
+    result["best_observed"] = {{"parameters", NativeParameters(problem, tally.best->point)},
+                               {"value", tally.best->value}};
+  }
+  result["evaluations"] = tally.num_evaluations;
+  result["failed"] = tally.num_failed;
+  result["stopped"] = stopped;
+  result["model"] = answer.model;
+  result["warnings"] = json::array();
+  for (const std::string& warning : answer.warnings) {
+    result["warnings"].push_back(WithNames(problem, warning));
+  }
+  return result;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,122 @@
+#include "optimizer/strategies/scalar_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "optimizer/acquisition/local_step.h"
+#include "optimizer/acquisition/model_step.h"
+#include "optimizer/acquisition/step_choice.h"
+#include "optimizer/acquisition/trust_region.h"
+#include "optimizer/answer/answer.h"
+#include "optimizer/answer/words.h"
+#include "optimizer/strategies/best_observed.h"
+
+namespace talus::optimizer {
+namespace {
+
+// Below this probability that an evaluation works, no step near the best point is taken.
+constexpr double kSafe = 0.7;
+
+ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, std::uint64_t seed) {
+  const Eigen::VectorXd mean = model.Means(record.history().points);
+  return {.model = model,
+          .feasibility = record.feasibility(),
+          .domain = record.domain(),
+          .points = record.history().points,
+          .failure_cost = mean.maxCoeff() - mean.minCoeff(),
+          .searches = {},
+          .seed = seed};
+}
+
+// A step near the best point, where the next one is to be one; not a failing or evaluated point.
+std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
+                                        std::span<const Eigen::VectorXd> asked) {
+  const History& history = record.history();
+  std::optional<Eigen::VectorXd> step;
+  switch (NextStep(history.values, record.design_size() + 1, static_cast<int>(asked.size()))) {
+    case Step::kGlobal:
+      break;
+    case Step::kQuadratic:
+      step = TrustRegionStep(history, record.domain());
+      break;
+    case Step::kLocal:
+      step = LocalStep(history, record.domain(), asked, record.StepSeed(asked));
+      break;
+  }
+  if (!step || record.WasEvaluated(*step, asked) ||
+      record.feasibility().Probability(*step) < kSafe) {
+    return std::nullopt;
+  }
+  return step;
+}
+
+}  // namespace
+
+const ScalarFit& ScalarSearch::Fit(const SearchRecord& record) {
+  if (!fit_) fit_ = fitter_.Fit(record.history(), record.deterministic());
+  return *fit_;
+}
+
+Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::VectorXd> asked) {
+  if (record.deterministic()) {
+    if (const auto step = NearBest(record, asked)) return {*step, Origin::kModel};
+  }
+  const Eigen::MatrixXd& points = record.history().points;
+  surrogate::GaussianProcess process = Fit(record).process;
+  double incumbent = process.PredictAll(points).mean.minCoeff();
+  for (const Eigen::VectorXd& point : asked) {
+    incumbent = std::min(incumbent, process.AddFantasy(point));  // or the next would land beside it
+  }
+  const TransformedModel model(std::move(process));
+  const double noise = record.deterministic() ? 0 : model.NoiseSd(points.row(0));
+  const ModelView view = ViewOf(model, record, record.StepSeed(asked));
+  const Eigen::VectorXd point =
+      MostExpectedImprovement(view, {.value = incumbent, .noise = noise}, BestEvaluated(view));
+  return record.ReplicateOrPerturb(point, asked);
+}
+
+// Without noise the best evaluation is known exactly, and beats what a model promises.
+Eigen::VectorXd ScalarSearch::Best(const SearchRecord& record) {
+  const History& history = record.history();
+  if (record.deterministic()) {
+    Eigen::Index best = 0;
+    history.values.minCoeff(&best);
+    return history.points.row(best);
+  }
+  const TransformedModel model(Fit(record).process);
+  return LowestMean(ViewOf(model, record, record.options().seed));
+}
+
+std::optional<std::string> ScalarSearch::StopReason(const SearchRecord& record) {
+  const ScalarFit& fit = Fit(record);
+  const TransformedModel model(fit.process);
+  const ModelView view = ViewOf(model, record, record.options().seed);
+  const double bound = fit.transform.Backward(LowestBound(view, BestEvaluated(view)));
+  if (record.deterministic()) {
+    return record.ReasonToStop(record.history().values.minCoeff() - bound, 0);
+  }
+  const Moments best = model.Predict(Best(record).transpose());
+  return record.ReasonToStop(best.mean[0] + kBoundSds * best.sd[0] - bound,
+                             model.NoiseSd(record.history().points.row(0)));
+}
+
+Answer ScalarSearch::Recommend(const SearchRecord& record) {
+  if (record.history().size() < 2) {
+    return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
+  }
+  const ScalarFit& fit = Fit(record);
+  Answer answer = DescribeMinimum(ScalarModel(fit), record.domain(), Best(record),
+                                  {.seed = record.options().seed});
+  const surrogate::Predictions left_out = fit.process.LeaveOneOut();
+  const Eigen::ArrayXd error = left_out.mean - fit.process.values();
+  const double z = std::sqrt((error.square() / left_out.variance.array()).mean());
+  answer.model = "Gaussian process of " + std::to_string(record.history().size()) +
+                 " evaluations, " + (record.deterministic() ? "deterministic" : "noisy") +
+                 "; left out, each is missed by " + Rounded(std::sqrt(error.square().mean())) +
+                 (fit.transform.delta > 0 ? " in the logarithm, " : ", ") + Rounded(z) +
+                 " x the predicted error";
+  return answer;
+}
+
+}  // namespace talus::optimizer

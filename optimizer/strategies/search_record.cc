@@ -1,0 +1,135 @@
+#include "optimizer/strategies/search_record.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/answer/words.h"
+#include "optimizer/designs/design.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/point_rows.h"
+
+namespace talus::optimizer {
+namespace {
+
+// Two evaluations this close to each other teach under noise what a replicate would.
+constexpr double kReplicateDistance = 0.005;
+// Without noise the search ends when this share of (mean - lowest value) is left to gain.
+constexpr double kStopShare = 1e-6;
+
+int DesignSize(const Domain& domain, const SurrogateOptions& options) {
+  return options.num_initial > 0 ? options.num_initial : 2 * domain.num_parameters + 3;
+}
+
+}  // namespace
+
+SearchRecord::SearchRecord(Domain domain, const SurrogateOptions& options)
+    : domain_(std::move(domain)),
+      options_(options),
+      design_(domain_,
+              LatinHypercube(DesignSize(domain_, options), domain_.num_parameters, options.seed)),
+      history_(MakeHistory(told_, domain_.num_parameters)) {}
+
+void SearchRecord::Tell(const Observation& observation) {
+  told_.push_back(observation);
+  told_.back().field.clear();
+  design_.MarkEvaluated(observation.point);
+  history_ = MakeHistory(told_, domain_.num_parameters);
+  repeats_ = FindRepeats(history_);
+  feasibility_ = Feasibility(history_);
+}
+
+// Enough points from elsewhere, such as the trials of another campaign, make the design needless.
+std::optional<Proposal> SearchRecord::BeforeModel(std::span<const Eigen::VectorXd> asked) const {
+  if (told_.size() + asked.size() < static_cast<std::size_t>(design_.size())) {
+    if (const auto point = design_.Next(asked)) return Proposal{*point, Origin::kDesign};
+  }
+  if (const auto point = FirstRepeat(asked)) return Proposal{*point, Origin::kRepeat};
+  return std::nullopt;
+}
+
+// The best point, since near it the noise matters; not one that has failed meanwhile.
+std::optional<Eigen::VectorXd> SearchRecord::FirstRepeat(
+    std::span<const Eigen::VectorXd> asked) const {
+  if (repeats_.num_repeats > 0 || history_.size() == 0) return std::nullopt;
+  for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
+    if (IsAmong(history_.points.row(i), asked)) return std::nullopt;  // the repeat is under way
+  }
+  std::optional<Eigen::Index> best;
+  for (Eigen::Index i = 0; i < history_.values.size(); ++i) {
+    if (best && history_.values[i] >= history_.values[*best]) continue;
+    if (!HasFailed(history_.points.row(i))) best = i;
+  }
+  if (!best) return std::nullopt;
+  return history_.points.row(*best);
+}
+
+bool SearchRecord::HasFailed(const Eigen::VectorXd& point) const {
+  return std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
+    return seen.failed && SamePoint(seen.point, point);
+  });
+}
+
+bool SearchRecord::WasEvaluated(const Eigen::VectorXd& point,
+                                std::span<const Eigen::VectorXd> asked) const {
+  return IsAmong(point, asked) ||
+         std::any_of(told_.begin(), told_.end(),
+                     [&](const Observation& seen) { return SamePoint(seen.point, point); });
+}
+
+Eigen::VectorXd SearchRecord::MostFeasible(std::uint64_t seed) const {
+  constexpr int kNumCandidates = 1000;
+  Eigen::VectorXd best = Eigen::VectorXd::Constant(domain_.num_parameters, 0.5);
+  double highest = -1;
+  const Eigen::MatrixXd candidates = RSequence(kNumCandidates, domain_.num_parameters, seed);
+  for (Eigen::Index i = 0; i < candidates.rows(); ++i) {
+    const double probability = feasibility_.Probability(candidates.row(i));
+    if (probability <= highest || !domain_.Contains(candidates.row(i))) continue;
+    highest = probability;
+    best = candidates.row(i);
+  }
+  return best;
+}
+
+Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
+                                          std::span<const Eigen::VectorXd> asked) const {
+  if (!repeats_.deterministic && repeats_.num_repeats < 1 + options_.max_replicates) {
+    for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
+      const Eigen::VectorXd near = history_.points.row(i);
+      if ((near - point).norm() < kReplicateDistance && !IsAmong(near, asked) && !HasFailed(near)) {
+        return {near, Origin::kRepeat};
+      }
+    }
+  }
+  base::Random random(options_.seed, base::Stream("not the same point"), told_.size());
+  Eigen::VectorXd moved = point;
+  for (double reach = 1e-3; WasEvaluated(moved, asked) || !domain_.Contains(moved); reach *= 1.2) {
+    for (Eigen::Index k = 0; k < moved.size(); ++k) {
+      moved[k] = std::clamp(point[k] + reach * random.Normal(), 0.0, 1.0);
+    }
+  }
+  return {moved, Origin::kModel};
+}
+
+std::uint64_t SearchRecord::StepSeed(std::span<const Eigen::VectorXd> asked) const {
+  return options_.seed + 7919 * (told_.size() + asked.size());
+}
+
+bool SearchRecord::MayStop(int num_evaluations) const {
+  return options_.stop_multiple > 0 && repeats_.num_repeats > 0 &&
+         num_evaluations >= 2 * design_.size();
+}
+
+std::optional<std::string> SearchRecord::ReasonToStop(double gain, double noise) const {
+  const std::string left = "what is left to gain, at most " + Rounded(std::max(0.0, gain));
+  if (repeats_.deterministic) {
+    const double typical = history_.values.mean() - history_.values.minCoeff();
+    if (!(gain <= kStopShare * typical)) return std::nullopt;
+    return left + ", is below a millionth of the mean value less the lowest, " + Rounded(typical);
+  }
+  if (!(gain < options_.stop_multiple * noise)) return std::nullopt;
+  return left + ", is below " + Rounded(options_.stop_multiple) +
+         " x the noise sd of one evaluation, " + Rounded(noise);
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,85 @@
+// What a model-based strategy was told, and the rules that hold whatever the model is.
+//
+//   initial design      the domain's guesses, then a Latin hypercube of 2 d + 3 points
+//   first repeat        the best point once more: the same value twice means deterministic
+//   replicate or        under noise, a proposal next to an evaluated point becomes a replicate of
+//   perturb             it; otherwise no point is evaluated twice
+//   feasibility         where evaluations fail (feasibility.h)
+//
+// State = the observations told so far, in order.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "optimizer/designs/design_queue.h"
+#include "optimizer/models/feasibility.h"
+#include "optimizer/models/history.h"
+#include "optimizer/space/domain.h"
+#include "optimizer/strategies/strategy.h"
+
+namespace talus::optimizer {
+
+// Of every strategy with a model.
+struct SurrogateOptions {
+  int num_initial = 0;         // evaluations of the design; 0: 2 d + 3
+  double stop_multiple = 0.7;  // stop when the expected gain is below this × noise sd; 0: never
+  int max_replicates = 5;      // deliberate replicates beside the first repeat, in all
+  std::uint64_t seed = 1;
+};
+
+class SearchRecord {
+ public:
+  SearchRecord(Domain domain, const SurrogateOptions& options);
+
+  // Images are not kept: many of them would fill the memory.
+  void Tell(const Observation& observation);
+
+  // The next point of the design or the first repeat; nothing when both are done. `asked` are the
+  // points that are being evaluated.
+  std::optional<Proposal> BeforeModel(std::span<const Eigen::VectorXd> asked) const;
+
+  // Where an evaluation most probably works: all there is to go by while hardly any has.
+  Eigen::VectorXd MostFeasible(std::uint64_t seed) const;
+
+  // The proposal that a model's choice of `point` becomes.
+  Proposal ReplicateOrPerturb(const Eigen::VectorXd& point,
+                              std::span<const Eigen::VectorXd> asked) const;
+
+  bool WasEvaluated(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> asked) const;
+
+  // In words, when `gain`, what going on would improve by at most, is small: below stop_multiple ×
+  // `noise`, or, without noise, below a millionth of the mean value less the lowest.
+  std::optional<std::string> ReasonToStop(double gain, double noise) const;
+  // A search never stops before `num_evaluations` is twice the design and the noise is known.
+  bool MayStop(int num_evaluations) const;
+
+  // A seed for the next search of a model, another one for each evaluation.
+  std::uint64_t StepSeed(std::span<const Eigen::VectorXd> asked) const;
+
+  const Domain& domain() const { return domain_; }
+  const SurrogateOptions& options() const { return options_; }
+  const std::vector<Observation>& told() const { return told_; }
+  const History& history() const { return history_; }
+  const Feasibility& feasibility() const { return feasibility_; }
+  bool deterministic() const { return repeats_.deterministic; }
+  int design_size() const { return design_.size(); }
+
+ private:
+  std::optional<Eigen::VectorXd> FirstRepeat(std::span<const Eigen::VectorXd> asked) const;
+  bool HasFailed(const Eigen::VectorXd& point) const;
+
+  Domain domain_;
+  SurrogateOptions options_;
+  DesignQueue design_;
+  std::vector<Observation> told_;
+  History history_;
+  Repeats repeats_;
+  Feasibility feasibility_;
+};
+
+}  // namespace talus::optimizer
