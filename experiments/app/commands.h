@@ -18,5 +18,8 @@ void AddResumeCommand(CLI::App& app);
 void AddStatusCommand(CLI::App& app);
 void AddValidateCommand(CLI::App& app);
 void AddSimulateCommand(CLI::App& app);
+void AddHelpCommand(CLI::App& app);
+void AddManCommand(CLI::App& app);
+void AddCompletionCommand(CLI::App& app);
 
 }  // namespace talus::experiments
