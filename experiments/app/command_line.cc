@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/version.h"
 #include "experiments/app/commands.h"
 
 namespace talus::experiments {
@@ -29,7 +30,7 @@ std::string DidYouMean(const std::string& nearest) {
 }  // namespace
 
 void DescribeCommandLine(CLI::App& app) {
-  app.set_version_flag("--version", "talus " + Version());
+  app.set_version_flag("--version", "talus " + base::Version());
   app.require_subcommand(1);
   AddMeasureCommand(app);
   AddValidateCommand(app);
@@ -38,6 +39,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddStatusCommand(app);
   AddCompareCommand(app);
   AddReportCommand(app);
+  AddCardCommand(app);
   AddExportCommand(app);
   AddSimulateCommand(app);
   AddOptimizeCommand(app);

@@ -8,6 +8,7 @@ class App;
 
 namespace talus::experiments {
 
+void AddCardCommand(CLI::App& app);
 void AddCompareCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);

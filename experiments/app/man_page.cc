@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/version.h"
 #include "experiments/app/command_line.h"
-#include "experiments/app/commands.h"
 
 namespace talus::experiments {
 namespace {
@@ -22,7 +22,7 @@ std::string Roff(const std::string& text) {
 }
 
 std::string Title(const std::string& page, const std::string& summary) {
-  return ".TH " + Roff(page) + " 1 \"\" \"talus " + Roff(Version()) +
+  return ".TH " + Roff(page) + " 1 \"\" \"talus " + Roff(base::Version()) +
          "\" \"User commands\"\n.SH NAME\n" + Roff(page) + " \\- " + Roff(summary) + "\n";
 }
 

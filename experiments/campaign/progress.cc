@@ -23,9 +23,13 @@ std::string ProgressText(const TrialProgress& trial) {
 }
 
 std::string ProgressText(const CampaignProgress& campaign) {
-  std::string text = "trial " + std::to_string(campaign.num_search) + " of " +
-                     std::to_string(campaign.budget) + ", " + std::to_string(campaign.num_running) +
-                     " running";
+  std::string text = "trial " + std::to_string(campaign.num_search);
+  if (campaign.budget > 0) text += " of " + std::to_string(campaign.budget);
+  if (campaign.core_seconds_budget) {
+    text += ", " + DurationText(campaign.core_seconds) + " of " +
+            DurationText(*campaign.core_seconds_budget) + " core time";
+  }
+  text += ", " + std::to_string(campaign.num_running) + " running";
   if (campaign.best) {
     text += ", best " + NumberText4(*campaign.best) + " " + campaign.unit + " (trial " +
             std::to_string(campaign.best_trial) + ")";

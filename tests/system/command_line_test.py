@@ -142,6 +142,12 @@ class Progress(unittest.TestCase):
         done = talus("calibrate", str(self.spec), "--out", str(self.folder / "out"), "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertTrue((self.folder / "out/result.json").exists())
+        card = json.loads(talus("card", str(self.folder / "out"), "--format", "json").stdout)
+        result = json.loads((self.folder / "out/result.json").read_text())
+        value = result["parameters"][0]["value"]
+        self.assertEqual(card["parameters"][0]["value"], value)
+        self.assertEqual(card["materials"]["powder"]["sliding_friction"], value)
+        self.assertEqual(card["scale_factor"], result["conditions"]["scale_factor"])
         both = talus("resume", str(self.folder / "out"), "--quiet", "--json")
         self.assertEqual(both.returncode, 2)
 
