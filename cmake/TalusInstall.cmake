@@ -15,4 +15,34 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/talusConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/talusConfig.cmake ${PROJECT_BINARY_DIR}/talusConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/talus)
-install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
+# Examples find their schema at ../../docs, in the source tree and installed.
+install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
+install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Man pages and completions are what the program says of itself.
+set(talus_described ${PROJECT_BINARY_DIR}/described)
+add_custom_command(OUTPUT ${talus_described}/done
+  COMMAND ${PROJECT_SOURCE_DIR}/scripts/describe $<TARGET_FILE:talus> ${talus_described}
+  COMMAND ${CMAKE_COMMAND} -E touch ${talus_described}/done
+  DEPENDS talus ${PROJECT_SOURCE_DIR}/scripts/describe VERBATIM)
+add_custom_target(talus_describe ALL DEPENDS ${talus_described}/done)
+install(DIRECTORY ${talus_described}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${talus_described}/bash/talus
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${talus_described}/zsh/_talus
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${talus_described}/fish/talus.fish
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+# `cpack` in the build folder makes talus_VERSION_ARCH.deb.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME talus)
+set(CPACK_PACKAGE_CONTACT "The talus developers <talus@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "liggghts, lammps, slurm-client, chromium")
+include(CPack)

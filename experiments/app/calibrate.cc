@@ -13,6 +13,7 @@ void AddCalibrateCommand(CLI::App& app) {
   struct Arguments {
     std::string spec;
     std::string out;
+    TellOptions tell;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
@@ -21,12 +22,13 @@ void AddCalibrateCommand(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out,
                       "folder for all it writes; default: the spec's name without .json");
+  AddTellFlags(*command, arguments->tell);
   command->callback([arguments] {
     const std::filesystem::path folder = arguments->out.empty()
                                              ? std::filesystem::path(arguments->spec).stem()
                                              : std::filesystem::path(arguments->out);
     BeginCampaign(arguments->spec, folder);
-    GoOn(folder, {});
+    GoOn(folder, {}, arguments->tell);
   });
 }
 
@@ -35,6 +37,7 @@ void AddResumeCommand(CLI::App& app) {
     std::string folder;
     ResumeOptions options;
     std::string spec;
+    TellOptions tell;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -46,9 +49,10 @@ void AddResumeCommand(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--spec", arguments->spec,
                       "the changed spec; default: the file it began with, if it is still there");
+  AddTellFlags(*command, arguments->tell);
   command->callback([arguments] {
     arguments->options.spec = arguments->spec;
-    GoOn(arguments->folder, arguments->options);
+    GoOn(arguments->folder, arguments->options, arguments->tell);
   });
 }
 

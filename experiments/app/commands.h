@@ -8,6 +8,7 @@ class App;
 
 namespace talus::experiments {
 
+void AddCardCommand(CLI::App& app);
 void AddCompareCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
@@ -18,5 +19,8 @@ void AddResumeCommand(CLI::App& app);
 void AddStatusCommand(CLI::App& app);
 void AddValidateCommand(CLI::App& app);
 void AddSimulateCommand(CLI::App& app);
+void AddHelpCommand(CLI::App& app);
+void AddManCommand(CLI::App& app);
+void AddCompletionCommand(CLI::App& app);
 
 }  // namespace talus::experiments

@@ -27,8 +27,8 @@ struct Arguments {
 void SearchOn(const Arguments& arguments) {
   for (const auto& [name, objective] : base::Names<Objective>::kList) {
     if (name != arguments.objective) continue;
-    GoOn(arguments.campaign,
-         {.add_simulations = arguments.add_simulations, .objective = objective});
+    GoOn(arguments.campaign, {.add_simulations = arguments.add_simulations, .objective = objective},
+         {});
     return;
   }
 }

@@ -1,29 +1,39 @@
 // The program `talus`.
+#include <signal.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <span>
 
 #include "base/error.h"
-#include "base/version.h"
-#include "experiments/app/commands.h"
+#include "experiments/app/command_line.h"
 
 namespace {
+
+// A reader that goes away (`talus status DIR | head`, Ctrl-C on `talus calibrate … | tee log`) must
+// not end the program without a word. A handler instead of SIG_IGN: the programs we start begin
+// with the default again.
+void LetReadersGo() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
 int Run(int argc, char** argv) {
-  CLI::App app("talus: calibrates discrete element models of powders from photographs of heaps");
-  app.set_version_flag("--version", "talus " + talus::base::Version());
-  app.require_subcommand(1);
-  talus::experiments::AddCompareCommand(app);
-  talus::experiments::AddReportCommand(app);
-  talus::experiments::AddMeasureCommand(app);
-  talus::experiments::AddValidateCommand(app);
-  talus::experiments::AddCalibrateCommand(app);
-  talus::experiments::AddResumeCommand(app);
-  talus::experiments::AddStatusCommand(app);
-  talus::experiments::AddExportCommand(app);
-  talus::experiments::AddSimulateCommand(app);
-  talus::experiments::AddOptimizeCommand(app);
+  CLI::App app("calibrates discrete element models of powders from photographs of heaps", "talus");
+  talus::experiments::DescribeCommandLine(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    const std::string suggestion =
+        error.get_exit_code() == 0
+            ? std::string()
+            : talus::experiments::Suggestion(
+                  app, std::span(argv + 1, static_cast<std::size_t>(std::max(argc - 1, 0))));
+    if (!suggestion.empty()) throw talus::base::ConfigError("talus: " + suggestion);
     return app.exit(error) == 0 ? talus::base::kExitDone : talus::base::kExitBadInput;
   }
   return talus::base::kExitDone;
@@ -32,6 +42,7 @@ int Run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  LetReadersGo();
   try {
     return Run(argc, argv);
   } catch (const talus::base::ConfigError& error) {

@@ -23,6 +23,7 @@ struct MeasureFlags {
   std::string pixel_size;
   std::string like;
   std::string length_unit;
+  std::string powder = "auto";
   std::optional<double> threshold{};
   int views = 16;
   bool map = false;
@@ -54,6 +55,9 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
     options.pixel_size = Quantity("--pixel-size", flags.pixel_size, Dimension::kLength);
   }
   options.threshold = flags.threshold;
+  for (const auto& [name, look] : base::Names<imaging::PowderLook>::kList) {
+    if (name == flags.powder) options.powder = look;
+  }
   options.allow_missing_views = flags.allow_missing_views;
   if (options.plate_diameter == 0 && flags.like.empty()) {
     throw base::ConfigError("--plate-diameter is missing; give it with its unit: 10mm");
@@ -94,6 +98,12 @@ void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_option("--pixel-size", flags.pixel_size, "of the profiles, such as 50um");
   verb.add_option("--threshold", flags.threshold,
                   "darker than this share of the background is powder, in (0, 1)");
+  std::vector<std::string> looks;
+  for (const auto& [name, look] : base::Names<imaging::PowderLook>::kList) looks.emplace_back(name);
+  verb.add_option("--powder", flags.powder,
+                  "before its background: dark (lit from behind), bright (lit from the front)")
+      ->check(CLI::IsMember(looks))
+      ->capture_default_str();
   verb.add_flag("--allow-missing-views", flags.allow_missing_views,
                 "go on without views that are missing or unusable, and say which");
 }

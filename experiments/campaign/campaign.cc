@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -307,53 +308,41 @@ void Campaign::NoteBest(const TrialRecord& trial) {
 }
 
 void Campaign::Report(const TrialRecord& trial) {
-  std::string text =
-      "trial " + std::to_string(trial.id) + " (" + std::string(base::NameOf(trial.kind)) + ")";
-  for (std::size_t i = 0; i < trial.native.size(); ++i) {
-    text += (i == 0 ? " at " : " ") + NumberText4(trial.native[i]);
-  }
-  if (trial.status == TrialStatus::kFailed) {
-    text += " failed: " + trial.reason;
-  } else if (const auto value = ReferenceOf(trial).Value(trial)) {
-    text += ": " + NumberText4(*value) + " " + references_.front().unit();
-    if (best_ && best_->second == trial.id) text += ", the best so far";
-  } else {
-    text += ": the objective is not defined";
-  }
-  console_.Line(text + ", " + DurationText(trial.duration_s));
+  console_.Trial({.trial = trial.id,
+                  .kind = trial.kind,
+                  .status = trial.status,
+                  .values = trial.native,
+                  .objective = ReferenceOf(trial).Value(trial),
+                  .unit = references_.front().unit(),
+                  .best = best_ && best_->second == trial.id,
+                  .reason = trial.reason,
+                  .duration = trial.duration_s});
 }
 
 void Campaign::ShowStatus() {
   double seconds = 0;
   int num_finished = 0;
-  int num_search = 0;
+  CampaignProgress progress{.budget = spec_.budget.simulations,
+                            .num_running = static_cast<int>(running_.size()),
+                            .unit = references_.front().unit()};
   for (const TrialRecord& trial : planner_.trials()) {
-    if (trial.kind != TrialKind::kConfirm) ++num_search;
+    if (trial.kind != TrialKind::kConfirm) ++progress.num_search;
     if (trial.status == TrialStatus::kRunning || !(trial.duration_s > 0)) continue;
     seconds += trial.duration_s;
     ++num_finished;
   }
-  const BudgetOptions& budget = spec_.budget;
-  std::string text = "trial " + std::to_string(num_search);
-  if (budget.simulations > 0) text += " of " + std::to_string(budget.simulations);
-  if (budget.core_time) {
-    text += ", " + DurationText(planner_.CoreTimeOfSearch()) + " of " +
-            DurationText(*budget.core_time) + " core time";
+  if (best_) std::tie(progress.best, progress.best_trial) = *best_;
+  if (spec_.budget.core_time) {
+    progress.core_seconds = planner_.CoreTimeOfSearch();
+    progress.core_seconds_budget = *spec_.budget.core_time;
   }
-  text += ", " + std::to_string(running_.size()) + " running";
-  if (best_) {
-    text += ", best " + NumberText4(best_->first) + " " + references_.front().unit() + " (trial " +
-            std::to_string(best_->second) + ")";
-  }
-  if (num_finished > 0 && budget.simulations > 0) {
-    const int to_go = std::max(0, spec_.budget.simulations - num_search) +
+  if (num_finished > 0 && progress.budget > 0) {
+    const int to_go = std::max(0, progress.budget - progress.num_search) +
                       spec_.confirm.candidates * spec_.confirm.replicates +
-                      static_cast<int>(running_.size()) / 2;
-    text += ", at most " +
-            DurationText(seconds / num_finished * to_go / std::max(1, parts_.runner->Capacity())) +
-            " left";
+                      progress.num_running / 2;
+    progress.seconds_left = seconds / num_finished * to_go / std::max(1, parts_.runner->Capacity());
   }
-  console_.Status(text);
+  console_.Status(progress);
 }
 
 }  // namespace talus::experiments

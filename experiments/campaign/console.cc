@@ -5,11 +5,22 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/json_writer.h"
 #include "experiments/journal/journal.h"
 
 namespace talus::experiments {
+namespace {
+
+void PrintEvent(const char* event, const nlohmann::ordered_json& fields) {
+  nlohmann::ordered_json line{{"event", event}, {"time_utc", UtcNow()}};
+  line.update(fields);
+  std::cout << line.dump() << std::endl;
+}
+
+}  // namespace
 
 Console::Console(std::filesystem::path log, Output output)
     : log_(std::move(log)),
@@ -23,15 +34,32 @@ void Console::ClearStatus() {
 }
 
 // A log that cannot be written is no reason to end: what matters is in the journal.
-void Console::Line(const std::string& text) {
-  ClearStatus();
-  if (output_ == Output::kStandardError) std::cerr << text << std::endl;
+void Console::Log(const std::string& text) {
   std::ofstream(log_, std::ios::app) << UtcNow() << ' ' << text << '\n';
 }
 
-void Console::Status(const std::string& text) {
+void Console::Line(const std::string& text) {
+  ClearStatus();
+  if (output_ == Output::kStandardError) std::cerr << text << std::endl;
+  if (output_ == Output::kJson) PrintEvent("message", {{"text", text}});
+  Log(text);
+}
+
+void Console::Trial(const TrialProgress& trial) {
+  ClearStatus();
+  if (output_ == Output::kStandardError) std::cerr << ProgressText(trial) << std::endl;
+  if (output_ == Output::kJson) PrintEvent("trial", base::ToJson(trial));
+  Log(ProgressText(trial));
+}
+
+void Console::Status(const CampaignProgress& progress) {
+  if (output_ == Output::kJson) {
+    const nlohmann::ordered_json json = base::ToJson(progress);
+    const std::string text = json.dump();
+    if (std::exchange(last_status_, text) != text) PrintEvent("progress", json);
+  }
   if (!terminal_) return;
-  std::cerr << "\r\033[K" << text << std::flush;
+  std::cerr << "\r\033[K" << ProgressText(progress) << std::flush;
   status_shown_ = true;
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/campaign/start.h"
 
+#include <iostream>
 #include <utility>
 
 #include "base/error.h"
@@ -29,6 +30,9 @@ std::vector<ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space
 
 ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
   const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
+  for (const imaging::PhotoWarning& warning : experiment.warnings) {
+    std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
+  }
   ExperimentRecord record;
   record.name = spec.name;
   record.aehp_png = imaging::EncodePng(experiment.aehp.image);

@@ -36,12 +36,24 @@ struct Reader {
   ~Reader() { jpeg_destroy_decompress(&jpeg); }
 };
 
+// Of the first APP1 segment that holds EXIF.
+int OrientationOf(const jpeg_decompress_struct& jpeg) {
+  constexpr std::string_view kExif("Exif\0\0", 6);
+  for (const jpeg_marker_struct* marker = jpeg.marker_list; marker; marker = marker->next) {
+    const std::string_view data(reinterpret_cast<const char*>(marker->data), marker->data_length);
+    if (data.starts_with(kExif)) return ExifOrientation(data.substr(kExif.size()));
+  }
+  return kUpright;
+}
+
 }  // namespace
 
 RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
   Reader reader(name);
   jpeg_decompress_struct& jpeg = reader.jpeg;
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+  constexpr unsigned kWholeSegment = 0xffff;
+  jpeg_save_markers(&jpeg, JPEG_APP0 + 1, kWholeSegment);
   jpeg_read_header(&jpeg, TRUE);
   CheckImageSize(jpeg.image_width, jpeg.image_height, name);
   jpeg.out_color_space = JCS_GRAYSCALE;  // the luma channel as the camera stored it
@@ -50,6 +62,7 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
                  .height = static_cast<int>(jpeg.output_height),
                  .channels = 1,
                  .bits = 8,
+                 .orientation = OrientationOf(jpeg),
                  .samples = {}};
   image.samples.reserve(image.num_samples());
   std::vector<JSAMPLE> row(jpeg.output_width);

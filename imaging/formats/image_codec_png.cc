@@ -54,6 +54,14 @@ void ReadHeader(Reader& reader, Source& source, RawImage& image, const std::stri
   image.bits = png_get_bit_depth(reader.png, reader.info);
 }
 
+// After the whole file is read: the chunk may follow the pixels.
+int OrientationOf(Reader& reader) {
+  png_uint_32 size = 0;
+  png_bytep exif = nullptr;
+  if (png_get_eXIf_1(reader.png, reader.info, &size, &exif) == 0) return kUpright;
+  return ExifOrientation({reinterpret_cast<const char*>(exif), size});
+}
+
 void Append(png_structp png, png_bytep data, png_size_t count) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(data), count);
 }
@@ -91,6 +99,8 @@ RawImage DecodePng(std::string_view bytes, const std::string& name) {
   for (int y = 0; y < image.height; ++y)
     rows.push_back(&data[static_cast<std::size_t>(y) * stride]);
   png_read_image(reader.png, rows.data());
+  png_read_end(reader.png, reader.info);
+  image.orientation = OrientationOf(reader);
   image.samples.resize(image.num_samples());
   for (std::size_t i = 0; i < image.samples.size(); ++i) {
     image.samples[i] =

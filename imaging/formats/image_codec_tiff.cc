@@ -46,6 +46,7 @@ struct Layout {
   std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
   std::uint16_t planar = PLANARCONFIG_CONTIG;
   std::uint16_t format = SAMPLEFORMAT_UINT;
+  std::uint16_t orientation = ORIENTATION_TOPLEFT;  // numbered as in EXIF
 };
 
 Layout ReadLayout(TIFF* tiff, const std::string& name) {
@@ -57,6 +58,9 @@ Layout ReadLayout(TIFF* tiff, const std::string& name) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_PHOTOMETRIC, &layout.photometric);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &layout.planar);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &layout.format);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &layout.orientation);
+  // We turn the image ourselves: libtiff mirrors, but does not turn by a quarter.
+  TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   CheckImageSize(layout.width, layout.height, name);
   return layout;
 }
@@ -66,6 +70,7 @@ RawImage EmptyImage(const Layout& layout, int channels, int bits) {
                  .height = static_cast<int>(layout.height),
                  .channels = channels,
                  .bits = bits,
+                 .orientation = layout.orientation,
                  .samples = {}};
   image.samples.reserve(image.num_samples());
   return image;

@@ -6,14 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "imaging/formats/orientation.h"
+
 namespace talus::imaging {
 
 // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
 struct RawImage {
   int width = 0;
   int height = 0;
-  int channels = 1;  // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
-  int bits = 8;      // 8 or 16
+  int channels = 1;            // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
+  int bits = 8;                // 8 or 16
+  int orientation = kUpright;  // how the camera was held, as EXIF numbers it
   std::vector<std::uint16_t> samples;
 
   std::size_t num_samples() const {

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "imaging/formats/image_codecs.h"
+#include "imaging/formats/orientation.h"
 
 namespace talus::imaging {
 namespace {
@@ -66,7 +67,7 @@ GrayImage DecodeGrayImage(std::string_view bytes, const std::string& name) {
     const double luma = Luma(&raw.samples[i * channels], raw.channels, white);
     gray.pixels[i] = static_cast<std::uint8_t>(std::clamp(luma, 0.0, 1.0) * 255 + 0.5);
   }
-  return gray;
+  return Upright(gray, raw.orientation);
 }
 
 GrayImage ReadGrayImage(const std::filesystem::path& path) {

@@ -31,8 +31,9 @@ struct ColorImage {
 ColorImage ToColor(const GrayImage& gray);
 
 // Colour becomes luma (Rec. 601), transparency shows white, and 16 bits become 8; a 16-bit file
-// that uses only 10, 12 or 14 of them, as cameras write, is taken to be that deep. Throws
-// ConfigError that names the file and what to do.
+// that uses only 10, 12 or 14 of them, as cameras write, is taken to be that deep. The image is
+// turned upright as its EXIF orientation says. Throws ConfigError that names the file and what to
+// do.
 GrayImage ReadGrayImage(const std::filesystem::path& path);
 
 // The same from memory; `name` is what an error calls it.

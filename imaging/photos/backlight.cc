@@ -14,6 +14,7 @@ constexpr int kLongestSide = 100;        // of the thinned picture that the back
 constexpr double kBlackest = 12;         // a picture without brighter pixels is black [grey levels]
 constexpr double kLeastContrast = 0.15;  // of powder and plate to the background [-]
 constexpr double kFaintest = 0.03;       // of the background, over its maximum
+constexpr double kDarkBorder = 0.9;      // share of the upper border in a front-lit picture [-]
 constexpr double kSurelyLight = 0.8;     // relative brightness that the last rounds ask for
 
 // Terms x^i y^j with i + j <= degree.
@@ -149,6 +150,33 @@ RelativeImage Divide(const GrayImage& photo, const Background& background) {
   return image;
 }
 
+// The upper border, which heap and plate leave free: the top row, and the sides' upper half.
+std::vector<float> UpperBorder(const RelativeImage& image) {
+  std::vector<float> border;
+  for (int x = 0; x < image.width; ++x) border.push_back(image.at(x, 0));
+  for (int y = 1; y < image.height / 2; ++y) {
+    border.push_back(image.at(0, y));
+    border.push_back(image.at(image.width - 1, y));
+  }
+  return border;
+}
+
+bool LooksFrontLit(const GrayImage& photo) {
+  const RelativeImage thin = Thin(photo).image;
+  const TwoClasses classes = SplitByOtsu(thin.pixels);
+  if (classes.light - classes.dark < kLeastContrast * 255) return false;
+  const std::vector<float> border = UpperBorder(thin);
+  const auto dark = std::count_if(border.begin(), border.end(),
+                                  [&](float level) { return level < classes.middle(); });
+  return static_cast<double>(dark) > kDarkBorder * static_cast<double>(border.size());
+}
+
+GrayImage Negative(const GrayImage& photo) {
+  GrayImage negative = photo;
+  for (std::uint8_t& level : negative.pixels) level = static_cast<std::uint8_t>(255 - level);
+  return negative;
+}
+
 }  // namespace
 
 TwoClasses SplitByOtsu(const std::vector<float>& values) {
@@ -185,7 +213,7 @@ TwoClasses SplitByOtsu(const std::vector<float>& values) {
   return best;
 }
 
-BacklitPhoto FlattenPhoto(const GrayImage& photo, std::optional<double> threshold,
+BacklitPhoto FlattenPhoto(const GrayImage& photo, const LightOptions& light,
                           const std::string& name) {
   const auto brightest = *std::max_element(photo.pixels.begin(), photo.pixels.end());
   if (brightest < kBlackest) {
@@ -194,14 +222,18 @@ BacklitPhoto FlattenPhoto(const GrayImage& photo, std::optional<double> threshol
                             "light behind the heap switched on");
   }
   BacklitPhoto flat;
-  flat.image = Divide(photo, FitBackground(Thin(photo).image));
+  flat.negative = light.powder == PowderLook::kBright ||
+                  (light.powder == PowderLook::kAuto && LooksFrontLit(photo));
+  const GrayImage seen = flat.negative ? Negative(photo) : photo;
+  flat.image = Divide(seen, FitBackground(Thin(seen).image));
   const TwoClasses classes = SplitByOtsu(flat.image.pixels);
   if (classes.light - classes.dark < kLeastContrast) {
     throw base::ConfigError(name +
-                            ": shows nothing darker than its background; check that heap "
+                            ": shows nothing darker than its background (nothing brighter, "
+                            "if it is lit from the front); check that heap "
                             "and plate are in the picture, with the light behind them");
   }
-  flat.threshold = threshold.value_or(classes.middle());
+  flat.threshold = light.threshold.value_or(classes.middle());
   return flat;
 }
 

@@ -2,139 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <sstream>
 
 #include "base/error.h"
 #include "imaging/formats/image_file.h"
 #include "imaging/formats/map_file.h"
 #include "imaging/photos/backlight.h"
-#include "imaging/photos/photo_set.h"
-#include "imaging/photos/plate_edges.h"
+#include "imaging/photos/photo_collection.h"
 #include "imaging/photos/silhouette.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::imaging {
 namespace {
 
-constexpr double kSameScale = 0.01;  // how far a photograph's plate width may be off the median [-]
-
-struct Photo {
-  std::filesystem::path path;
-  std::size_t run = 0;
-  PlateEdges edges;  // unless the frame is given
-};
-
-// Runs and photographs as they are to be used, and everything that is wrong with them.
-struct Collection {
-  std::vector<std::string> runs;  // names
-  std::vector<Photo> photos;      // run by run
-  int width = 0;                  // of every photograph [px]
-  int height = 0;                 // [px]
-  std::vector<std::string> faults;
-
-  void Drop(const std::vector<bool>& bad) {
-    std::vector<Photo> kept;
-    for (std::size_t i = 0; i < photos.size(); ++i) {
-      if (!bad[i]) kept.push_back(std::move(photos[i]));
-    }
-    photos = std::move(kept);
-  }
-};
-
-Collection Collect(const ExperimentOptions& options) {
-  Collection collection;
-  const auto add = [&](const std::filesystem::path& path) {
-    collection.photos.push_back({.path = path, .run = collection.runs.size(), .edges = {}});
-  };
-  if (!options.runs.empty()) {
-    std::size_t most = 0;
-    for (const PhotoRun& run : options.runs) most = std::max(most, run.photos.size());
-    for (const PhotoRun& run : options.runs) {
-      for (const auto& path : run.photos) add(path);
-      collection.runs.push_back(run.name);
-      if (run.photos.size() == most) continue;
-      collection.faults.push_back("run " + run.name + " has " + std::to_string(run.photos.size()) +
-                                  " views, others have " + std::to_string(most));
-    }
-    return collection;
-  }
-  PhotoSet set = FindPhotos(options.photos, options.pattern);
-  for (const PhotoFiles& run : set.runs) {
-    for (const PhotoFile& view : run.views) add(view.path);
-    collection.runs.push_back(run.run);
-  }
-  collection.faults = std::move(set.missing);
-  return collection;
-}
-
 std::string Size(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
-
-// The size that most photographs have is not known before all are read; the first readable one
-// stands for it.
-void CheckSize(const GrayImage& image, const Photo& photo, Collection& collection) {
-  if (collection.width == 0) {
-    collection.width = image.width;
-    collection.height = image.height;
-  }
-  if (image.width == collection.width && image.height == collection.height) return;
-  throw base::ConfigError(photo.path.string() + ": has " + Size(image.width, image.height) +
-                          ", the photographs before it " +
-                          Size(collection.width, collection.height) +
-                          "; all photographs must be of one size and scale");
-}
-
-// Reads every photograph once; one that cannot be used becomes a fault.
-void FindPlates(const ExperimentOptions& options, Collection& collection) {
-  std::vector<bool> bad(collection.photos.size(), false);
-  for (std::size_t i = 0; i < collection.photos.size(); ++i) {
-    Photo& photo = collection.photos[i];
-    try {
-      const GrayImage image = ReadGrayImage(photo.path);
-      CheckSize(image, photo, collection);
-      const BacklitPhoto flat = FlattenPhoto(image, options.threshold, photo.path.string());
-      if (!options.frame) photo.edges = FindPlateEdges(flat, photo.path.string());
-    } catch (const base::ConfigError& error) {
-      collection.faults.push_back(error.what());
-      bad[i] = true;
-    }
-  }
-  collection.Drop(bad);
-}
-
-void CheckScale(Collection& collection) {
-  std::vector<double> widths;
-  for (const Photo& photo : collection.photos) widths.push_back(photo.edges.width);
-  if (widths.empty()) return;
-  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  const double median = *middle;
-  std::vector<bool> bad(collection.photos.size(), false);
-  for (std::size_t i = 0; i < bad.size(); ++i) {
-    const Photo& photo = collection.photos[i];
-    if (std::abs(photo.edges.width - median) <= kSameScale * median) continue;
-    std::ostringstream text;
-    text.precision(4);
-    text << photo.path.string() << ": its plate is " << photo.edges.width
-         << " px wide, that of the other photographs " << median
-         << " px; all must be taken at one scale: look at its overlay, take it again, give the "
-            "plate's place with \"frame\", or leave it out";
-    collection.faults.push_back(text.str());
-    bad[i] = true;
-  }
-  collection.Drop(bad);
-}
-
-// Faults end the work, or are noted and left out.
-void SettleFaults(const ExperimentOptions& options, Collection& collection, Experiment& result) {
-  std::string all;
-  for (const std::string& fault : collection.faults) all += (all.empty() ? "" : "\n") + fault;
-  const std::string remedy = "\nput them right, or go on without them: --allow-missing-views";
-  if (!all.empty() && !options.allow_missing_views) throw base::ConfigError(all + remedy);
-  if (collection.photos.empty()) throw base::ConfigError(all + "\nno photograph is left");
-  for (const std::string& fault : collection.faults) result.notes.push_back("left out: " + fault);
 }
 
 struct Placement {
@@ -150,7 +31,7 @@ double MeanOver(const std::vector<PlatePose>& poses, double PlatePose::*part) {
 }
 
 // Centre and baseline on pixel borders, near where the photographs have them.
-Frame FrameFor(const ExperimentOptions& options, const Collection& collection,
+Frame FrameFor(const ExperimentOptions& options, const PhotoCollection& collection,
                const Placement& placement) {
   const double pixel = options.pixel_size.value_or(placement.photo_pixel);
   const double scale = pixel / placement.photo_pixel;
@@ -162,7 +43,7 @@ Frame FrameFor(const ExperimentOptions& options, const Collection& collection,
           .plate_diameter = options.plate_diameter};
 }
 
-Placement PlaceByFrame(const ExperimentOptions& options, const Collection& collection) {
+Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& collection) {
   const Frame& given = *options.frame;
   if (given.width != collection.width || given.height != collection.height) {
     throw base::ConfigError("frame: is " + Size(given.width, given.height) +
@@ -179,7 +60,7 @@ Placement PlaceByFrame(const ExperimentOptions& options, const Collection& colle
   return placement;
 }
 
-Placement Place(const ExperimentOptions& options, const Collection& collection,
+Placement Place(const ExperimentOptions& options, const PhotoCollection& collection,
                 Experiment& result) {
   if (options.frame) return PlaceByFrame(options, collection);
   std::vector<PhotographedPlate> plates;
@@ -188,8 +69,7 @@ Placement Place(const ExperimentOptions& options, const Collection& collection,
   }
   PlateFit fit = FitPlates(plates);
   if (!fit.sharp_corners) {
-    result.notes.push_back(
-        "powder hides the plate's top in every photograph: the baseline is known to about a pixel");
+    result.warnings.push_back({.doubt = PhotoDoubt::kHiddenTop});
   }
   Placement placement{.frame = {},
                       .photo_pixel = options.plate_diameter / fit.width,
@@ -206,7 +86,47 @@ MeasuredView MeasureView(const GrayImage& silhouette, const Photo& photo, const 
           .angles = MeasureRepose(silhouette, placement.frame, options.metrics.repose)};
 }
 
-void MeasureRuns(const ExperimentOptions& options, const Collection& collection,
+void WarnOfView(const Photo& photo, const GrayImage& image, const GrayImage& silhouette,
+                const Frame& frame, std::vector<PhotoWarning>& warnings) {
+  const auto warn = [&](bool is_so, PhotoDoubt doubt, double value = 0) {
+    if (is_so) warnings.push_back({.doubt = doubt, .photo = photo.path, .value = value});
+  };
+  const double beside = ShareBesidePlate(silhouette, frame);
+  const double white = ShareOverexposed(image);
+  warn(Nebp(silhouette) == 0, PhotoDoubt::kNoPowder);
+  warn(TouchesFrame(silhouette), PhotoDoubt::kTouchesFrame);
+  warn(beside > kMuchBesidePlate, PhotoDoubt::kBesidePlate, beside);
+  warn(!photo.front_lit && white > kMuchOverexposed, PhotoDoubt::kOverexposed, white);
+}
+
+void WarnOfLight(const ExperimentOptions& options, const PhotoCollection& collection,
+                 std::vector<PhotoWarning>& warnings) {
+  if (options.powder != PowderLook::kAuto) return;
+  const auto front_lit = std::count_if(collection.photos.begin(), collection.photos.end(),
+                                       [](const Photo& photo) { return photo.front_lit; });
+  if (front_lit == 0) return;
+  const bool all = front_lit == static_cast<std::ptrdiff_t>(collection.photos.size());
+  warnings.push_back({.doubt = all ? PhotoDoubt::kFrontLit : PhotoDoubt::kMixedLight,
+                      .value = static_cast<double>(front_lit)});
+}
+
+void WarnOfDisagreement(const std::vector<MeasuredRun>& runs, std::vector<PhotoWarning>& warnings) {
+  std::vector<double> nebp;
+  std::vector<std::filesystem::path> photos;
+  for (const MeasuredRun& run : runs) {
+    for (const MeasuredView& view : run.views) {
+      nebp.push_back(view.nebp);
+      photos.push_back(view.photo);
+    }
+  }
+  const std::vector<double> off = DisagreeingViews(nebp);
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (off[i] == 0) continue;
+    warnings.push_back({.doubt = PhotoDoubt::kViewDisagrees, .photo = photos[i], .value = off[i]});
+  }
+}
+
+void MeasureRuns(const ExperimentOptions& options, const PhotoCollection& collection,
                  const Placement& placement, Experiment& result) {
   std::vector<std::vector<GrayImage>> silhouettes(collection.runs.size());
   for (const std::string& name : collection.runs) {
@@ -214,14 +134,12 @@ void MeasureRuns(const ExperimentOptions& options, const Collection& collection,
   }
   for (std::size_t i = 0; i < collection.photos.size(); ++i) {
     const Photo& photo = collection.photos[i];
-    const BacklitPhoto flat =
-        FlattenPhoto(ReadGrayImage(photo.path), options.threshold, photo.path.string());
+    const GrayImage image = ReadGrayImage(photo.path);
+    const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
     GrayImage silhouette =
         MakeSilhouette(flat, placement.poses[i], placement.photo_pixel, placement.frame);
     MeasuredView view = MeasureView(silhouette, photo, placement.poses[i], placement, options);
-    if (view.nebp == 0) {
-      result.notes.push_back(photo.path.string() + ": no powder stands on the plate");
-    }
+    WarnOfView(photo, image, silhouette, placement.frame, result.warnings);
     result.runs[photo.run].views.push_back(std::move(view));
     silhouettes[photo.run].push_back(std::move(silhouette));
   }
@@ -298,7 +216,7 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
 
 HeapImages Experiment::Images() const { return {.profile = aehp, .parts = RunImages(*this)}; }
 
-Experiment MeasureExperiment(const ExperimentOptions& options) {
+Experiment MeasureExperiment(const ExperimentOptions& options, const PictureSink& keep) {
   base::Problems problems;
   options.Validate(problems);
   problems.ThrowIfAny();
@@ -306,13 +224,12 @@ Experiment MeasureExperiment(const ExperimentOptions& options) {
   if (!options.map.empty()) {
     result.aehp = ReadMap(options.map, options.plate_diameter, options.frame);
   } else {
-    Collection collection = Collect(options);
-    FindPlates(options, collection);
-    if (!options.frame) CheckScale(collection);
-    SettleFaults(options, collection, result);
+    const PhotoCollection collection = CollectPhotos(options, keep, result.warnings);
+    WarnOfLight(options, collection, result.warnings);
     const Placement placement = Place(options, collection, result);
     result.photo_pixel = placement.photo_pixel;
     MeasureRuns(options, collection, placement, result);
+    WarnOfDisagreement(result.runs, result.warnings);
     result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};
   }
   Summarise(options, result);

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "imaging/formats/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/heap/profile.h"
+#include "imaging/photos/backlight.h"
+#include "imaging/photos/photo_warning.h"
 #include "imaging/photos/plate_fit.h"
 
 namespace talus::imaging {
@@ -39,6 +43,7 @@ struct ExperimentOptions {
   std::optional<double> pixel_size;  // of the profiles [m]; as photographed without it
   std::optional<double> threshold;   // darker than this share of the background is powder, in (0,
                                      // 1); found by Otsu's method without it
+  PowderLook powder = PowderLook::kAuto;
   bool allow_missing_views = false;  // go on without views that are missing or unusable
   MetricOptions metrics;
 
@@ -66,11 +71,15 @@ struct ExperimentOptions {
     visit("threshold", self.threshold,
           {.doc = "darker than this share of the background is powder, in (0, 1); found by Otsu's "
                   "method without it"});
+    visit("powder", self.powder,
+          {.doc = "how powder looks before its background: \"dark\" (lit from behind), \"bright\" "
+                  "(lit from the front), or \"auto\", which looks at the picture's border"});
     visit("allow_missing_views", self.allow_missing_views,
           {.doc = "go on without views that are missing or unusable"});
     visit("metrics", self.metrics, {.doc = "how the profiles are measured"});
   }
   void Validate(base::Problems& problems) const;
+  LightOptions light() const { return {.threshold = threshold, .powder = powder}; }
 };
 
 struct MeasuredView {
@@ -101,13 +110,17 @@ struct Experiment {
   GrayImage standard_deviation;           // over the runs [grey levels], empty for fewer than two
   std::optional<NoiseFloor> noise_floor;  // for two runs or more
   std::vector<Metric> metrics;            // DescribeProfile of the AEHP; errors from run to run
-  std::vector<std::string> notes;         // what was left out or is doubtful, in words
+  std::vector<PhotoWarning> warnings;     // what was left out or is doubtful
 
   // The AEHP with its runs as parts: what CompareProfiles takes as reference.
   HeapImages Images() const;
 };
 
-// Throws ConfigError that names the file and what to do.
-Experiment MeasureExperiment(const ExperimentOptions& options);
+// Keeps the picture of a photograph that cannot be used, and returns where.
+using PictureSink = std::function<std::filesystem::path(const std::filesystem::path& photo,
+                                                        const ColorImage& picture)>;
+
+// Throws ConfigError that names the file, what to do, and with `keep` the picture to look at.
+Experiment MeasureExperiment(const ExperimentOptions& options, const PictureSink& keep = {});
 
 }  // namespace talus::imaging

@@ -70,10 +70,30 @@ ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const Gra
   return canvas;
 }
 
+ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat,
+                     const std::optional<PlateEdges>& edges) {
+  const int zoom = std::max(1, kWidest / photo.width);
+  ColorImage canvas = MakeCanvas(zoom * photo.width, zoom * photo.height);
+  Paste(ToColor(photo), zoom, 0, 0, canvas);
+  GrayImage dark{.width = photo.width, .height = photo.height, .pixels = {}};
+  for (const float level : flat.image.pixels)
+    dark.pixels.push_back(level < flat.threshold ? 0 : 255);
+  for (const auto& outline : Outlines(dark)) {
+    std::vector<CanvasPoint> points;
+    for (const cv::Point& p : outline) points.push_back({zoom * (p.x + 0.5), zoom * (p.y + 0.5)});
+    DrawPolygon(canvas, points, {.color = kRed});
+  }
+  if (!edges) return canvas;
+  for (const auto* side : {&edges->left, &edges->right}) {
+    for (const EdgePoint& p : *side) DrawDisc(canvas, {zoom * p.x, zoom * p.y}, 1.5, kBlue);
+  }
+  return canvas;
+}
+
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
                      double photo_pixel) {
   const GrayImage photo = ReadGrayImage(view.photo);
-  const BacklitPhoto flat = FlattenPhoto(photo, options.threshold, view.photo.string());
+  const BacklitPhoto flat = FlattenPhoto(photo, options.light(), view.photo.string());
   return DrawOverlay(photo, view.plate, MakeSilhouette(flat, view.plate, photo_pixel, frame),
                      frame);
 }

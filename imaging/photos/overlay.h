@@ -1,8 +1,12 @@
 // What was found in a photograph, drawn over it: the powder's outline, the plate, the baseline.
 #pragma once
 
+#include <optional>
+
 #include "imaging/formats/image_file.h"
+#include "imaging/photos/backlight.h"
 #include "imaging/photos/experiment.h"
+#include "imaging/photos/plate_edges.h"
 
 namespace talus::imaging {
 
@@ -10,6 +14,11 @@ namespace talus::imaging {
 // the powder's outline; blue: the plate's sides; green: the baseline, and the plate's middle.
 ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const GrayImage& silhouette,
                        const Frame& frame);
+
+// Of a photograph that cannot be used: the outline of all that is dark enough (red), and the
+// plate's sides where some were found (blue).
+ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat,
+                     const std::optional<PlateEdges>& edges);
 
 // The overlay of one measured photograph, which is read again.
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -181,12 +182,97 @@ TEST_P(ExperimentFaults, IsNamedWithItsRemedy) {
   std::size_t num_views = 0;
   for (const MeasuredRun& run : experiment.runs) num_views += run.views.size();
   EXPECT_EQ(num_views, 3u);
-  ASSERT_EQ(experiment.notes.size(), 1u);
-  EXPECT_THAT(experiment.notes[0], HasSubstr(fault.reason));
+  ASSERT_EQ(experiment.warnings.size(), 1u);
+  EXPECT_EQ(experiment.warnings[0].doubt, PhotoDoubt::kLeftOut);
+  EXPECT_THAT(WarningText(experiment.warnings[0]), HasSubstr(fault.reason));
 }
 
 INSTANTIATE_TEST_SUITE_P(EachPhoto, ExperimentFaults, testing::ValuesIn(kPhotoFaults),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// The plate of one photograph of four is of another scale: it cannot be used, its picture is kept,
+// and the message says where. A blank one has nothing to draw.
+TEST(Experiment, FaultIsDrawnAndNamed) {
+  const fs::path folder = GoodFolder("drawn");
+  WriteTriangle(folder / Name(2, 1), &Scene::plate_width, 310.0);
+  WritePng(folder / Name(2, 0), Uniform(200));
+  std::vector<fs::path> drawn;
+  const auto keep = [&](const fs::path& photo, const ColorImage& picture) {
+    drawn.push_back(photo.filename());
+    const auto is = [&](const Color& color) {
+      return std::ranges::find(picture.pixels, color) != picture.pixels.end();
+    };
+    EXPECT_TRUE(is({230, 30, 30})) << "outline";
+    EXPECT_TRUE(is({40, 90, 240})) << "plate";
+    return fs::path("kept") / photo.filename();
+  };
+  try {
+    MeasureExperiment(Options(folder), keep);
+    FAIL() << "no error";
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("(see kept/run2_view1.png)"));
+  }
+  EXPECT_THAT(drawn, testing::ElementsAre(fs::path("run2_view1.png")));
+}
+
+TEST(Experiment, LeavingOutMostPhotographsIsNotOffered) {
+  const fs::path folder = GoodFolder("most");
+  for (const auto& name : {Name(1, 0), Name(1, 1), Name(2, 1)}) {
+    WriteTriangle(folder / name, &Scene::plate_width, 0.0);
+  }
+  EXPECT_THAT(ErrorOf(Options(folder)), testing::Not(HasSubstr("--allow-missing-views")));
+  EXPECT_THAT(ErrorOf(Options(folder)), HasSubstr("\"frame\""));
+}
+
+// A bright heap and plate before a dark background have the profile of the same heap lit from
+// behind, and that they were taken so is said. Told that the powder is dark, the plate is not
+// found.
+TEST(Experiment, FrontLitHeapIsRecognised) {
+  Scene scene = SmallScene();
+  scene.uneven = false;
+  const GrayImage backlit = Triangle(scene);
+  GrayImage front_lit = backlit;
+  for (std::uint8_t& level : front_lit.pixels) level = static_cast<std::uint8_t>(255 - level);
+  const fs::path folder = EmptyFolder("front_lit");
+  WritePng(folder / Name(1, 0), front_lit);
+  const fs::path other = EmptyFolder("back_lit");
+  WritePng(other / Name(1, 0), backlit);
+  const Experiment experiment = MeasureExperiment(Options(folder));
+  EXPECT_EQ(experiment.aehp.image, MeasureExperiment(Options(other)).aehp.image);
+  ASSERT_EQ(experiment.warnings.size(), 1u);
+  EXPECT_EQ(experiment.warnings[0].doubt, PhotoDoubt::kFrontLit);
+  ExperimentOptions options = Options(folder);
+  options.powder = PowderLook::kBright;
+  EXPECT_TRUE(MeasureExperiment(options).warnings.empty());
+  options.powder = PowderLook::kDark;
+  EXPECT_NE(ErrorOf(options), "no error");
+}
+
+// One doubt a photograph, each drawn so that nothing else is doubtful.
+TEST(Experiment, DoubtfulPhotographsAreWarnedOf) {
+  const fs::path folder = EmptyFolder("doubts");
+  const Scene scene = SmallScene();
+  for (int view = 0; view < 4; ++view) WritePng(folder / Name(1, view), Triangle(scene));
+  // A thread over the heap from the left edge of the picture: touches it and reaches beyond the
+  // rim.
+  WritePng(folder / Name(1, 4), Photograph(scene, [](double x) {
+             return x < 0 ? std::max(0.5 * (150 - std::abs(x)), 8.0) : 0.5 * (150 - x);
+           }));
+  WritePng(folder / Name(1, 5),
+           Photograph(scene, [](double x) { return 0.2 * (150 - std::abs(x)); }));
+  GrayImage white = Triangle(scene);
+  for (std::uint8_t& level : white.pixels) level = level > 130 ? 255 : level;
+  WritePng(folder / Name(1, 6), white);
+  std::vector<std::pair<std::string, PhotoDoubt>> found;
+  for (const PhotoWarning& warning : MeasureExperiment(Options(folder)).warnings) {
+    found.emplace_back(warning.photo.filename().string(), warning.doubt);
+  }
+  using enum PhotoDoubt;
+  EXPECT_THAT(found, testing::UnorderedElementsAre(std::pair(Name(1, 4), kTouchesFrame),
+                                                   std::pair(Name(1, 4), kBesidePlate),
+                                                   std::pair(Name(1, 5), kViewDisagrees),
+                                                   std::pair(Name(1, 6), kOverexposed)));
+}
 
 TEST(Experiment, NothingIsLeft) {
   const fs::path folder = EmptyFolder("nothing");

@@ -34,7 +34,7 @@ TEST(PowderA, PlateIsFoundInEveryPhotograph) {
       EXPECT_NEAR(view.plate.center_x, run.views[0].plate.center_x, 0.1) << view.photo;
     }
   }
-  EXPECT_TRUE(PowderA().notes.empty());
+  EXPECT_TRUE(PowderA().warnings.empty());
 }
 
 GrayImage MeanOfRuns(const std::vector<std::size_t>& runs) {

@@ -133,7 +133,13 @@ ordered_json ExperimentJson(const imaging::Experiment& experiment) {
   }
   json["runs"] = ordered_json::array();
   for (const imaging::MeasuredRun& run : experiment.runs) json["runs"].push_back(RunJson(run));
-  json["notes"] = experiment.notes;
+  json["warnings"] = nlohmann::ordered_json::array();
+  for (const imaging::PhotoWarning& warning : experiment.warnings) {
+    json["warnings"].push_back({{"kind", base::NameOf(warning.doubt)},
+                                {"photo", warning.photo.string()},
+                                {"value", warning.value},
+                                {"text", imaging::WarningText(warning)}});
+  }
   return json;
 }
 

@@ -94,8 +94,8 @@ std::vector<imaging::MassRun> MeasureFolder(const MassFolder& folder,
   imaging::ExperimentOptions of_folder = options;
   of_folder.photos = folder.path;
   const imaging::Experiment experiment = imaging::MeasureExperiment(of_folder);
-  for (const std::string& note : experiment.notes) {
-    print << "note: " << folder.path.string() << ": " << note << '\n';
+  for (const imaging::PhotoWarning& warning : experiment.warnings) {
+    print << "warning: " << folder.path.string() << ": " << imaging::WarningText(warning) << '\n';
   }
   std::vector<imaging::MassRun> runs;
   for (const imaging::MeasuredRun& run : experiment.runs) {

@@ -31,6 +31,14 @@ std::vector<imaging::PhotoRun> GroupPhotos(const std::vector<fs::path>& files,
   return {{.name = "1", .photos = files}};
 }
 
+fs::path OverlayPath(const fs::path& out, const std::string& name) {
+  return out / "overlays" / (name + ".png");
+}
+
+std::string OverlayName(const imaging::MeasuredRun& run, const imaging::MeasuredView& view) {
+  return "run_" + run.name + "_" + view.photo.stem().string();
+}
+
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
   const fs::path& out = request.out;
   fs::create_directories(out / "overlays");
@@ -42,8 +50,7 @@ void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experi
   for (const imaging::MeasuredRun& run : experiment.runs) {
     imaging::WriteProfile(out / "runs" / ("run_" + run.name + ".png"), run.profile);
     for (const imaging::MeasuredView& view : run.views) {
-      const std::string name = "run_" + run.name + "_" + view.photo.stem().string() + ".png";
-      imaging::WritePng(out / "overlays" / name,
+      imaging::WritePng(OverlayPath(out, OverlayName(run, view)),
                         imaging::OverlayOf(view, experiment.aehp.frame, request.experiment,
                                            experiment.photo_pixel));
     }
@@ -73,7 +80,33 @@ void PrintSummary(const imaging::Experiment& experiment, std::ostream& print) {
           << " px = " << floor.mean_sad_mm2 << " mm2 = " << 100 * floor.mean_sad_relative
           << " % of NEBP\n";
   }
-  for (const std::string& note : experiment.notes) print << "note: " << note << '\n';
+}
+
+// What is doubtful, each with the picture that shows it.
+void PrintWarnings(const imaging::Experiment& experiment, const fs::path& out,
+                   std::ostream& print) {
+  for (const imaging::PhotoWarning& warning : experiment.warnings) {
+    print << "warning: " << imaging::WarningText(warning);
+    for (const imaging::MeasuredRun& run : experiment.runs) {
+      for (const imaging::MeasuredView& view : run.views) {
+        if (out.empty() || view.photo != warning.photo) continue;
+        print << " (see " << OverlayPath(out, OverlayName(run, view)).string() << ")";
+      }
+    }
+    print << '\n';
+  }
+}
+
+// Pictures of unusable photographs, under names that keep photographs of several folders apart.
+imaging::PictureSink KeepFaults(const fs::path& out) {
+  if (out.empty()) return {};
+  return [out](const fs::path& photo, const imaging::ColorImage& picture) {
+    const fs::path path = OverlayPath(
+        out, "fault_" + photo.parent_path().filename().string() + "_" + photo.stem().string());
+    fs::create_directories(path.parent_path());
+    imaging::WritePng(path, picture);
+    return path;
+  };
 }
 
 }  // namespace
@@ -101,8 +134,10 @@ void SetSource(const std::vector<fs::path>& inputs, bool is_map,
 void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {
   MeasureRequest complete = request;
   SetSource(request.inputs, request.is_map, complete.experiment);
-  const imaging::Experiment experiment = imaging::MeasureExperiment(complete.experiment);
+  const imaging::Experiment experiment =
+      imaging::MeasureExperiment(complete.experiment, KeepFaults(request.out));
   PrintSummary(experiment, print);
+  PrintWarnings(experiment, request.out, print);
   if (request.out.empty()) return;
   WriteFiles(complete, experiment);
   print << "written to " << request.out.string() << "/ (look at overlays/*.png)\n";

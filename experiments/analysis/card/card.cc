@@ -1,0 +1,117 @@
+#include "experiments/analysis/card/card.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/json_writer.h"
+#include "experiments/analysis/card/card_formats.h"
+#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/start.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
+
+namespace talus::experiments {
+namespace {
+
+bool Same(const engine::Material& a, const engine::Material& b) {
+  return base::ToJson(a) == base::ToJson(b);
+}
+
+Card ReadCampaignCard(const std::filesystem::path& folder) {
+  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
+  const std::string text = journal.Progress().result_json;
+  if (text.empty()) {
+    throw base::ConfigError(folder.string() +
+                            ": has no result yet; `talus status` says where the campaign stands");
+  }
+  const CampaignResult result = ParseResult(text);
+  const CampaignRecord record = journal.Campaign();
+  const CampaignSpec spec = ParseSpecText(record.spec_json);
+  std::vector<double> values;
+  for (const ResultParameter& p : result.parameters) values.push_back(p.value);
+  const HeapCase heap_case =
+      CaseOf(spec, {.values = values, .scale_factor = result.conditions.scale_factor},
+             ReferencesOf(record, spec).front().frame());
+  Card card = CardOf(heap_case);
+  card.title = result.name;
+  card.notes = result.warnings;
+  for (const ResultParameter& p : result.parameters) {
+    card.ranges.push_back({.name = p.name,
+                           .unit = p.unit,
+                           .value = p.value,
+                           .low = p.credible_low,
+                           .high = p.credible_high});
+  }
+  return card;
+}
+
+}  // namespace
+
+Card CardOf(const HeapCase& heap_case) {
+  const HeapSize size = EstimateHeap(heap_case);
+  const engine::Material powder = UsedMaterial(heap_case);
+  const Device& device = heap_case.device;
+  Card card{.title = "one case",
+            .materials = {{.name = "powder", .material = powder}},
+            .models = heap_case.models,
+            .scale_factor = heap_case.coarse_graining.scale_factor,
+            .surface_energy_given = heap_case.powder.material.surface_energy,
+            .mean_diameter = size.mean_diameter,
+            .time_step = size.time_step,
+            .gravity = heap_case.gravity,
+            .lift_velocity = device.lift_velocity,
+            .plate_diameter = device.plate_diameter,
+            .tube_inner_diameter = device.tube_inner_diameter};
+  const auto add = [&](const char* name, const std::optional<WallMaterial>& wall) {
+    const engine::Material material = wall.value_or(WallMaterial()).Over(powder);
+    if (!Same(material, powder)) card.materials.push_back({.name = name, .material = material});
+  };
+  add("tube", device.tube_material);
+  add("plate", device.plate_material);
+  return card;
+}
+
+Card ReadCard(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return ReadCampaignCard(path);
+  Card card = CardOf(LoadHeapCase(path));
+  card.title = path.filename().string();
+  return card;
+}
+
+// F = k_n δ with k_n = (4/3) Y* √(R* δ)  ⇒  δ = (F / ((4/3) Y* √R*))^(2/3).
+TypicalContact TypicalContactOf(const Card& card) {
+  constexpr double kGrainWeights = 10;
+  const engine::Material& powder = card.materials.front().material;
+  const double radius = card.mean_diameter / 2;
+  const double mass = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3) * powder.density;
+  TypicalContact contact{.pair = engine::MakePairConstants(powder, powder, card.models),
+                         .r_star = radius / 2,
+                         .m_star = mass / 2};
+  const double force = kGrainWeights * mass * card.gravity;
+  const double hertz = contact.pair.normal_stiffness * std::sqrt(contact.r_star);
+  const double overlap = std::pow(force / hertz, 2.0 / 3);
+  contact.normal_stiffness = hertz * std::sqrt(overlap);
+  return contact;
+}
+
+std::string CardText(const Card& card, CardFormat format) {
+  switch (format) {
+    case CardFormat::kTable:
+      return TableCard(card);
+    case CardFormat::kJson:
+      return JsonCard(card);
+    case CardFormat::kLethe:
+      return LetheCard(card);
+    case CardFormat::kLiggghts:
+      return LiggghtsCard(card);
+    case CardFormat::kLammps:
+      return LammpsCard(card);
+    case CardFormat::kYade:
+      return YadeCard(card);
+    case CardFormat::kMercuryDpm:
+      return MercuryDpmCard(card);
+  }
+  return {};
+}
+
+}  // namespace talus::experiments

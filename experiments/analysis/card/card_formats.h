@@ -1,0 +1,30 @@
+// One function a code: the card's lines, with what the code defines in another way converted, and a
+// comment where it has nothing that does the same.
+#pragma once
+
+#include <string>
+
+#include "experiments/analysis/card/card.h"
+
+namespace talus::experiments {
+
+std::string TableCard(const Card& card);
+std::string JsonCard(const Card& card);
+std::string LetheCard(const Card& card);
+std::string LiggghtsCard(const Card& card);
+std::string LammpsCard(const Card& card);
+std::string YadeCard(const Card& card);
+std::string MercuryDpmCard(const Card& card);
+
+// Six significant digits, as the codes read numbers: "2.625e+07".
+std::string CardNumber(double value);
+
+// What the values hold for, one line each, behind `mark` ("# ", "// ").
+std::string CardHead(const Card& card, const std::string& code, const std::string& mark);
+
+// The restitution that `damping tsuji` of LAMMPS must be given to rebound with `restitution`, and
+// its polynomial α(e) (docs/foreign_engines.md).
+double TsujiAlpha(double restitution);
+double TsujiRestitution(double restitution);
+
+}  // namespace talus::experiments

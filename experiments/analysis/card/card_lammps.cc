@@ -1,0 +1,117 @@
+// LAMMPS, pair_style granular. Converted:
+//   restitution  `damping tsuji` damps by α(e) √(m* k_n) with a polynomial α; ours is √5 β(e) (N3).
+//                It is given the e that makes both equal (0.481 for 0.6).
+//   tangential   damped by a share of the normal dashpot: η_t/η_n = √(k_t/(3/2 k_n)) = 2√(G*/Y*)
+//   rolling      sds has constants where EPSD grows with the load: k_roll = k_r/R*² = 2.25 k_n μ_r²
+//                and γ_roll = C_r/R*², at the typical contact. The limit μ_r |F_n| R* is the same.
+//   γ            4πγR* of two equal surfaces in LAMMPS is 2πγ* R* here, so γ*/2 is given.
+#include <cmath>
+#include <sstream>
+
+#include "experiments/analysis/card/card_formats.h"
+
+namespace talus::experiments {
+namespace {
+
+// The pair's own Young's modulus and Poisson's ratio: LAMMPS makes E* and G* of one pair of values.
+struct PairInput {
+  const engine::Material& a;
+  const engine::Material& b;
+  engine::PairConstants pair;
+};
+
+std::string NormalModel(const Card& card, const PairInput& input) {
+  const double restitution =
+      TsujiRestitution(engine::HarmonicMean(input.a.restitution, input.b.restitution));
+  const bool adhesive = input.pair.surface_energy > 0;
+  const std::string model = !adhesive                                        ? "hertz/material "
+                            : card.models.adhesion == engine::Adhesion::kDmt ? "dmt "
+                                                                             : "jkr ";
+  // Equal materials give back themselves; else the values that have the pair's Y* at ν = (ν₁+ν₂)/2.
+  const double poisson = (input.a.poisson_ratio + input.b.poisson_ratio) / 2;
+  const double modulus = 2 * (1 - poisson * poisson) * input.pair.y_star;
+  std::string text =
+      model + CardNumber(modulus) + " " + CardNumber(restitution) + " " + CardNumber(poisson);
+  if (adhesive) text += " " + CardNumber(input.pair.surface_energy / 2);
+  return text;
+}
+
+std::string RollingModel(const Card& card, const PairInput& input) {
+  if (card.models.rolling != engine::Rolling::kEpsd) return "rolling none";
+  const TypicalContact typical = TypicalContactOf(card);
+  const double friction = input.pair.rolling_friction;
+  const double k_roll = 2.25 * typical.normal_stiffness * friction * friction;
+  // C_r = 2 η_r √(I* k_r) with k_r = k_roll R*² and, of two equal grains, I* = 0.7 m R².
+  const double radius = 2 * typical.r_star;
+  const double inertia = 0.7 * 2 * typical.m_star * radius * radius;
+  const double damping = engine::HarmonicMean(input.a.rolling_damping, input.b.rolling_damping);
+  const double c_roll = 2 * damping * std::sqrt(inertia * k_roll) / typical.r_star;
+  return "rolling sds " + CardNumber(k_roll) + " " + CardNumber(c_roll) + " " +
+         CardNumber(friction);
+}
+
+std::string PairModel(const Card& card, const engine::Material& a, const engine::Material& b) {
+  const PairInput input{a, b, engine::MakePairConstants(a, b, card.models)};
+  const double g_star = input.pair.shear_stiffness / 8;
+  const double damping = 2 * std::sqrt(g_star / input.pair.y_star);
+  return NormalModel(card, input) + " tangential mindlin NULL " + CardNumber(damping) + " " +
+         CardNumber(input.pair.sliding_friction) + " " + RollingModel(card, input) +
+         " damping tsuji";
+}
+
+std::string Remarks(const Card& card) {
+  std::string text;
+  if (card.models.adhesion != engine::Adhesion::kNone) {
+    text +=
+        "# Adhesion raises the limits of sliding and rolling in LAMMPS, not in talus, and acts in "
+        "contact only.\n";
+  }
+  if (card.models.rolling == engine::Rolling::kEpsd) {
+    text +=
+        "# rolling sds: stiffness and damping of a contact that bears ten grain weights; its limit "
+        "caps spring\n# and dashpot together.\n";
+  } else if (card.models.rolling != engine::Rolling::kNone) {
+    text += "# NOT INCLUDED: the " + std::string(base::NameOf(card.models.rolling)) +
+            " rolling resistance, which LAMMPS has not.\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+double TsujiAlpha(double e) {
+  return 1.2728 +
+         e * (-4.2783 + e * (11.087 + e * (-22.348 + e * (27.467 + e * (-18.022 + e * 4.8218)))));
+}
+
+// α falls from e = 0 to 1, so bisection finds it; e = 1 asks for no damping, which α(1) = 0.0005
+// nearly has.
+double TsujiRestitution(double restitution) {
+  const double wanted = std::sqrt(5.0) * engine::DampingRatio(restitution);
+  double low = 0.01;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (TsujiAlpha(middle) > wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+std::string LammpsCard(const Card& card) {
+  std::ostringstream text;
+  text << CardHead(card, "LAMMPS (package GRANULAR)", "# ") << Remarks(card)
+       << "# density: " << CardNumber(card.materials[0].material.density) << " kg/m3\n"
+       << "# restitution is the input of `damping tsuji` that rebounds with "
+       << CardNumber(card.materials[0].material.restitution) << "\n"
+       << "pair_style granular\n";
+  const engine::Material& powder = card.materials[0].material;
+  text << "pair_coeff * * " << PairModel(card, powder, powder) << "\n";
+  for (std::size_t i = 1; i < card.materials.size(); ++i) {
+    text << "# " << card.materials[i].name << ": fix ID all wall/gran/region granular "
+         << PairModel(card, powder, card.materials[i].material) << " region ID\n";
+  }
+  text << "timestep " << CardNumber(card.time_step) << "\n";
+  return text.str();
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,80 @@
+// Lethe: the definitions of docs/physics.md are Lethe's, values of a material are given, and Lethe
+// mixes them by the same rules (P5, P6). Nothing is converted.
+#include <sstream>
+
+#include "experiments/analysis/card/card_formats.h"
+
+namespace talus::experiments {
+namespace {
+
+struct Key {
+  const char* name;
+  double engine::Material::*part;
+};
+constexpr Key kKeys[] = {
+    {"young modulus", &engine::Material::youngs_modulus},
+    {"poisson ratio", &engine::Material::poisson_ratio},
+    {"restitution coefficient", &engine::Material::restitution},
+    {"friction coefficient", &engine::Material::sliding_friction},
+    {"rolling friction", &engine::Material::rolling_friction},
+    {"rolling viscous damping", &engine::Material::rolling_damping},
+    {"surface energy", &engine::Material::surface_energy},
+    {"hamaker constant", &engine::Material::hamaker_constant},
+};
+
+std::string Lines(const engine::Material& material, const std::string& of, const char* indent) {
+  std::string text;
+  for (const Key& key : kKeys) {
+    text += std::string(indent) + "set " + key.name + " " + of + " = " +
+            CardNumber(material.*key.part) + "\n";
+  }
+  return text;
+}
+
+// Particle–particle and particle–wall names of the contact model.
+std::pair<const char*, const char*> ContactNames(engine::Adhesion adhesion) {
+  if (adhesion == engine::Adhesion::kDmt) return {"DMT", "DMT"};
+  if (adhesion == engine::Adhesion::kJkr) return {"hertz_JKR", "JKR"};
+  return {"hertz_mindlin_limit_overlap", "nonlinear"};
+}
+
+const char* RollingName(engine::Rolling rolling) {
+  switch (rolling) {
+    case engine::Rolling::kNone:
+      return "no_resistance";
+    case engine::Rolling::kConstant:
+      return "constant_resistance";
+    case engine::Rolling::kViscous:
+      return "viscous_resistance";
+    case engine::Rolling::kEpsd:
+      return "epsd_resistance";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string LetheCard(const Card& card) {
+  const engine::Material& powder = card.materials.front().material;
+  const bool one_wall = card.materials.size() <= 2;
+  const engine::Material& wall = card.materials.back().material;
+  const auto [particles, walls] = ContactNames(card.models.adhesion);
+  std::ostringstream text;
+  text << CardHead(card, "Lethe", "# ");
+  if (!one_wall) text << "# Lethe has one wall material: the plate's; the tube had another.\n";
+  text << "subsection lagrangian physical properties\n  subsection particle type 0\n"
+       << "    set density particles = " << CardNumber(powder.density) << "\n"
+       << Lines(powder, "particles", "    ") << "  end\n"
+       << Lines(wall, "wall", "  ") << "end\n"
+       << "subsection model parameters\n"
+       << "  set particle particle contact force method = " << particles << "\n"
+       << "  set particle wall contact force method = " << walls << "\n"
+       << "  set dmt cut-off threshold = " << CardNumber(card.models.adhesion_cutoff) << "\n"
+       << "  set rolling resistance torque method = " << RollingName(card.models.rolling) << "\n"
+       << "  set f coefficient = " << CardNumber(card.models.full_mobilisation_damping) << "\n"
+       << "end\nsubsection simulation control\n  set time step = " << CardNumber(card.time_step)
+       << "\nend\n";
+  return text.str();
+}
+
+}  // namespace talus::experiments

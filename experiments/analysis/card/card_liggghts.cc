@@ -1,0 +1,80 @@
+// LIGGGHTS-PUBLIC 3.8: hertz, history and epsd are (N1)–(N4), (T1)–(T3) and (R1)–(R4) with f = 0,
+// so that nothing is converted. Pair values are given as a matrix, mixed here by (P5).
+#include <sstream>
+
+#include "experiments/analysis/card/card_formats.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string PerType(const Card& card, const std::string& property, double engine::Material::*part) {
+  std::string line = "fix talus_" + property + " all property/global " + property + " peratomtype";
+  for (const CardMaterial& m : card.materials) line += " " + CardNumber(m.material.*part);
+  return line + "\n";
+}
+
+std::string PerPair(const Card& card, const std::string& property, double engine::Material::*part) {
+  std::string line = "fix talus_" + property + " all property/global " + property +
+                     " peratomtypepair " + std::to_string(card.materials.size());
+  for (const CardMaterial& a : card.materials) {
+    for (const CardMaterial& b : card.materials) {
+      line += " " + CardNumber(engine::HarmonicMean(a.material.*part, b.material.*part));
+    }
+  }
+  return line + "\n";
+}
+
+// Empty for no rolling resistance; nothing in LIGGGHTS is the viscous model.
+std::string RollingModel(engine::Rolling rolling) {
+  if (rolling == engine::Rolling::kEpsd) return " rolling_friction epsd";
+  return rolling == engine::Rolling::kConstant ? " rolling_friction cdt" : "";
+}
+
+std::string Remarks(const Card& card) {
+  std::string text;
+  if (card.models.adhesion != engine::Adhesion::kNone) {
+    text +=
+        "# NOT INCLUDED: the adhesion. LIGGGHTS-PUBLIC has SJKR only, whose force is another one: "
+        "this card\n# without it is not the calibrated powder.\n";
+  }
+  if (card.models.rolling == engine::Rolling::kViscous) {
+    text += "# NOT INCLUDED: the viscous rolling resistance, which LIGGGHTS has not.\n";
+  }
+  const bool damped = card.models.full_mobilisation_damping > 0;
+  if (card.models.rolling == engine::Rolling::kEpsd && damped) {
+    text +=
+        "# LIGGGHTS has no rolling damping once the limit is reached (f = 0); calibrated with " +
+        CardNumber(card.models.full_mobilisation_damping) + ".\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string LiggghtsCard(const Card& card) {
+  using M = engine::Material;
+  std::ostringstream text;
+  text << CardHead(card, "LIGGGHTS-PUBLIC 3.8", "# ") << Remarks(card) << "# Atom types:";
+  for (std::size_t i = 0; i < card.materials.size(); ++i) {
+    text << ' ' << i + 1 << ' ' << card.materials[i].name
+         << (i + 1 < card.materials.size() ? "," : "; walls without a type of their own: 1\n");
+  }
+  const std::string model = "model hertz tangential history" + RollingModel(card.models.rolling);
+  text << "# density of type 1: " << CardNumber(card.materials[0].material.density) << " kg/m3\n"
+       << PerType(card, "youngsModulus", &M::youngs_modulus)
+       << PerType(card, "poissonsRatio", &M::poisson_ratio)
+       << PerPair(card, "coefficientRestitution", &M::restitution)
+       << PerPair(card, "coefficientFriction", &M::sliding_friction);
+  if (!RollingModel(card.models.rolling).empty()) {
+    text << PerPair(card, "coefficientRollingFriction", &M::rolling_friction);
+  }
+  if (card.models.rolling == engine::Rolling::kEpsd) {
+    text << PerPair(card, "coefficientRollingViscousDamping", &M::rolling_damping);
+  }
+  text << "pair_style gran " << model << "\npair_coeff * *\n"
+       << "# and each wall: fix ID all wall/gran " << model << " ...\n"
+       << "timestep " << CardNumber(card.time_step) << "\n";
+  return text.str();
+}
+
+}  // namespace talus::experiments

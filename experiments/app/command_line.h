@@ -1,0 +1,28 @@
+// The command line of the program as one thing: parsed by main, and described by `talus help`, the
+// man pages and the shells' completions.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace talus::experiments {
+
+// Adds every verb, and what all share: --version, one verb a call.
+void DescribeCommandLine(CLI::App& app);
+
+// "did you mean …" for a verb or flag that nearly names one, else where help is; empty when neither
+// is misspelt. `arguments` are those after the program's name.
+std::string Suggestion(const CLI::App& app, std::span<const char* const> arguments);
+
+// Roff of section 1: of the program, or of one verb.
+std::string ManPage(const CLI::App& app);
+std::string ManPage(const CLI::App& app, const CLI::App& verb);
+
+enum class Shell { kBash, kZsh, kFish };
+std::string CompletionScript(const CLI::App& app, Shell shell);
+
+}  // namespace talus::experiments

@@ -1,0 +1,71 @@
+// What a campaign tells of itself while it runs, as data: for people it becomes a line, for scripts
+// (--json) one JSON object a line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "experiments/journal/records.h"
+
+namespace talus::experiments {
+
+struct TrialProgress {
+  std::int64_t trial = 0;
+  TrialKind kind = TrialKind::kSearch;
+  TrialStatus status = TrialStatus::kRunning;
+  std::vector<double> values{};       // native units, in the order of the free parameters
+  std::optional<double> objective{};  // none where it is not defined
+  std::string unit{};                 // of the objective, for people: "mm²"
+  bool best = false;                  // the lowest objective so far
+  std::string reason{};               // of a failure
+  double duration = 0;                // [s]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("trial", self.trial);
+    visit("kind", self.kind);
+    visit("status", self.status);
+    visit("values", self.values);
+    visit("objective", self.objective);
+    visit("unit", self.unit);
+    visit("best", self.best);
+    visit("reason", self.reason);
+    visit("duration_s", self.duration);
+  }
+};
+
+struct CampaignProgress {
+  int num_search = 0;       // trials asked for, without the confirming ones
+  int budget = 0;           // of those; 0: core time is the budget
+  double core_seconds = 0;  // used by the search, where that is the budget [s]
+  std::optional<double> core_seconds_budget{};
+  int num_running = 0;
+  std::optional<double> best{};
+  std::int64_t best_trial = 0;
+  std::string unit{};
+  std::optional<double> seconds_left{};  // at most
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("num_search", self.num_search);
+    visit("budget", self.budget);
+    visit("core_seconds", self.core_seconds);
+    visit("core_seconds_budget", self.core_seconds_budget);
+    visit("num_running", self.num_running);
+    visit("best_objective", self.best);
+    visit("best_trial", self.best_trial);
+    visit("unit", self.unit);
+    visit("seconds_left", self.seconds_left);
+  }
+};
+
+// "trial 7 (search) at 0.3 0.1: 1.2 mm², the best so far, 12 s"
+std::string ProgressText(const TrialProgress& trial);
+
+// "trial 7 of 60, 2 running, best 1.2 mm² (trial 5), at most 3 min left"
+std::string ProgressText(const CampaignProgress& campaign);
+
+}  // namespace talus::experiments

@@ -1,0 +1,39 @@
+// An experiment's photographs as they are to be used: read, with the plate's edges in each, and all
+// that is wrong with them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "imaging/photos/experiment.h"
+#include "imaging/photos/plate_edges.h"
+
+namespace talus::imaging {
+
+struct Photo {
+  std::filesystem::path path;
+  std::size_t run = 0;
+  PlateEdges edges;        // unless the frame is given
+  bool front_lit = false;  // powder is brighter than its background
+};
+
+struct PhotoFault {
+  std::filesystem::path photo;  // empty for one that is missing
+  std::string reason;           // names the file
+};
+
+struct PhotoCollection {
+  std::vector<std::string> runs;  // names
+  std::vector<Photo> photos;      // usable ones, run by run
+  int width = 0;                  // of every photograph [px]
+  int height = 0;                 // [px]
+  std::vector<PhotoFault> faults;
+};
+
+// Reads every photograph once. Faults end the work with a ConfigError that lists them all, or, with
+// `allow_missing_views`, become warnings. The faulty photographs that can be drawn go to `keep`.
+PhotoCollection CollectPhotos(const ExperimentOptions& options, const PictureSink& keep,
+                              std::vector<PhotoWarning>& warnings);
+
+}  // namespace talus::imaging

@@ -1,0 +1,114 @@
+#include "imaging/photos/photo_warning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kRimMargin = 0.05;      // beyond the rim / plate radius [-]
+constexpr double kLeastDeviation = 0.2;  // of a view's NEBP from the median [-]
+constexpr double kManyScatters = 4;      // and so many standard deviations of the views
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::string Percent(double share) {
+  std::ostringstream text;
+  text.precision(2);
+  text << 100 * share << " %";
+  return text.str();
+}
+
+std::string Reason(const PhotoWarning& warning) {
+  switch (warning.doubt) {
+    case PhotoDoubt::kLeftOut:
+      return "left out: " + warning.reason;
+    case PhotoDoubt::kFrontLit:
+      return "powder is brighter than its background and is taken to be lit from the front; say "
+             "\"powder\": \"bright\" (--powder bright) if so, \"dark\" if not";
+    case PhotoDoubt::kMixedLight:
+      return std::to_string(static_cast<int>(warning.value)) +
+             " photographs look lit from the front, the others from behind; say which with "
+             "\"powder\" (--powder)";
+    case PhotoDoubt::kHiddenTop:
+      return "powder hides the plate's top in every photograph: the baseline is known to about a "
+             "pixel";
+    case PhotoDoubt::kNoPowder:
+      return "no powder stands on the plate";
+    case PhotoDoubt::kTouchesFrame:
+      return "the silhouette touches the edge of the picture: part of the heap may be missing, or "
+             "something else is taken for powder";
+    case PhotoDoubt::kBesidePlate:
+      return Percent(warning.value) +
+             " of the powder lies beyond the plate's rim: something else is taken for powder, or "
+             "the plate for something else";
+    case PhotoDoubt::kViewDisagrees:
+      return "shows " + Percent(warning.value) +
+             " of the powder that the median view shows: another heap, or a wrong outline";
+    case PhotoDoubt::kOverexposed:
+      return Percent(warning.value) +
+             " of the background is at full white: light eats into the outline; expose less";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string WarningText(const PhotoWarning& warning) {
+  const std::string reason = Reason(warning);
+  return warning.photo.empty() ? reason : warning.photo.string() + ": " + reason;
+}
+
+bool TouchesFrame(const GrayImage& silhouette) {
+  const auto powder = [&](int x, int y) { return silhouette.at(x, y) < 128; };
+  for (int x = 0; x < silhouette.width; ++x) {
+    if (powder(x, 0)) return true;
+  }
+  for (int y = 0; y < silhouette.height; ++y) {
+    if (powder(0, y) || powder(silhouette.width - 1, y)) return true;
+  }
+  return false;
+}
+
+double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame) {
+  const double rim = (0.5 + kRimMargin / 2) * frame.plate_diameter / frame.pixel_size;
+  double beside = 0;
+  double all = 0;
+  for (int y = 0; y < silhouette.height; ++y) {
+    for (int x = 0; x < silhouette.width; ++x) {
+      const double powder = 255 - silhouette.at(x, y);
+      all += powder;
+      if (std::abs(x + 0.5 - frame.center_x) > rim) beside += powder;
+    }
+  }
+  return all > 0 ? beside / all : 0;
+}
+
+double ShareOverexposed(const GrayImage& photo) {
+  const auto light = std::count_if(photo.pixels.begin(), photo.pixels.end(),
+                                   [](std::uint8_t level) { return level >= 128; });
+  const auto white = std::count(photo.pixels.begin(), photo.pixels.end(), 255);
+  return light > 0 ? static_cast<double>(white) / static_cast<double>(light) : 0;
+}
+
+std::vector<double> DisagreeingViews(const std::vector<double>& nebp) {
+  std::vector<double> off(nebp.size(), 0.0);
+  if (nebp.size() < 3) return off;
+  const double median = Median(nebp);
+  if (!(median > 0)) return off;
+  std::vector<double> deviations;
+  for (const double value : nebp) deviations.push_back(std::abs(value / median - 1));
+  const double scatter = 1.48 * Median(deviations);
+  for (std::size_t i = 0; i < nebp.size(); ++i) {
+    const bool much = deviations[i] > kLeastDeviation && deviations[i] > kManyScatters * scatter;
+    if (much) off[i] = nebp[i] / median;
+  }
+  return off;
+}
+
+}  // namespace talus::imaging

@@ -1,0 +1,64 @@
+// What is doubtful about an experiment's photographs, as data: the terminal, measure.json and the
+// report say it in the same words.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "imaging/heap/profile.h"
+
+namespace talus::imaging {
+
+enum class PhotoDoubt {
+  kLeftOut,        // not usable; `reason` says why
+  kFrontLit,       // powder is brighter than its background; value: number of such photographs
+  kMixedLight,     // it is in some photographs only; value: number of such photographs
+  kHiddenTop,      // powder hides the plate's top in every photograph
+  kNoPowder,       // nothing stands on the plate
+  kTouchesFrame,   // powder at the picture's edge
+  kBesidePlate,    // value: share of the powder farther out than the plate's rim [-]
+  kViewDisagrees,  // value: NEBP / median NEBP of all views [-]
+  kOverexposed,    // value: share of the background at full white [-]
+};
+
+struct PhotoWarning {
+  PhotoDoubt doubt = PhotoDoubt::kLeftOut;
+  std::filesystem::path photo{};  // empty where it is of all
+  double value = 0;               // as the doubt says
+  std::string reason{};           // of kLeftOut
+};
+
+// One sentence with the photograph, the number and what to look at.
+std::string WarningText(const PhotoWarning& warning);
+
+// Whether the powder reaches the left, right or upper edge of the frame.
+bool TouchesFrame(const GrayImage& silhouette);
+
+// Share of the powder that lies farther from the axis than the plate's rim and a margin [-].
+double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame);
+
+// Share of the pixels lighter than mid-grey that are at full white [-].
+double ShareOverexposed(const GrayImage& photo);
+
+inline constexpr double kMuchBesidePlate = 0.01;  // [-]
+inline constexpr double kMuchOverexposed = 0.5;   // [-]
+
+// NEBP of each view over the median of all, for those that are off by more than 20 % and by more
+// than four times the usual scatter (1.48 × median absolute deviation); 0 for the others.
+std::vector<double> DisagreeingViews(const std::vector<double>& nebp);
+
+}  // namespace talus::imaging
+
+template <>
+struct talus::base::Names<talus::imaging::PhotoDoubt> {
+  using enum talus::imaging::PhotoDoubt;
+  static constexpr std::array kList{
+      std::pair{"left_out", kLeftOut},         std::pair{"front_lit", kFrontLit},
+      std::pair{"mixed_light", kMixedLight},   std::pair{"hidden_top", kHiddenTop},
+      std::pair{"no_powder", kNoPowder},       std::pair{"touches_frame", kTouchesFrame},
+      std::pair{"beside_plate", kBesidePlate}, std::pair{"view_disagrees", kViewDisagrees},
+      std::pair{"overexposed", kOverexposed}};
+};

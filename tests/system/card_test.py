@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""card_test.py TALUS: the lines that `talus card` writes, pasted into LIGGGHTS and LAMMPS, do what our
+engine does: an oblique collision of two grains, and a grain that slides, rolls and comes to rest. The
+cards of codes that are not at hand are checked against numbers worked out here."""
+import csv
+import json
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TALUS = sys.argv[1]
+MATERIAL = {"density": 2500, "youngs_modulus": 5e6, "poisson_ratio": 0.25, "restitution": 0.6,
+            "sliding_friction": 0.4, "rolling_friction": 0.2, "rolling_damping": 0.3}
+DIAMETER = 1e-3
+COMMANDS = {"liggghts": "liggghts", "lammps": "lmp"}
+DUMP = "id x y z vx vy vz omegax omegay omegaz"
+SCENES = {  # spheres as (position, velocity), gravity, floor, end [s]
+    "collision": ([((0, 0, 0), (0.5, 0, 0)), ((1.02e-3, 0.4e-3, 0), (0, 0, 0))], 0, False, 5e-3),
+    "rolling": ([((0, 0, DIAMETER / 2), (0.1, 0, 0))], 9.81, True, 0.25),
+}
+
+
+def case(plate=None, models=None, **material):
+    return {"models": models or {}, "powder": {"material": {**MATERIAL, **material}, "mass": "0.5 g",
+                       "sizes": {"kind": "mono", "diameter": DIAMETER}},
+            "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm",
+                       **({"plate_material": plate} if plate else {})}}
+
+
+def card(folder, name, **changes):
+    (folder / "case.json").write_text(json.dumps(case(**changes)))
+    done = subprocess.run([TALUS, "card", folder / "case.json", "--format", name],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def time_step(text):
+    return float(re.search(r"timestep (\S+)", text).group(1))
+
+
+def ours(folder, scene, step):
+    spheres, gravity, floor, end = SCENES[scene]
+    (folder / "scene.json").write_text(json.dumps({
+        "materials": [{"name": "powder", **MATERIAL}], "gravity": [0, 0, -gravity], "time_step": step,
+        "spheres": [{"diameter": DIAMETER, "position": p, "velocity": v} for p, v in spheres],
+        "walls": [{"name": "floor", "shape": "plane"}] if floor else [],
+        "stop": {"time": end}, "outputs": {"times": [end], "vtp": False}}))
+    done = subprocess.run([TALUS, "simulate", folder / "scene.json", "--out", folder / "ours", "--fresh"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with open(sorted((folder / "ours").glob("*.csv"))[-1], newline="") as table:
+        rows = sorted(csv.DictReader(table), key=lambda row: int(row["id"]))
+    return [[float(row[key]) for key in ("x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "wx_rad_s",
+                                         "wy_rad_s", "wz_rad_s")] for row in rows]
+
+
+def theirs(folder, scene, program, lines):
+    spheres, gravity, floor, end = SCENES[scene]
+    liggghts = program == "liggghts"
+    atoms = "".join(f"{i + 1} 1 {DIAMETER} {MATERIAL['density']} {p[0]} {p[1]} {p[2]}\n"
+                    for i, (p, _) in enumerate(spheres))
+    (folder / "atoms.data").write_text(
+        f"two grains\n\n{len(spheres)} atoms\n1 atom types\n\n-0.05 0.05 xlo xhi\n-0.05 0.05 ylo yhi\n"
+        f"-0.05 0.05 zlo zhi\n\nAtoms\n\n{atoms}")
+    wall = ""
+    if floor and liggghts:
+        model = re.search(r"pair_style gran (.*)", lines).group(1)
+        wall = f"fix floor all wall/gran {model} primitive type 1 zplane 0.0\n"
+    elif floor:
+        model = re.search(r"pair_coeff \* \* (.*)", lines).group(1)
+        wall = f"fix floor all wall/gran granular {model} zplane 0.0 NULL\n"
+    speeds = "".join(f"group g{i} id {i + 1}\nvelocity g{i} set {v[0]} {v[1]} {v[2]}\n"
+                     for i, (_, v) in enumerate(spheres))
+    deck = ("units si\natom_style " + ("granular" if liggghts else "sphere") +
+            "\natom_modify map array\nboundary f f f\nnewton off\n" +
+            ("communicate single vel yes\n" if liggghts else "comm_modify vel yes\n") +
+            "read_data atoms.data\nneighbor 2e-4 bin\nneigh_modify delay 0\n" + lines + wall + speeds +
+            f"fix weight all gravity {gravity} vector 0 0 -1\nfix motion all nve/sphere\n"
+            f"thermo 100000\nrun {round(end / time_step(lines))}\n"
+            f"dump last all custom 1 last.dump {DUMP}\nrun 0\n")
+    (folder / "in.deck").write_text(deck)
+    done = subprocess.run([COMMANDS[program], "-in", "in.deck"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr
+    rows = (folder / "last.dump").read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
+    return [row[1:] for row in sorted([float(word) for word in line.split()] for line in rows)]
+
+
+class Card(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def agree(self, program, scene):
+        if not shutil.which(COMMANDS[program]):
+            self.skipTest(program + " is not installed")
+        lines = card(self.folder, program)
+        step = time_step(lines)
+        for mine, other in zip(ours(self.folder, scene, step), theirs(self.folder, scene, program, lines),
+                               strict=True):
+            yield mine, other
+
+    # Seen: 0.1 % of the approach in speed and 0.6 % in spin. With 0.6 itself as the input of
+    # `damping tsuji` LAMMPS is off by 4 % and 14 %.
+    def test_an_oblique_collision_ends_as_ours(self):
+        for program in COMMANDS:
+            with self.subTest(program):
+                for mine, other in self.agree(program, "collision"):
+                    for a, b in zip(mine[3:6], other[3:6]):
+                        self.assertAlmostEqual(a, b, delta=0.004 * 0.5)
+                    self.assertAlmostEqual(mine[8], other[8], delta=0.01 * mine[8])
+
+    # Seen: 0.06 % and 0.4 %. With half the rolling friction the grain would come 1.9 times as far.
+    def test_a_rolling_grain_comes_to_rest_where_ours_does(self):
+        for program in COMMANDS:
+            with self.subTest(program):
+                for mine, other in self.agree(program, "rolling"):
+                    self.assertGreater(mine[0], DIAMETER)
+                    self.assertAlmostEqual(mine[0], other[0], delta=0.01 * mine[0])
+                    self.assertLess(abs(mine[3]) + abs(other[3]), 1e-9)
+
+    def test_codes_that_are_not_at_hand_are_given_converted_numbers(self):
+        radius, m = DIAMETER / 2, MATERIAL
+        mass = 4 / 3 * math.pi * radius**3 * m["density"]
+        e_star = m["youngs_modulus"] / 2 / (1 - m["poisson_ratio"] ** 2)
+        g_star = m["youngs_modulus"] / 4 / (2 - m["poisson_ratio"]) / (1 + m["poisson_ratio"])
+        hertz = 4 / 3 * e_star * math.sqrt(radius / 2)
+        k_n = hertz * math.sqrt((10 * mass * 9.81 / hertz) ** (2 / 3))
+        k_r = 2.25 * k_n * (m["rolling_friction"] * radius / 2) ** 2  # R1
+
+        def number(text, pattern):
+            return float(re.search(pattern, text).group(1))
+
+        yade = card(self.folder, "yade")
+        self.assertAlmostEqual(number(yade, r"frictionAngle=([^,)]+)"), math.atan(0.4), delta=1e-5)
+        self.assertAlmostEqual(number(yade, r"krot=([^,)]+)") / k_r, 1, delta=1e-5)
+        self.assertAlmostEqual(number(yade, r", eta=([^,)]+)"), 0.1, delta=1e-6)  # of Rmean = 2 R*
+        mercury = card(self.folder, "mercurydpm")
+        self.assertAlmostEqual(number(mercury, r"RestitutionCoefficient\((\S+),") / e_star, 1, delta=1e-5)
+        self.assertAlmostEqual(number(mercury, r"ShearModulus\((.*)\)") / g_star, 1, delta=1e-5)
+        self.assertAlmostEqual(number(mercury, r"RollingFrictionCoefficient\((.*)\)"), 0.1, delta=1e-6)
+        self.assertAlmostEqual(number(mercury, r"RollingStiffness\((.*)\)") * (2 * radius / 2) ** 2 / k_r,
+                               1, delta=1e-5)  # an arm of 2 R*
+        lethe = card(self.folder, "lethe")
+        self.assertEqual(number(lethe, r"rolling friction particles = (\S+)"), 0.2)
+        self.assertEqual(number(lethe, r"rolling friction wall = (\S+)"), 0.2)
+        self.assertIn("rolling resistance torque method = epsd_resistance", lethe)
+
+    def test_walls_of_another_material_are_mixed_by_the_harmonic_mean(self):
+        text = card(self.folder, "liggghts", plate={"sliding_friction": 0.8})
+        friction = re.search(r"coefficientFriction peratomtypepair (.*)", text).group(1).split()
+        self.assertEqual([float(word) for word in friction], [2, 0.4, 0.533333, 0.533333, 0.8])
+        self.assertIn("set friction coefficient wall = 0.8",
+                      card(self.folder, "lethe", plate={"sliding_friction": 0.8}))
+
+    # f = 1, so that the powder's surface energy is the one used. Between two surfaces of γ, 2πγ*R* of
+    # ours is the 4πγR* of LAMMPS and YADE.
+    def test_adhesion_is_converted_or_said_to_be_missing(self):
+        sticky = {"surface_energy": 1e-4, "models": {"adhesion": "dmt"}}
+        self.assertRegex(card(self.folder, "lammps", **sticky), r"pair_coeff \* \* dmt \S+ \S+ 0.25 0.0001 ")
+        self.assertIn("gamma=0.0001)", card(self.folder, "yade", **sticky))
+        self.assertIn("particle contact force method = DMT", card(self.folder, "lethe", **sticky))
+        for name in ("liggghts", "mercurydpm"):
+            self.assertIn("NOT INCLUDED: the adhesion", card(self.folder, name, **sticky))
+
+    def test_a_campaign_without_a_result_is_refused(self):
+        done = subprocess.run([TALUS, "card", self.folder], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(str(self.folder), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""command_line_test.py TALUS SOURCE_DIR: help, misspelt words, man pages, completion, readers that go away, and progress
+for scripts."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TALUS = sys.argv[1]
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+
+# An engine that takes no time: a pile of grains whose height follows the friction.
+ENGINE = """#!/bin/sh
+awk 'BEGIN {
+  print "x_m,y_m,z_m,diameter_m"
+  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
+    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
+      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
+}' > heap.csv
+"""
+
+
+def write_campaign(folder):
+    deck = folder / "deck"
+    deck.mkdir()
+    (deck / "run.sh").write_text(ENGINE)
+    (deck / "run.sh").chmod(0o755)
+    spec = {
+        "name": "quick",
+        "experiment": {"photos": str(SOURCE / "examples/photos/powder_a"),
+                       "pattern": "run01_view{view}.jpg", "plate_diameter": "10 mm",
+                       "pixel_size": "200 um"},
+        "powder": {"material": {"density": "4386 kg/m^3", "youngs_modulus": "26.25 MPa",
+                                "poisson_ratio": 0.342, "restitution": 0.9},
+                   "sizes": {"kind": "mono", "diameter": "0.6 mm"}, "mass": "1.6 g"},
+        "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm"},
+        "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
+        "engine": {"kind": "command", "templates": "deck", "command": ["./run.sh"],
+                   "result": "heap.csv"},
+        "budget": {"simulations": 4}, "noise": {"replicates": 2},
+        "confirm": {"candidates": 1, "replicates": 2}, "seed": 1,
+    }
+    (folder / "quick.json").write_text(json.dumps(spec))
+    return folder / "quick.json"
+
+
+def talus(*arguments):
+    return subprocess.run([TALUS, *arguments], capture_output=True, text=True)
+
+
+def verbs():
+    script = talus("completion", "bash").stdout
+    line = next(line for line in script.splitlines() if "compgen -W 'measure" in line)
+    return [word for word in line.split("'")[1].split() if not word.startswith("-")]
+
+
+class CommandLine(unittest.TestCase):
+    def test_help_of_a_verb_is_what_the_verb_itself_says(self):
+        self.assertGreater(len(verbs()), 10)
+        for verb in verbs():
+            helped, itself = talus("help", verb), talus(verb, "--help")
+            self.assertEqual(helped.returncode, 0, verb)
+            self.assertEqual(helped.stdout, itself.stdout)
+            self.assertIn("Usage: talus " + verb, helped.stdout)
+
+    def test_a_misspelt_verb_or_flag_is_met_with_the_nearest(self):
+        for arguments, meant in [(["calibrte", "x.json"], "calibrate"), (["help", "mesure"], "measure"),
+                                 (["measure", "x", "--treshold=0.5"], "--threshold"),
+                                 (["resume", "x", "--ad-simulations", "3"], "--add-simulations")]:
+            done = talus(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(f'did you mean "{meant}"?', done.stderr)
+        self.assertNotIn("did you mean", talus("qqqqqqqq").stderr)
+
+    def test_every_man_page_is_set_without_a_warning(self):
+        for arguments in [[]] + [[verb] for verb in verbs()]:
+            page = talus("man", *arguments)
+            self.assertEqual(page.returncode, 0)
+            set_page = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-K", "utf8"], input=page.stdout,
+                                      capture_output=True, text=True)
+            self.assertEqual((set_page.returncode, set_page.stderr), (0, ""), arguments)
+            self.assertIn("talus", set_page.stdout)
+
+    def complete(self, *words):
+        script = ('source <("$0" completion bash); COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
+                  '_talus; echo "${COMPREPLY[@]}"')
+        done = subprocess.run(["bash", "-c", script, TALUS, *words], capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        return done.stdout.split()
+
+    def test_bash_completes_verbs_flags_and_the_words_they_take(self):
+        self.assertEqual(self.complete("talus", "cal"), ["calibrate"])
+        self.assertIn("--plate-diameter", self.complete("talus", "measure", "--p"))
+        self.assertEqual(self.complete("talus", "measure", "x", "--powder", "br"), ["bright"])
+        self.assertEqual(self.complete("talus", "help", "sta"), ["status"])
+        self.assertEqual(self.complete("talus", "completion", ""), ["bash", "zsh", "fish"])
+
+    def test_the_other_shells_can_read_their_scripts(self):
+        for shell in ("zsh", "fish"):
+            script = talus("completion", shell).stdout
+            self.assertIn("--powder" if shell == "zsh" else "-l powder", script)
+            if shutil.which(shell):
+                done = subprocess.run([shell, "-n"], input=script, capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), shell)
+
+    def test_a_reader_that_has_gone_is_no_reason_to_die(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([TALUS, "help"], stdout=writer, restore_signals=True)
+        os.close(writer)
+        self.assertEqual(done.returncode, 0)
+
+
+class Progress(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.spec = write_campaign(self.folder)
+
+    def test_json_is_one_event_a_line_and_ends_with_the_result(self):
+        done = talus("calibrate", str(self.spec), "--out", str(self.folder / "out"), "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        events = [json.loads(line) for line in done.stdout.splitlines()]
+        trials = [event for event in events if event["event"] == "trial"]
+        self.assertEqual(len(trials), 4 + 2)  # simulations and confirming ones
+        for trial in trials:
+            self.assertEqual((trial["status"], trial["unit"]), ("ok", "mm²"))
+            self.assertGreater(trial["objective"], 0)
+        self.assertTrue(trials[0]["best"])
+        budgets = {event["budget"] for event in events if event["event"] == "progress"}
+        self.assertEqual(budgets, {4})
+        self.assertEqual(events[-1]["event"], "result")
+        self.assertEqual(events[-1]["result"],
+                         json.loads((self.folder / "out/result.json").read_text()))
+
+    def test_quiet_says_nothing_and_does_the_same(self):
+        done = talus("calibrate", str(self.spec), "--out", str(self.folder / "out"), "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertTrue((self.folder / "out/result.json").exists())
+        card = json.loads(talus("card", str(self.folder / "out"), "--format", "json").stdout)
+        result = json.loads((self.folder / "out/result.json").read_text())
+        value = result["parameters"][0]["value"]
+        self.assertEqual(card["parameters"][0]["value"], value)
+        self.assertEqual(card["materials"]["powder"]["sliding_friction"], value)
+        self.assertEqual(card["scale_factor"], result["conditions"]["scale_factor"])
+        both = talus("resume", str(self.folder / "out"), "--quiet", "--json")
+        self.assertEqual(both.returncode, 2)
+
+    def test_a_campaign_outlives_the_reader_of_its_progress(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run([TALUS, "calibrate", self.spec, "--out", self.folder / "out"],
+                              stdout=writer, stderr=writer)
+        os.close(writer)
+        self.assertEqual(done.returncode, 0)
+        self.assertTrue((self.folder / "out/result.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
