@@ -41,7 +41,7 @@ std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
                                           .target = spec.coarse_graining.Target(),
                                           .num_initial = spec.strategy.num_initial,
                                           .model_error = posterior.model_error,
-                                          .stop_shrink = posterior.stop_shrink,
+                                          .stop_share = posterior.stop_share,
                                           .seed = spec.seed},
                                          SpaceOf(spec).MakeDomain(),
                                          TargetsOf(spec, record, references));

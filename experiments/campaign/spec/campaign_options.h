@@ -44,17 +44,17 @@ struct NoiseOptions {
 
 // What a posterior over several grain sizes or experiments is made with.
 struct PosteriorOptions {
-  double model_error = 0.5;  // sd of what no simulation can match, in run-to-run sds, >= 0
-  double stop_shrink = 0;    // expected narrowing by the next core minute [-], in [0, 1)
+  double model_error = 0.7;  // sd of what no simulation can match, in run-to-run sds, >= 0
+  double stop_share = 0.1;   // the surrogate's variance over what the experiment leaves open [-]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("model_error", self.model_error,
           {.doc = "standard deviation of what no simulation can match, over that of the "
                   "experiment's runs; >= 0"});
-    visit("stop_shrink", self.stop_shrink,
-          {.doc = "the search ends when its next core minute is expected to narrow the posterior "
-                  "by less than this share, in [0, 1); 0 never"});
+    visit("stop_share", self.stop_share,
+          {.doc = "the search ends when, over the posterior, the surrogate's variance is below "
+                  "this share of what the experiment itself leaves open; >= 0, 0 never"});
   }
   void Validate(base::Problems& problems) const;
 };
