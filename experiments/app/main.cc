@@ -18,6 +18,7 @@ int Run(int argc, char** argv) {
   talus::experiments::AddCalibrateCommand(app);
   talus::experiments::AddResumeCommand(app);
   talus::experiments::AddStatusCommand(app);
+  talus::experiments::AddConsiderCommand(app);
   talus::experiments::AddExportCommand(app);
   talus::experiments::AddSimulateCommand(app);
   talus::experiments::AddOptimizeCommand(app);
