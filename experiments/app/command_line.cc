@@ -37,6 +37,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddCalibrateCommand(app);
   AddResumeCommand(app);
   AddStatusCommand(app);
+  AddConsiderCommand(app);
   AddCompareCommand(app);
   AddReportCommand(app);
   AddCardCommand(app);

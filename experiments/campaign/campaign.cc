@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/conclude.h"
+#include "experiments/campaign/describe_posterior.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -80,21 +81,9 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
 // Trials become known by their ids, observations are told in the order in which they finished.
 void Campaign::TellFinished() {
   const std::vector<TrialRecord> trials = journal_.Trials();
-  std::vector<TrialRecord> finished;
-  for (const TrialRecord& trial : trials) {
-    planner_.Started(trial);
-    if (trial.status != TrialStatus::kRunning) finished.push_back(trial);
-  }
-  std::sort(finished.begin(), finished.end(),
-            [](const auto& a, const auto& b) { return a.finish_order < b.finish_order; });
-  for (const TrialRecord& trial : finished) {
-    std::vector<float> field;
-    if (trial.status == TrialStatus::kOk && trial.kind != TrialKind::kConfirm) {
-      if (const auto profile = StoredProfile(journal_, folder_, trial.id)) {
-        field = ReferenceOf(trial).Field(*profile);
-      }
-    }
-    planner_.Finished(trial, std::move(field));
+  for (const TrialRecord& trial : trials) planner_.Started(trial);
+  for (const TrialRecord& trial : InOrderOfFinish(trials)) {
+    planner_.Finished(trial, StoredField(journal_, folder_, references_, trial));
     NoteBest(trial);
   }
 }
@@ -290,8 +279,7 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
          .references = references_,
          .profile = [this](std::int64_t id) { return StoredProfile(journal_, folder_, id); },
          .elapsed = Elapsed()});
-    if (result_) progress.result_json = ResultText(*result_);
-    if (result_) base::WriteFileAtomically(folder_.result(), progress.result_json);
+    if (result_) WriteResult(progress);
   }
   journal_.SetProgress(progress);
   journal_.AddEvent("stop", 0, progress.stop_reason);
@@ -299,6 +287,15 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
   if (result_) return CampaignEnd::kFinished;
   console_.Line("no result: " + planner_.stop_reason());
   return CampaignEnd::kFailed;
+}
+
+void Campaign::WriteResult(ProgressRecord& progress) {
+  progress.result_json = ResultText(*result_);
+  base::WriteFileAtomically(folder_.result(), progress.result_json);
+  const auto answer = planner_.Recommend();
+  if (!answer || !answer->posterior) return;
+  base::WriteFileAtomically(folder_.posterior(),
+                            PosteriorCsv(*answer->posterior, planner_.space(), record_.parameters));
 }
 
 void Campaign::NoteBest(const TrialRecord& trial) {

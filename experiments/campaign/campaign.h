@@ -64,6 +64,7 @@ class Campaign {
   void NoteElapsed();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);
+  void WriteResult(ProgressRecord& progress);
   void NoteBest(const TrialRecord& trial);
   void Report(const TrialRecord& trial);
   void ShowStatus();

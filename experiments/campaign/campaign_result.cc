@@ -4,6 +4,7 @@
 
 #include "base/json_writer.h"
 #include "experiments/campaign/console.h"
+#include "experiments/campaign/describe_posterior.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::experiments {
@@ -55,12 +56,41 @@ std::string FloorLine(const CampaignResult& result) {
   return text + "\n";
 }
 
+std::string BranchLine(const ResultBranch& branch) {
+  std::string text = "    " + NumberText4(100 * branch.share) + " % at";
+  for (const double value : branch.values) text += " " + NumberText4(value);
+  return text + "\n";
+}
+
+std::string PosteriorLines(const CampaignResult& result) {
+  const ResultPosterior& p = *result.posterior;
+  std::vector<std::string> names;
+  for (const ResultParameter& parameter : result.parameters) names.push_back(parameter.name);
+  std::string text =
+      "  posterior         " + PosteriorSentence(p, names, result.correlation) + "\n";
+  if (p.branches.size() > 1) {
+    for (const ResultBranch& branch : p.branches) text += BranchLine(branch);
+  }
+  for (const ResultStanding& e : p.experiments) {
+    text += "  " + Padded(e.name, 18) + "implausibility " + NumberText4(e.implausibility) + "\n";
+  }
+  return text + "  coverage          of 90 % regions, leave-one-out over " +
+         std::to_string(p.num_left_out) + " trials: " + NumberText4(100 * p.raw_coverage) +
+         " % raw, " + NumberText4(100 * p.tempered_coverage) + " % tempered\n";
+}
+
 }  // namespace
 
 std::string ResultText(const CampaignResult& result) { return base::ToJson(result).dump(2) + "\n"; }
 
 CampaignResult ParseResult(const std::string& text) {
-  return ParseRecord<CampaignResult>(text, "the result");
+  // Earlier versions wrote warnings as sentences only.
+  auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (!json.is_object()) return ParseRecord<CampaignResult>(text, "the result");
+  for (auto& warning : json["warnings"]) {
+    if (warning.is_string()) warning = {{"kind", "other"}, {"text", warning}};
+  }
+  return ParseRecord<CampaignResult>(json.dump(), "the result");
 }
 
 std::string ResultSummary(const CampaignResult& r) {
@@ -69,7 +99,9 @@ std::string ResultSummary(const CampaignResult& r) {
           NumberText4(r.predicted_sd) + "; one simulation scatters by " + NumberText4(r.noise_sd) +
           "\n";
   text += ConfirmedLines(r) + FloorLine(r);
-  text += "  tied within noise " + NumberText4(100 * r.tied_volume) + " % of the searched ranges\n";
+  text += r.posterior ? PosteriorLines(r)
+                      : "  tied within noise " + NumberText4(100 * r.tied_volume) +
+                            " % of the searched ranges\n";
   text += "  stopped because   " + r.stop_reason + "\n";
   text += "  holds for         scale factor " + NumberText4(r.conditions.scale_factor) + ", Y " +
           NumberText4(r.conditions.youngs_modulus) + " Pa, lift velocity " +
@@ -79,7 +111,7 @@ std::string ResultSummary(const CampaignResult& r) {
           std::to_string(r.cost.num_failed) + " failed), " + NumberText4(r.cost.core_hours) +
           " core hours, " + NumberText4(r.cost.elapsed / 60) + " min\n";
   text += "  model             " + r.model + "\n";
-  for (const std::string& warning : r.warnings) text += "  warning: " + warning + "\n";
+  for (const ResultWarning& warning : r.warnings) text += "  warning: " + warning.text + "\n";
   return text;
 }
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/field.h"
+#include "experiments/campaign/result_posterior.h"
+#include "experiments/campaign/result_warning.h"
 
 namespace talus::experiments {
 
@@ -110,7 +112,8 @@ struct CampaignResult {
   std::vector<std::vector<double>> tied{};         // sets that tie, SI
   std::vector<std::vector<double>> correlation{};  // between the parameters
   std::string model;
-  std::vector<std::string> warnings{};
+  std::optional<ResultPosterior> posterior{};  // of several scale factors or experiments
+  std::vector<ResultWarning> warnings{};
   ResultConditions conditions;
   ResultCost cost;
 
@@ -133,6 +136,7 @@ struct CampaignResult {
     visit("tied_sets", self.tied);
     visit("correlation", self.correlation);
     visit("model", self.model);
+    visit("posterior", self.posterior);
     visit("warnings", self.warnings);
     visit("conditions", self.conditions);
     visit("cost", self.cost);

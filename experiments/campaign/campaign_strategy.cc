@@ -1,5 +1,6 @@
 #include "experiments/campaign/campaign_strategy.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -53,6 +54,13 @@ std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(
   if (spec.IsJoint()) return MakeJointStrategy(spec, record, references);
   const optimizer::FieldObjective field = references.front().MakeFieldObjective();
   return optimizer::MakeStrategy(spec.strategy, SpaceOf(spec).MakeDomain(), &field, spec.seed);
+}
+
+std::vector<TrialRecord> InOrderOfFinish(std::vector<TrialRecord> trials) {
+  std::erase_if(trials, [](const TrialRecord& t) { return t.status == TrialStatus::kRunning; });
+  std::sort(trials.begin(), trials.end(),
+            [](const auto& a, const auto& b) { return a.finish_order < b.finish_order; });
+  return trials;
 }
 
 Eigen::VectorXd PointOf(const TrialRecord& trial) {

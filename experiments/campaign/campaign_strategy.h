@@ -27,6 +27,12 @@ std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
                                                        const CampaignRecord& record,
                                                        const std::vector<Reference>& references);
 
+// Whether a strategy is told of it: all but the confirming ones are.
+inline bool IsOfSearch(const TrialRecord& trial) { return trial.kind != TrialKind::kConfirm; }
+
+// Those that have finished, in the order in which a strategy was told of them.
+std::vector<TrialRecord> InOrderOfFinish(std::vector<TrialRecord> trials);
+
 // The unit cube's point of a trial.
 Eigen::VectorXd PointOf(const TrialRecord& trial);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/version.h"
+#include "experiments/campaign/describe_posterior.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::experiments {
@@ -29,14 +30,6 @@ Sample SampleOf(const std::vector<double>& values) {
   for (const double v : values) squares += (v - sample.mean) * (v - sample.mean);
   sample.sd = std::sqrt(squares / (sample.count - 1));
   return sample;
-}
-
-std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
-                               const Eigen::VectorXd& point) {
-  std::vector<double> values;
-  const std::vector<double> all = space.ToNative(point);
-  for (const int i : space.Free()) values.push_back(all[static_cast<std::size_t>(i)]);
-  return values;
 }
 
 ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::size_t index,
@@ -113,9 +106,7 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, co
     for (std::size_t i = 0; i < result.parameters.size(); ++i) {
       result.parameters[i].value = result.confirmed[0].values[i];
     }
-    result.warnings.push_back(
-        "the set that the model recommends was confirmed worse than another candidate, which is "
-        "recommended instead; the predicted value is that of the model's set");
+    result.warnings.push_back(Worded({.kind = WarningKind::kNotModelsChoice}));
   }
   if (result.noise_floor && result.confirmed[0].profile_sad_mm2) {
     result.confirmed_over_floor = *result.confirmed[0].profile_sad_mm2 / *result.noise_floor;
@@ -123,7 +114,7 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, co
 }
 
 ResultConditions ConditionsOf(const CampaignSpec& spec) {
-  return {.scale_factor = spec.coarse_graining.scale_factor,
+  return {.scale_factor = spec.coarse_graining.Target(),
           .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent,
           .youngs_modulus = spec.powder.material.youngs_modulus,
           .lift_velocity = spec.device.lift_velocity,
@@ -143,15 +134,36 @@ ResultCost CostOf(const Planner& planner, const Evidenced& of) {
   return cost;
 }
 
-// Answers speak of "parameter 2"; people know it by its name.
-std::string WithNames(std::string text, const CampaignResult& result) {
-  for (std::size_t i = result.parameters.size(); i-- > 0;) {
-    const std::string token = "parameter " + std::to_string(i);
-    for (auto at = text.find(token); at != std::string::npos; at = text.find(token)) {
-      text.replace(at, token.size(), result.parameters[i].name);
+void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
+  constexpr double kAdvised = 30;  // grains across the plate
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    for (const double factor : spec.coarse_graining.Levels()) {
+      const HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
+      const double across = heap_case.device.plate_diameter / EstimateHeap(heap_case).mean_diameter;
+      if (across >= kAdvised) continue;
+      result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
+                                        .experiment = experiments[e].name,
+                                        .scale_factor = factor,
+                                        .value = across}));
     }
   }
-  return text;
+}
+
+void AddWarnings(const optimizer::Answer& answer, const CampaignSpec& spec,
+                 CampaignResult& result) {
+  for (const optimizer::BoundWarning& bound : answer.warnings) {
+    const auto i = static_cast<std::size_t>(bound.parameter);
+    result.warnings.push_back(Worded({.kind = WarningKind::kBound,
+                                      .parameter = result.parameters[i].name,
+                                      .side = bound.is_upper ? "upper" : "lower"}));
+  }
+  if (result.posterior) {
+    for (const ResultWarning& warning : PosteriorWarnings(*result.posterior)) {
+      result.warnings.push_back(warning);
+    }
+  }
+  AddGrainWarnings(spec, result);
 }
 
 }  // namespace
@@ -179,9 +191,10 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
     result.correlation.emplace_back(row.data(), row.data() + row.size());
   }
   result.model = answer->model;
-  for (const std::string& warning : answer->warnings) {
-    result.warnings.push_back(WithNames(warning, result));
+  if (answer->posterior) {
+    result.posterior = DescribePosterior(*answer->posterior, planner.space());
   }
+  AddWarnings(*answer, of.spec, result);
   std::vector<double> noise;
   for (const TrialRecord& trial : planner.trials()) {
     if (trial.kind != TrialKind::kNoise) continue;

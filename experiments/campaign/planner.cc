@@ -20,8 +20,6 @@ constexpr int kFailuresToGiveUp = 8;  // as the first trials of all: the set-up 
 // Confirmations after different searches must not share numbers.
 constexpr std::int64_t kMostCandidates = 1000;
 
-bool IsOfSearch(const TrialRecord& trial) { return trial.kind != TrialKind::kConfirm; }
-
 const char* NameOfOrigin(optimizer::Origin origin) {
   switch (origin) {
     case optimizer::Origin::kDesign:

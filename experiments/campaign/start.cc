@@ -8,6 +8,7 @@
 #include "base/json_reader.h"
 #include "base/json_writer.h"
 #include "base/version.h"
+#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/image_file.h"
@@ -183,6 +184,14 @@ std::vector<Reference> ReferencesOf(const CampaignRecord& record, const Campaign
                          .scalars = experiment.scalars});
   }
   return references;
+}
+
+std::vector<float> StoredField(Journal& journal, const CampaignFolder& folder,
+                               const std::vector<Reference>& references, const TrialRecord& trial) {
+  if (trial.status != TrialStatus::kOk || !IsOfSearch(trial)) return {};
+  const auto profile = StoredProfile(journal, folder, trial.id);
+  if (!profile) return {};
+  return references[static_cast<std::size_t>(trial.experiment)].Field(*profile);
 }
 
 std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,

@@ -40,6 +40,10 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOpt
 // The experiments as the journal keeps them.
 std::vector<Reference> ReferencesOf(const CampaignRecord& record, const CampaignSpec& spec);
 
+// What a strategy is told of a trial's image: empty when it failed, confirms, or its image is lost.
+std::vector<float> StoredField(Journal& journal, const CampaignFolder& folder,
+                               const std::vector<Reference>& references, const TrialRecord& trial);
+
 // A trial's profile: from the journal, or from its folder if the journal's copy is damaged.
 std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,
                                                 std::int64_t trial);

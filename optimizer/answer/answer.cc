@@ -192,13 +192,12 @@ void DescribeTies(const ObjectiveModel& model, const Domain& domain,
 
 }  // namespace
 
-std::vector<std::string> BoundWarnings(const Eigen::VectorXd& point) {
+std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point) {
   constexpr double kNear = 0.005;
-  std::vector<std::string> warnings;
+  std::vector<BoundWarning> warnings;
   for (Eigen::Index i = 0; i < point.size(); ++i) {
     if (point[i] > kNear && point[i] < 1 - kNear) continue;
-    warnings.push_back("parameter " + std::to_string(i) + " lies on its " +
-                       (point[i] < 0.5 ? "lower" : "upper") + " bound");
+    warnings.push_back({.parameter = static_cast<int>(i), .is_upper = point[i] > 0.5});
   }
   return warnings;
 }

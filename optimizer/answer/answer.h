@@ -26,7 +26,7 @@ struct AnswerOptions {
 Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
                        const Eigen::VectorXd& point, const AnswerOptions& options);
 
-// "parameter 2 lies on its upper bound", for coordinates within 0.5 % of an end of their range.
-std::vector<std::string> BoundWarnings(const Eigen::VectorXd& point);
+// Of coordinates within 0.5 % of an end of their range.
+std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point);
 
 }  // namespace talus::optimizer

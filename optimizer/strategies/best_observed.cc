@@ -24,15 +24,15 @@ Answer BestObserved(std::span<const Observation> told, const Domain& domain,
   }
   if (best == nullptr) {
     answer.point = Somewhere(domain);
-    answer.warnings.push_back("no evaluation has succeeded: the point is only a guess");
+    answer.is_guess = true;
     return answer;
   }
   answer.point = best->point;
   answer.predicted_value = best->value;
   for (Eigen::Index i = 0; i < answer.point.size(); ++i) {
     if (answer.point[i] > kSamePoint && answer.point[i] < 1 - kSamePoint) continue;
-    answer.warnings.push_back("parameter " + std::to_string(i) + " lies on its " +
-                              (answer.point[i] < 0.5 ? "lower" : "upper") + " bound");
+    answer.warnings.push_back(
+        {.parameter = static_cast<int>(i), .is_upper = answer.point[i] > 0.5});
   }
   return answer;
 }

@@ -2,10 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <sstream>
 
-#include "experiments/analysis/export/export.h"
-#include "experiments/campaign/status.h"
+#include "base/error.h"
+#include "experiments/campaign/consider.h"
+#include "experiments/campaign/describe_posterior.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::experiments {
@@ -58,6 +61,122 @@ TEST_F(JointCampaign, ItEndsWhenItsCoreTimeIsUsed) {
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(Trials(folder).size(), 1u);  // a process takes longer than that
   EXPECT_THAT(Result(folder).stop_reason, HasSubstr("core time is used"));
+}
+
+TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
+  const fs::path folder = Begin(kTwoSizes);
+  RunFake(folder, {});
+  const CampaignResult result = Result(folder);
+  ASSERT_TRUE(result.posterior.has_value());
+  const ResultPosterior& posterior = *result.posterior;
+  EXPECT_EQ(posterior.target_scale_factor, 1);
+  EXPECT_FALSE(posterior.is_extrapolated);
+  EXPECT_GT(posterior.region_volume, 0);
+  EXPECT_LT(posterior.region_volume, 0.5);
+  ASSERT_FALSE(posterior.branches.empty());
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LE(posterior.branches[0].low[i], posterior.branches[0].values[i]);
+    EXPECT_GE(posterior.branches[0].high[i], posterior.branches[0].values[i]);
+  }
+  EXPECT_EQ(posterior.experiments.at(0).name, "heap");
+  std::istringstream csv(base::ReadFile(folder / "posterior.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "sliding_friction,rolling_friction");
+  std::getline(csv, line);
+  const double sliding = std::stod(line);
+  EXPECT_GE(sliding, 0.1);  // SI, so within the range and not in the unit cube
+  EXPECT_LE(sliding, 0.8);
+  EXPECT_THAT(ResultSummary(result), HasSubstr("the joint 90 % region is"));
+}
+
+TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
+  for (const char* spec : {kTwoSizes, R"(, "budget": {"simulations": 20}, "workers": 1)"}) {
+    const fs::path folder = Begin(spec, spec == kTwoSizes ? "two" : "one");
+    RunFake(folder, {});
+    const auto at = [&](const char* sliding, const char* rolling) {
+      return ConsiderSet(folder, {{"sliding_friction", sliding}, {"rolling_friction", rolling}});
+    };
+    const auto before = base::ReadFile(JournalPath(folder));
+    const ConsideredSet truth = at("0.45", "0.2");
+    const ConsideredSet wrong = at("0.75", "0.45");
+    EXPECT_EQ(base::ReadFile(JournalPath(folder)), before);
+    // The wrong set's heap is twice as high and steep, by some thirty times what seeds change.
+    EXPECT_LT(truth.credible_level.value(), wrong.credible_level.value());
+    EXPECT_GT(wrong.credible_level.value(), 0.9);
+    EXPECT_LT(truth.experiments.at(0).predicted, wrong.experiments.at(0).predicted);
+    ASSERT_FALSE(truth.nearest.empty());
+    EXPECT_LE(truth.nearest.front().distance, truth.nearest.back().distance);
+    EXPECT_THAT(ConsideredText(wrong), HasSubstr("outside the joint 90 % region"));
+    EXPECT_THAT(ConsideredJson(wrong), HasSubstr("\"credible_level\""));
+  }
+}
+
+TEST_F(JointCampaign, ConsiderRefusesWhatIsNoSetOfTheCampaign) {
+  const fs::path folder = Begin(kTwoSizes);
+  const auto error_of = [&](const std::map<std::string, std::string>& set) -> std::string {
+    try {
+      ConsiderSet(folder, set);
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string error = error_of({{"sliding_friction", "0.9"}, {"rolling_frction", "0.1"}});
+  EXPECT_THAT(error, HasSubstr("sliding_friction: is 0.9, must be in the searched range"));
+  EXPECT_THAT(error, HasSubstr("rolling_friction: is missing"));
+  EXPECT_THAT(error, HasSubstr("did you mean \"rolling_friction\"?"));
+  EXPECT_THAT(error_of({{"sliding_friction", "0.5 m"}, {"rolling_friction", "0.1"}}),
+              HasSubstr("sliding_friction: "));
+  // Before any trial there is nothing to say, but no error.
+  EXPECT_FALSE(ConsiderSet(folder, {{"sliding_friction", "0.5"}, {"rolling_friction", "0.1"}})
+                   .credible_level.has_value());
+}
+
+TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
+  const fs::path folder = Begin(kTwoSizes);  // 10 mm over 0.8 mm
+  RunFake(folder, {});
+  const CampaignResult result = Result(folder);
+  const auto found =
+      std::find_if(result.warnings.begin(), result.warnings.end(), [](const ResultWarning& w) {
+        return w.kind == WarningKind::kFewGrains && w.scale_factor == 2;
+      });
+  ASSERT_NE(found, result.warnings.end());
+  EXPECT_NEAR(found->value.value(), 12.5, 1e-9);
+  EXPECT_THAT(ResultSummary(result), HasSubstr("only 12.5 grains across the plate of \"heap\""));
+}
+
+TEST(PosteriorInWords, ABranchACurveOrAPoint) {
+  const std::vector<std::string> names{"sliding_friction", "rolling_friction"};
+  ResultPosterior posterior{.region_volume = 0.05, .branches = {{.share = 1}}, .experiments = {}};
+  EXPECT_THAT(PosteriorSentence(posterior, names, {{1, 0.2}, {0.2, 1}}), HasSubstr("a point"));
+  EXPECT_THAT(PosteriorSentence(posterior, names, {{1, -0.9}, {-0.9, 1}}),
+              HasSubstr("a curve, not a point: rolling_friction falls as sliding_friction rises"));
+  posterior.branches = {{.share = 0.7}, {.share = 0.3}};
+  EXPECT_THAT(PosteriorSentence(posterior, names, {}),
+              HasSubstr("2 separate answers, of 70 %, 30 %"));
+}
+
+TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
+  const ResultPosterior posterior{.target_scale_factor = 1,
+                                  .is_extrapolated = true,
+                                  .unlearnt_levels = {2},
+                                  .experiments = {{.name = "heap", .implausibility = 2.9},
+                                                  {.name = "wide plate", .implausibility = 3.4}}};
+  const auto warnings = PosteriorWarnings(posterior);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_EQ(warnings[0].kind, WarningKind::kImplausible);
+  EXPECT_EQ(warnings[0].experiment, "wide plate");
+  EXPECT_THAT(warnings[0].text, HasSubstr("the contact law, the plate material or the set-up"));
+  EXPECT_EQ(warnings[1].kind, WarningKind::kExtrapolated);
+  EXPECT_EQ(warnings[2].kind, WarningKind::kUnlearntLevel);
+  EXPECT_EQ(warnings[2].scale_factor, 2);
+}
+
+TEST(ResultText, WarningsOfEarlierVersionsAreRead) {
+  const CampaignResult result = ParseResult(R"({"name": "old", "warnings": ["mind the gap"]})");
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_EQ(result.warnings[0].text, "mind the gap");
 }
 
 }  // namespace

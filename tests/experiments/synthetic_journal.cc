@@ -68,12 +68,14 @@ std::string ResultOf(const Evidence& evidence, const Conclusion& conclusion) {
                         .noise_floor = evidence.reference.noise_floor,
                         .tied_volume = conclusion.tied_volume,
                         .model = conclusion.model,
-                        .warnings = conclusion.warnings,
                         .conditions = {.youngs_modulus = 26.25e6,
                                        .lift_velocity = 0.01,
                                        .adhesion = "jkr",
                                        .rolling = "epsd"},
                         .cost = {}};
+  for (const std::string& text : conclusion.warnings) {
+    result.warnings.push_back({.kind = WarningKind::kOther, .text = text});
+  }
   ResultCandidate confirmed{.num_trials = conclusion.num_confirmed, .mean = conclusion.confirmed};
   for (std::size_t k = 0; k < conclusion.values.size(); ++k) {
     const RecommendedValue& v = conclusion.values[k];

@@ -79,8 +79,10 @@ TEST(Answer, WarnsOfBoundsAndKeepsToTheDomain) {
                       .feasible = [](const Eigen::VectorXd& x) { return x[0] <= 0.05; }};
   const Answer answer = DescribeMinimum(model, domain, corner, {});
   ASSERT_EQ(answer.warnings.size(), 2u);
-  EXPECT_EQ(answer.warnings[0], "parameter 0 lies on its lower bound");
-  EXPECT_EQ(answer.warnings[1], "parameter 1 lies on its upper bound");
+  EXPECT_EQ(answer.warnings[0].parameter, 0);
+  EXPECT_FALSE(answer.warnings[0].is_upper);
+  EXPECT_EQ(answer.warnings[1].parameter, 1);
+  EXPECT_TRUE(answer.warnings[1].is_upper);
   for (const Eigen::VectorXd& point : answer.tied) EXPECT_LE(point[0], 0.05);
   EXPECT_LE(answer.credible[0].high, 0.05);
 }

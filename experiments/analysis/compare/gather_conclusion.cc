@@ -48,9 +48,9 @@ Conclusion ConclusionOf(const std::string& result_json) {
                         .predicted_sd = result.predicted_sd,
                         .noise_sd = result.noise_sd,
                         .tied_volume = result.tied_volume,
-                        .warnings = result.warnings,
                         .conditions = ConditionTexts(result.conditions),
                         .model = result.model};
+  for (const ResultWarning& warning : result.warnings) conclusion.warnings.push_back(warning.text);
   for (const ResultParameter& p : result.parameters) {
     conclusion.values.push_back({p.value, p.credible_low, p.credible_high});
     if (std::isnan(p.sobol_total)) continue;

@@ -45,17 +45,16 @@ struct NoiseOptions {
 // What a posterior over several grain sizes or experiments is made with.
 struct PosteriorOptions {
   double model_error = 0.7;  // sd of what no simulation can match, in run-to-run sds, >= 0
-  double stop_share = 0.1;   // surrogate's variance over what the experiment leaves open, in [0, 1)
+  double stop_share = 0.1;   // the surrogate's variance over what the experiment leaves open [-]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("model_error", self.model_error,
           {.doc = "standard deviation of what no simulation can match, over that of the "
                   "experiment's runs; >= 0"});
-    visit(
-        "stop_share", self.stop_share,
-        {.doc = "the search ends when, over the posterior, the surrogate's variance is below this "
-                "share of what the experiment leaves open, in [0, 1); 0 never"});
+    visit("stop_share", self.stop_share,
+          {.doc = "the search ends when, over the posterior, the surrogate's variance is below "
+                  "this share of what the experiment itself leaves open; >= 0, 0 never"});
   }
   void Validate(base::Problems& problems) const;
 };

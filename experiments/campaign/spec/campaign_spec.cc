@@ -143,8 +143,7 @@ void NoiseOptions::Validate(base::Problems& problems) const {
 
 void PosteriorOptions::Validate(base::Problems& problems) const {
   problems.Require(model_error >= 0, "model_error", model_error, "must not be negative");
-  problems.Require(stop_share >= 0 && stop_share < 1, "stop_share", stop_share,
-                   "must be in [0, 1)");
+  problems.Require(stop_share >= 0, "stop_share", stop_share, "must not be negative");
 }
 
 void ConfirmOptions::Validate(base::Problems& problems) const {

@@ -23,13 +23,20 @@ void ForEachRange(const ParameterRanges& ranges, Use use) {
   ParameterRanges::Visit(ranges, visitor);
 }
 
-struct PropertyUnit {
+struct PropertyDimension {
   const std::string& property;
-  std::string unit;
+  base::Dimension dimension = base::Dimension::kNone;
   void operator()(std::string_view name, double, FieldInfo info = {}) {
-    if (name == property) unit = base::SiUnit(info.dimension);
+    if (name == property) dimension = info.dimension;
   }
 };
+
+base::Dimension DimensionOf(const std::string& property) {
+  PropertyDimension visitor{property};
+  const engine::Material material;
+  engine::Material::Visit(material, visitor);
+  return visitor.dimension;
+}
 
 struct PropertySetter {
   const std::string& property;
@@ -82,10 +89,11 @@ optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges) {
 }
 
 std::string UnitOf(const std::string& property) {
-  PropertyUnit finder{property, {}};
-  const engine::Material material;
-  engine::Material::Visit(material, finder);
-  return finder.unit;
+  return std::string(base::SiUnit(DimensionOf(property)));
+}
+
+double ParseProperty(const std::string& property, const std::string& text) {
+  return base::ParseQuantity(text, DimensionOf(property));
 }
 
 void SetProperty(engine::Material& material, const std::string& property, double value) {

@@ -70,6 +70,9 @@ optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges);
 // SI unit of a property of engine::Material, "" if none.
 std::string UnitOf(const std::string& property);
 
+// A property's value from a text with its unit, or a bare number in SI; throws ConfigError.
+double ParseProperty(const std::string& property, const std::string& text);
+
 // Sets a property by its name in engine::Material.
 void SetProperty(engine::Material& material, const std::string& property, double value);
 

@@ -11,14 +11,14 @@ const optimizer::Parameter& Free(const OptimizeProblem& problem, std::size_t i) 
   return problem.space.parameters[static_cast<std::size_t>(problem.space.Free()[i])];
 }
 
-// Strategies know parameters by number only.
-std::string WithNames(const OptimizeProblem& problem, std::string text) {
-  for (std::size_t i = 0; i < problem.space.Free().size(); ++i) {
-    const std::string number = "parameter " + std::to_string(i);
-    const auto at = text.find(number);
-    if (at != std::string::npos) text.replace(at, number.size(), Free(problem, i).name);
+json Warnings(const OptimizeProblem& problem, const optimizer::Answer& answer) {
+  json texts = json::array();
+  if (answer.is_guess) texts.push_back("no evaluation has succeeded: the point is only a guess");
+  for (const optimizer::BoundWarning& warning : answer.warnings) {
+    texts.push_back(Free(problem, static_cast<std::size_t>(warning.parameter)).name +
+                    " lies on its " + (warning.is_upper ? "upper" : "lower") + " bound");
   }
-  return text;
+  return texts;
 }
 
 json PerParameter(const OptimizeProblem& problem, const optimizer::Answer& answer) {
@@ -70,10 +70,7 @@ json OptimizeResult(const OptimizeProblem& problem, const optimizer::Answer& ans
   result["failed"] = tally.num_failed;
   result["stopped"] = stopped;
   result["model"] = answer.model;
-  result["warnings"] = json::array();
-  for (const std::string& warning : answer.warnings) {
-    result["warnings"].push_back(WithNames(problem, warning));
-  }
+  result["warnings"] = Warnings(problem, answer);
   return result;
 }
 

@@ -1,0 +1,119 @@
+#include "experiments/campaign/describe_posterior.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "experiments/campaign/console.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr double kAlarm = 3;    // implausibility above which no set fits
+constexpr double kCurve = 0.8;  // correlation above which two parameters are known together only
+
+std::string Exact(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string Percent(double share) { return NumberText4(std::round(1000 * share) / 10) + " %"; }
+
+}  // namespace
+
+std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
+                               const Eigen::VectorXd& point) {
+  std::vector<double> values;
+  const std::vector<double> all = space.ToNative(point);
+  for (const int i : space.Free()) values.push_back(all[static_cast<std::size_t>(i)]);
+  return values;
+}
+
+std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list) {
+  std::vector<ResultStanding> standings;
+  for (const optimizer::ExperimentStanding& s : list) {
+    standings.push_back({.name = s.name,
+                         .predicted = s.predicted_objective,
+                         .predicted_sd = s.predicted_sd,
+                         .implausibility = s.implausibility});
+  }
+  return standings;
+}
+
+ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
+                                  const optimizer::ParameterSpace& space) {
+  ResultPosterior posterior{.target_scale_factor = summary.target_scale_factor,
+                            .is_extrapolated = summary.is_extrapolated,
+                            .region_volume = summary.region_volume,
+                            .temper = summary.temper,
+                            .raw_coverage = summary.raw_coverage,
+                            .tempered_coverage = summary.tempered_coverage,
+                            .num_left_out = summary.num_left_out,
+                            .unlearnt_levels = summary.unlearnt_levels,
+                            .experiments = StandingsOf(summary.experiments)};
+  for (const optimizer::PosteriorBranch& branch : summary.branches) {
+    posterior.branches.push_back({.share = branch.share,
+                                  .values = FreeValues(space, branch.point),
+                                  .low = FreeValues(space, branch.low),
+                                  .high = FreeValues(space, branch.high)});
+  }
+  return posterior;
+}
+
+std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
+  std::vector<ResultWarning> warnings;
+  for (const ResultStanding& e : posterior.experiments) {
+    if (!(e.implausibility > kAlarm)) continue;
+    warnings.push_back(Worded(
+        {.kind = WarningKind::kImplausible, .experiment = e.name, .value = e.implausibility}));
+  }
+  if (posterior.is_extrapolated) {
+    warnings.push_back(Worded(
+        {.kind = WarningKind::kExtrapolated, .scale_factor = posterior.target_scale_factor}));
+  }
+  for (const double level : posterior.unlearnt_levels) {
+    warnings.push_back(Worded({.kind = WarningKind::kUnlearntLevel, .scale_factor = level}));
+  }
+  return warnings;
+}
+
+std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
+                         const optimizer::ParameterSpace& space,
+                         const std::vector<ParameterRecord>& parameters) {
+  std::string csv;
+  for (const ParameterRecord& p : parameters) csv += (csv.empty() ? "" : ",") + ColumnName(p);
+  csv += "\n";
+  for (Eigen::Index i = 0; i < summary.draws.rows(); ++i) {
+    std::string line;
+    for (const double value : FreeValues(space, summary.draws.row(i))) {
+      line += (line.empty() ? "" : ",") + Exact(value);
+    }
+    csv += line + "\n";
+  }
+  return csv;
+}
+
+std::string PosteriorSentence(const ResultPosterior& posterior,
+                              const std::vector<std::string>& names,
+                              const std::vector<std::vector<double>>& correlation) {
+  const std::string where =
+      "; the joint 90 % region is " + Percent(posterior.region_volume) + " of the searched ranges";
+  if (posterior.branches.size() > 1) {
+    std::string shares;
+    for (const ResultBranch& branch : posterior.branches) {
+      shares += (shares.empty() ? "" : ", ") + Percent(branch.share);
+    }
+    return "the measurements allow " + std::to_string(posterior.branches.size()) +
+           " separate answers, of " + shares + where;
+  }
+  for (std::size_t i = 0; i < correlation.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::abs(correlation[i][j]) < kCurve) continue;
+      return "the measurements determine a curve, not a point: " + names[i] +
+             (correlation[i][j] < 0 ? " falls as " : " rises with ") + names[j] +
+             (correlation[i][j] < 0 ? " rises" : "") + where;
+    }
+  }
+  return "the measurements determine a point, within the ranges above" + where;
+}
+
+}  // namespace talus::experiments

@@ -1,0 +1,72 @@
+// What the observations say of the parameters, as result.json holds it: the joint region and its
+// branches, how well it is calibrated, and how the recommended set stands with each experiment.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+
+namespace talus::experiments {
+
+// A connected part of the joint 90 % region. Values in the order of the parameters, SI.
+struct ResultBranch {
+  double share = 0;  // of the posterior's draws in the region
+  std::vector<double> values{};
+  std::vector<double> low{};
+  std::vector<double> high{};
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("share", self.share);
+    visit("values", self.values);
+    visit("low", self.low);
+    visit("high", self.high);
+  }
+};
+
+// A set beside an experiment, at the target scale factor.
+struct ResultStanding {
+  std::string name;
+  double predicted = std::numeric_limits<double>::quiet_NaN();     // objective; NaN without images
+  double predicted_sd = std::numeric_limits<double>::quiet_NaN();  // of that mean
+  double implausibility = 0;                                       // [standard deviations]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("predicted_objective", self.predicted);
+    visit("predicted_objective_sd", self.predicted_sd);
+    visit("implausibility", self.implausibility);
+  }
+};
+
+struct ResultPosterior {
+  double target_scale_factor = 1;
+  bool is_extrapolated = false;             // no simulation at the target scale factor
+  double region_volume = 1;                 // of the joint 90 % region, share of the searched box
+  std::vector<ResultBranch> branches{};     // the likeliest first
+  double temper = 1;                        // misfits are divided by it, >= 1
+  double raw_coverage = 0;                  // of nominal 90 %, leave-one-out, before tempering
+  double tempered_coverage = 0;             // … after it
+  int num_left_out = 0;                     // trials that the two are made of
+  std::vector<double> unlearnt_levels{};    // scale factors whose bias is not known yet
+  std::vector<ResultStanding> experiments;  // at the recommended set
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("target_scale_factor", self.target_scale_factor);
+    visit("is_extrapolated", self.is_extrapolated);
+    visit("region_90_volume_fraction", self.region_volume);
+    visit("branches", self.branches);
+    visit("temper", self.temper);
+    visit("raw_coverage_90", self.raw_coverage);
+    visit("tempered_coverage_90", self.tempered_coverage);
+    visit("num_left_out", self.num_left_out);
+    visit("unlearnt_scale_factors", self.unlearnt_levels);
+    visit("experiments", self.experiments);
+  }
+};
+
+}  // namespace talus::experiments

@@ -1,0 +1,46 @@
+#include "experiments/campaign/result_warning.h"
+
+#include "experiments/campaign/console.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string TextOf(const ResultWarning& w) {
+  const std::string factor = "scale factor " + NumberText4(w.scale_factor.value_or(1));
+  const std::string experiment = "\"" + w.experiment.value_or("") + "\"";
+  const std::string value = NumberText4(w.value.value_or(0));
+  switch (w.kind) {
+    case WarningKind::kBound:
+      return w.parameter.value_or("") + " lies on its " + w.side.value_or("") +
+             " bound: widen its range";
+    case WarningKind::kFewGrains:
+      return "only " + value + " grains across the plate of " + experiment + " at " + factor +
+             "; 30 or more are advised";
+    case WarningKind::kImplausible:
+      return "no set fits " + experiment + ": the recommended one is " + value +
+             " standard deviations off; the contact law, the plate material or the set-up is wrong";
+    case WarningKind::kExtrapolated:
+      return "nothing was simulated at " + factor +
+             ", which the answer is for: it is an extrapolation, and a few trials there would "
+             "check it";
+    case WarningKind::kUnlearntLevel:
+      return "too few trials at " + factor +
+             " tell its bias, and the ranges are wider for it; more simulations there would "
+             "settle it (`talus resume DIR --add-simulations N`)";
+    case WarningKind::kNotModelsChoice:
+      return "the set that the model recommends was confirmed worse than another candidate, which "
+             "is recommended instead; the predicted value is that of the model's set";
+    case WarningKind::kOther:
+      return w.text;
+  }
+  return w.text;
+}
+
+}  // namespace
+
+ResultWarning Worded(ResultWarning warning) {
+  warning.text = TextOf(warning);
+  return warning;
+}
+
+}  // namespace talus::experiments
