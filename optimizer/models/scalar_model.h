@@ -82,6 +82,8 @@ class TransformedModel : public ObjectiveModel {
                        base::Random random) const override;
   double NoiseSd(const Eigen::VectorXd& x) const override;
 
+  const surrogate::GaussianProcess& process() const { return process_; }
+
  private:
   surrogate::GaussianProcess process_;
 };

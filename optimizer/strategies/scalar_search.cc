@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "optimizer/acquisition/knowledge_gradient.h"
 #include "optimizer/acquisition/local_step.h"
 #include "optimizer/acquisition/model_step.h"
 #include "optimizer/acquisition/step_choice.h"
@@ -51,6 +52,14 @@ std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
   return step;
 }
 
+// Under noise every second step is by the knowledge gradient, once there are evaluations enough for
+// the posterior of the minimiser to mean something.
+bool StepsByKnowledge(const SearchRecord& record, std::span<const Eigen::VectorXd> asked) {
+  constexpr int kFewest = 20;
+  const int index = record.history().size() + static_cast<int>(asked.size());
+  return !record.deterministic() && index >= kFewest && index % 2 == 0;
+}
+
 }  // namespace
 
 const ScalarFit& ScalarSearch::Fit(const SearchRecord& record) {
@@ -71,6 +80,11 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
   const TransformedModel model(std::move(process));
   const double noise = record.deterministic() ? 0 : model.NoiseSd(points.row(0));
   const ModelView view = ViewOf(model, record, record.StepSeed(asked));
+  if (StepsByKnowledge(record, asked)) {
+    const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
+    const KnowledgeStep step = MostKnowledge(view, model.process(), minimisers);
+    if (step.gain > 0) return record.ReplicateOrPerturb(step.point, asked);
+  }
   const Eigen::VectorXd point =
       MostExpectedImprovement(view, {.value = incumbent, .noise = noise}, BestEvaluated(view));
   return record.ReplicateOrPerturb(point, asked);

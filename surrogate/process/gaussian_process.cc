@@ -136,6 +136,26 @@ Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
   return result;
 }
 
+AnchorPoints GaussianProcess::Anchor(const Eigen::MatrixXd& points) const {
+  AnchorPoints anchors{.columns = Columns(points), .whitened = {}};
+  anchors.whitened =
+      lower_.triangularView<Eigen::Lower>().solve(covariance_.Between(warped_, anchors.columns));
+  return anchors;
+}
+
+Covariances GaussianProcess::PosteriorCovariances(const AnchorPoints& anchors,
+                                                  const Eigen::MatrixXd& points) const {
+  const Eigen::MatrixXd columns = Columns(points);
+  Eigen::MatrixXd v = covariance_.Between(warped_, columns);
+  lower_.triangularView<Eigen::Lower>().solveInPlace(v);
+  const double scale2 = state_.scale * state_.scale;
+  const Eigen::VectorXd prior = covariance_.Diagonal(columns);
+  const Eigen::VectorXd known = v.colwise().squaredNorm();
+  return {.between = scale2 * (covariance_.Between(anchors.columns, columns) -
+                               anchors.whitened.transpose() * v),
+          .variance = scale2 * (prior - known).cwiseMax(0.0)};
+}
+
 PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x) const {
   const Eigen::VectorXd warped = Columns(x.transpose());
   const Eigen::VectorXd k = covariance_.Between(warped_, warped).col(0);

@@ -57,6 +57,17 @@ struct PredictionGradient {
   Eigen::VectorXd variance;  // d variance / dx
 };
 
+// A fixed set of points, prepared for covariances with many others. Valid until Add.
+struct AnchorPoints {
+  Eigen::MatrixXd columns;   // as the covariance sees them
+  Eigen::MatrixXd whitened;  // L⁻¹ k(X, points)
+};
+
+struct Covariances {
+  Eigen::MatrixXd between;   // posterior covariance, one anchor a row, one other point a column
+  Eigen::VectorXd variance;  // of the other points
+};
+
 class GaussianProcess {
  public:
   // `points` n × d with n >= 1, `values` n.
@@ -66,6 +77,10 @@ class GaussianProcess {
   Prediction Predict(const Eigen::VectorXd& x) const;
   Predictions PredictAll(const Eigen::MatrixXd& points) const;
   PredictionGradient PredictWithGradient(const Eigen::VectorXd& x) const;
+
+  AnchorPoints Anchor(const Eigen::MatrixXd& points) const;
+  Covariances PosteriorCovariances(const AnchorPoints& anchors,
+                                   const Eigen::MatrixXd& points) const;
 
   // Joint draws of the mean function: one draw a row, one point a column.
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws, base::Random random) const;

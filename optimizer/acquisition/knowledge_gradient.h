@@ -1,0 +1,35 @@
+// The knowledge gradient: by how much one more noisy evaluation at x lowers the minimum of the
+// posterior mean, expected [frazier2009].
+//
+//   KG(x) = min_a μ(a) - E[min_a (μ(a) + s(a, x) Z)],   s(a, x) = Cov(a, x) / √(Var(x) + n²)
+//
+// Z standard normal, n the noise sd of one evaluation, a over a set A of points at which the
+// minimum may be: minimisers of posterior draws. Expected improvement asks how good x itself may
+// be, which crowds evaluations where differences are below the noise; KG asks what they would
+// change.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "optimizer/acquisition/model_step.h"
+#include "surrogate/process/gaussian_process.h"
+
+namespace talus::optimizer {
+
+// min_i mean_i - E[min_i (mean_i + slope_i Z)] in closed form, >= 0. At least one line.
+double ExpectedDropOfMinimum(const Eigen::VectorXd& mean, const Eigen::VectorXd& slope);
+
+// Points where the minimum may be, one a row: minimisers of posterior draws over candidates of the
+// domain, with `best` first.
+Eigen::MatrixXd PossibleMinimisers(const ModelView& view, const Eigen::VectorXd& best);
+
+// The point of the largest KG, weighted by the probability that the evaluation works, and its KG.
+// `process` is that of view.model.
+struct KnowledgeStep {
+  Eigen::VectorXd point;
+  double gain = 0;  // KG there, in units of the values
+};
+KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProcess& process,
+                            const Eigen::MatrixXd& minimisers);
+
+}  // namespace talus::optimizer
