@@ -165,7 +165,8 @@ void Forces(const StepView& step, const PanelView& panel) {
   Ahead ahead(step, panel);
   for (std::int64_t r = 0; r < panel.num_runs; ++r) {
     const Run run = panel.runs[r];
-    const PairConstants constants = step.constants[run.constants];
+    PairConstants constants = step.constants[run.constants];
+    constants.keeps_spring = constants.keeps_spring && run.wall < 0;
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;

@@ -30,7 +30,8 @@ TALUS_INLINE ContactArea<V> MakeContactArea(const Contact<V>& c) {
 template <class V>
 struct NormalForce {
   V total;     // pushes the bodies apart, adhesion included [N]
-  V limiting;  // whose absolute value bounds friction and rolling torque (T2, R4) [N]
+  V friction;  // whose absolute value bounds friction (T2) [N]
+  V rolling;   // and rolling torque (R4) [N]
 };
 
 template <class V>
@@ -41,7 +42,7 @@ TALUS_INLINE V HertzForce(const PairConstants& p, const Contact<V>& c,
 }
 
 // The friction on i is minus the result. Advances the spring (K4) and shortens it when the contact
-// slides (T2).
+// slides (T2), unless it is kept (A7).
 template <class V>
 TALUS_INLINE Vector<V> Friction(const PairConstants& p, const Contact<V>& c,
                                 const ContactArea<V>& area, const V& limiting, const V& dt,
@@ -56,6 +57,7 @@ TALUS_INLINE Vector<V> Friction(const PairConstants& p, const Contact<V>& c,
   const auto slides = square > limit * limit;
   const V scale = Select(slides, limit * Rsqrt(square), V(1.0));
   const Vector<V> force = scale * trial;
+  if (p.keeps_spring) return force;
   const V compliance = area.inverse_s * V(1 / p.shear_stiffness);
   spring = Select(slides, compliance * (force - dashpot), spring);
   return force;

@@ -12,7 +12,7 @@ struct NoAdhesion {
   static TALUS_INLINE NormalForce<V> Force(const PairConstants& p, const Contact<V>& c,
                                            const ContactArea<V>& area) {
     const V force = HertzForce(p, c, area);
-    return {force, force};
+    return {force, force, force};
   }
 };
 
@@ -28,12 +28,13 @@ struct DmtAdhesion {
     const V plateau = V(p.pull_off) * c.r_star;
     const V fading = V(p.hamaker) * c.r_star / (c.overlap * c.overlap);
     const V pull = Select(-c.overlap > V(p.plateau_gap), fading, plateau);
-    return {hertz - pull, hertz};
+    return {hertz - pull, hertz, hertz};
   }
 };
 
 // Simplified JKR: the contact area a is larger than Hertz's, and the elastic force is (A5)
 //   4Y*a³/(3R*) − √(8πγ*Y*a³),   a⁴ − 2R*δ a² − (2πγ*R*²/Y*) a + R*²δ² = 0, largest root (A4).
+// It bounds the rolling torque as it is, friction when 3πγ*R* is added (A5, A6).
 // Acts for δ > 0. Damping and tangential stiffness are Hertz–Mindlin's, with s = √(R*δ).
 struct JkrAdhesion {
   // (A4) is (a² − R*δ)² = B a, so its largest root solves y⁴ − √B y − R*δ = 0 for y = √a. That is
@@ -70,7 +71,8 @@ struct JkrAdhesion {
         V(p.normal_stiffness) * cube / c.r_star - Sqrt(V(4 * p.pull_off * p.y_star) * cube);
     const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
     const V total = elastic + damping * c.closing_speed;
-    return {total, total + V(1.5 * p.pull_off) * c.r_star};
+    return {total, total + V(1.5 * p.pull_off) * c.r_star,
+            total + V(p.rolling_pull_off) * c.r_star};
   }
 };
 

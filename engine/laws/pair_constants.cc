@@ -37,6 +37,11 @@ void AddAdhesion(const Material& a, const Material& b, const ContactModels& mode
   pair.surface_energy = PairSurfaceEnergy(a, b);
   pair.pull_off = 2 * std::numbers::pi * pair.surface_energy;
   pair.jkr_cube_root = std::cbrt(pair.pull_off / pair.y_star);
+  if (models.adhesion == Adhesion::kJkr) {
+    const bool from_pull_off = models.jkr_rolling_limit == JkrRollingLimit::kFromPullOff;
+    pair.rolling_pull_off = from_pull_off ? 1.5 * pair.pull_off : 0;
+    pair.keeps_spring = models.jkr_sliding_spring == JkrSlidingSpring::kKept;
+  }
   if (models.adhesion != Adhesion::kDmt || pair.pull_off == 0) return;
   pair.hamaker = (a.hamaker_constant + b.hamaker_constant) / 2 / 6;  // P7
   pair.plateau_gap = std::sqrt(pair.hamaker / pair.pull_off);        // A2, R* cancels

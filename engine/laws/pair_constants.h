@@ -20,6 +20,8 @@ struct PairConstants {
   double surface_energy = 0;      // γ* [J/m²] (P6)
   double pull_off = 0;            // F_po / R* = 2π γ* [N/m] (A1)
   double jkr_cube_root = 0;       // ∛(2πγ*/Y*) [m^⅓] (A4)
+  double rolling_pull_off = 0;    // added to F_n / R* in JKR's rolling limit [N/m] (A6)
+  bool keeps_spring = false;      // a sliding spring is not shortened (A7); never against a wall
   double hamaker = 0;             // A/6 [J] (A3), zero without adhesion
   double plateau_gap = 0;         // -δ₀ [m] (A2): up to this gap the pull is F_po
   double adhesion_gap = 0;        // -δ_c [m] (A2): beyond this gap there is none; 0 without DMT

@@ -20,8 +20,8 @@ TALUS_INLINE Response<V> Respond(const PairConstants& p, const Contact<V>& c, co
                                  History<V>& history) {
   const ContactArea<V> area = MakeContactArea(c);
   const NormalForce<V> normal = NormalLaw::Force(p, c, area);
-  Vector<V> tangential = Friction(p, c, area, normal.limiting, dt, history.spring);
-  const RollingState<V> rolling_state{c, area, normal.limiting, dt};
+  Vector<V> tangential = Friction(p, c, area, normal.friction, dt, history.spring);
+  const RollingState<V> rolling_state{c, area, normal.rolling, dt};
   Vector<V> rolling = RollingLaw::Torque(p, rolling_state, history.moment);
 
   const auto touches = c.overlap > V(0.0);

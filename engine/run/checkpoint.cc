@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 2;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 3;  // raised with every change of what is written
 
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};

@@ -45,6 +45,13 @@ struct Material {
 enum class Adhesion { kNone, kDmt, kJkr };
 enum class Rolling { kNone, kConstant, kViscous, kEpsd };
 
+// Which normal force of JKR bounds the rolling torque (A6): the net one, or that above the
+// pull-off.
+enum class JkrRollingLimit { kNetForce, kFromPullOff };
+
+// What a tangential spring of JKR between two spheres does while it slides (A7).
+enum class JkrSlidingSpring { kKept, kShortened };
+
 // Which laws act between all bodies of a scene.
 struct ContactModels {
   Adhesion adhesion = Adhesion::kNone;
@@ -52,6 +59,8 @@ struct ContactModels {
   double full_mobilisation_damping =
       0;  // f [-], in [0, 1]: share of damping once the limit is reached (R4)
   double adhesion_cutoff = 0.1;  // C [-], in (0, 1): DMT force at which the gap range ends (A2)
+  JkrRollingLimit jkr_rolling_limit = JkrRollingLimit::kNetForce;
+  JkrSlidingSpring jkr_sliding_spring = JkrSlidingSpring::kKept;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -64,6 +73,12 @@ struct ContactModels {
         "adhesion_cutoff", self.adhesion_cutoff,
         {.doc =
              "C of the DMT model: share of the pull-off force at which its range ends, in (0, 1)"});
+    visit("jkr_rolling_limit", self.jkr_rolling_limit,
+          {.doc = "net_force, as published: mu_r R* times the normal force; from_pull_off: times "
+                  "the normal force plus 3 pi gamma* R*"});
+    visit("jkr_sliding_spring", self.jkr_sliding_spring,
+          {.doc = "kept, as published: between spheres the tangential spring grows on while it "
+                  "slides; shortened: to its limit, as against walls"});
   }
   void Validate(base::Problems& problems) const;
 };
@@ -82,4 +97,16 @@ struct talus::base::Names<talus::engine::Rolling> {
   static constexpr std::array kList{std::pair{"none", R::kNone},
                                     std::pair{"constant", R::kConstant},
                                     std::pair{"viscous", R::kViscous}, std::pair{"epsd", R::kEpsd}};
+};
+template <>
+struct talus::base::Names<talus::engine::JkrRollingLimit> {
+  using L = talus::engine::JkrRollingLimit;
+  static constexpr std::array kList{std::pair{"net_force", L::kNetForce},
+                                    std::pair{"from_pull_off", L::kFromPullOff}};
+};
+template <>
+struct talus::base::Names<talus::engine::JkrSlidingSpring> {
+  using S = talus::engine::JkrSlidingSpring;
+  static constexpr std::array kList{std::pair{"kept", S::kKept},
+                                    std::pair{"shortened", S::kShortened}};
 };

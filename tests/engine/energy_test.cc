@@ -45,9 +45,10 @@ double RestOverlap(const ContactModels& models) {
 }
 
 // A row of spheres at their rest overlap: nothing is stored in its contacts that could come back.
-Scene Chain(const ContactModels& models, int num_spheres) {
+Scene Chain(const ContactModels& models, int num_spheres, double friction = 0.5) {
   Scene scene = testing::EmptySpace(Sticky());
   scene.models = models;
+  scene.materials[0].sliding_friction = friction;
   const double spacing = 2 * kRadius - RestOverlap(models);
   for (int k = 0; k < num_spheres; ++k) {
     base::Random random(1, base::Stream("chain"), static_cast<std::uint64_t>(k));
@@ -87,6 +88,32 @@ INSTANTIATE_TEST_SUITE_P(EveryLaw, ChainInSpace,
                                             ::testing::Values(Rolling::kNone, Rolling::kConstant,
                                                               Rolling::kViscous, Rolling::kEpsd),
                                             ::testing::Values(2, 5)));
+
+using JkrForms = std::tuple<JkrRollingLimit, JkrSlidingSpring, double>;
+class JkrChain : public ::testing::TestWithParam<JkrForms> {};
+
+// Also where bonds slide for most of the time, so that a spring that is kept grows long.
+TEST_P(JkrChain, NeverHasMoreEnergyThanAtTheStart) {
+  const auto [limit, spring, friction] = GetParam();
+  Simulation simulation(Chain({.adhesion = Adhesion::kJkr,
+                               .rolling = Rolling::kEpsd,
+                               .jkr_rolling_limit = limit,
+                               .jkr_sliding_spring = spring},
+                              5, friction));
+  const double start = Kinetic(simulation);
+  double most = 0;
+  for (int block = 0; block < 1000; ++block) {
+    simulation.Advance(100);
+    most = std::max(most, Kinetic(simulation));
+  }
+  EXPECT_LE(most, start * (1 + 1e-9));
+  EXPECT_GE(simulation.Contacts().size(), 4u);  // it may fold, not break
+}
+INSTANTIATE_TEST_SUITE_P(
+    EveryForm, JkrChain,
+    ::testing::Combine(::testing::Values(JkrRollingLimit::kNetForce, JkrRollingLimit::kFromPullOff),
+                       ::testing::Values(JkrSlidingSpring::kKept, JkrSlidingSpring::kShortened),
+                       ::testing::Values(0.005, 0.05)));
 
 }  // namespace
 }  // namespace talus::engine

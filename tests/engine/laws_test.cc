@@ -119,7 +119,40 @@ TEST(Jkr, ForceVanishesAtTheKnownContact) {
   EXPECT_NEAR(ForceOf(models, p, StillContact(1e-9 * overlap, r)), -4.0 / 3 * pull, 1e-4 * pull);
   // Friction's limit is measured from the pull-off of full JKR (A5).
   const Contact<double> c = StillContact(overlap, r);
-  EXPECT_NEAR(JkrAdhesion::Force(p, c, MakeContactArea(c)).limiting, 3 * pull, 1e-9 * pull);
+  EXPECT_NEAR(JkrAdhesion::Force(p, c, MakeContactArea(c)).friction, 3 * pull, 1e-9 * pull);
+  // The rolling torque's limit is that of the net force, or is measured likewise (A6).
+  EXPECT_NEAR(JkrAdhesion::Force(p, c, MakeContactArea(c)).rolling, 0, 1e-9 * pull);
+  const PairConstants other = MakePairConstants(
+      m, m, {.adhesion = Adhesion::kJkr, .jkr_rolling_limit = JkrRollingLimit::kFromPullOff});
+  EXPECT_NEAR(JkrAdhesion::Force(other, c, MakeContactArea(c)).rolling, 3 * pull, 1e-9 * pull);
+}
+
+// Steady sliding by 1000 steps: the force is the limit either way, a spring that is kept is as long
+// as the way (A7), one that is shortened has the length of its limit (T2).
+TEST(Jkr, KeptSpringsGrowWhileTheySlide) {
+  Material m = testing::Glass();
+  m.surface_energy = 2e-2;
+  for (const JkrSlidingSpring form : {JkrSlidingSpring::kKept, JkrSlidingSpring::kShortened}) {
+    const PairConstants p =
+        MakePairConstants(m, m, {.adhesion = Adhesion::kJkr, .jkr_sliding_spring = form});
+    Contact<double> c = StillContact(1e-6, 1e-3);
+    const double speed = 1, dt = 1e-6;
+    c.sliding = {0, speed, 0};
+    History<double> history{};
+    Response<double> response{};
+    for (int step = 0; step < 1000; ++step) {
+      response = Respond<JkrAdhesion, NoRolling>(p, c, dt, history);
+    }
+    const ContactArea<double> area = MakeContactArea(c);
+    const double limit = m.sliding_friction * JkrAdhesion::Force(p, c, area).friction;
+    EXPECT_NEAR(response.force.y / -limit, 1, 1e-12);
+    if (form == JkrSlidingSpring::kKept) {
+      EXPECT_NEAR(history.spring.y, 1000 * speed * dt, 1e-12);
+    } else {
+      const double dashpot = p.tangential_damping * area.root_s * c.root_m_star * speed;
+      EXPECT_NEAR(history.spring.y / ((limit - dashpot) / (p.shear_stiffness * area.s)), 1, 1e-9);
+    }
+  }
 }
 
 }  // namespace

@@ -87,6 +87,28 @@ TEST(EpsdRolling, HoldsOnASlopeBelowItsLimitAndRollsAboveIt) {
   }
 }
 
+// The constant law has a direction and no memory: below its limit it turns about from step to step,
+// and the sphere creeps by what is left over, a few times g sinα Δt (docs/physics.md, 6).
+TEST(ConstantRolling, CreepsOnASlopeByAFewTimesWhatGravityGivesInAStep) {
+  for (const double fraction : {0.15, 0.30}) {
+    for (const double share : {0.25, 0.5, 0.9}) {
+      Scene scene = SphereOnPlate(Rolling::kConstant);
+      scene.rayleigh_fraction = fraction;
+      const double slope = std::atan(share * 0.1);
+      scene.gravity = {kGravity * std::sin(slope), 0, -kGravity * std::cos(slope)};
+      Simulation simulation(scene);
+      simulation.Advance(std::llround(0.2 / simulation.time_step()));
+      const double start = simulation.Particles()[0].position.x, time = simulation.time();
+      simulation.Advance(std::llround(0.5 / simulation.time_step()));
+      const double creep =
+          (simulation.Particles()[0].position.x - start) / (simulation.time() - time);
+      const double step_speed = kGravity * std::sin(slope) * simulation.time_step();
+      EXPECT_GT(creep, 2 * step_speed);
+      EXPECT_LT(creep, 3 * step_speed);
+    }
+  }
+}
+
 class AnyRolling : public ::testing::TestWithParam<Rolling> {};
 
 // No law may see the twist about the normal: the only torques on this sphere are round-off.

@@ -67,6 +67,26 @@ TEST(Spec, AnySubsetOfTheMaterialWithUnitsAndFixedValues) {
   EXPECT_EQ(UnitOf("sliding_friction"), "");
 }
 
+TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
+  const CampaignSpec spec = Read(With(R"("device": {"plate_material": {"restitution": 0.4}},
+    "parameters": {
+    "sliding_friction": {"min": 0.1, "max": 0.5},
+    "plate_sliding_friction": {"min": 0.2, "max": 0.8},
+    "tube_surface_energy": {"fixed": "1e-4 J/m^2"}})"));
+  const auto space = SpaceOf(spec);
+  ASSERT_EQ(space.Free().size(), 2u);
+  const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 0.5));
+  const HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
+  EXPECT_DOUBLE_EQ(c.powder.material.sliding_friction, 0.3);
+  EXPECT_DOUBLE_EQ(c.device.plate_material.value().sliding_friction.value(), 0.5);
+  EXPECT_DOUBLE_EQ(c.device.plate_material.value().restitution.value(), 0.4);  // the device's stays
+  EXPECT_FALSE(c.device.plate_material.value().surface_energy);                // follows the powder
+  EXPECT_DOUBLE_EQ(c.device.tube_material.value().surface_energy.value(), 1e-4);
+  EXPECT_EQ(UnitOf("plate_surface_energy"), "J/m^2");
+  EXPECT_THAT(ErrorOf(With(R"("parameters": {"plate_sliding_friction": {"min": -1, "max": 1}})")),
+              HasSubstr("parameters.plate_sliding_friction.min"));
+}
+
 TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {
   const std::string error = ErrorOf(R"({
   "experiment": {"map": "m.png", "plate_diameter": "10 mm"},

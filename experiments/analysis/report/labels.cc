@@ -20,10 +20,19 @@ std::string Find(const std::array<Entry, N>& list, std::string_view key) {
 
 std::string SymbolOf(std::string_view parameter) {
   static constexpr std::array kSymbols{
-      Entry{"sliding_friction", "μ_t"}, Entry{"rolling_friction", "μ_r"},
-      Entry{"surface_energy", "γ"},     Entry{"restitution", "e"},
-      Entry{"youngs_modulus", "Y"},     Entry{"poisson_ratio", "ν"},
+      Entry{"sliding_friction", "μ_t"},
+      Entry{"rolling_friction", "μ_r"},
+      Entry{"surface_energy", "γ"},
+      Entry{"restitution", "e"},
+      Entry{"youngs_modulus", "Y"},
+      Entry{"poisson_ratio", "ν"},
       Entry{"rolling_damping", "η_r"},
+      Entry{"plate_sliding_friction", "μ_t plate"},
+      Entry{"plate_rolling_friction", "μ_r plate"},
+      Entry{"plate_surface_energy", "γ plate"},
+      Entry{"tube_sliding_friction", "μ_t tube"},
+      Entry{"tube_rolling_friction", "μ_r tube"},
+      Entry{"tube_surface_energy", "γ tube"},
   };
   return Find(kSymbols, parameter);
 }

@@ -264,7 +264,7 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   heap_case.threads = spec.threads;
   const optimizer::ParameterSpace space = SpaceOf(spec);
   for (std::size_t i = 0; i < space.parameters.size(); ++i) {
-    SetProperty(heap_case.powder.material, space.parameters[i].name, settings.values[i]);
+    SetParameter(heap_case, space.parameters[i].name, settings.values[i]);
   }
   return heap_case;
 }

@@ -1,6 +1,7 @@
 #include "experiments/campaign/spec/parameter_ranges.h"
 
 #include <cmath>
+#include <string_view>
 
 namespace talus::experiments {
 namespace {
@@ -39,22 +40,50 @@ base::Dimension DimensionOf(const std::string& property) {
 }
 
 struct PropertySetter {
-  const std::string& property;
+  std::string_view property;
   double value;
-  void operator()(std::string_view name, double& field, FieldInfo = {}) const {
+  template <class Field>
+  void operator()(std::string_view name, Field& field, FieldInfo = {}) const {
     if (name == property) field = value;
   }
 };
 
-// The powder with the property at `value` must be one that can be simulated.
+enum class Body { kPowder, kPlate, kTube };
+
+// "plate_sliding_friction" is the plate's "sliding_friction".
+struct Parameter {
+  Body body = Body::kPowder;
+  std::string property;  // of engine::Material
+
+  explicit Parameter(const std::string& name) : property(name) {
+    Strip("plate_", Body::kPlate);
+    Strip("tube_", Body::kTube);
+  }
+
+ private:
+  void Strip(std::string_view prefix, Body of) {
+    if (!property.starts_with(prefix)) return;
+    property.erase(0, prefix.size());
+    body = of;
+  }
+};
+
+void SetOnWall(std::optional<WallMaterial>& wall, const std::string& property, double value) {
+  if (!wall) wall.emplace();
+  WallMaterial::Visit(*wall, PropertySetter{property, value});
+}
+
+// The material with the property at `value` must be one that can be simulated. A wall's other
+// properties are those of the powder here, which are valid themselves.
 void ValidateEnd(const engine::Material& material, const std::string& name, const char* end,
                  double value, base::Problems& problems) {
+  const std::string property = Parameter(name).property;
   engine::Material at_end = material;
-  SetProperty(at_end, name, value);
+  engine::Material::Visit(at_end, PropertySetter{property, value});
   base::Problems of_material;
   at_end.Validate(of_material);
   for (const base::Problem& problem : of_material.list()) {
-    if (problem.path == name) problems.Add(end, problem.message);
+    if (problem.path == property) problems.Add(end, problem.message);
   }
 }
 
@@ -88,16 +117,24 @@ optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges) {
   return space;
 }
 
-std::string UnitOf(const std::string& property) {
-  return std::string(base::SiUnit(DimensionOf(property)));
+std::string UnitOf(const std::string& parameter) {
+  return std::string(base::SiUnit(DimensionOf(Parameter(parameter).property)));
 }
 
-double ParseProperty(const std::string& property, const std::string& text) {
-  return base::ParseQuantity(text, DimensionOf(property));
+double ParseProperty(const std::string& parameter, const std::string& text) {
+  return base::ParseQuantity(text, DimensionOf(Parameter(parameter).property));
 }
 
-void SetProperty(engine::Material& material, const std::string& property, double value) {
-  engine::Material::Visit(material, PropertySetter{property, value});
+void SetParameter(HeapCase& heap_case, const std::string& parameter, double value) {
+  const auto [body, property] = Parameter(parameter);
+  switch (body) {
+    case Body::kPowder:
+      return engine::Material::Visit(heap_case.powder.material, PropertySetter{property, value});
+    case Body::kPlate:
+      return SetOnWall(heap_case.device.plate_material, property, value);
+    case Body::kTube:
+      return SetOnWall(heap_case.device.tube_material, property, value);
+  }
 }
 
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,

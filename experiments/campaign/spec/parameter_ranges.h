@@ -1,4 +1,4 @@
-// Which of the powder's properties a campaign searches, and where.
+// Which properties of the powder, the plate and the tube a campaign searches, and where.
 #pragma once
 
 #include <limits>
@@ -7,6 +7,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "engine/scene/material.h"
+#include "experiments/rigs/lifted_tube/heap_case.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::experiments {
@@ -32,20 +33,27 @@ struct ParameterRange {
   }
 };
 
-// Properties of engine::Material by their names there. The walls follow the powder's, where the
-// device does not say otherwise.
+// Properties of engine::Material by their names there, with plate_ or tube_ before it those of a
+// wall. The walls follow the powder where neither a range nor the device says otherwise.
 struct ParameterRanges {
   using Number = ParameterRange<base::Dimension::kNone>;
+  using SurfaceEnergy = ParameterRange<base::Dimension::kSurfaceEnergy>;
 
   std::optional<Number> sliding_friction{};
   std::optional<Number> rolling_friction{};
-  std::optional<ParameterRange<base::Dimension::kSurfaceEnergy>> surface_energy{};
+  std::optional<SurfaceEnergy> surface_energy{};
   std::optional<Number> restitution{};
   std::optional<Number> rolling_damping{};
   std::optional<ParameterRange<base::Dimension::kPressure>> youngs_modulus{};
   std::optional<Number> poisson_ratio{};
   std::optional<ParameterRange<base::Dimension::kEnergy>> hamaker_constant{};
   std::optional<ParameterRange<base::Dimension::kDensity>> density{};
+  std::optional<Number> plate_sliding_friction{};
+  std::optional<Number> plate_rolling_friction{};
+  std::optional<SurfaceEnergy> plate_surface_energy{};
+  std::optional<Number> tube_sliding_friction{};
+  std::optional<Number> tube_rolling_friction{};
+  std::optional<SurfaceEnergy> tube_surface_energy{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -58,6 +66,14 @@ struct ParameterRanges {
     visit("poisson_ratio", self.poisson_ratio, {.doc = "nu"});
     visit("hamaker_constant", self.hamaker_constant, {.doc = "A of the DMT model"});
     visit("density", self.density, {.doc = "rho"});
+    visit("plate_sliding_friction", self.plate_sliding_friction, {.doc = "mu_t of the plate"});
+    visit("plate_rolling_friction", self.plate_rolling_friction, {.doc = "mu_r of the plate"});
+    visit("plate_surface_energy", self.plate_surface_energy,
+          {.doc = "gamma of the plate, not coarse-grained"});
+    visit("tube_sliding_friction", self.tube_sliding_friction, {.doc = "mu_t of the tube"});
+    visit("tube_rolling_friction", self.tube_rolling_friction, {.doc = "mu_r of the tube"});
+    visit("tube_surface_energy", self.tube_surface_energy,
+          {.doc = "gamma of the tube, not coarse-grained"});
   }
 };
 
@@ -67,14 +83,14 @@ ParameterRanges UsualRanges(engine::Adhesion adhesion);
 // The same as the optimiser sees it, in the order of the list above.
 optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges);
 
-// SI unit of a property of engine::Material, "" if none.
-std::string UnitOf(const std::string& property);
+// SI unit of a parameter, "" if none.
+std::string UnitOf(const std::string& parameter);
 
-// A property's value from a text with its unit, or a bare number in SI; throws ConfigError.
-double ParseProperty(const std::string& property, const std::string& text);
+// A parameter's value from a text with its unit, or a bare number in SI; throws ConfigError.
+double ParseProperty(const std::string& parameter, const std::string& text);
 
-// Sets a property by its name in engine::Material.
-void SetProperty(engine::Material& material, const std::string& property, double value);
+// Sets a parameter by its name above: the powder's, the plate's or the tube's.
+void SetParameter(HeapCase& heap_case, const std::string& parameter, double value);
 
 // What is wrong with a range, or with the powder at one of its ends, under the range's name.
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,
