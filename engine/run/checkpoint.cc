@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 2;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 3;  // raised with every change of what is written
 
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};
@@ -62,6 +62,8 @@ void VisitWalls(Archive& archive, WallSet& set) {
     VisitShape(archive, wall.shape);
     archive(wall.material);
     archive(wall.motion);
+    archive(wall.pivot);
+    archive(wall.removal_time);
   }
   std::vector<std::uint8_t> removed = set.removed();
   archive(removed);
@@ -105,6 +107,7 @@ void VisitState(Archive& archive, SimulationState& state) {
   archive(state.materials);
   archive(state.models);
   archive(state.gravity);
+  archive(state.gravity_turns);
   archive(state.dt);
   archive(state.step);
   archive(state.reference_speed);
