@@ -162,6 +162,16 @@ void Simulation::RemoveWall(int wall) {
   state_->RebuildAll();
 }
 
+bool Simulation::IsRemoved(int wall) const { return state_->walls.Removed(wall); }
+
+double Simulation::LargestRadius() const {
+  double largest = 0;
+  for (std::int64_t i = 0; i < num_particles(); ++i) {
+    largest = std::max(largest, state_->particles.Radius(i));
+  }
+  return largest;
+}
+
 std::int64_t Simulation::RemoveIf(const std::function<bool(const Particle&)>& leaves) {
   const std::vector<Particle> particles = state_->FullStep();
   std::vector<std::int64_t> gone;

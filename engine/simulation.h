@@ -65,7 +65,8 @@ class Simulation {
   std::vector<ContactInfo> Contacts() const;  // δ > 0 now, ordered by (first, second)
   std::vector<WallLoad> WallLoads() const;    // of each wall
   EnergySums Energies() const;
-  double MaxSpeed() const;  // of any sphere [m/s]
+  double MaxSpeed() const;       // of any sphere [m/s]
+  double LargestRadius() const;  // [m]; 0 without spheres
   const std::vector<Wall>& Walls()
       const;  // shapes as they stand now; removed ones keep their place
   ListStatistics Statistics() const;
@@ -85,6 +86,7 @@ class Simulation {
 
   // Takes a wall out of the scene for good: nothing touches it any more.
   void RemoveWall(int wall);
+  bool IsRemoved(int wall) const;
 
   // Takes out every sphere for which `leaves` holds; returns how many.
   std::int64_t RemoveIf(const std::function<bool(const Particle&)>& leaves);
