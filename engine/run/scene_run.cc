@@ -124,6 +124,17 @@ void SceneRun::CheckStop() {
   if (!state_.stop_reason.empty()) messages_.push_back("ended by stop." + state_.stop_reason);
 }
 
+// What lies still before its gate opens or its box tilts is not at its end.
+double SceneRun::LastEvent() const {
+  double last = 0;
+  for (const Wall& wall : simulation_.Walls()) {
+    if (!wall.motion.empty()) last = std::max(last, wall.motion.back().time);
+    last = std::max(last, wall.removal_time.value_or(0));
+  }
+  if (!spec_.gravity_turns.empty()) last = std::max(last, spec_.gravity_turns.back().time);
+  return last;
+}
+
 bool SceneRun::AtRest() {
   double kinetic = 0;
   double weight = 0;
@@ -135,8 +146,9 @@ bool SceneRun::AtRest() {
     weight += cube * gravity * 2 * p.radius;
   }
   state_.energy_ratio = weight > 0 ? kinetic / weight : 0;
-  const bool poured = NextPourTime() == std::numeric_limits<double>::infinity();
-  const bool quiet = poured && kinetic < *spec_.stop.energy_fraction * weight;
+  const bool all_done = NextPourTime() == std::numeric_limits<double>::infinity() &&
+                        simulation_.time() >= LastEvent();
+  const bool quiet = all_done && kinetic < *spec_.stop.energy_fraction * weight;
   state_.quiet_steps = quiet ? state_.quiet_steps + check_steps_ : 0;
   const auto held = static_cast<double>(state_.quiet_steps - check_steps_);
   return quiet && held * simulation_.time_step() >= spec_.stop.hold_time * (1 - 1e-9);

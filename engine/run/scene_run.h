@@ -59,6 +59,7 @@ class SceneRun : public Run {
   void CheckDomain();
   void CheckStop();
   bool AtRest();
+  double LastEvent() const;  // time of the last thing that is prescribed [s]
 
   SceneSpec spec_;
   std::filesystem::path folder_;

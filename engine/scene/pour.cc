@@ -14,8 +14,8 @@ namespace talus::engine {
 namespace {
 
 constexpr double kBulk = 0.58;        // solid fraction in the funnel
-constexpr double kStream = 0.2;       // solid fraction just below its mouth
-constexpr double kSlabDiameters = 4;  // height of a batch, in largest diameters
+constexpr double kStream = 0.3;       // solid fraction just below its mouth
+constexpr double kSlabDiameters = 2;  // height of a batch, in largest diameters
 constexpr int kTries = 200;           // places tried for a grain before it waits
 
 double Largest(const std::vector<double>& radii) {
@@ -141,22 +141,29 @@ double Pour::NextTime(const PourState& state) const {
   return plan_.start + static_cast<double>(state.num_batches) * Interval();
 }
 
+Vec3 Pour::Mouth(const PourState& state) const {
+  const double poured = state.num_poured > 0 ? cum_[state.num_poured - 1] : 0;
+  const Vec3 down = plan_.gravity / base::Norm(plan_.gravity);
+  return plan_.mouth - plan_.rise * poured * down;
+}
+
 // Where the grain k touches nothing, if a place is found. Each batch tries other places, for grains
 // that waited.
-std::optional<Particle> Pour::Place(std::int64_t k, std::int64_t num_batches,
+std::optional<Particle> Pour::Place(std::int64_t k, const PourState& state,
                                     const Surroundings& around) const {
   const Vec3 down = plan_.gravity / base::Norm(plan_.gravity);
   const Vec3 across = Across(down), other = Cross(down, across);
   const double r = plan_.radii[static_cast<std::size_t>(k)];
   base::Random random(
-      base::Random(plan_.seed, base::Stream("pour"), static_cast<std::uint64_t>(num_batches))
+      base::Random(plan_.seed, base::Stream("pour"), static_cast<std::uint64_t>(state.num_batches))
           .Next(),
       base::Stream("pour grain"), static_cast<std::uint64_t>(k));
+  const Vec3 mouth = Mouth(state);
   for (int t = 0; t < kTries; ++t) {
     const double reach = (plan_.mouth_diameter / 2 - r) * std::sqrt(random.Uniform());
     const double angle = 2 * std::numbers::pi * random.Uniform();
-    const Vec3 at = plan_.mouth + reach * std::cos(angle) * across +
-                    reach * std::sin(angle) * other - slab_ * random.Uniform() * down;
+    const Vec3 at = mouth + reach * std::cos(angle) * across + reach * std::sin(angle) * other -
+                    slab_ * random.Uniform() * down;
     if (!around.spheres.Free(at, r) || !ClearOfWalls(around.walls, at, r)) continue;
     const double u = random.Uniform(-plan_.scatter, plan_.scatter);
     const double v = random.Uniform(-plan_.scatter, plan_.scatter);
@@ -176,13 +183,13 @@ std::vector<Particle> Pour::Batch(const Simulation& simulation, const PourState&
   const double largest = std::max(Largest(plan_.radii), simulation.LargestRadius());
   Surroundings around{Occupied(2 * largest), PresentWalls(simulation)};
   for (const Particle& p : simulation.Particles()) {
-    const double height = Dot(plan_.mouth - p.position, down);
+    const double height = Dot(Mouth(state) - p.position, down);
     if (height > -2 * largest && height < slab_ + 2 * largest) around.spheres.Add(p);
   }
   std::vector<Particle> batch;
   const auto num = static_cast<std::int64_t>(cum_.size());
   for (auto k = state.num_poured; k < num && (k == 0 || cum_[k - 1] < due); ++k) {
-    const std::optional<Particle> placed = Place(k, state.num_batches, around);
+    const std::optional<Particle> placed = Place(k, state, around);
     if (!placed) break;
     batch.push_back(*placed);
     around.spheres.Add(*placed);

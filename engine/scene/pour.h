@@ -6,7 +6,7 @@
 //   W = 0.58 ρ_b √g (D − 1.4 d)^(5/2)     ρ_b = 0.58 ρ     docs/physics.md, F1 [beverloo1961]
 //
 // D the mouth's diameter, d the mean one of the grains by volume. The grains leave the mouth at the
-// speed at which the stream fills a fifth of its section, and are placed at random in a slab above
+// speed at which the stream fills 0.3 of its section, and are placed at random in a slab above
 // it, where they touch nothing; those that find no room wait. Everything follows from the seed and
 // from how many have come, so that a run goes on from a checkpoint with the same bits.
 #pragma once
@@ -64,7 +64,8 @@ struct PourPlan {
   std::vector<double> radii;  // in the order in which they come [m]
   int material = 0;
   double density = 0;         // of a grain [kg/m³]
-  Vec3 mouth;                 // [m]
+  Vec3 mouth;                 // at first [m]
+  double rise = 0;            // of the mouth against gravity, with what has come [m/kg]
   double mouth_diameter = 0;  // [m]
   double rate = 0;            // [kg/s]
   double scatter = 0;         // [m/s]
@@ -105,8 +106,9 @@ class Pour {
 
  private:
   struct Surroundings;
-  std::optional<Particle> Place(std::int64_t k, std::int64_t num_batches,
+  std::optional<Particle> Place(std::int64_t k, const PourState& state,
                                 const Surroundings& around) const;
+  Vec3 Mouth(const PourState& state) const;  // [m]
   std::vector<Particle> Batch(const Simulation& simulation, const PourState& state) const;
   double Interval() const;  // between two batches [s]
 

@@ -84,7 +84,9 @@ struct StopSpec {
     visit("time", self.time, {.dimension = base::Dimension::kTime, .doc = "simulated, > 0"});
     visit("steps", self.steps, {.doc = "> 0"});
     visit("energy_fraction", self.energy_fraction,
-          {.doc = "at rest: mean kinetic energy of a sphere over m g d stays below, > 0"});
+          {.doc = "at rest: mean kinetic energy of a sphere over m g d stays below, after the last "
+                  "pour, "
+                  "prescribed motion and removal; > 0"});
     visit("hold_time", self.hold_time,
           {.dimension = base::Dimension::kTime, .doc = "for this long, > 0"});
   }

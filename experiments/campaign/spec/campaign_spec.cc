@@ -155,6 +155,7 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   heap_case.models = spec.models;
   heap_case.coarse_graining = spec.coarse_graining;
   heap_case.coarse_graining.scale_factor = settings.scale_factor;
+  heap_case.filling = spec.filling;
   heap_case.rules = spec.rules;
   heap_case.gravity = spec.gravity;
   heap_case.rayleigh_fraction = spec.rayleigh_fraction;

@@ -24,6 +24,7 @@ struct CampaignSpec {
   Device device;
   engine::ContactModels models;
   CoarseGraining coarse_graining;
+  FillingRule filling;
   HeapRules rules;
   double gravity = 9.81;            // [m/s²], > 0
   double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest grain [-], in (0, 0.4]
@@ -53,6 +54,7 @@ struct CampaignSpec {
     visit("device", self.device, {.doc = "tube and plate"});
     visit("models", self.models, {.doc = "contact laws"});
     visit("coarse_graining", self.coarse_graining, {.doc = "fewer, larger grains"});
+    visit("filling", self.filling, {.doc = "how the powder gets into the tube"});
     visit("rules", self.rules, {.doc = "when each phase of a simulation ends"});
     visit("gravity", self.gravity,
           {.dimension = Dimension::kAcceleration, .doc = "downwards, > 0"});
