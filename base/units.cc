@@ -37,6 +37,7 @@ constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3}, {"MPa", 1e6},
 constexpr Unit kSurfaceEnergies[] = {{"J/m^2", 1},    {"J/m²", 1},      {"mJ/m^2", 1e-3},
                                      {"mJ/m²", 1e-3}, {"uJ/m^2", 1e-6}, {"µJ/m²", 1e-6},
                                      {"N/m", 1},      {"mN/m", 1e-3}};
+constexpr Unit kMassRates[] = {{"kg/s", 1}, {"g/s", 1e-3}, {"mg/s", 1e-6}, {"g/min", 1e-3 / 60}};
 constexpr Unit kEnergies[] = {{"J", 1}, {"mJ", 1e-3}, {"uJ", 1e-6}, {"nJ", 1e-9}, {"zJ", 1e-21}};
 
 std::span<const Unit> UnitsOf(Dimension dimension) {
@@ -65,6 +66,8 @@ std::span<const Unit> UnitsOf(Dimension dimension) {
       return kSurfaceEnergies;
     case Dimension::kEnergy:
       return kEnergies;
+    case Dimension::kMassRate:
+      return kMassRates;
   }
   return {};
 }

@@ -20,6 +20,7 @@ enum class Dimension {
   kPressure,         // Pa
   kSurfaceEnergy,    // J/m²
   kEnergy,           // J
+  kMassRate,         // kg/s
 };
 
 // The SI unit's symbol as it is written in an input: "m", "kg/m^3"; "" for kNone.

@@ -33,16 +33,28 @@ void ParticleStore::NotePositions() {
 
 void ParticleStore::Assign(std::span<const Particle> particles, std::span<const Material> list) {
   Resize(static_cast<std::int64_t>(particles.size()));
-  for (std::int64_t i = 0; i < num; ++i) {
-    const Particle& p = particles[i];
-    const double row[] = {p.position.x, p.position.y, p.position.z, p.radius,
-                          p.velocity.x, p.velocity.y, p.velocity.z};
-    std::copy(std::begin(row), std::end(row), &motion[8 * i]);
-    const double turn[] = {p.angular_velocity.x, p.angular_velocity.y, p.angular_velocity.z};
-    std::copy(std::begin(turn), std::end(turn), &spin[4 * i]);
-    ids[i] = p.id;
-    materials[i] = p.material;
-  }
+  for (std::int64_t i = 0; i < num; ++i) Put(i, particles[i]);
+  SetMasses(list);
+}
+
+void ParticleStore::Put(std::int64_t i, const Particle& p) {
+  const double row[] = {p.position.x, p.position.y, p.position.z, p.radius,
+                        p.velocity.x, p.velocity.y, p.velocity.z};
+  std::copy(std::begin(row), std::end(row), &motion[8 * i]);
+  const double turn[] = {p.angular_velocity.x, p.angular_velocity.y, p.angular_velocity.z};
+  std::copy(std::begin(turn), std::end(turn), &spin[4 * i]);
+  ids[i] = p.id;
+  materials[i] = p.material;
+}
+
+void ParticleStore::Append(std::span<const Particle> particles, std::span<const Material> list) {
+  const std::int64_t before = num;
+  num += static_cast<std::int64_t>(particles.size());
+  motion.resize(8 * Padded(num), 0.0);
+  spin.resize(4 * Padded(num), 0.0);
+  ids.resize(num);
+  materials.resize(num);
+  for (std::int64_t i = before; i < num; ++i) Put(i, particles[i - before]);
   SetMasses(list);
 }
 

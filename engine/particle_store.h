@@ -23,6 +23,9 @@ struct ParticleStore {
 
   void Assign(std::span<const Particle> particles, std::span<const Material> list);
 
+  // More of them, behind those that are there.
+  void Append(std::span<const Particle> particles, std::span<const Material> list);
+
   // Masses and inertias from radii and densities.
   void SetMasses(std::span<const Material> list);
 
@@ -42,6 +45,7 @@ struct ParticleStore {
 
  private:
   void Resize(std::int64_t count);
+  void Put(std::int64_t i, const Particle& p);
   void NotePositions();
 
   AlignedVector<double> motion_scratch_, spin_scratch_;

@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_set>
 
 #include "base/error.h"
 #include "engine/run/blow_up.h"
 #include "engine/simulation_state.h"
+#include "engine/wall_motion.h"
 
 namespace talus::engine {
 
 namespace {
 
-double SmallestRadius(const Scene& scene) {
+double SmallestRadius(std::span<const Particle> particles) {
   double smallest = INFINITY;
-  for (const Particle& p : scene.particles) smallest = std::min(smallest, p.radius);
+  for (const Particle& p : particles) smallest = std::min(smallest, p.radius);
   return std::isfinite(smallest) ? smallest : 1.0;
 }
 
@@ -41,17 +43,33 @@ std::unique_ptr<SimulationState> Start(const Scene& scene) {
   state->materials = scene.materials;
   state->models = scene.models;
   state->gravity = scene.gravity;
+  state->gravity_turns = scene.gravity_turns;
   state->dt = TimeStep(scene);
   state->SetConstants();
   state->particles.Assign(scene.particles, scene.materials);
   state->walls = WallSet(scene.walls);
   state->walls.SetTime(0, state->dt);
-  state->tuner = SkinTuner(SmallestRadius(scene));
+  state->tuner = SkinTuner(SmallestRadius(scene.particles));
   state->RebuildAll();
   state->reference_speed = ReferenceSpeed(*state);
   state->speed_limit = SpeedLimit(*state);
   StepBackHalf(*state);
   return state;
+}
+
+void ValidateAdded(const SimulationState& state, const Particle& p,
+                   std::unordered_set<std::int64_t>& ids, base::Problems& problems) {
+  problems.Require(ids.insert(p.id).second, "id", static_cast<double>(p.id), "is given twice");
+  problems.Require(p.radius > 0 && base::IsFinite(p.position) && base::IsFinite(p.velocity) &&
+                       base::IsFinite(p.angular_velocity),
+                   "radius", p.radius, "must be positive, and the motion finite");
+  const auto num_materials = static_cast<int>(state.materials.size());
+  const bool known = p.material >= 0 && p.material < num_materials;
+  problems.Require(known, "material", "is not among the scene's materials");
+  if (!known) return;
+  const double rayleigh = RayleighTime(state.materials[p.material], p.radius);
+  problems.Require(state.dt <= kMaxRayleighFraction * rayleigh, "time_step", state.dt,
+                   "exceeds 0.4 Rayleigh times of a sphere that is added");
 }
 
 }  // namespace
@@ -72,6 +90,8 @@ double Simulation::time_step() const { return state_->dt; }
 std::int64_t Simulation::num_particles() const { return state_->particles.num; }
 std::vector<Particle> Simulation::Particles() const { return state_->FullStep(); }
 std::vector<ContactInfo> Simulation::Contacts() const { return state_->Contacts(); }
+std::vector<WallLoad> Simulation::WallLoads() const { return state_->WallLoads(); }
+Vec3 Simulation::Gravity() const { return state_->gravity; }
 const std::vector<Wall>& Simulation::Walls() const { return state_->walls.walls(); }
 
 EnergySums Simulation::Energies() const {
@@ -114,9 +134,42 @@ void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {
   state_->speed_limit = SpeedLimit(*state_);
 }
 
+void Simulation::SetGravityTurns(std::vector<TurnStep> turns) {
+  base::Problems problems;
+  ValidateTurns(turns, "gravity_turns", problems);
+  problems.ThrowIfAny();
+  state_->gravity_turns = std::move(turns);
+}
+
+void Simulation::Add(std::span<const Particle> spheres) {
+  if (spheres.empty()) return;
+  SimulationState& state = *state_;
+  base::Problems problems;
+  std::unordered_set<std::int64_t> ids(state.particles.ids.begin(), state.particles.ids.end());
+  for (const Particle& p : spheres) ValidateAdded(state, p, ids, problems);
+  problems.ThrowIfAny();
+  if (state.particles.num == 0) state.tuner = SkinTuner(SmallestRadius(spheres));
+  std::vector<Particle> behind(spheres.begin(), spheres.end());
+  for (Particle& p : behind) p.velocity -= 0.5 * state.dt * state.gravity;  // half a step (M3)
+  state.particles.Append(behind, state.materials);
+  state.RebuildAll();
+  state.reference_speed = std::max(state.reference_speed, ReferenceSpeed(state));
+  state.speed_limit = SpeedLimit(state);
+}
+
 void Simulation::RemoveWall(int wall) {
   state_->walls.Remove(wall);
   state_->RebuildAll();
+}
+
+bool Simulation::IsRemoved(int wall) const { return state_->walls.Removed(wall); }
+
+double Simulation::LargestRadius() const {
+  double largest = 0;
+  for (std::int64_t i = 0; i < num_particles(); ++i) {
+    largest = std::max(largest, state_->particles.Radius(i));
+  }
+  return largest;
 }
 
 std::int64_t Simulation::RemoveIf(const std::function<bool(const Particle&)>& leaves) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,12 @@ struct ContactInfo {
   double overlap = 0;       // δ [m] (K1)
   Vec3 normal;              // n [-], from `first` to `second`
   Vec3 force;               // on `first` [N]
+};
+
+// What a wall feels now of all spheres that touch it, or that it pulls at.
+struct WallLoad {
+  Vec3 force;   // [N]
+  Vec3 torque;  // about the wall's pivot [N m]
 };
 
 struct EnergySums {
@@ -57,17 +64,30 @@ class Simulation {
 
   std::vector<Particle> Particles() const;    // by id, velocities at the full step
   std::vector<ContactInfo> Contacts() const;  // δ > 0 now, ordered by (first, second)
+  std::vector<WallLoad> WallLoads() const;    // of each wall
   EnergySums Energies() const;
-  double MaxSpeed() const;  // of any sphere [m/s]
+  double MaxSpeed() const;       // of any sphere [m/s]
+  double LargestRadius() const;  // [m]; 0 without spheres
   const std::vector<Wall>& Walls()
       const;  // shapes as they stand now; removed ones keep their place
   ListStatistics Statistics() const;
+
+  Vec3 Gravity() const;  // now [m/s²]
+
+  // From now on gravity turns as `turns` says (times absolute); what was prescribed is dropped.
+  void SetGravityTurns(std::vector<TurnStep> turns);
+
+  // Puts more spheres into the scene. Throws base::ConfigError for one with a number that is in
+  // use, a material that is not there, or for which the time step is too long; base::Error for one
+  // that stands in another sphere or a wall.
+  void Add(std::span<const Particle> spheres);
 
   // From now on the wall follows `motion` (times absolute); what was prescribed before is dropped.
   void SetMotion(int wall, std::vector<MotionStep> motion);
 
   // Takes a wall out of the scene for good: nothing touches it any more.
   void RemoveWall(int wall);
+  bool IsRemoved(int wall) const;
 
   // Takes out every sphere for which `leaves` holds; returns how many.
   std::int64_t RemoveIf(const std::function<bool(const Particle&)>& leaves);

@@ -28,7 +28,8 @@ struct SimulationState {
 
   std::vector<Material> materials;
   ContactModels models;
-  Vec3 gravity;   // [m/s²]
+  Vec3 gravity;  // now [m/s²]
+  std::vector<TurnStep> gravity_turns;
   double dt = 0;  // Δt [s]
   std::int64_t step = 0;
   double reference_speed = 0;  // what the start can make of itself, see blow_up.h [m/s]
@@ -61,6 +62,7 @@ struct SimulationState {
   void Advance();       // one step
   MotionCheck Sweep();  // forces and motion of all chunks
   void Move(const StepView& view, Chunk& chunk, const PanelView& panel);
+  void TurnGravity();            // as prescribed for the step that has been made
   void Watch(double max_speed);  // rebuilds the list when something may have moved too far
 
   // Forces at the present positions, by particle index, as the next step will find them. Changes
@@ -70,6 +72,7 @@ struct SimulationState {
   // What contacts, images and files see: velocities at the full step (M3), in the order of the ids.
   std::vector<Particle> FullStep();
   std::vector<ContactInfo> Contacts() const;
+  std::vector<WallLoad> WallLoads() const;
 };
 
 }  // namespace talus::engine

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "engine/run/blow_up.h"
 #include "engine/simulation_state.h"
+#include "engine/wall_motion.h"
 
 namespace talus::engine {
 
@@ -121,12 +122,22 @@ void SimulationState::Watch(double max_speed) {
   if (tuner.CheckDisplacement(used, distance)) RebuildAll();
 }
 
+void SimulationState::TurnGravity() {
+  if (gravity_turns.empty()) return;
+  const double strength = base::Norm(gravity);
+  if (strength == 0) return;
+  gravity = Turned(gravity, dt * TurnOver(gravity_turns, time(), dt));
+  gravity *= strength / base::Norm(gravity);
+}
+
 void SimulationState::Advance() {
   const MotionCheck check = Sweep();
   walls.Move(dt);
+  TurnGravity();
   ++step;
   if (!check.sound) ThrowBlowUp(*this);
   Watch(std::sqrt(check.max_speed_squared));
+  if (walls.RemoveDue(time(), dt)) RebuildAll();
   walls.SetTime(time(), dt);
 }
 

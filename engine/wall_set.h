@@ -10,7 +10,8 @@
 
 namespace talus::engine {
 
-// Bad sizes, directions that are none, times that do not increase, a material that is not there.
+// Bad sizes, directions that are none, times that do not increase, a material that is not there, a
+// plane that turns.
 void ValidateWall(const Wall& wall, int num_materials, base::Problems& problems);
 
 class WallSet {
@@ -18,9 +19,13 @@ class WallSet {
   WallSet() = default;
   explicit WallSet(std::vector<Wall> walls);  // makes the directions unit vectors
 
-  // Sets the velocities that hold from `time` on. A motion starts at the step nearest to its time.
+  // Sets the mean velocities over the step that begins at `time`. In a step whose motion changes at
+  // one of its ends only, that is the velocity of the entry.
   void SetTime(double time, double time_step);
   void Move(double time_step);  // at the velocities set
+
+  // Takes away the walls whose time is up at the step nearest to it; true when there were any.
+  bool RemoveDue(double time, double time_step);
 
   void SetMotion(int wall, std::vector<MotionStep> motion) {
     walls_[wall].motion = std::move(motion);
@@ -28,8 +33,11 @@ class WallSet {
   void Remove(int wall) { removed_[wall] = 1; }
   bool Removed(int wall) const { return removed_[wall] != 0; }
 
-  // Largest speed that any wall has now, or is to have at any time [m/s].
+  // Largest speed at which the place of any wall's surface changes now [m/s]. A drum that turns
+  // about its own axis stays where it is.
   double MaxSpeed() const;
+
+  // Largest speed that a wall's surface is to have at any time [m/s].
   double MaxPrescribedSpeed() const;
 
   int size() const { return static_cast<int>(walls_.size()); }
@@ -42,6 +50,7 @@ class WallSet {
 
  private:
   void Refresh();  // the views from the walls
+  void Turn(std::size_t wall, double time_step);
 
   std::vector<Wall> walls_;
   std::vector<WallView> views_;

@@ -121,8 +121,7 @@ TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
   if (Bits(active) == 0) return part.Clear();
 
   const Body<Lanes> i = LoadBody(step, part.first(), p.radius);
-  const Lanes zero(0.0);
-  const Body<Lanes> j{zero, zero, zero, Broadcast<Lanes>(wall.velocity), {zero, zero, zero}};
+  const Body<Lanes> j = WallBody(wall, p.at, nearest);
   const Contact<Lanes> contact =
       MakeContact(nearest.normal, overlap, i.radius, i.radius * i.angular_velocity, i, j);
   const Response<Lanes> on_i =

@@ -24,17 +24,30 @@ struct alignas(64) PairBlock {
   double moment[3][kBlock];  // M [N m] (R2), as `first` sees it
 };
 
-enum class ShapeKind : std::int32_t { kPlane, kDisc, kOpenCylinder, kSolidCylinder };
+enum class ShapeKind : std::int32_t {
+  kPlane,
+  kDisc,
+  kOpenCylinder,
+  kSolidCylinder,
+  kAnnulus,
+  kRectangle,
+  kCone
+};
 
 // A wall now. `point` and `axis` are point and normal, or base and axis of engine/wall.h.
 struct WallView {
   ShapeKind kind;
   double point[3];     // [m]
   double axis[3];      // unit vector
-  double across[3];    // unit vector perpendicular to the axis
-  double radius;       // [m], 0 for a plane
+  double across[3];    // unit vector perpendicular to the axis; a rectangle's edge
+  double radius;       // [m], 0 for a plane; half the width of a rectangle
   double length;       // [m], 0 for a plane and a disc
-  double velocity[3];  // [m/s]
+  double velocity[3];  // of the pivot [m/s]
+  double second = 0;   // [m]: radius of an annulus' hole or of a cone's far end, half the height
+                       // of a rectangle
+  bool turns = false;  // about the pivot
+  double angular_velocity[3] = {};  // [rad/s]
+  double pivot[3] = {};             // [m]
 };
 
 // Consecutive blocks whose pairs have the same two materials, or the same material and wall.

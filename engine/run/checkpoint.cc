@@ -53,6 +53,20 @@ void VisitShape(ByteWriter& archive, const WallShape& shape) {
   std::visit([&](const auto& s) { archive(s); }, shape);
 }
 
+// An absent value has no bytes of its own: what would stand there is left to chance.
+template <class T>
+void VisitOptional(ByteReader& archive, std::optional<T>& value) {
+  std::uint8_t present = 0;
+  archive(present);
+  value.reset();
+  if (present != 0) archive(value.emplace());
+}
+template <class T>
+void VisitOptional(ByteWriter& archive, const std::optional<T>& value) {
+  archive(static_cast<std::uint8_t>(value.has_value()));
+  if (value) archive(*value);
+}
+
 template <class Archive>
 void VisitWalls(Archive& archive, WallSet& set) {
   std::vector<Wall> walls = set.walls();
@@ -62,6 +76,8 @@ void VisitWalls(Archive& archive, WallSet& set) {
     VisitShape(archive, wall.shape);
     archive(wall.material);
     archive(wall.motion);
+    VisitOptional(archive, wall.pivot);
+    VisitOptional(archive, wall.removal_time);
   }
   std::vector<std::uint8_t> removed = set.removed();
   archive(removed);
@@ -105,6 +121,7 @@ void VisitState(Archive& archive, SimulationState& state) {
   archive(state.materials);
   archive(state.models);
   archive(state.gravity);
+  archive(state.gravity_turns);
   archive(state.dt);
   archive(state.step);
   archive(state.reference_speed);

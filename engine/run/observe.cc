@@ -42,8 +42,8 @@ Contact<double> SphereContact(const ParticleStore& p, std::int64_t i, std::int64
 
 Contact<double> WallContact(const ParticleStore& p, std::int64_t i, const WallView& wall) {
   const Body<double> a = BodyOf(p, i);
-  const Body<double> b{0, 0, 0, Broadcast<double>(wall.velocity), {0, 0, 0}};
   const NearestPoint<double> nearest = Nearest(wall, ToVector(p.Position(i)));
+  const Body<double> b = WallBody(wall, ToVector(p.Position(i)), nearest);
   return MakeContact(nearest.normal, a.radius - nearest.distance, a.radius,
                      a.radius * a.angular_velocity, a, b);
 }
@@ -94,6 +94,32 @@ std::vector<Particle> SimulationState::FullStep() {
                       .angular_velocity = particles.Spin(i) + 0.5 * dt * turn});
   }
   return result;
+}
+
+// The force acts where the sphere's surface meets the wall's; rolling resistance is left out.
+std::vector<WallLoad> SimulationState::WallLoads() const {
+  const ScalarLaw law = PickLaw(models, NormalLaws{});
+  std::vector<WallLoad> loads(walls.size());
+  for (const Chunk& chunk : list.chunks()) {
+    for (const Run& run : chunk.runs) {
+      if (run.wall < 0) continue;
+      const WallView& wall = walls.views()[run.wall];
+      for (std::int64_t k = 0; k < run.num_pairs; ++k) {
+        const PairBlock& block = chunk.blocks[run.first_block + k / kBlock];
+        const int lane = static_cast<int>(k % kBlock);
+        const std::int32_t i = block.first[lane];
+        const Contact<double> contact = WallContact(particles, i, wall);
+        if (!(contact.overlap > -constants[run.constants].adhesion_gap)) continue;
+        History<double> history = HistoryOf(block, lane);
+        const Vec3 on_wall = -ToVec3(law(constants[run.constants], contact, dt, history).force);
+        const double distance = particles.Radius(i) - contact.overlap;
+        const Vec3 place = particles.Position(i) + distance * ToVec3(contact.normal);
+        loads[run.wall].force += on_wall;
+        loads[run.wall].torque += Cross(place - ToVec3(Broadcast<double>(wall.pivot)), on_wall);
+      }
+    }
+  }
+  return loads;
 }
 
 std::vector<ContactInfo> SimulationState::Contacts() const {

@@ -31,12 +31,20 @@ SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::p
       folder_(std::move(folder)),
       simulation_(scene),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
+<<<<<<< HEAD
       check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
   if (simulation_.time_step() > kWarnRayleighFraction * SmallestRayleighTime(scene)) {
     messages_.push_back(
         "the time step is above 0.2 Rayleigh times of the smallest sphere: single collisions are "
         "resolved poorly");
   }
+=======
+      pours_(BuildPours(spec_, simulation_.num_particles())),
+      series_(spec_),
+      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
+  state_.num_at_start = simulation_.num_particles();
+  state_.pours.resize(pours_.size());
+>>>>>>> h-scenes
 }
 
 SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,
@@ -46,34 +54,62 @@ SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,
       simulation_(Simulation::Restore(checkpoint.simulation, spec.threads)),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
       state_(base::LoadOptions<SceneRunState>(base::ParseJson(checkpoint.state, "checkpoint"))),
+      pours_(BuildPours(spec_, state_.num_at_start)),
+      series_(spec_),
       check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
   states_.SkipUntil(simulation_.time());
 }
 
 bool SceneRun::Advance() {
   if (!state_.stop_reason.empty()) return false;
+  AdvancePours();
   states_.Write(simulation_);  // the one at time 0
+  series_.Write(simulation_, state_.series);
   const std::int64_t steps = NextSteps();
   simulation_.Advance(steps);
   state_.particle_steps +=
       static_cast<double>(steps) * static_cast<double>(simulation_.num_particles());
   CheckDomain();
+  AdvancePours();
   states_.Write(simulation_);
+  series_.Write(simulation_, state_.series);
   CheckStop();
   return state_.stop_reason.empty();
 }
 
 void SceneRun::CheckDomain() {
   if (!spec_.domain || simulation_.step() % kDomainSteps != 0) return;
-  state_.num_left +=
-      simulation_.RemoveIf([&](const Particle& p) { return !spec_.domain->Contains(p.position); });
+  state_.num_left += simulation_.RemoveIf([&](const Particle& p) {
+    const bool leaves = !spec_.domain->Contains(p.position);
+    if (leaves) series_.Leaves(p, state_.series);
+    return leaves;
+  });
+}
+
+double SceneRun::NextPourTime() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < pours_.size(); ++i) {
+    next = std::min(next, pours_[i].NextTime(state_.pours[i]));
+  }
+  return next;
+}
+
+void SceneRun::AdvancePours() {
+  for (std::size_t i = 0; i < pours_.size(); ++i) {
+    if (pours_[i].Done(state_.pours[i])) continue;
+    pours_[i].Advance(simulation_, state_.pours[i]);
+    if (pours_[i].Done(state_.pours[i])) {
+      messages_.push_back("poured " + std::to_string(state_.pours[i].num_poured) + " spheres");
+    }
+  }
 }
 
 // Up to whatever comes first: the end, a state to write, a look at the energy or the domain, the
 // slice's end.
 std::int64_t SceneRun::NextSteps() const {
-  const double until = std::min(spec_.stop.time.value_or(std::numeric_limits<double>::infinity()),
-                                states_.NextTime());
+  const double until =
+      std::min({spec_.stop.time.value_or(std::numeric_limits<double>::infinity()),
+                states_.NextTime(), NextPourTime(), series_.NextTime(state_.series)});
   const double to_go = std::ceil((until - simulation_.time()) / simulation_.time_step());
   std::int64_t steps = SliceSteps(simulation_.num_particles());
   if (spec_.stop.steps) steps = std::min(steps, *spec_.stop.steps - simulation_.step());
@@ -97,6 +133,17 @@ void SceneRun::CheckStop() {
   if (!state_.stop_reason.empty()) messages_.push_back("ended by stop." + state_.stop_reason);
 }
 
+// What lies still before its gate opens or its box tilts is not at its end.
+double SceneRun::LastEvent() const {
+  double last = 0;
+  for (const Wall& wall : simulation_.Walls()) {
+    if (!wall.motion.empty()) last = std::max(last, wall.motion.back().time);
+    last = std::max(last, wall.removal_time.value_or(0));
+  }
+  if (!spec_.gravity_turns.empty()) last = std::max(last, spec_.gravity_turns.back().time);
+  return last;
+}
+
 bool SceneRun::AtRest() {
   double kinetic = 0;
   double weight = 0;
@@ -108,7 +155,9 @@ bool SceneRun::AtRest() {
     weight += cube * gravity * 2 * p.radius;
   }
   state_.energy_ratio = weight > 0 ? kinetic / weight : 0;
-  const bool quiet = kinetic < *spec_.stop.energy_fraction * weight;
+  const bool all_done = NextPourTime() == std::numeric_limits<double>::infinity() &&
+                        simulation_.time() >= LastEvent();
+  const bool quiet = all_done && kinetic < *spec_.stop.energy_fraction * weight;
   state_.quiet_steps = quiet ? state_.quiet_steps + check_steps_ : 0;
   const auto held = static_cast<double>(state_.quiet_steps - check_steps_);
   return quiet && held * simulation_.time_step() >= spec_.stop.hold_time * (1 - 1e-9);
@@ -141,6 +190,9 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
   const double time = simulation_.time();
   if (spec_.outputs.vtp) base::WriteFileAtomically(folder_ / "final.vtp", VtpOf(particles, time));
   if (spec_.outputs.csv) base::WriteFileAtomically(folder_ / "final.csv", CsvOf(particles));
+  if (spec_.outputs.interval) {
+    base::WriteFileAtomically(folder_ / "series.csv", series_.Head() + state_.series.text);
+  }
   const EnergySums energies = simulation_.Energies();
   nlohmann::ordered_json result;
   result["kind"] = "scene";
@@ -149,6 +201,14 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
   result["reason"] = state_.stop_reason;
   result["num_particles"] = particles.size();
   result["num_left_domain"] = state_.num_left;
+  if (!pours_.empty()) {
+    for (std::size_t i = 0; i < pours_.size(); ++i) {
+      const auto num = static_cast<std::int64_t>(pours_[i].plan().radii.size());
+      result["pours"].push_back({{"num_poured", state_.pours[i].num_poured},
+                                 {"num_waiting", num - state_.pours[i].num_poured},
+                                 {"rate_kg_s", pours_[i].plan().rate}});
+    }
+  }
   result["num_steps"] = simulation_.step();
   result["time_step_s"] = simulation_.time_step();
   result["simulated_time_s"] = time;

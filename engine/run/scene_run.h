@@ -1,7 +1,7 @@
 // A scene run to its stop rule.
 //
 // Written into `folder`: state_NNNN.vtp and .csv at the times of the scene, final.vtp and .csv,
-// result.json last.
+// series.csv when the scene asks for it, result.json last.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/run/run.h"
+#include "engine/run/series.h"
 #include "engine/run/state_writer.h"
 #include "engine/scene/scene_spec.h"
 #include "engine/simulation.h"
@@ -21,8 +22,11 @@ struct SceneRunState {
   std::int64_t quiet_steps = 0;  // for which the spheres have been at rest
   double energy_ratio = 0;       // mean kinetic energy of a sphere / (m g d) [-]
   double particle_steps = 0;
-  std::int64_t num_left = 0;  // spheres that have left the domain
-  std::string stop_reason;    // "time", "steps", "at_rest"; empty before the end
+  std::int64_t num_left = 0;      // spheres that have left the domain
+  std::int64_t num_at_start = 0;  // spheres; those that are poured are numbered from here on
+  std::vector<PourState> pours{};
+  SeriesState series;
+  std::string stop_reason;  // "time", "steps", "at_rest"; empty before the end
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -30,6 +34,9 @@ struct SceneRunState {
     visit("energy_ratio", self.energy_ratio);
     visit("particle_steps", self.particle_steps);
     visit("num_left", self.num_left);
+    visit("num_at_start", self.num_at_start);
+    visit("pours", self.pours);
+    visit("series", self.series);
     visit("stop_reason", self.stop_reason);
   }
 };
@@ -47,15 +54,20 @@ class SceneRun : public Run {
 
  private:
   std::int64_t NextSteps() const;
+  double NextPourTime() const;  // [s]
+  void AdvancePours();
   void CheckDomain();
   void CheckStop();
   bool AtRest();
+  double LastEvent() const;  // time of the last thing that is prescribed [s]
 
   SceneSpec spec_;
   std::filesystem::path folder_;
   Simulation simulation_;
   StateWriter states_;
   SceneRunState state_;
+  std::vector<Pour> pours_;
+  Series series_;
   std::int64_t check_steps_ = 1;  // between two looks at the energy
   std::vector<std::string> messages_;
 };

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "engine/scene/overlap_check.h"
+#include "engine/wall_motion.h"
 #include "engine/wall_set.h"
 
 namespace talus::engine {
@@ -45,6 +46,7 @@ void ValidateStep(const Scene& scene, base::Problems& problems) {
                    "rayleigh_fraction", scene.rayleigh_fraction, "must be in (0, 0.4]");
   problems.Require(scene.num_threads >= 1, "num_threads", scene.num_threads, "must be at least 1");
   problems.Require(base::IsFinite(scene.gravity), "gravity", "must be finite");
+  ValidateTurns(scene.gravity_turns, "gravity_turns", problems);
 }
 
 void ValidateSpeeds(const Scene& scene, base::Problems& problems) {

@@ -26,10 +26,11 @@ struct Scene {
   ContactModels models;
   std::vector<Particle> particles;
   std::vector<Wall> walls;
-  Vec3 gravity{0, 0, -9.81};        // [m/s²]
-  double time_step = 0;             // Δt [s]; 0: rayleigh_fraction decides
-  double rayleigh_fraction = 0.15;  // Δt / t_R of the smallest sphere [-] (M4), in (0, 0.4]
-  int num_threads = 1;              // of one simulation; the result does not depend on it
+  Vec3 gravity{0, 0, -9.81};            // [m/s²]
+  std::vector<TurnStep> gravity_turns;  // how it turns; times increasing
+  double time_step = 0;                 // Δt [s]; 0: rayleigh_fraction decides
+  double rayleigh_fraction = 0.15;      // Δt / t_R of the smallest sphere [-] (M4), in (0, 0.4]
+  int num_threads = 1;                  // of one simulation; the result does not depend on it
 
   // Everything that would make the run meaningless: NaN, materials out of range or absent, spheres
   // that overlap too much, Δt beyond 0.40 t_R.

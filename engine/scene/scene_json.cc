@@ -28,6 +28,7 @@ LoadedScene LoadScene(const std::filesystem::path& path) {
   const base::JsonFile file = base::ReadJsonFile(path);
   LoadedScene loaded{.spec = base::LoadOptions<SceneSpec>(file), .scene = {}};
   for (FillSpec& fill : loaded.spec.fills) ReadSizeFile(fill.sizes);
+  for (PourSpec& pour : loaded.spec.pours) ReadSizeFile(pour.sizes);
   base::Problems problems(path.string(), file.source);
   try {
     loaded.scene = BuildScene(loaded.spec);

@@ -1,10 +1,12 @@
 #include "engine/scene/scene_spec.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "engine/wall_motion.h"
 
 namespace talus::engine {
 namespace {
@@ -60,6 +62,47 @@ void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
   }
 }
 
+// Smallest Rayleigh time of what is poured [s].
+double PouredRayleighTime(const SceneSpec& spec) {
+  double smallest = INFINITY;
+  for (const PourSpec& pour : spec.pours) {
+    const auto material = static_cast<std::size_t>(MaterialIndex(spec, pour.material));
+    const double radius = SizeCurve(pour.sizes).smallest() / 2;
+    smallest = std::min(smallest, RayleighTime(spec.materials[material].material, radius));
+  }
+  return smallest;
+}
+
+void RequireMouths(const SceneSpec& spec) {
+  for (std::size_t i = 0; i < spec.pours.size(); ++i) {
+    const double largest = SizeCurve(spec.pours[i].sizes).largest();
+    if (spec.pours[i].mouth_diameter > 2 * largest) continue;
+    throw base::ConfigError("pours[" + std::to_string(i) +
+                            "].mouth_diameter: must be above two diameters of the largest sphere");
+  }
+}
+
+// The step must suit what is there and what comes.
+void SetTimeStep(const SceneSpec& spec, Scene& scene) {
+  scene.time_step = spec.time_step.value_or(0);
+  scene.rayleigh_fraction = spec.rayleigh_fraction;
+  if (spec.pours.empty()) return;
+  RequireMouths(spec);
+  const double rayleigh = PouredRayleighTime(spec);
+  if (scene.time_step > kMaxRayleighFraction * rayleigh) {
+    throw base::ConfigError(
+        "time_step: exceeds 0.4 Rayleigh times of the smallest poured sphere, " +
+        std::to_string(kMaxRayleighFraction * rayleigh * 1e6) + " us");
+  }
+  if (scene.time_step > 0) return;
+  scene.time_step = spec.rayleigh_fraction * rayleigh;
+  if (!scene.particles.empty()) {
+    Scene now = scene;
+    now.time_step = 0;
+    scene.time_step = std::min(scene.time_step, TimeStep(now));
+  }
+}
+
 }  // namespace
 
 void SphereSpec::Validate(base::Problems& problems) const {
@@ -83,7 +126,17 @@ void StopSpec::Validate(base::Problems& problems) const {
   problems.Require(time || steps, "", "must have time or steps, so that the run ends");
 }
 
+void SectionSpec::Validate(base::Problems& problems) const {
+  problems.Require(!name.empty() && name.find_first_of(",\"\n") == std::string::npos, "name",
+                   "must not be empty or have commas or quotes");
+  problems.Require(base::IsFinite(position), "position", "must be finite");
+  problems.Require(base::IsFinite(direction) && Norm(direction) > 0, "direction",
+                   "must be finite and not zero");
+}
+
 void OutputSpec::Validate(base::Problems& problems) const {
+  if (interval) RequirePositive(problems, "interval", *interval);
+  problems.Require(interval || sections.empty(), "sections", "need outputs.interval");
   for (std::size_t i = 0; i < times.size(); ++i) {
     problems.Require(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
                      "times[" + std::to_string(i) + "]", times[i],
@@ -111,8 +164,14 @@ void SceneSpec::Validate(base::Problems& problems) const {
   }
   RequireMaterials(*this, spheres, "spheres", problems);
   RequireMaterials(*this, fills, "fills", problems);
+  RequireMaterials(*this, pours, "pours", problems);
   RequireMaterials(*this, walls, "walls", problems);
-  problems.Require(!spheres.empty() || !fills.empty(), "", "must have spheres or fills");
+  problems.Require(!spheres.empty() || !fills.empty() || !pours.empty(), "",
+                   "must have spheres, fills or pours");
+  problems.Require(pours.empty() || Norm(gravity) > 0, "pours", "need gravity");
+  std::vector<TurnStep> turns;
+  for (const TurnSpec& turn : gravity_turns) turns.push_back({turn.time, turn.angular_velocity});
+  ValidateTurns(turns, "gravity_turns", problems);
   for (std::size_t i = 0; domain && i < spheres.size(); ++i) {
     problems.Require(domain->Contains(spheres[i].position),
                      "spheres[" + std::to_string(i) + "].position", "is outside the domain");
@@ -138,13 +197,42 @@ Scene BuildScene(const SceneSpec& spec) {
   }
   for (std::size_t i = 0; i < spec.fills.size(); ++i) AddFill(spec, i, scene);
   for (const WallSpec& wall : spec.walls) {
-    scene.walls.push_back(wall.Build(MaterialIndex(spec, wall.material)));
+    scene.walls.push_back(wall.Build(MaterialIndex(spec, wall.material), spec.gravity));
   }
   scene.gravity = spec.gravity;
-  scene.time_step = spec.time_step.value_or(0);
-  scene.rayleigh_fraction = spec.rayleigh_fraction;
+  for (const TurnSpec& turn : spec.gravity_turns) {
+    scene.gravity_turns.push_back({turn.time, turn.angular_velocity});
+  }
+  SetTimeStep(spec, scene);
   scene.num_threads = spec.threads;
   return scene;
+}
+
+std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres) {
+  std::vector<Pour> pours;
+  for (std::size_t i = 0; i < spec.pours.size(); ++i) {
+    const PourSpec& pour = spec.pours[i];
+    const int material = MaterialIndex(spec, pour.material);
+    const double density = spec.materials[static_cast<std::size_t>(material)].material.density;
+    const std::uint64_t seed = base::Random(spec.seed, base::Stream("pours"), i).Next();
+    std::vector<double> radii = DrawDiameters(SizeCurve(pour.sizes), pour.mass / density);
+    for (double& r : radii) r /= 2;
+    PourPlan plan{.radii = Shuffled(std::move(radii), seed),
+                  .material = material,
+                  .density = density,
+                  .mouth = pour.mouth,
+                  .mouth_diameter = pour.mouth_diameter,
+                  .rate = 0,
+                  .scatter = pour.scatter,
+                  .start = pour.start,
+                  .gravity = spec.gravity,
+                  .seed = seed,
+                  .first_id = num_spheres};
+    plan.rate = pour.rate.value_or(BeverlooRate(plan));
+    num_spheres += static_cast<std::int64_t>(plan.radii.size());
+    pours.emplace_back(std::move(plan));
+  }
+  return pours;
 }
 
 }  // namespace talus::engine

@@ -10,6 +10,7 @@
 #include "base/problems.h"
 #include "engine/scene/filling.h"
 #include "engine/scene/material.h"
+#include "engine/scene/pour.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/size_distribution.h"
 #include "engine/scene/wall_spec.h"
@@ -83,17 +84,53 @@ struct StopSpec {
     visit("time", self.time, {.dimension = base::Dimension::kTime, .doc = "simulated, > 0"});
     visit("steps", self.steps, {.doc = "> 0"});
     visit("energy_fraction", self.energy_fraction,
-          {.doc = "at rest: mean kinetic energy of a sphere over m g d stays below, > 0"});
+          {.doc = "at rest: mean kinetic energy of a sphere over m g d stays below, after the last "
+                  "pour, "
+                  "prescribed motion and removal; > 0"});
     visit("hold_time", self.hold_time,
           {.dimension = base::Dimension::kTime, .doc = "for this long, > 0"});
   }
   void Validate(base::Problems& problems) const;
 };
 
+// A plane that counts: the mass of the spheres whose centre is beyond it, on the side that
+// `direction` points to, those included that have left the domain there.
+struct SectionSpec {
+  std::string name;
+  Vec3 position;               // [m]
+  Vec3 direction{0, 0, -1.0};  // any length but zero
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name, {.required = true, .doc = "of its columns in series.csv"});
+    visit("position", self.position,
+          {.dimension = base::Dimension::kLength, .required = true, .doc = "a point of the plane"});
+    visit("direction", self.direction, {.doc = "in which mass is counted; default: downwards"});
+  }
+  void Validate(base::Problems& problems) const;
+  bool IsBeyond(const Vec3& point) const { return Dot(point - position, direction) > 0; }
+};
+
+// From `time` on gravity turns so.
+struct TurnSpec {
+  double time = 0;        // [s]
+  Vec3 angular_velocity;  // [rad/s]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    using base::Dimension;
+    visit("time", self.time,
+          {.dimension = Dimension::kTime, .required = true, .doc = "from which on, increasing"});
+    visit("angular_velocity", self.angular_velocity, {.dimension = Dimension::kAngularVelocity});
+  }
+};
+
 struct OutputSpec {
   bool vtp = true;
   bool csv = true;
-  std::vector<double> times{};  // [s], increasing
+  std::vector<double> times{};       // [s], increasing
+  std::optional<double> interval{};  // between two rows of series.csv [s], > 0
+  std::vector<SectionSpec> sections{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -102,6 +139,11 @@ struct OutputSpec {
     visit("times", self.times,
           {.dimension = base::Dimension::kTime,
            .doc = "states written as state_0000, …; the last is always written as final"});
+    visit("interval", self.interval,
+          {.dimension = base::Dimension::kTime,
+           .doc = "between two rows of series.csv: forces on walls, mass beyond sections, > 0"});
+    visit("sections", self.sections,
+          {.doc = "planes; the mass that has passed goes to series.csv"});
   }
   void Validate(base::Problems& problems) const;
 };
@@ -126,11 +168,13 @@ struct SceneSpec {
   ContactModels models;
   std::vector<SphereSpec> spheres{};
   std::vector<FillSpec> fills{};
+  std::vector<PourSpec> pours{};
   std::vector<WallSpec> walls{};
   std::optional<DomainSpec> domain{};  // default: without end
   Vec3 gravity{0, 0, -9.81};           // [m/s²]
-  std::optional<double> time_step{};   // [s], > 0
-  double rayleigh_fraction = 0.15;     // Δt / t_R where time_step is not given [-]
+  std::vector<TurnSpec> gravity_turns{};
+  std::optional<double> time_step{};  // [s], > 0
+  double rayleigh_fraction = 0.15;    // Δt / t_R where time_step is not given [-]
   StopSpec stop;
   OutputSpec outputs;
   std::uint64_t seed = 1;
@@ -144,9 +188,11 @@ struct SceneSpec {
     visit("models", self.models, {.doc = "contact laws between all bodies"});
     visit("spheres", self.spheres, {.doc = "one by one"});
     visit("fills", self.fills, {.doc = "drawn from a size distribution"});
+    visit("pours", self.pours, {.doc = "coming in over time, out of a funnel's mouth"});
     visit("walls", self.walls);
     visit("domain", self.domain, {.doc = "spheres whose centre leaves this box are taken out"});
     visit("gravity", self.gravity, {.dimension = Dimension::kAcceleration});
+    visit("gravity_turns", self.gravity_turns, {.doc = "how gravity turns; at rest before"});
     visit("time_step", self.time_step,
           {.dimension = Dimension::kTime, .doc = "default: rayleigh_fraction decides"});
     visit("rayleigh_fraction", self.rayleigh_fraction,
@@ -162,7 +208,11 @@ struct SceneSpec {
   void Validate(base::Problems& problems) const;
 };
 
-// The scene of a valid spec. Throws ConfigError when a fill finds no room.
+// The scene of a valid spec. Throws ConfigError when a fill finds no room, or the time step is too
+// long for what is poured.
 Scene BuildScene(const SceneSpec& spec);
+
+// What is poured, in the order of the spec, with the numbers that follow those of the scene.
+std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres);
 
 }  // namespace talus::engine

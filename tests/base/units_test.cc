@@ -19,6 +19,7 @@ TEST(Units, QuantitiesAsPeopleWriteThem) {
   EXPECT_DOUBLE_EQ(ParseQuantity("26.25 MPa", Dimension::kPressure), 26.25e6);
   EXPECT_DOUBLE_EQ(ParseQuantity("40e-5 J/m^2", Dimension::kSurfaceEnergy), 40e-5);
   EXPECT_DOUBLE_EQ(ParseQuantity("4.386 g/cm^3", Dimension::kDensity), 4386);
+  EXPECT_DOUBLE_EQ(ParseQuantity("6 g/min", Dimension::kMassRate), 1e-4);
   EXPECT_DOUBLE_EQ(ParseQuantity(" 7 ", Dimension::kTime), 7);
   EXPECT_DOUBLE_EQ(ParseQuantity("30 %", Dimension::kNone), 0.3);
 }

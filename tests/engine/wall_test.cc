@@ -8,7 +8,7 @@
 namespace talus::engine {
 namespace {
 
-constexpr double kRadius = 2.0, kLength = 3.0;
+constexpr double kRadius = 2.0, kLength = 3.0, kSecond = 0.8;
 
 // Points of a shape along z with its base at the origin, densely: a grid in height or radius, and
 // in angle.
@@ -22,6 +22,9 @@ std::vector<Vec3> Sample(ShapeKind kind, int count) {
   };
   for (int k = 0; k <= count; ++k) {
     const double share = static_cast<double>(k) / count;
+    if (kind == ShapeKind::kAnnulus) ring(kSecond + (kRadius - kSecond) * share, 0);
+    if (kind == ShapeKind::kCone) ring(kRadius + (kSecond - kRadius) * share, kLength * share);
+    if (kind == ShapeKind::kAnnulus || kind == ShapeKind::kCone) continue;
     if (kind != ShapeKind::kDisc) ring(kRadius, kLength * share);
     if (kind == ShapeKind::kDisc || kind == ShapeKind::kSolidCylinder) ring(kRadius * share, 0);
     if (kind == ShapeKind::kSolidCylinder) ring(kRadius * share, kLength);
@@ -39,7 +42,8 @@ TEST_P(ShapeTest, NearestPointIsTheNearestOfManySamples) {
                       .across = {1, 0, 0},
                       .radius = kRadius,
                       .length = kind == ShapeKind::kDisc ? 0 : kLength,
-                      .velocity = {}};
+                      .velocity = {},
+                      .second = kSecond};
   const auto samples = Sample(kind, 100);
   for (int i = 0; i < 300; ++i) {
     base::Random random(3, base::Stream("wall_test"), i);
@@ -67,7 +71,44 @@ TEST_P(ShapeTest, NearestPointIsTheNearestOfManySamples) {
 }
 INSTANTIATE_TEST_SUITE_P(All, ShapeTest,
                          ::testing::Values(ShapeKind::kDisc, ShapeKind::kOpenCylinder,
-                                           ShapeKind::kSolidCylinder));
+                                           ShapeKind::kSolidCylinder, ShapeKind::kAnnulus,
+                                           ShapeKind::kCone));
+
+TEST(Shapes, ARectangleEndsAtItsEdgesAndCorners) {
+  const WallView wall{.kind = ShapeKind::kRectangle,
+                      .point = {1, 1, 1},
+                      .axis = {0, 0, 1},
+                      .across = {0.6, 0.8, 0},
+                      .radius = 3,
+                      .length = 0,
+                      .velocity = {},
+                      .second = 2};
+  const auto nearest = [&](double u, double v, double h) {  // along the edge, across it, above
+    return Nearest(wall, Vector<double>{1 + 0.6 * u - 0.8 * v, 1 + 0.8 * u + 0.6 * v, 1 + h});
+  };
+  EXPECT_NEAR(nearest(2.9, -1.9, 0.5).distance, 0.5, 1e-14);
+  EXPECT_NEAR(nearest(2.9, -1.9, 0.5).normal.z, -1, 1e-14);
+  EXPECT_NEAR(nearest(2.9, -1.9, -0.5).normal.z, 1, 1e-14);
+  EXPECT_NEAR(nearest(6, 1, 4).distance, 5, 1e-14);            // an edge
+  EXPECT_NEAR(nearest(-3 - 2, -2 - 3, 6).distance, 7, 1e-14);  // a corner
+  EXPECT_NEAR(nearest(-5, -5, 6).normal.z, -6.0 / 7, 1e-14);
+}
+
+// On the axis of a cone, the side is as far away as its radius there times the cosine of its slope.
+TEST(Shapes, OnItsAxisAConeIsAsFarAsItsSlopeSays) {
+  const WallView wall{.kind = ShapeKind::kCone,
+                      .point = {0, 0, 0},
+                      .axis = {0, 0, 1},
+                      .across = {1, 0, 0},
+                      .radius = 1,
+                      .length = 4,
+                      .velocity = {},
+                      .second = 4};
+  const auto nearest = Nearest(wall, Vector<double>{0, 0, 2});
+  EXPECT_NEAR(nearest.distance, 2.5 * 0.8, 1e-14);
+  EXPECT_NEAR(nearest.normal.x, 0.8, 1e-14);
+  EXPECT_NEAR(nearest.normal.z, -0.6, 1e-14);
+}
 
 TEST(Shapes, APlaneIsSolidBehind) {
   const WallView plane{.kind = ShapeKind::kPlane,

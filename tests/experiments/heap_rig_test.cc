@@ -5,7 +5,12 @@
 #include <algorithm>
 
 #include "experiments/rigs/lifted_tube/heap_result.h"
+<<<<<<< HEAD
 #include "experiments/rigs/lifted_tube/rest.h"
+=======
+#include "experiments/rigs/lifted_tube/landing.h"
+#include "experiments/rigs/lifted_tube/pouring.h"
+>>>>>>> h-scenes
 
 namespace talus::experiments {
 namespace {
@@ -135,6 +140,7 @@ TEST(Connectivity, FollowsContactsToThePlateAndElseToTheTube) {
   EXPECT_TRUE(connected.tube_touches_heap);
 }
 
+<<<<<<< HEAD
 engine::Particle Grain(engine::Vec3 position, engine::Vec3 velocity) {
   static std::int64_t id = 0;
   return {.id = id++,
@@ -194,6 +200,92 @@ TEST(ResistedSpins, LeaveOutTheTwistOfASingleContact) {
   EXPECT_EQ(spins[0], (engine::Vec3{1, 2, 0}));
   EXPECT_EQ(spins[1], (engine::Vec3{1, 2, 3}));
   EXPECT_EQ(spins[2], (engine::Vec3{1, 2, 0}));
+=======
+HeapCase Poured(double sliding_friction, double rolling_friction) {
+  HeapCase c = Coarse(sliding_friction, rolling_friction);
+  c.filling.kind = FillingKind::kPour;
+  return c;
+}
+
+TEST(PouredHeap, ItsGrainsAreAllThereAndItsBedIsMeasured) {
+  const Outcome dense = RunToTheEnd(Coarse(0.5, 0.2));
+  const Outcome poured = RunToTheEnd(Poured(0.5, 0.2));
+  EXPECT_EQ(poured.state.pouring.reason, PhaseEnd::kPoured);
+  EXPECT_EQ(poured.state.settling.reason, PhaseEnd::kAtRest);
+  EXPECT_EQ(poured.state.num_filled, dense.state.num_filled);
+  for (const Outcome* outcome : {&dense, &poured}) {
+    // Grains a tenth of the tube's diameter pack at 0.45 to 0.58 in it.
+    EXPECT_GT(outcome->state.bed.solid_fraction, 0.42);
+    EXPECT_LT(outcome->state.bed.solid_fraction, 0.60);
+    EXPECT_GT(outcome->state.bed.coordination, 2.5);
+    EXPECT_LT(outcome->state.bed.coordination, 6);
+  }
+}
+
+TEST(PouredHeap, TapsMakeTheBedDenser) {
+  HeapCase c = Poured(0.5, 0.2);
+  c.filling.taps = TapRule{.count = 5, .height = 1e-3, .interval = 0.08};
+  const Outcome tapped = RunToTheEnd(c);
+  const Outcome poured = RunToTheEnd(Poured(0.5, 0.2));
+  EXPECT_EQ(tapped.state.tapping.reason, PhaseEnd::kTapped);
+  EXPECT_GT(tapped.state.bed.solid_fraction, poured.state.bed.solid_fraction + 0.005);
+}
+
+TEST(PouredHeap, ARestartWhilePouringGoesOnWithTheSameBits) {
+  const HeapCase c = Poured(0.5, 0.2);
+  HeapRig whole(c);
+  HeapRig first(c);
+  for (int k = 0; k < 20; ++k) first.Advance();
+  ASSERT_EQ(first.state().phase, HeapPhase::kPouring);
+  ASSERT_GT(first.simulation().num_particles(), 0);
+  HeapRig second(c, ParseHeapState(HeapStateLine(first.state())),
+                 engine::Simulation::Restore(first.simulation().Checkpoint()));
+  while (second.state().phase != HeapPhase::kLifting) second.Advance();
+  while (whole.state().phase != HeapPhase::kLifting) whole.Advance();
+  EXPECT_EQ(HeapStateLine(whole.state()), HeapStateLine(second.state()));
+  EXPECT_TRUE(whole.simulation().Checkpoint() == second.simulation().Checkpoint());
+}
+
+// (δ/R)^(5/2) = (5π/4) ρ v²/E* on a wall.
+TEST(PouredHeap, SoftGrainsFromAHeightAreRefusedWithWhatHolds) {
+  const auto problems_of = [](const HeapCase& c) {
+    base::Problems problems;
+    c.Validate(problems);
+    std::string text;
+    for (const base::Problem& p : problems.list()) text += p.path + ": " + p.message + "\n";
+    return text;
+  };
+  HeapCase c = Poured(0.5, 0.2);
+  c.filling.drop_height = 67e-3;
+  EXPECT_EQ(problems_of(c), "");
+  c.powder.material.youngs_modulus = 2e4;
+  EXPECT_GT(ImpactShare(c), kMaxImpactShare);
+  EXPECT_NE(problems_of(c).find("filling.drop_height: lets grains sink"), std::string::npos);
+  const double share = ImpactShare(c);
+  c.powder.material.youngs_modulus *= 32;
+  EXPECT_NEAR(ImpactShare(c) / share, 0.25, 1e-6);
+  c.filling.mouth_diameter = 10e-3;
+  EXPECT_NE(problems_of(c).find("must be below device.tube_inner_diameter"), std::string::npos);
+  c.filling.kind = FillingKind::kDense;
+  base::Problems problems;
+  c.filling.Validate(problems);
+  EXPECT_FALSE(problems.empty());  // a drop height belongs to pouring
+}
+
+TEST(Landing, WithinADiameterOfTheHeapAGrainBelongsToIt) {
+  const double r = 1e-3;
+  const auto at = [&](double x, double z) {
+    return engine::Particle{.radius = r, .position = {x, 0, z}};
+  };
+  // On the plate; just above it; two diameters above the plate; above the second, which lands;
+  // beside the plate; above the first by more than a diameter.
+  const std::vector<engine::Particle> grains{at(0, r),           at(4e-3, 1.5 * r),
+                                             at(8e-3, 5.5 * r),  at(4e-3, 3.6 * r),
+                                             at(20e-3, 1.2 * r), at(0, 5.1 * r)};
+  std::vector<bool> on_heap{true, false, false, false, false, false};
+  AddLanding(grains, 10e-3, on_heap);
+  EXPECT_EQ(on_heap, (std::vector<bool>{true, true, false, true, false, false}));
+>>>>>>> h-scenes
 }
 
 }  // namespace

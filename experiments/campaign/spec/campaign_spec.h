@@ -25,7 +25,12 @@ struct CampaignSpec {
   Powder powder;
   Device device;
   engine::ContactModels models;
+<<<<<<< HEAD
   GrainSizes coarse_graining;
+=======
+  CoarseGraining coarse_graining;
+  FillingRule filling;
+>>>>>>> h-scenes
   HeapRules rules;
   double gravity = 9.81;                             // [m/s²], > 0
   double rayleigh_fraction = kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
@@ -57,6 +62,7 @@ struct CampaignSpec {
     visit("device", self.device, {.doc = "tube and plate"});
     visit("models", self.models, {.doc = "contact laws"});
     visit("coarse_graining", self.coarse_graining, {.doc = "fewer, larger grains"});
+    visit("filling", self.filling, {.doc = "how the powder gets into the tube"});
     visit("rules", self.rules, {.doc = "when each phase of a simulation ends"});
     visit("gravity", self.gravity,
           {.dimension = Dimension::kAcceleration, .doc = "downwards, > 0"});

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/scene/scene.h"
+#include "experiments/rigs/lifted_tube/pouring.h"
 
 namespace talus::experiments {
 namespace {
@@ -57,6 +58,29 @@ void RestRule::Validate(base::Problems& problems) const {
   problems.Require(!(hold_time > max_time), "hold_time", hold_time, "must not exceed max_time");
 }
 
+void TapRule::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "count", count);
+  RequirePositive(problems, "height", height);
+  problems.Require(interval > 3 * std::sqrt(2 * height / 9.81), "interval", interval,
+                   "must be above three times the time of the fall");
+}
+
+void FillingRule::Validate(base::Problems& problems) const {
+  const auto check = [&](const char* key, const std::optional<double>& value) {
+    if (!value) return;
+    problems.Require(kind == FillingKind::kPour, key, "belongs to the kind pour; remove it");
+    if (std::string_view(key) == "scatter") {
+      problems.Require(*value >= 0 && std::isfinite(*value), key, *value, "must not be negative");
+    } else {
+      RequirePositive(problems, key, *value);
+    }
+  };
+  check("drop_height", drop_height);
+  check("mouth_diameter", mouth_diameter);
+  check("rate", rate);
+  check("scatter", scatter);
+}
+
 void HeapRules::Validate(base::Problems& problems) const {
   RequirePositive(problems, "fill_max_overlap", fill_max_overlap);
   RequirePositive(problems, "fill_max_sweeps", fill_max_sweeps);
@@ -71,6 +95,31 @@ void HeapOutputs::Validate(base::Problems& problems) const {
                      "must not be negative, and above the one before");
   }
 }
+
+namespace {
+
+// A grain that sinks too deeply into what it falls on would be pressed through the plate.
+void ValidatePour(const HeapCase& c, base::Problems& problems) {
+  const double largest =
+      c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
+  const double mouth = c.filling.mouth_diameter.value_or(c.device.tube_inner_diameter / 2);
+  problems.Require(mouth < c.device.tube_inner_diameter, "filling.mouth_diameter", mouth,
+                   "must be below device.tube_inner_diameter");
+  problems.Require(!c.filling.mouth_diameter || mouth > 2 * largest, "filling.mouth_diameter",
+                   mouth, "must be above two (scaled) grain diameters");
+  if (!problems.empty()) return;
+  const double share = ImpactShare(c);
+  if (share <= kMaxImpactShare) return;
+  // (δ/R)^(5/2) goes with v²/E, and v² nearly with the height.
+  const double ratio = std::pow(share / kMaxImpactShare, 2.5);
+  problems.Add("filling.drop_height",
+               "lets grains sink " + std::to_string(share) +
+                   " of their radius into each other or into a wall, above the 0.3 that holds; "
+                   "raise youngs_modulus " +
+                   std::to_string(ratio) + " times, lower drop_height, or fill with kind dense");
+}
+
+}  // namespace
 
 void HeapCase::Validate(base::Problems& problems) const {
   RequirePositive(problems, "gravity", gravity);
@@ -91,6 +140,7 @@ void HeapCase::Validate(base::Problems& problems) const {
                    "device.tube_length", device.tube_length.value_or(0),
                    "cannot hold the mass, which fills " + std::to_string(size.filled_height) +
                        " m; leave it out or lengthen the tube");
+  if (problems.empty() && filling.kind == FillingKind::kPour) ValidatePour(*this, problems);
 }
 
 HeapSize EstimateHeap(const HeapCase& c) {
@@ -107,6 +157,7 @@ HeapSize EstimateHeap(const HeapCase& c) {
   size.filled_height = volume / (kSettled * area);
   constexpr double kStill = 0.1;  // settling and coming to rest, as seen in runs [s]
   size.simulated_time = kStill + size.filled_height / c.device.lift_velocity;
+  if (c.filling.taps) size.simulated_time += c.filling.taps->count * c.filling.taps->interval;
   return size;
 }
 

@@ -13,6 +13,7 @@
 #include "base/problems.h"
 #include "engine/scene/material.h"
 #include "experiments/rigs/lifted_tube/device.h"
+#include "experiments/rigs/lifted_tube/filling_rule.h"
 #include "experiments/rigs/lifted_tube/heap_rules.h"
 #include "experiments/rigs/lifted_tube/powder.h"
 #include "imaging/heap/profile.h"
@@ -44,6 +45,7 @@ struct HeapCase {
   Device device;
   engine::ContactModels models;
   CoarseGraining coarse_graining;
+  FillingRule filling;
   HeapRules rules;
   HeapOutputs outputs;
   double gravity = 9.81;                             // [m/s²], > 0, downwards
@@ -61,6 +63,7 @@ struct HeapCase {
     visit("device", self.device);
     visit("models", self.models);
     visit("coarse_graining", self.coarse_graining);
+    visit("filling", self.filling, {.doc = "how the powder gets into the tube"});
     visit("rules", self.rules, {.doc = "when each phase ends"});
     visit("outputs", self.outputs);
     visit("gravity", self.gravity,

@@ -6,7 +6,12 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+<<<<<<< HEAD
 #include "base/version.h"
+=======
+#include "experiments/app/commands.h"
+#include "experiments/rigs/lifted_tube/landing.h"
+>>>>>>> h-scenes
 
 namespace talus::experiments {
 namespace {
@@ -14,12 +19,17 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json Phases(const HeapCase& c, const HeapState& state) {
-  const bool done = state.fill_overlap <= c.rules.fill_max_overlap;
   ordered_json phases;
-  phases["filling"] = {{"reason", done ? "no_overlap" : "sweep_cap"},
-                       {"sweeps", state.fill_sweeps},
-                       {"max_overlap_over_radius", state.fill_overlap},
-                       {"filled_height_m", state.filled_height}};
+  if (c.filling.kind == FillingKind::kPour) {
+    phases["filling"] = base::ToJson(state.pouring);
+  } else {
+    const bool done = state.fill_overlap <= c.rules.fill_max_overlap;
+    phases["filling"] = {{"reason", done ? "no_overlap" : "sweep_cap"},
+                         {"sweeps", state.fill_sweeps},
+                         {"max_overlap_over_radius", state.fill_overlap},
+                         {"filled_height_m", state.filled_height}};
+  }
+  if (c.filling.taps) phases["tapping"] = base::ToJson(state.tapping);
   phases["settling"] = base::ToJson(state.settling);
   phases["lifting"] = base::ToJson(state.lifting);
   phases["heap"] = base::ToJson(state.heap);
@@ -31,6 +41,7 @@ std::string Reason(const HeapState& state) {
   std::string reason(base::NameOf(state.heap.reason));
   if (state.lifting.reason == PhaseEnd::kTimeCap) reason += ", lifting: time_cap";
   if (state.settling.reason == PhaseEnd::kTimeCap) reason += ", settling: time_cap";
+  if (state.pouring.reason == PhaseEnd::kTimeCap) reason += ", pouring: time_cap";
   return reason;
 }
 
@@ -62,11 +73,18 @@ ordered_json Heap(const HeapCase& c, const std::vector<engine::Particle>& grains
           {"num_grains", grains.size()}};
 }
 
+double PlateRadius(const engine::Simulation& simulation) {
+  const engine::WallShape& plate = simulation.Walls().at(kPlate).shape;
+  if (const auto* disc = std::get_if<engine::Disc>(&plate)) return disc->radius;
+  return std::get<engine::SolidCylinder>(plate).radius;
+}
+
 }  // namespace
 
 std::vector<engine::Particle> GrainsOfHeap(const engine::Simulation& simulation) {
   const std::vector<engine::Particle> particles = simulation.Particles();
-  const Connectivity connected = Connect(particles, simulation.Contacts());
+  Connectivity connected = Connect(particles, simulation.Contacts());
+  AddLanding(particles, PlateRadius(simulation), connected.on_plate);
   std::vector<engine::Particle> heap;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (connected.on_plate[i]) heap.push_back(particles[i]);
@@ -87,6 +105,10 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
   result["talus_version"] = base::Version();
   result["input_hash"] = base::Hex(HeapCaseHash(c));
   result["phases"] = Phases(c, state);
+  result["bed_before_lift"] = {{"filling", base::NameOf(c.filling.kind)},
+                               {"height_m", state.bed.height},
+                               {"solid_fraction", state.bed.solid_fraction},
+                               {"contacts_per_grain", state.bed.coordination}};
   result["num_grains"] = state.num_filled;
   result["counts"] = {{"filled", state.num_filled},
                       {"on_heap", on_heap},
@@ -112,6 +134,9 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
   }
   if (state.lifting.reason == PhaseEnd::kTimeCap) {
     warnings.push_back("the tube had not cleared the heap at its time cap and was taken away");
+  }
+  if (state.pouring.reason == PhaseEnd::kTimeCap) {
+    warnings.push_back("not all grains could be poured: the powder reached the funnel's mouth");
   }
   if (heap.empty()) warnings.push_back("nothing is left on the plate");
   result["warnings"] = warnings;

@@ -12,7 +12,8 @@
 
 namespace talus::experiments {
 
-// The grains that a chain of contacts connects with the plate, by id.
+// The grains that a chain of contacts connects with the plate or that are about to land on these or
+// on it, by id.
 std::vector<engine::Particle> GrainsOfHeap(const engine::Simulation& simulation);
 
 // The content of result.json after the test has ended.

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <utility>
+
+#include "engine/wall_motion.h"
+#include "experiments/rigs/lifted_tube/pouring.h"
 
 namespace talus::experiments {
 namespace {
@@ -43,12 +47,20 @@ HeapRig::HeapRig(const HeapCase& heap_case, const HeapState& state, engine::Simu
       simulation_(std::move(simulation)),
       state_(state),
       check_steps_(CheckSteps(heap_case, simulation_.time_step())) {
+  if (case_.filling.kind == FillingKind::kPour) pour_ = MakePour(case_);
   leave_height_ = -case_.rules.leave_depth * case_.coarse_graining.scale_factor *
                   engine::SizeCurve(case_.powder.sizes).largest();
 }
 
 HeapRig::HeapRig(const HeapCase& heap_case, const HeapScene& made)
     : HeapRig(heap_case, {}, engine::Simulation(made.scene)) {
+  if (pour_) {
+    state_.phase = HeapPhase::kPouring;
+    state_.filled_height = EstimateHeap(case_).filled_height;
+    Say(Format("pouring %zu grains, %.4g mm deep, at %.4g g/s", pour_->plan().radii.size(),
+               1e3 * DropHeight(case_), 1e3 * pour_->plan().rate));
+    return;
+  }
   state_.filled_height = made.filling.height;
   state_.fill_overlap = made.filling.max_overlap;
   state_.fill_sweeps = made.filling.num_sweeps;
@@ -62,6 +74,10 @@ HeapRig::HeapRig(const HeapCase& heap_case) : HeapRig(heap_case, MakeHeapScene(h
 
 bool HeapRig::Advance(double until) {
   if (state_.phase == HeapPhase::kEnded) return false;
+  if (state_.phase == HeapPhase::kPouring) {
+    pour_->Advance(simulation_, state_.pour);
+    until = std::min(until, pour_->NextTime(state_.pour));
+  }
   const std::int64_t num_particles = simulation_.num_particles();
   const double to_go = std::ceil((until - simulation_.time()) / simulation_.time_step());
   std::int64_t steps = check_steps_ - simulation_.step() % check_steps_;
@@ -78,13 +94,23 @@ void HeapRig::Check() {
   const View view = LookWithoutFallen();
   const double phase_time = simulation_.time() - Record().start_time;
   switch (state_.phase) {
+    case HeapPhase::kPouring:
+      CheckPouring();
+      break;
     case HeapPhase::kSettling:
+<<<<<<< HEAD
       if (Held(AtRest(view, case_.rules.settling), case_.rules.settling.hold_time)) {
         EndPhase(PhaseEnd::kAtRest, HeapPhase::kLifting);
       } else if (phase_time >= case_.rules.settling.max_time) {
         EndPhase(PhaseEnd::kTimeCap, HeapPhase::kLifting);
+=======
+      CheckSettling(particles);
+      break;
+    case HeapPhase::kTapping:
+      if (phase_time >= case_.filling.taps->count * case_.filling.taps->interval) {
+        EndPhase(PhaseEnd::kTapped, HeapPhase::kSettling);
+>>>>>>> h-scenes
       }
-      if (state_.phase == HeapPhase::kLifting) LiftTube();
       break;
     case HeapPhase::kLifting:
       CheckLifting(view);
@@ -101,6 +127,40 @@ void HeapRig::Check() {
     case HeapPhase::kEnded:
       break;
   }
+}
+
+// The funnel runs dry, or what is in the tube reaches its mouth and nothing can come any more.
+void HeapRig::CheckPouring() {
+  const double cap = 2 * pour_->Duration() + case_.rules.settling.max_time;
+  const bool done = pour_->Done(state_.pour);
+  if (!done && simulation_.time() < cap) return;
+  state_.num_filled = state_.pour.num_poured;
+  EndPhase(done ? PhaseEnd::kPoured : PhaseEnd::kTimeCap, HeapPhase::kSettling);
+}
+
+void HeapRig::CheckSettling(Particles particles) {
+  const double phase_time = simulation_.time() - Record().start_time;
+  const HeapPhase next = case_.filling.taps && state_.tapping.reason == PhaseEnd::kNone
+                             ? HeapPhase::kTapping
+                             : HeapPhase::kLifting;
+  if (Held(AtRest(particles), case_.rules.settling.hold_time)) {
+    EndPhase(PhaseEnd::kAtRest, next);
+  } else if (phase_time >= case_.rules.settling.max_time) {
+    EndPhase(PhaseEnd::kTimeCap, next);
+  }
+  if (state_.phase == HeapPhase::kTapping) Tap();
+  if (state_.phase == HeapPhase::kLifting) LiftTube();
+}
+
+void HeapRig::Tap() {
+  const std::vector<engine::MotionStep> motion =
+      engine::TapMotion({.start = simulation_.time(),
+                         .count = case_.filling.taps->count,
+                         .height = case_.filling.taps->height,
+                         .interval = case_.filling.taps->interval,
+                         .gravity = {0, 0, -case_.gravity}});
+  simulation_.SetMotion(kTube, motion);
+  simulation_.SetMotion(kPlate, motion);
 }
 
 // The lifting ends when the tube's edge is above the heap, the tube does not touch the heap, and
@@ -189,12 +249,20 @@ void HeapRig::EndPhase(PhaseEnd reason, HeapPhase next) {
 }
 
 void HeapRig::LiftTube() {
+  const double diameter = case_.device.tube_inner_diameter;
+  state_.bed = engine::MeasureBed(simulation_,
+                                  {.area = std::numbers::pi / 4 * diameter * diameter, .floor = 0});
+  Say(Format("the bed is %.4g mm high; solid fraction %.3f, %.2f contacts a grain",
+             1e3 * state_.bed.height, state_.bed.solid_fraction, state_.bed.coordination));
+  if (pour_) state_.filled_height = state_.bed.height;
   simulation_.SetMotion(
       kTube, {{.time = simulation_.time(), .velocity = {0, 0, case_.device.lift_velocity}}});
 }
 
 PhaseRecord& HeapRig::Record() {
+  if (state_.phase == HeapPhase::kPouring) return state_.pouring;
   if (state_.phase == HeapPhase::kSettling) return state_.settling;
+  if (state_.phase == HeapPhase::kTapping) return state_.tapping;
   return state_.phase == HeapPhase::kLifting ? state_.lifting : state_.heap;
 }
 
@@ -211,7 +279,10 @@ double HeapRig::ExpectedEnd() const {
   const double now = simulation_.time();
   const double lift = 0.8 * state_.filled_height / case_.device.lift_velocity;
   switch (state_.phase) {
+    case HeapPhase::kPouring:
+      return std::max(now, pour_->Duration()) + kStill + lift + kStill;
     case HeapPhase::kSettling:
+    case HeapPhase::kTapping:
       return std::max(now, kStill) + lift + kStill;
     case HeapPhase::kLifting:
       return std::max(now, state_.lifting.start_time + lift) + kStill;

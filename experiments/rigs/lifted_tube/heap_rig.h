@@ -1,13 +1,15 @@
-// The lifted-cylinder heap test (docs/physics.md, 7): the powder settles in the tube, the tube is
-// lifted, the heap comes to rest. Physics only; HeapRun does the files.
+// The lifted-cylinder heap test (docs/physics.md, 7): the powder is filled into the tube and
+// settles there, the tube is lifted, the heap comes to rest. Physics only; HeapRun does the files.
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/run/run.h"
+#include "engine/scene/pour.h"
 #include "engine/simulation.h"
 #include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
@@ -45,13 +47,23 @@ class HeapRig {
   HeapRig(const HeapCase& heap_case, const HeapScene& made);
 
   void Check();
+<<<<<<< HEAD
   View Look() const;
   View LookWithoutFallen();
   void CheckLifting(const View& view);
   void DropTube(const View& view);
   bool AtRest(const View& view, const RestRule& rule);
+=======
+  void CheckPouring();
+  void CheckSettling(Particles particles);
+  void RemoveFallen();
+  void CheckLifting(Particles particles);
+  void DropTube(Particles particles, const Connectivity& connected);
+  bool AtRest(Particles particles);
+>>>>>>> h-scenes
   bool Held(bool holds, double hold_time);
   void EndPhase(PhaseEnd reason, HeapPhase next);
+  void Tap();
   void LiftTube();
   void Say(const std::string& message);
   PhaseRecord& Record();
@@ -61,8 +73,9 @@ class HeapRig {
   HeapCase case_;
   engine::Simulation simulation_;
   HeapState state_;
-  std::int64_t check_steps_ = 1;  // between two looks at the phase's criterion
-  double leave_height_ = 0;       // below which grains leave the scene [m]
+  std::int64_t check_steps_ = 1;      // between two looks at the phase's criterion
+  std::optional<engine::Pour> pour_;  // where the powder is poured
+  double leave_height_ = 0;           // below which grains leave the scene [m]
   std::vector<std::string> messages_;
 };
 

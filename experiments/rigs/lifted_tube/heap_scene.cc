@@ -1,19 +1,13 @@
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "experiments/rigs/lifted_tube/pouring.h"
+
 namespace talus::experiments {
 namespace {
-
-std::vector<double> DrawRadii(const HeapCase& c) {
-  const double f = c.coarse_graining.scale_factor;
-  const double volume = c.powder.mass / c.powder.material.density;
-  std::vector<double> radii =
-      engine::DrawDiameters(engine::SizeCurve(c.powder.sizes), volume / (f * f * f));
-  for (double& r : radii) r *= f / 2;
-  return engine::Shuffled(std::move(radii), c.seed);
-}
 
 std::vector<engine::Material> Materials(const HeapCase& c) {
   const engine::Material powder = UsedMaterial(c);
@@ -36,6 +30,24 @@ std::vector<engine::Wall> Walls(const HeapCase& c, double default_tube_length) {
           {.name = "plate", .shape = plate, .material = 2, .motion = {}}};
 }
 
+void FillDensely(const HeapCase& c, HeapScene& made) {
+  const std::vector<double> radii = DrawRadii(c);
+  const engine::FillRequest request{.region = {.diameter = c.device.tube_inner_diameter},
+                                    .max_overlap = c.rules.fill_max_overlap,
+                                    .max_sweeps = c.rules.fill_max_sweeps,
+                                    .seed = c.seed};
+  made.filling = engine::Fill(radii, request);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    made.scene.particles.push_back({.id = static_cast<std::int64_t>(i),
+                                    .material = 0,
+                                    .radius = radii[i],
+                                    .position = made.filling.positions[i],
+                                    .velocity = {},
+                                    .angular_velocity = {}});
+  }
+  made.filling.positions.clear();
+}
+
 }  // namespace
 
 engine::Material UsedMaterial(const HeapCase& c) {
@@ -46,25 +58,21 @@ engine::Material UsedMaterial(const HeapCase& c) {
 }
 
 HeapScene MakeHeapScene(const HeapCase& c) {
-  const std::vector<double> radii = DrawRadii(c);
-  const engine::FillRequest request{.region = {.diameter = c.device.tube_inner_diameter},
-                                    .max_overlap = c.rules.fill_max_overlap,
-                                    .max_sweeps = c.rules.fill_max_sweeps,
-                                    .seed = c.seed};
-  HeapScene made{.scene = {}, .filling = engine::Fill(radii, request)};
+  HeapScene made;
   engine::Scene& scene = made.scene;
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    scene.particles.push_back({.id = static_cast<std::int64_t>(i),
-                               .material = 0,
-                               .radius = radii[i],
-                               .position = made.filling.positions[i],
-                               .velocity = {},
-                               .angular_velocity = {}});
+  double tube_length = PouredTubeLength(c);
+  if (c.filling.kind == FillingKind::kDense) {
+    FillDensely(c, made);
+    tube_length = 1.1 * made.filling.height;
+  } else {
+    // The step must suit the grains that are to come.
+    const double smallest = engine::SizeCurve(c.powder.sizes).smallest() / 2;
+    const double radius = c.coarse_graining.scale_factor * smallest;
+    scene.time_step = c.rayleigh_fraction * engine::RayleighTime(c.powder.material, radius);
   }
-  made.filling.positions.clear();
   scene.materials = Materials(c);
   scene.models = c.models;
-  scene.walls = Walls(c, 1.1 * made.filling.height);
+  scene.walls = Walls(c, tube_length);
   scene.gravity = {0, 0, -c.gravity};
   scene.rayleigh_fraction = c.rayleigh_fraction;
   scene.num_threads = c.threads;

@@ -19,7 +19,7 @@ struct HeapScene {
   engine::Filling filling;  // without the positions, which are in the scene
 };
 
-// The plate's top is z = 0; the tube stands on it.
+// The plate's top is z = 0; the tube stands on it, empty where the powder is to be poured.
 HeapScene MakeHeapScene(const HeapCase& heap_case);
 
 // The powder's material with the coarse graining applied (docs/physics.md, C1).

@@ -7,13 +7,15 @@
 #include <string>
 
 #include "base/field.h"
+#include "engine/run/bed.h"
+#include "engine/scene/pour.h"
 
 namespace talus::experiments {
 
-enum class HeapPhase { kSettling, kLifting, kResting, kEnded };
+enum class HeapPhase { kPouring, kSettling, kTapping, kLifting, kResting, kEnded };
 
 // How a phase ended.
-enum class PhaseEnd { kNone, kAtRest, kCleared, kTimeCap, kEmpty };
+enum class PhaseEnd { kNone, kPoured, kTapped, kAtRest, kCleared, kTimeCap, kEmpty };
 
 struct PhaseRecord {
   PhaseEnd reason = PhaseEnd::kNone;
@@ -34,9 +36,13 @@ struct PhaseRecord {
 
 struct HeapState {
   HeapPhase phase = HeapPhase::kSettling;
-  PhaseRecord settling;
+  PhaseRecord pouring;
+  PhaseRecord settling;  // after the taps, if there were any
+  PhaseRecord tapping;
   PhaseRecord lifting;
   PhaseRecord heap;
+  engine::PourState pour;
+  engine::Bed bed;           // when the tube was lifted
   double filled_height = 0;  // [m]
   double fill_overlap = 0;   // largest overlap / radius [-]
   int fill_sweeps = 0;
@@ -49,9 +55,15 @@ struct HeapState {
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("phase", self.phase);
+    visit("pouring", self.pouring);
     visit("settling", self.settling);
+    visit("tapping", self.tapping);
     visit("lifting", self.lifting);
     visit("heap", self.heap);
+    visit("pour", self.pour);
+    visit("bed_height_m", self.bed.height);
+    visit("solid_fraction", self.bed.solid_fraction);
+    visit("coordination", self.bed.coordination);
     visit("filled_height_m", self.filled_height);
     visit("fill_overlap", self.fill_overlap);
     visit("fill_sweeps", self.fill_sweeps);
@@ -69,14 +81,16 @@ template <>
 struct talus::base::Names<talus::experiments::HeapPhase> {
   using P = talus::experiments::HeapPhase;
   static constexpr std::array kList{
-      std::pair{"settling", P::kSettling}, std::pair{"lifting", P::kLifting},
+      std::pair{"pouring", P::kPouring},        std::pair{"settling", P::kSettling},
+      std::pair{"tapping", P::kTapping},        std::pair{"lifting", P::kLifting},
       std::pair{"coming to rest", P::kResting}, std::pair{"ended", P::kEnded}};
 };
 template <>
 struct talus::base::Names<talus::experiments::PhaseEnd> {
   using E = talus::experiments::PhaseEnd;
-  static constexpr std::array kList{std::pair{"none", E::kNone}, std::pair{"at_rest", E::kAtRest},
-                                    std::pair{"cleared", E::kCleared},
-                                    std::pair{"time_cap", E::kTimeCap},
-                                    std::pair{"empty", E::kEmpty}};
+  static constexpr std::array kList{
+      std::pair{"none", E::kNone},       std::pair{"poured", E::kPoured},
+      std::pair{"tapped", E::kTapped},   std::pair{"at_rest", E::kAtRest},
+      std::pair{"cleared", E::kCleared}, std::pair{"time_cap", E::kTimeCap},
+      std::pair{"empty", E::kEmpty}};
 };

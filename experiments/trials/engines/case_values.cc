@@ -94,7 +94,9 @@ TemplateValues CaseValues(const HeapCase& c) {
 
 void AddGrains(const HeapCase& c, TemplateValues& values) {
   TemplateTable& table = values.tables.at("grains");
-  const HeapScene made = MakeHeapScene(c);
+  HeapCase dense = c;  // another engine gets its grains in place
+  dense.filling = {};
+  const HeapScene made = MakeHeapScene(dense);
   // The exact number, which the estimate may miss by one.
   values.scalars["num_grains"] = std::to_string(made.scene.particles.size());
   for (const engine::Particle& p : made.scene.particles) {

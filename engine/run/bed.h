@@ -1,0 +1,23 @@
+// How densely a bed of grains lies: what a packed or tapped cup is judged by.
+#pragma once
+
+#include "engine/simulation.h"
+
+namespace talus::engine {
+
+// A bed in an upright vessel of one cross-section.
+struct Bed {
+  double height = 0;          // twice that of the centre of mass above the floor [m]
+  double solid_fraction = 0;  // volume of the grains over area times height [-]
+  double coordination = 0;    // mean number of grains that a grain touches [-]
+};
+
+struct Vessel {
+  double area = 0;   // of the cross-section [m²]
+  double floor = 0;  // height of its floor [m]
+};
+
+// For a level bed of even density the height is that of its surface.
+Bed MeasureBed(const Simulation& simulation, const Vessel& vessel);
+
+}  // namespace talus::engine

@@ -1,0 +1,93 @@
+#include "engine/run/series.h"
+
+#include <charconv>
+#include <limits>
+
+namespace talus::engine {
+namespace {
+
+void Append(std::string& text, double value) {
+  char digits[32];
+  text += ',';
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+}  // namespace
+
+Series::Series(const SceneSpec& spec) : outputs_(spec.outputs) {
+  for (const WallSpec& wall : spec.walls) {
+    const std::string number = std::to_string(wall_names_.size());
+    wall_names_.push_back(wall.name.empty() ? "wall" + number : wall.name);
+  }
+  for (const NamedMaterial& material : spec.materials) materials_.push_back(material.material);
+}
+
+double Series::NextTime(const SeriesState& state) const {
+  if (!outputs_.interval) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(state.num_rows) * *outputs_.interval;
+}
+
+std::string Series::Head() const {
+  std::string head = "time_s,num_spheres";
+  for (const std::string& wall : wall_names_) {
+    for (const char* column : {"_fx_n", "_fy_n", "_fz_n", "_tx_n_m", "_ty_n_m", "_tz_n_m"}) {
+      head += "," + wall + column;
+    }
+  }
+  for (const SectionSpec& section : outputs_.sections) {
+    head += "," + section.name + "_kg," + section.name + "_kg_s";
+  }
+  return head + "\n";
+}
+
+double Series::Mass(const Particle& p) const {
+  return SphereMass(materials_[static_cast<std::size_t>(p.material)], p.radius);
+}
+
+std::vector<double> Series::MassBeyond(const Simulation& simulation,
+                                       const SeriesState& state) const {
+  const auto& sections = outputs_.sections;
+  std::vector<double> mass = state.left_mass;
+  mass.resize(sections.size(), 0.0);
+  if (sections.empty()) return mass;
+  for (const Particle& p : simulation.Particles()) {
+    for (std::size_t s = 0; s < sections.size(); ++s) {
+      if (sections[s].IsBeyond(p.position)) mass[s] += Mass(p);
+    }
+  }
+  return mass;
+}
+
+void Series::Leaves(const Particle& p, SeriesState& state) const {
+  const auto& sections = outputs_.sections;
+  state.left_mass.resize(sections.size(), 0.0);
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    if (sections[s].IsBeyond(p.position)) state.left_mass[s] += Mass(p);
+  }
+}
+
+void Series::Write(const Simulation& simulation, SeriesState& state) const {
+  if (NextTime(state) > simulation.time()) return;
+  std::string row;
+  Append(row, simulation.time());
+  row.erase(0, 1);
+  row += "," + std::to_string(simulation.num_particles());
+  for (const WallLoad& load : simulation.WallLoads()) {
+    for (const Vec3& v : {load.force, load.torque}) {
+      for (const double value : {v.x, v.y, v.z}) Append(row, value);
+    }
+  }
+  const std::vector<double> mass = MassBeyond(simulation, state);
+  const double since = simulation.time() - state.last_time;
+  state.last_mass.resize(mass.size(), 0.0);
+  for (std::size_t s = 0; s < mass.size(); ++s) {
+    Append(row, mass[s]);
+    Append(row, state.num_rows > 0 ? (mass[s] - state.last_mass[s]) / since : 0.0);
+  }
+  state.text += row + "\n";
+  state.last_mass = mass;
+  state.last_time = simulation.time();
+  while (NextTime(state) <= simulation.time()) ++state.num_rows;
+}
+
+}  // namespace talus::engine

@@ -1,0 +1,84 @@
+#include "experiments/rigs/lifted_tube/pouring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/laws/pair_constants.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
+
+namespace talus::experiments {
+namespace {
+
+constexpr double kFollowed = 0.5;  // solid fraction that the mouth rises with
+
+double TubeArea(const HeapCase& c) {
+  return std::numbers::pi / 4 * std::pow(c.device.tube_inner_diameter, 2);
+}
+
+double MouthDiameter(const HeapCase& c) {
+  const double tube = c.device.tube_inner_diameter;
+  const double largest =
+      c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
+  // Not so narrow that grains come down in a file.
+  const double least = std::min(4 * largest, 0.9 * tube);
+  return c.filling.mouth_diameter.value_or(std::max(tube / 2, least));
+}
+
+}  // namespace
+
+std::vector<double> DrawRadii(const HeapCase& c) {
+  const double f = c.coarse_graining.scale_factor;
+  const double volume = c.powder.mass / c.powder.material.density;
+  std::vector<double> radii =
+      engine::DrawDiameters(engine::SizeCurve(c.powder.sizes), volume / (f * f * f));
+  for (double& r : radii) r *= f / 2;
+  return engine::Shuffled(std::move(radii), c.seed);
+}
+
+// Loose powders fill a tube to a solid fraction of 0.4.
+double PouredTubeLength(const HeapCase& c) {
+  constexpr double kLoose = 0.4;
+  return c.powder.mass / c.powder.material.density / (kLoose * TubeArea(c));
+}
+
+double DropHeight(const HeapCase& c) {
+  return c.filling.drop_height.value_or(c.device.tube_inner_diameter / 2);
+}
+
+engine::Pour MakePour(const HeapCase& c) {
+  engine::PourPlan plan{.radii = DrawRadii(c),
+                        .material = 0,
+                        .density = c.powder.material.density,
+                        .mouth = {0, 0, DropHeight(c)},
+                        .rise = 1 / (kFollowed * c.powder.material.density * TubeArea(c)),
+                        .mouth_diameter = MouthDiameter(c),
+                        .rate = 0,
+                        .scatter = c.filling.scatter.value_or(0),
+                        .start = 0,
+                        .gravity = {0, 0, -c.gravity},
+                        .seed = c.seed,
+                        .first_id = 0};
+  plan.rate = c.filling.rate.value_or(engine::BeverlooRate(plan));
+  return engine::Pour(std::move(plan));
+}
+
+// With m = (4/3) π ρ R³: (δ/R)^(5/2) = (5π/4) ρ v²/E* on a wall, and √2/2 of it between like
+// grains.
+double ImpactShare(const HeapCase& c) {
+  const engine::Pour pour = MakePour(c);
+  const double fall = 2 * c.gravity * (DropHeight(c) + pour.slab());
+  const double square = std::pow(engine::StreamSpeed(pour.plan()), 2) + fall;
+  const double scale = 5 * std::numbers::pi / 4 * c.powder.material.density * square;
+  const engine::Material powder = UsedMaterial(c);
+  const auto share = [&](const engine::Material& other, double factor) {
+    const double e_star = engine::MakePairConstants(powder, other, c.models).y_star;
+    return std::pow(factor * scale / e_star, 0.4);
+  };
+  const WallMaterial same;
+  return std::max({share(powder, std::numbers::sqrt2 / 2),
+                   share(c.device.plate_material.value_or(same).Over(powder), 1),
+                   share(c.device.tube_material.value_or(same).Over(powder), 1)});
+}
+
+}  // namespace talus::experiments
