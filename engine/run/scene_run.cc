@@ -31,20 +31,16 @@ SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::p
       folder_(std::move(folder)),
       simulation_(scene),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
-<<<<<<< HEAD
-      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
-  if (simulation_.time_step() > kWarnRayleighFraction * SmallestRayleighTime(scene)) {
-    messages_.push_back(
-        "the time step is above 0.2 Rayleigh times of the smallest sphere: single collisions are "
-        "resolved poorly");
-  }
-=======
       pours_(BuildPours(spec_, simulation_.num_particles())),
       series_(spec_),
       check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
   state_.num_at_start = simulation_.num_particles();
   state_.pours.resize(pours_.size());
->>>>>>> h-scenes
+  if (simulation_.time_step() > kWarnRayleighFraction * SmallestRayleighTime(scene)) {
+    messages_.push_back(
+        "the time step is above 0.2 Rayleigh times of the smallest sphere: single collisions are "
+        "resolved poorly");
+  }
 }
 
 SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,

@@ -5,12 +5,9 @@
 #include <algorithm>
 
 #include "experiments/rigs/lifted_tube/heap_result.h"
-<<<<<<< HEAD
-#include "experiments/rigs/lifted_tube/rest.h"
-=======
 #include "experiments/rigs/lifted_tube/landing.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
->>>>>>> h-scenes
+#include "experiments/rigs/lifted_tube/rest.h"
 
 namespace talus::experiments {
 namespace {
@@ -140,7 +137,6 @@ TEST(Connectivity, FollowsContactsToThePlateAndElseToTheTube) {
   EXPECT_TRUE(connected.tube_touches_heap);
 }
 
-<<<<<<< HEAD
 engine::Particle Grain(engine::Vec3 position, engine::Vec3 velocity) {
   static std::int64_t id = 0;
   return {.id = id++,
@@ -200,7 +196,8 @@ TEST(ResistedSpins, LeaveOutTheTwistOfASingleContact) {
   EXPECT_EQ(spins[0], (engine::Vec3{1, 2, 0}));
   EXPECT_EQ(spins[1], (engine::Vec3{1, 2, 3}));
   EXPECT_EQ(spins[2], (engine::Vec3{1, 2, 0}));
-=======
+}
+
 HeapCase Poured(double sliding_friction, double rolling_friction) {
   HeapCase c = Coarse(sliding_friction, rolling_friction);
   c.filling.kind = FillingKind::kPour;
@@ -285,7 +282,6 @@ TEST(Landing, WithinADiameterOfTheHeapAGrainBelongsToIt) {
   std::vector<bool> on_heap{true, false, false, false, false, false};
   AddLanding(grains, 10e-3, on_heap);
   EXPECT_EQ(on_heap, (std::vector<bool>{true, true, false, true, false, false}));
->>>>>>> h-scenes
 }
 
 }  // namespace

@@ -252,17 +252,11 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
       ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
   heap_case.device = *experiment.device;
   heap_case.models = spec.models;
-<<<<<<< HEAD
   heap_case.coarse_graining = {
       .scale_factor = settings.scale_factor,
       .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent};
-  heap_case.rules = *experiment.rules;
-=======
-  heap_case.coarse_graining = spec.coarse_graining;
-  heap_case.coarse_graining.scale_factor = settings.scale_factor;
   heap_case.filling = spec.filling;
-  heap_case.rules = spec.rules;
->>>>>>> h-scenes
+  heap_case.rules = *experiment.rules;
   heap_case.gravity = spec.gravity;
   heap_case.rayleigh_fraction = spec.rayleigh_fraction;
   heap_case.seed = settings.seed;

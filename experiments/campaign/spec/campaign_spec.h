@@ -25,12 +25,8 @@ struct CampaignSpec {
   Powder powder;
   Device device;
   engine::ContactModels models;
-<<<<<<< HEAD
   GrainSizes coarse_graining;
-=======
-  CoarseGraining coarse_graining;
   FillingRule filling;
->>>>>>> h-scenes
   HeapRules rules;
   double gravity = 9.81;                             // [m/s²], > 0
   double rayleigh_fraction = kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4

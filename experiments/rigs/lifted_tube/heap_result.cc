@@ -6,12 +6,8 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
-<<<<<<< HEAD
 #include "base/version.h"
-=======
-#include "experiments/app/commands.h"
 #include "experiments/rigs/lifted_tube/landing.h"
->>>>>>> h-scenes
 
 namespace talus::experiments {
 namespace {

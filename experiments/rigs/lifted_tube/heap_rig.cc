@@ -98,18 +98,11 @@ void HeapRig::Check() {
       CheckPouring();
       break;
     case HeapPhase::kSettling:
-<<<<<<< HEAD
-      if (Held(AtRest(view, case_.rules.settling), case_.rules.settling.hold_time)) {
-        EndPhase(PhaseEnd::kAtRest, HeapPhase::kLifting);
-      } else if (phase_time >= case_.rules.settling.max_time) {
-        EndPhase(PhaseEnd::kTimeCap, HeapPhase::kLifting);
-=======
-      CheckSettling(particles);
+      CheckSettling(view);
       break;
     case HeapPhase::kTapping:
       if (phase_time >= case_.filling.taps->count * case_.filling.taps->interval) {
         EndPhase(PhaseEnd::kTapped, HeapPhase::kSettling);
->>>>>>> h-scenes
       }
       break;
     case HeapPhase::kLifting:
@@ -138,12 +131,12 @@ void HeapRig::CheckPouring() {
   EndPhase(done ? PhaseEnd::kPoured : PhaseEnd::kTimeCap, HeapPhase::kSettling);
 }
 
-void HeapRig::CheckSettling(Particles particles) {
+void HeapRig::CheckSettling(const View& view) {
   const double phase_time = simulation_.time() - Record().start_time;
   const HeapPhase next = case_.filling.taps && state_.tapping.reason == PhaseEnd::kNone
                              ? HeapPhase::kTapping
                              : HeapPhase::kLifting;
-  if (Held(AtRest(particles), case_.rules.settling.hold_time)) {
+  if (Held(AtRest(view, case_.rules.settling), case_.rules.settling.hold_time)) {
     EndPhase(PhaseEnd::kAtRest, next);
   } else if (phase_time >= case_.rules.settling.max_time) {
     EndPhase(PhaseEnd::kTimeCap, next);
@@ -203,7 +196,7 @@ HeapRig::View HeapRig::Look() const {
 // Before the tube is lifted nothing can fall.
 HeapRig::View HeapRig::LookWithoutFallen() {
   View view = Look();
-  if (state_.phase == HeapPhase::kSettling) return view;
+  if (state_.phase != HeapPhase::kLifting && state_.phase != HeapPhase::kResting) return view;
   std::vector<std::int64_t> fallen =
       CanOnlyFall(view.particles, view.connected, case_.device, case_.gravity);
   for (const Particle& p : view.particles) {

@@ -47,20 +47,13 @@ class HeapRig {
   HeapRig(const HeapCase& heap_case, const HeapScene& made);
 
   void Check();
-<<<<<<< HEAD
+  void CheckPouring();
+  void CheckSettling(const View& view);
+  void CheckLifting(const View& view);
   View Look() const;
   View LookWithoutFallen();
-  void CheckLifting(const View& view);
   void DropTube(const View& view);
   bool AtRest(const View& view, const RestRule& rule);
-=======
-  void CheckPouring();
-  void CheckSettling(Particles particles);
-  void RemoveFallen();
-  void CheckLifting(Particles particles);
-  void DropTube(Particles particles, const Connectivity& connected);
-  bool AtRest(Particles particles);
->>>>>>> h-scenes
   bool Held(bool holds, double hold_time);
   void EndPhase(PhaseEnd reason, HeapPhase next);
   void Tap();
