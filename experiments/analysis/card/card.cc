@@ -34,7 +34,7 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
              ReferencesOf(record, spec).front().frame());
   Card card = CardOf(heap_case);
   card.title = result.name;
-  card.notes = result.warnings;
+  for (const ResultWarning& warning : result.warnings) card.notes.push_back(warning.text);
   for (const ResultParameter& p : result.parameters) {
     card.ranges.push_back({.name = p.name,
                            .unit = p.unit,
