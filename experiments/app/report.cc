@@ -1,29 +1,77 @@
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <thread>
 
+#include "base/interrupt.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/app/commands.h"
+#include "experiments/campaign/campaign_folder.h"
 
 namespace talus::experiments {
 
+namespace {
+
+constexpr int kWatchPeriod = 5;  // between two looks at the campaign [s]
+
+struct Arguments {
+  std::filesystem::path campaign;
+  std::filesystem::path out;
+  bool watch = false;
+};
+
+// What a newer page would show: nothing is written while it stays the same.
+std::string StateOf(const Evidence& evidence) {
+  std::string state = evidence.state;
+  for (const TrialEvidence& trial : evidence.trials) state += base::NameOf(trial.state).front();
+  return state;
+}
+
+// Keeps the page current until the campaign stands still or the user ends it.
+void Watch(const Arguments& arguments) {
+  const base::InterruptGuard interrupt;
+  std::string shown;
+  while (interrupt.Asked() == base::Interrupt::kNone) {
+    // Asked before the journal is read: what was written last is still shown.
+    const bool worked_on = IsWorkedOn(arguments.campaign);
+    const Evidence evidence = GatherEvidence(arguments.campaign);
+    const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
+    if (state != shown) {
+      const auto page = WriteReport(MakeReportData(evidence), arguments.out,
+                                    {.reload = worked_on ? kWatchPeriod : 0});
+      if (shown.empty()) std::cout << "The report is " << page.string() << std::endl;
+      shown = state;
+    }
+    if (!worked_on) return;
+    for (int i = 0; i < 10 * kWatchPeriod && interrupt.Asked() == base::Interrupt::kNone; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+}
+
+}  // namespace
+
 void AddReportCommand(CLI::App& app) {
-  struct Arguments {
-    std::filesystem::path campaign;
-    std::filesystem::path out;
-  };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "report", "Write a campaign's report: one HTML page, with its figures and tables beside it");
   command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/report");
+  command->add_flag("--watch", arguments->watch,
+                    "write it anew whenever a trial ends, until the campaign does; the open page "
+                    "follows by itself");
   command->callback([arguments] {
-    const std::filesystem::path out =
-        arguments->out.empty() ? arguments->campaign / "report" : arguments->out;
-    const auto page = WriteReport(MakeReportData(GatherEvidence(arguments->campaign)), out);
+    if (arguments->out.empty()) arguments->out = arguments->campaign / "report";
+    if (arguments->watch) {
+      Watch(*arguments);
+      return;
+    }
+    const auto page =
+        WriteReport(MakeReportData(GatherEvidence(arguments->campaign)), arguments->out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }

@@ -4,11 +4,15 @@
 #include <memory>
 #include <string>
 
+#include "base/json_reader.h"
+#include "engine/scene/scene_json.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/console.h"
 #include "experiments/campaign/estimate.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "experiments/trials/engines/command_engine.h"
+#include "experiments/trials/optimize/optimize_problem.h"
 
 namespace talus::experiments {
 namespace {
@@ -30,40 +34,107 @@ std::string At(const CampaignSpec& spec, const std::string& experiment, double s
   return experiment + " at scale factor " + NumberText4(scale_factor) + ": ";
 }
 
-void Validate(const std::string& path) {
-  const base::JsonFile file = base::ReadJsonFile(path);
-  const CampaignSpec spec = ReadCampaignSpec(file);
-  const CampaignRecord record = MakeRecord(spec, file);
-  std::cout << path << ": is in order\n  searched         ";
-  for (const ParameterRecord& p : record.parameters) {
+void PrintSearched(const std::vector<ParameterRecord>& parameters, const CampaignSpec& spec) {
+  std::cout << "  searched         ";
+  for (const ParameterRecord& p : parameters) {
     std::cout << ' ' << p.name << " in " << NumberText4(p.low) << " … " << NumberText4(p.high)
               << (p.unit.empty() ? "" : " " + p.unit) << ';';
   }
-  std::cout << " minimising " << record.objective << '\n';
+  std::cout << " minimising " << base::NameOf(spec.objective) << '\n';
+}
+
+void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
+  const CampaignSpec spec = ReadCampaignSpec(file);
+  CampaignRecord record;
+  if (with_experiment) record = MakeRecord(spec, file);
+  std::cout << file.path.string() << ": is in order\n";
+  PrintSearched(SearchedParameters(spec), spec);
+  if (!with_experiment) std::cout << "  experiment        not looked at (--without-experiment)\n";
   for (const ExperimentRecord& e : record.experiments) PrintExperiment(e, record);
   std::cout << std::flush;
   if (spec.engine.kind == EngineKind::kTalus) {
     std::cout << EstimateText(spec, EstimateCampaign(spec));
   }
-  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       for (const std::string& warning :
            HeapWarnings(TypicalCase(spec, static_cast<int>(e), factor))) {
-        std::cout << "  warning: " << At(spec, record.experiments[e].name, factor) << warning
-                  << '\n';
+        std::cout << "  warning: " << At(spec, experiments[e].name, factor) << warning << '\n';
       }
     }
   }
 }
 
+void ValidateHeap(const base::JsonFile& file, bool) {
+  const HeapCase heap_case = LoadHeapCase(file.path);
+  const HeapSize size = EstimateHeap(heap_case);
+  std::cout << file.path.string() << ": is a heap case in order\n  grains            "
+            << size.num_grains << " of " << NumberText4(1e3 * size.mean_diameter)
+            << " mm (D50)\n  steps             about "
+            << NumberText4(size.simulated_time / size.time_step) << " of "
+            << NumberText4(size.time_step) << " s\n";
+  for (const std::string& warning : HeapWarnings(heap_case)) {
+    std::cout << "  warning: " << warning << '\n';
+  }
+}
+
+void ValidateScene(const base::JsonFile& file, bool) {
+  const engine::LoadedScene loaded = engine::LoadScene(file.path);
+  std::cout << file.path.string() << ": is a scene in order\n  spheres           "
+            << loaded.scene.particles.size() << "\n  walls             "
+            << loaded.scene.walls.size() << '\n';
+}
+
+void ValidateProblem(const base::JsonFile& file, bool) {
+  const auto problem = base::LoadOptions<OptimizeProblem>(file);
+  std::cout << file.path.string() << ": is a problem for `talus optimize` in order\n"
+            << "  evaluations       at most " << problem.evaluations << '\n';
+}
+
+void ValidateCommandCase(const base::JsonFile& file, bool) {
+  LoadCommandCase(file.path);
+  std::cout << file.path.string() << ": is a case of another engine in order\n";
+}
+
+// What a file is: by a key that only it has. The order matters: a campaign has a powder, too.
+struct ValidatedKind {
+  const char* key;
+  void (*validate)(const base::JsonFile& file, bool with_experiment);
+};
+constexpr ValidatedKind kKinds[] = {
+    {"budget", &ValidateCampaign},      {"experiment", &ValidateCampaign},
+    {"experiments", &ValidateCampaign}, {"engine", &ValidateCommandCase},
+    {"powder", &ValidateHeap},          {"materials", &ValidateScene},
+    {"evaluations", &ValidateProblem},  {"target", &ValidateProblem}};
+
+void Validate(const std::string& path, bool with_experiment) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  for (const ValidatedKind& kind : kKinds) {
+    if (file.root.is_object() && file.root.contains(kind.key)) {
+      return kind.validate(file, with_experiment);
+    }
+  }
+  ValidateCampaign(file, with_experiment);  // says what is missing
+}
+
 }  // namespace
 
 void AddValidateCommand(CLI::App& app) {
-  auto path = std::make_shared<std::string>();
+  struct Arguments {
+    std::string path;
+    bool without_experiment = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "validate", "Every problem of a campaign's spec at once, or what the campaign will cost");
-  command->add_option("SPEC", *path, "the campaign as a JSON file")->required();
-  command->callback([path] { Validate(*path); });
+      "validate", "Every problem of a spec at once, or what its campaign will cost");
+  command
+      ->add_option("SPEC", arguments->path,
+                   "a campaign, a case or scene for simulate, or a problem for optimize")
+      ->required();
+  command->add_flag("--without-experiment", arguments->without_experiment,
+                    "do not look at the photographs, which may not be taken yet");
+  command->callback([arguments] { Validate(arguments->path, !arguments->without_experiment); });
 }
 
 }  // namespace talus::experiments

@@ -117,6 +117,10 @@ void AddSimulations(Journal& journal, CampaignSpec& spec, int num_more) {
 
 }  // namespace
 
+std::vector<ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
+  return ParametersOf(SpaceOf(spec));
+}
+
 CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {
   CampaignRecord record;
   record.name = spec.name;
@@ -124,10 +128,10 @@ CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) 
   record.spec_text = base::ReadFile(file.path);
   record.spec_json = SpecText(spec);
   record.spec_hash = base::Hex(base::Checksum(record.spec_json));
-  record.talus_version = base::Version();
+  record.talus_version = base::Version() + ", commit " + base::Commit();
   record.created_utc = UtcNow();
   record.objective = base::NameOf(spec.objective);
-  record.parameters = ParametersOf(SpaceOf(spec));
+  record.parameters = SearchedParameters(spec);
   for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {
     record.experiments.push_back(MakeExperimentRecord(experiment));
   }

@@ -13,6 +13,9 @@
 
 namespace talus::experiments {
 
+// The free parameters as the journal keeps them.
+std::vector<ParameterRecord> SearchedParameters(const CampaignSpec& spec);
+
 // Measures the experiment; throws ConfigError where it cannot be used with this spec.
 CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file);
 

@@ -26,7 +26,7 @@ SCENES = {  # spheres as (position, velocity), gravity, floor, end [s]
 
 
 def case(plate=None, models=None, **material):
-    return {"models": models or {}, "powder": {"material": {**MATERIAL, **material}, "mass": "0.5 g",
+    return {"models": models or {}, "rayleigh_fraction": 0.15, "powder": {"material": {**MATERIAL, **material}, "mass": "0.5 g",
                        "sizes": {"kind": "mono", "diameter": DIAMETER}},
             "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm",
                        **({"plate_material": plate} if plate else {})}}

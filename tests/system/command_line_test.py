@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 TALUS = sys.argv[1]
@@ -150,6 +151,50 @@ class Progress(unittest.TestCase):
         self.assertEqual(card["scale_factor"], result["conditions"]["scale_factor"])
         both = talus("resume", str(self.folder / "out"), "--quiet", "--json")
         self.assertEqual(both.returncode, 2)
+
+    def test_the_cost_is_known_before_the_photographs_are_taken(self):
+        spec = json.loads(self.spec.read_text())
+        spec["experiment"]["photos"] = str(self.folder / "not taken yet")
+        self.spec.write_text(json.dumps(spec))
+        done = talus("validate", str(self.spec))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("not taken yet", done.stderr)
+        done = talus("validate", str(self.spec), "--without-experiment")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("sliding_friction in 0.1 … 0.9", done.stdout)
+
+    def test_every_kind_of_input_file_is_validated(self):
+        for name, says in [("scenes/heap_case.json", "is a heap case in order"),
+                           ("scenes/bouncing_pair.json", "spheres           2"),
+                           ("optimize/bowl.json", "is a problem for `talus optimize`")]:
+            done = talus("validate", str(SOURCE / "examples" / name))
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            self.assertIn(says, done.stdout)
+
+    # The report is watched from the second trial on; it must end by itself with the campaign, and only
+    # its pages of the running campaign may load themselves again.
+    def test_a_watched_report_follows_the_campaign_to_its_end(self):
+        out = self.folder / "out"
+        (self.folder / "deck/run.sh").write_text(ENGINE.replace("awk", "sleep 0.5; awk", 1))
+        campaign = subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"])
+        self.addCleanup(campaign.kill)
+        while not list(out.glob("trials/0002")):
+            self.assertIsNone(campaign.poll())
+            time.sleep(0.05)
+        watch = subprocess.Popen([TALUS, "report", out, "--watch"], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(watch.kill)
+        self.assertIn("report.html", watch.stdout.readline())
+        self.assertIn('http-equiv="refresh"', (out / "report/report.html").read_text())
+        self.assertEqual((campaign.wait(timeout=100), watch.wait(timeout=100)), (0, 0))
+        page = (out / "report/report.html").read_text()
+        self.assertNotIn('http-equiv="refresh"', page)
+        data = json.loads(page.split('id="data">')[1].split("</script>")[0])
+        self.assertEqual(data["campaign"]["state"], "finished")
+        self.assertIn("chose 4 simulations that gave a heap", data["methods"])
+        self.assertIn("sliding friction", data["methods"])
+        names = {version["name"] for version in data["versions"]}
+        self.assertLessEqual({"its commit", "its compiler", "machine", "hash of the spec"}, names)
+        watch.stdout.close()
 
     def test_a_campaign_outlives_the_reader_of_its_progress(self):
         reader, writer = os.pipe()

@@ -1,12 +1,16 @@
 #include "experiments/analysis/compare/gather_evidence.h"
 
+#include <sys/utsname.h>
+
 #include <algorithm>
 #include <memory>
+#include <thread>
 
 #include "base/error.h"
 #include "base/json_file.h"
 #include "base/json_reader.h"
 #include "base/version.h"
+#include "engine/kernel/dispatch.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/journal/journal.h"
 #include "imaging/formats/image_file.h"
@@ -122,6 +126,19 @@ void AddSpec(Evidence& evidence, const CampaignRecord& record) {
   if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
 }
 
+// "Linux 6.1.0 x86_64, 8 processors"
+std::string MachineText() {
+  struct utsname name {};
+  if (::uname(&name) != 0) return "unknown";
+  return std::string(name.sysname) + " " + name.release + " " + name.machine + ", " +
+         std::to_string(std::thread::hardware_concurrency()) + " processors";
+}
+
+std::string SeedsText(const std::vector<TrialEvidence>& trials) {
+  if (trials.empty()) return "none drawn yet";
+  return std::to_string(trials.size()) + " trials, each with its own in tables/trials.csv";
+}
+
 }  // namespace
 
 Evidence GatherEvidence(const std::filesystem::path& campaign) {
@@ -153,10 +170,16 @@ Evidence GatherEvidence(const std::filesystem::path& campaign) {
   AddTimes(evidence, progress.elapsed_s);
   evidence.versions = {{"talus that started the campaign", record.talus_version},
                        {"talus that wrote this report", base::Version()},
+                       {"its commit", base::Commit()},
+                       {"its compiler", base::Compiler()},
+                       {"instruction set here", engine::ChooseKernels().name},
+                       {"machine", MachineText()},
+                       {"written", UtcNow()},
                        {"started", record.created_utc},
                        {"strategy", evidence.strategy},
                        {"spec", record.spec_path},
-                       {"hash of the spec", record.spec_hash}};
+                       {"hash of the spec", record.spec_hash},
+                       {"seeds", SeedsText(evidence.trials)}};
   evidence.profile =
       [journal, frame = evidence.reference.aehp.frame](int id) -> std::optional<imaging::Profile> {
     const std::string png = journal->ProfilePng(id);

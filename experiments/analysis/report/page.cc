@@ -41,7 +41,7 @@ std::string EscapedJson(std::string_view json) {
 
 }  // namespace
 
-std::string ReportPage(const ReportData& data) {
+std::string ReportPage(const ReportData& data, const PageOptions& options) {
   std::string page(page_files::kPageHtml);
   const std::string scripts =
       std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
@@ -50,6 +50,11 @@ std::string ReportPage(const ReportData& data) {
       std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
   // The data come last: what they hold is never searched for a placeholder.
   Replace(page, "{{title}}", EscapedHtml(data.evidence.name) + " – calibration report");
+  const bool reloads = options.reload > 0 && data.evidence.state == "running";
+  Replace(page, "{{reload}}",
+          reloads
+              ? "<meta http-equiv=\"refresh\" content=\"" + std::to_string(options.reload) + "\">"
+              : "");
   Replace(page, "{{css}}", page_files::kPageCss);
   Replace(page, "{{js}}", scripts);
   Replace(page, "{{echarts}}", page_files::kEchartsMinJs);

@@ -7,7 +7,12 @@
 
 namespace talus::experiments {
 
-std::string ReportPage(const ReportData& data);
+struct PageOptions {
+  int reload =
+      0;  // while the campaign runs the page loads itself again after so long [s]; 0: never
+};
+
+std::string ReportPage(const ReportData& data, const PageOptions& options = {});
 
 // What the page's scripts draw from, as JSON.
 std::string PageJson(const ReportData& data);

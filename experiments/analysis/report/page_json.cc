@@ -4,6 +4,7 @@
 
 #include "experiments/analysis/report/base64.h"
 #include "experiments/analysis/report/labels.h"
+#include "experiments/analysis/report/methods.h"
 #include "experiments/analysis/report/page.h"
 
 namespace talus::experiments {
@@ -212,6 +213,7 @@ std::string PageJson(const ReportData& data) {
                       [](const StageTime& s) {
                         return Json{{"name", s.name}, {"seconds", Number(s.seconds)}};
                       })},
+      {"methods", MethodsText(data)},
       {"versions", List(e.versions,
                         [](const NamedText& v) {
                           return Json{{"name", v.name}, {"version", v.text}};

@@ -7,7 +7,8 @@
 
 namespace talus::experiments {
 
-std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder) {
+std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder,
+                                  const PageOptions& page) {
   std::filesystem::create_directories(folder / "figures");
   std::filesystem::create_directories(folder / "tables");
   for (const Picture& picture : data.pictures) {
@@ -19,7 +20,7 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
   for (const NamedText& table : ReportTables(data)) {
     base::WriteFileAtomically(folder / "tables" / (table.name + ".csv"), table.text);
   }
-  base::WriteFileAtomically(folder / "report.html", ReportPage(data));
+  base::WriteFileAtomically(folder / "report.html", ReportPage(data, page));
   return folder / "report.html";
 }
 

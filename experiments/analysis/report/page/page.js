@@ -39,6 +39,8 @@ function build() {
   section("trials-section", "Trials", "", D.trials.id.length ? [card(trialTable())] : []);
   section("failures", "Failures", "", D.trials.id.length ? failuresSection() : []);
   section("time", "Time", "", D.trials.id.length ? [card(timeChart()), ...stagesTable()] : []);
+  section("methods", "For a methods section", "Written from this campaign's journal; check it before you use it.",
+    [element("div", {class: "card"}, element("p", {id: "methods-text"}, D.methods))]);
   section("spec", "Spec and versions", "", [
     element("div", {class: "card"}, table([{title: "What", text: true}, {title: "Version", text: true}],
       D.versions.map((v) => [v.name, v.version]))),
