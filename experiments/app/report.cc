@@ -13,6 +13,7 @@ void AddReportCommand(CLI::App& app) {
   struct Arguments {
     std::filesystem::path campaign;
     std::filesystem::path out;
+    std::string experiment;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
@@ -20,10 +21,13 @@ void AddReportCommand(CLI::App& app) {
   command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/report");
+  command->add_option("--experiment", arguments->experiment,
+                      "whose trials are shown, in a campaign with several; default: the first");
   command->callback([arguments] {
     const std::filesystem::path out =
         arguments->out.empty() ? arguments->campaign / "report" : arguments->out;
-    const auto page = WriteReport(MakeReportData(GatherEvidence(arguments->campaign)), out);
+    const auto page = WriteReport(
+        MakeReportData(GatherEvidence(arguments->campaign, arguments->experiment)), out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }

@@ -206,6 +206,7 @@ void Campaign::Collect(TrialRecord& trial, const FinishedJob&) {
   try {
     output = parts_.engine->Collect(CaseOfTrial(trial), folder_.trial(trial.id));
     trial.metrics = ReferenceOf(trial).Measure(output.profile);
+    trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
   } catch (const base::Error& error) {
     FailOrRetry(trial, error.what());
     return;
@@ -299,7 +300,9 @@ void Campaign::WriteResult(ProgressRecord& progress) {
 
 void Campaign::NoteBest(const TrialRecord& trial) {
   const auto value = ReferenceOf(trial).Value(trial);
-  if (trial.status != TrialStatus::kOk || trial.kind == TrialKind::kConfirm || !value) return;
+  if (trial.status != TrialStatus::kOk || !IsOfSearch(trial) || !value) return;
+  // Objectives of different experiments or grain sizes do not compare.
+  if (trial.experiment != 0 || trial.scale_factor != spec_.coarse_graining.scale_factor) return;
   if (!best_ || *value < best_->first) best_ = {*value, trial.id};
 }
 
@@ -308,6 +311,10 @@ void Campaign::Report(const TrialRecord& trial) {
       "trial " + std::to_string(trial.id) + " (" + std::string(base::NameOf(trial.kind)) + ")";
   for (std::size_t i = 0; i < trial.native.size(); ++i) {
     text += (i == 0 ? " at " : " ") + NumberText4(trial.native[i]);
+  }
+  if (spec_.IsJoint()) {
+    text += ", " + record_.experiments[static_cast<std::size_t>(trial.experiment)].name +
+            " at scale factor " + NumberText4(trial.scale_factor);
   }
   if (trial.status == TrialStatus::kFailed) {
     text += " failed: " + trial.reason;

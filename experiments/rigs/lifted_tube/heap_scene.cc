@@ -1,6 +1,7 @@
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace talus::experiments {
@@ -43,6 +44,12 @@ engine::Material UsedMaterial(const HeapCase& c) {
   material.surface_energy *=
       std::pow(c.coarse_graining.scale_factor, c.coarse_graining.surface_energy_exponent);
   return material;
+}
+
+double FilledVolume(const HeapCase& c) {
+  double cubes = 0;
+  for (const double r : DrawRadii(c)) cubes += r * r * r;
+  return 4.0 / 3 * std::numbers::pi * cubes;
 }
 
 HeapScene MakeHeapScene(const HeapCase& c) {
