@@ -16,12 +16,14 @@ struct TrialProgress {
   std::int64_t trial = 0;
   TrialKind kind = TrialKind::kSearch;
   TrialStatus status = TrialStatus::kRunning;
-  std::vector<double> values{};       // native units, in the order of the free parameters
-  std::optional<double> objective{};  // none where it is not defined
-  std::string unit{};                 // of the objective, for people: "mm²"
-  bool best = false;                  // the lowest objective so far
-  std::string reason{};               // of a failure
-  double duration = 0;                // [s]
+  std::vector<double> values{};          // native units, in the order of the free parameters
+  std::optional<double> scale_factor{};  // where the campaign has several
+  std::string experiment{};              // its name, where the campaign has several
+  std::optional<double> objective{};     // none where it is not defined
+  std::string unit{};                    // of the objective, for people: "mm²"
+  bool best = false;                     // the lowest objective so far
+  std::string reason{};                  // of a failure
+  double duration = 0;                   // [s]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -29,6 +31,8 @@ struct TrialProgress {
     visit("kind", self.kind);
     visit("status", self.status);
     visit("values", self.values);
+    visit("scale_factor", self.scale_factor);
+    visit("experiment", self.experiment);
     visit("objective", self.objective);
     visit("unit", self.unit);
     visit("best", self.best);

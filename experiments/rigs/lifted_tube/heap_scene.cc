@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "experiments/rigs/lifted_tube/pouring.h"
@@ -55,6 +56,15 @@ engine::Material UsedMaterial(const HeapCase& c) {
   material.surface_energy *=
       std::pow(c.coarse_graining.scale_factor, c.coarse_graining.surface_energy_exponent);
   return material;
+}
+
+double FilledVolume(const HeapCase& c, std::int64_t num_grains) {
+  const std::vector<double> radii = DrawRadii(c);
+  double cubes = 0;
+  for (std::size_t i = 0; i < std::min(radii.size(), static_cast<std::size_t>(num_grains)); ++i) {
+    cubes += radii[i] * radii[i] * radii[i];
+  }
+  return 4.0 / 3 * std::numbers::pi * cubes;
 }
 
 HeapScene MakeHeapScene(const HeapCase& c) {
