@@ -29,7 +29,7 @@ LoadedScene LoadScene(const std::filesystem::path& path) {
   LoadedScene loaded{.spec = base::LoadOptions<SceneSpec>(file), .scene = {}};
   for (FillSpec& fill : loaded.spec.fills) ReadSizeFile(fill.sizes);
   for (PourSpec& pour : loaded.spec.pours) ReadSizeFile(pour.sizes);
-  base::Problems problems(path.string(), file.source);
+  base::Problems problems(path.string(), file.places);
   try {
     loaded.scene = BuildScene(loaded.spec);
   } catch (const base::ConfigError& error) {
@@ -42,8 +42,8 @@ LoadedScene LoadScene(const std::filesystem::path& path) {
     const base::Problem& problem = found.list()[i];
     problems.Add(PathInFile(problem.path, loaded.spec.spheres.size()), problem.message);
   }
-  if (found.list().size() > kMost) {
-    problems.Add("", std::to_string(found.list().size() - kMost) + " more problems like these");
+  if (found.size() > kMost) {
+    problems.Add("", std::to_string(found.size() - kMost) + " more problems like these");
   }
   problems.ThrowIfAny();
   return loaded;

@@ -209,7 +209,7 @@ CampaignSpec ParseSpecText(const std::string& text) {
 
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   CampaignSpec spec;
-  base::Problems problems(file.path.string(), file.source);
+  base::Problems problems(file.path.string(), file.places);
   base::ReadOptions(file.root, spec,
                     {problems, std::filesystem::absolute(file.path).parent_path()});
   if (spec.name.empty()) spec.name = file.path.stem().string();

@@ -172,7 +172,7 @@ CommandCase LoadCommandCase(const fs::path& path) {
   const base::JsonFile file = base::ReadJsonFile(path);
   auto command_case = base::LoadOptions<CommandCase>(file);
   engine::ReadSizeFile(command_case.heap.powder.sizes);
-  base::Problems problems(file.path.string(), file.source);
+  base::Problems problems(file.path.string(), file.places);
   problems.Require(command_case.heap.frame.has_value(), "frame",
                    "is missing: the result is measured in it");
   problems.Within("engine", [&] {
