@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "experiments/app/command_line.h"
 
 namespace {
@@ -43,6 +44,9 @@ int Run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   LetReadersGo();
+  // Names, logs and messages of others are shown, never obeyed.
+  const talus::base::PrintableStream output(std::cout);
+  const talus::base::PrintableStream errors(std::cerr);
   try {
     return Run(argc, argv);
   } catch (const talus::base::ConfigError& error) {
