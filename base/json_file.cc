@@ -170,4 +170,14 @@ JsonFile ReadJsonFile(const std::filesystem::path& path) {
   return Parse(std::make_shared<const std::string>(ReadFile(path, kLargestFile)), path);
 }
 
+std::string TextAt(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::int64_t IntegerAt(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+}
+
 }  // namespace talus::base

@@ -1,8 +1,10 @@
 // A JSON file with comments, and where each of its values stands.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 #include "base/problems.h"
@@ -20,5 +22,11 @@ struct JsonFile {
 // Linear in time and memory, whatever the text.
 JsonFile ReadJsonFile(const std::filesystem::path& path);
 JsonFile ParseJson(std::string_view text, const std::filesystem::path& name);
+
+// The text at a key; empty when there is none, or something else.
+std::string TextAt(const nlohmann::json& object, const std::string& key);
+
+// The whole number at a key; 0 when there is none, or something else.
+std::int64_t IntegerAt(const nlohmann::json& object, const std::string& key);
 
 }  // namespace talus::base

@@ -25,7 +25,8 @@ namespace {
 
 constexpr const char* kGroupFile = ".process_group";
 constexpr auto kLogInterval = std::chrono::seconds(1);  // between two looks at the logs' sizes
-constexpr int kCannotRun = 127;  // exit status of the child that could not become the command
+constexpr double kLongest = 1e9;  // of any job [s]: a clock counts nanoseconds
+constexpr int kCannotRun = 127;   // exit status of the child that could not become the command
 
 std::string HostName() {
   char name[256] = "";
@@ -216,7 +217,8 @@ void LocalRunner::StartProcess(const Job& job) {
   ::setpgid(pid, pid);  // in parent and child, so that it holds before either goes on
 
   const auto now = Clock::now();
-  const auto cap = std::chrono::duration<double>(job.time_cap > 0 ? job.time_cap : 1e9);
+  const auto cap =
+      std::chrono::duration<double>(job.time_cap > 0 ? std::min(job.time_cap, kLongest) : kLongest);
   running_[job.id] = {.pid = pid,
                       .pid_file = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
                       .start = now,

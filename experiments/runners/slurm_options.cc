@@ -5,7 +5,9 @@
 namespace talus::experiments {
 
 void SlurmOptions::Validate(base::Problems& problems) const {
-  problems.Require(!time || *time > 0, "time", time.value_or(0), "must be positive");
+  constexpr double kLongest = 366 * 86400.0;  // [s]
+  problems.Require(!time || (*time > 0 && *time <= kLongest), "time", time.value_or(0),
+                   "must be positive, and at most a year");
   problems.Require(cores >= 1, "cores", cores, "must be at least 1");
   problems.Require(max_jobs >= 1, "max_jobs", max_jobs, "must be at least 1");
   problems.Require(poll_interval >= 5, "poll_interval", poll_interval,

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -131,7 +132,7 @@ ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& o
     return {.status = 127, .output = {}, .errors = command[0] + ": " + std::strerror(code)};
   }
   for (Pipe& pipe : pipes) pipe.CloseWriter();
-  const auto cap = std::chrono::duration<double>(options.time_cap);
+  const auto cap = std::chrono::duration<double>(std::min(options.time_cap, 1e9));
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(cap);
   const std::string given_up = Collect(pipes, result, end, options.most_output);
   if (!given_up.empty()) {

@@ -184,6 +184,9 @@ TEST(Json, WriterIsReadBack) {
   const Outer again = Load(ToJson(outer).dump());
   EXPECT_EQ(again.list.at(0).diameter, 0.1);  // exact: the writer gives all digits
   EXPECT_EQ(again.color, Color::kBlue);
+  outer.name = "a\"\\\n\x01 ü";
+  EXPECT_EQ(JsonTextWriter::TextOf(outer), ToJson(outer).dump(2) + "\n");
+  EXPECT_EQ(JsonTextWriter::TextOf(Outer()), ToJson(Outer()).dump(2) + "\n");
   EXPECT_FALSE(again.mass.has_value());
 }
 

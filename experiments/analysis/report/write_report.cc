@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/write_report.h"
 
 #include "base/file.h"
+#include "base/output_folder.h"
 #include "experiments/analysis/report/figures.h"
 #include "experiments/analysis/report/page.h"
 #include "experiments/analysis/report/tables.h"
@@ -8,6 +9,7 @@
 namespace talus::experiments {
 
 std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder) {
+  base::ClaimOutputFolder(folder, "report");
   std::filesystem::create_directories(folder / "figures");
   std::filesystem::create_directories(folder / "tables");
   for (const Picture& picture : data.pictures) {
