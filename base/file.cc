@@ -1,14 +1,14 @@
 #include "base/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -42,25 +42,59 @@ bool WriteAll(int fd, std::string_view bytes) {
   return true;
 }
 
+// Fills `bytes` from `offset` on; what a file that has become shorter lacks is cut off.
+bool ReadAll(int fd, std::uint64_t offset, std::string& bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count =
+        ::pread(fd, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  bytes.resize(done);
+  return true;
+}
+
 [[noreturn]] void Fail(const std::filesystem::path& path, int code) {
   throw Error(path.string() + ": cannot be written: " + std::strerror(code));
 }
 
 }  // namespace
 
-std::string ReadFile(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw ConfigError(path.string() + ": is a folder; name a file");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
+std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit) {
+  // Without O_NONBLOCK a pipe that nobody writes to would be waited for.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat info {};
+  if (file.get() < 0 || ::fstat(file.get(), &info) != 0) {
     throw ConfigError(path.string() + ": cannot be read: " + std::strerror(errno));
   }
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw ConfigError(path.string() + ": reading stopped with an error");
-  return std::move(text).str();
+  if (S_ISDIR(info.st_mode)) throw ConfigError(path.string() + ": is a folder; name a file");
+  if (!S_ISREG(info.st_mode)) {
+    throw ConfigError(path.string() + ": is a pipe or a device; name a plain file");
+  }
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  if (size > limit) {
+    throw ConfigError(path.string() + ": holds " + std::to_string(size >> 20) +
+                      " MiB, more than the " + std::to_string(limit >> 20) +
+                      " MiB that are read of such a file");
+  }
+  std::string bytes(size, '\0');
+  if (!ReadAll(file.get(), 0, bytes)) {
+    throw ConfigError(path.string() + ": reading stopped with an error: " + std::strerror(errno));
+  }
+  return bytes;
+}
+
+std::string ReadTail(const std::filesystem::path& path, std::size_t count) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat info {};
+  if (file.get() < 0 || ::fstat(file.get(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  std::string bytes(std::min<std::uint64_t>(size, count), '\0');
+  if (!ReadAll(file.get(), size - bytes.size(), bytes)) return {};
+  return bytes;
 }
 
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,

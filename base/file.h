@@ -8,8 +8,14 @@
 
 namespace talus::base {
 
-// The whole file. Throws ConfigError that names the path when it cannot be read.
-std::string ReadFile(const std::filesystem::path& path);
+inline constexpr std::uint64_t kLargestRead = std::uint64_t{4} << 30;  // 4 GiB
+
+// The whole file. Throws ConfigError that names the path when it cannot be read, holds more than
+// `limit` bytes, or is no plain file: a pipe or a device may never end.
+std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit = kLargestRead);
+
+// The last bytes of a file, at most `count`; empty when it cannot be read.
+std::string ReadTail(const std::filesystem::path& path, std::size_t count);
 
 // What is written outlives this: a power cut, for which the disk is waited for, some milliseconds,
 // or only the end of the program, of whatever kind. Then it may be empty or absent after a power

@@ -1,68 +1,33 @@
 #include "base/json_file.h"
 
 #include <algorithm>
-#include <iterator>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_scan.h"
 
 namespace talus::base {
 namespace {
 
 using nlohmann::json;
 
-// Feeds the parser and counts what it has taken, which tells where the token it reports ended.
-class CountingIterator {
+constexpr std::size_t kDeepest = 100;
+constexpr std::uint64_t kLargestFile = 1ull << 29;  // 512 MiB; some ten times that in memory
+
+// Builds the document from the parser's events.
+class Builder : public JsonEvents {
  public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
+  explicit Builder(const JsonPosition& position) : position_(position) {}
 
-  CountingIterator(const char* at, std::size_t* taken) : at_(at), taken_(taken) {}
-  reference operator*() const { return *at_; }
-  CountingIterator& operator++() {
-    ++at_;
-    ++*taken_;
-    return *this;
-  }
-  CountingIterator operator++(int) {
-    CountingIterator old = *this;
-    ++*this;
-    return old;
-  }
-  bool operator==(const CountingIterator& o) const { return at_ == o.at_; }
-
- private:
-  const char* at_;
-  std::size_t* taken_;
-};
-
-Location LocationOf(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, offset);
-  const auto line_start = before.rfind('\n');
-  return {.line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          .column = static_cast<int>(
-              offset - (line_start == std::string_view::npos ? 0 : line_start + 1) + 1)};
-}
-
-// Builds the document from the parser's events and notes where each value starts.
-class Builder : public json::json_sax_t {
- public:
-  Builder(std::string_view text, const std::size_t* taken, JsonFile* file, Problems* problems)
-      : text_(text), taken_(taken), file_(file), problems_(problems) {}
-
-  bool null() override { return Value(nullptr, WordStart()); }
-  bool boolean(bool value) override { return Value(value, WordStart()); }
-  bool number_integer(number_integer_t value) override { return Value(value, NumberStart()); }
-  bool number_unsigned(number_unsigned_t value) override { return Value(value, NumberStart()); }
-  bool number_float(number_float_t value, const string_t&) override {
-    return Value(value, NumberStart());
-  }
-  bool string(string_t& value) override { return Value(std::move(value), StringStart()); }
-  bool binary(binary_t&) override { return false; }
+  bool null() override { return Value(nullptr); }
+  bool boolean(bool value) override { return Value(value); }
+  bool number_integer(number_integer_t value) override { return Value(value); }
+  bool number_unsigned(number_unsigned_t value) override { return Value(value); }
+  bool number_float(number_float_t value, const string_t&) override { return Value(value); }
+  bool string(string_t& value) override { return Value(std::move(value)); }
   bool start_object(std::size_t) override { return Open(json::object()); }
   bool start_array(std::size_t) override { return Open(json::array()); }
   bool end_object() override { return Close(); }
@@ -71,51 +36,47 @@ class Builder : public json::json_sax_t {
   bool key(string_t& value) override {
     Level& level = levels_.back();
     level.key = value;
-    if (level.node->contains(value)) {
-      file_->source.emplace(PathOfNext(), LocationOf(text_, StringStart()));
-      problems_->Add(PathOfNext(), "is given twice; keep one");
-    }
-    return true;
+    if (!level.node->contains(value)) return true;
+    return Stop(position_.At(position_.StringStart()), Path() + ": is given twice; keep one");
   }
   bool parse_error(std::size_t position, const std::string&,
                    const json::exception& error) override {
-    error_offset_ = position == 0 ? 0 : std::min(position - 1, text_.size());
-    error_ = error.what();
-    return false;
+    const std::size_t offset = std::min(position == 0 ? 0 : position - 1, position_.text.size());
+    return Stop(position_.At(offset), "is not JSON: " + Reason(offset, error.what()));
   }
 
-  const std::string& error() const { return error_; }
-  std::size_t error_offset() const { return error_offset_; }
+  json Take() { return std::move(root_); }
+  Location place() const { return place_; }
+  const std::string& reason() const { return reason_; }
 
  private:
   struct Level {
     json* node;
-    std::string path;
     std::string key;
   };
 
-  std::string PathOfNext() const {
-    if (levels_.empty()) return "";
-    const Level& level = levels_.back();
-    if (level.node->is_array()) return level.path + "[" + std::to_string(level.node->size()) + "]";
-    return level.path.empty() ? level.key : level.path + "." + level.key;
+  bool Stop(Location place, std::string reason) {
+    place_ = place;
+    reason_ = std::move(reason);
+    return false;
   }
   json* Attach(json&& value) {
-    if (levels_.empty()) return &(file_->root = std::move(value));
+    if (levels_.empty()) return &(root_ = std::move(value));
     Level& level = levels_.back();
     if (level.node->is_array()) return &level.node->emplace_back(std::move(value));
     return &((*level.node)[level.key] = std::move(value));
   }
-  bool Value(json&& value, std::size_t start) {
-    file_->source.insert_or_assign(PathOfNext(), LocationOf(text_, start));
+  bool Value(json&& value) {
     Attach(std::move(value));
     return true;
   }
   bool Open(json&& empty) {
-    const std::string path = PathOfNext();
-    file_->source.insert_or_assign(path, LocationOf(text_, *taken_ - 1));
-    json* node = Attach(std::move(empty));
-    levels_.push_back({node, path, ""});
+    if (levels_.size() >= kDeepest) {
+      return Stop(position_.At(position_.taken - 1),
+                  "lists and objects lie in each other more than " + std::to_string(kDeepest) +
+                      " deep; no file of ours does that");
+    }
+    levels_.push_back({Attach(std::move(empty)), ""});
     return true;
   }
   bool Close() {
@@ -123,66 +84,100 @@ class Builder : public json::json_sax_t {
     return true;
   }
 
-  // The token ends at the last character taken; a number is followed by one that was only looked
-  // at.
-  std::size_t StringStart() const {
-    std::size_t start = *taken_ - 1;  // the closing quote
-    while (start > 0) {
-      --start;
-      if (text_[start] != '"') continue;
-      std::size_t slashes = 0;
-      while (slashes < start && text_[start - 1 - slashes] == '\\') ++slashes;
-      if (slashes % 2 == 0) break;
+  // Of the key that has been read last.
+  std::string Path() const {
+    std::string path;
+    for (const Level& level : levels_) {
+      if (level.node->is_array()) {
+        path += "[" + std::to_string(level.node->size() - 1) + "]";
+      } else {
+        path += (path.empty() ? "" : ".") + level.key;
+      }
     }
-    return start;
+    return path;
   }
-  std::size_t NumberStart() const { return StartOf("0123456789+-.eE"); }
-  std::size_t WordStart() const { return StartOf("abcdefghijklmnopqrstuvwxyz"); }
-  std::size_t StartOf(std::string_view letters) const {
-    std::size_t start = *taken_;
-    if (start > 0 && letters.find(text_[start - 1]) == std::string_view::npos) --start;
-    while (start > 0 && letters.find(text_[start - 1]) != std::string_view::npos) --start;
-    return start;
-  }
+  std::string Reason(std::size_t offset, std::string_view what) const;
+  std::string WrongToken(std::size_t offset, std::string_view what) const;
 
-  std::string_view text_;
-  const std::size_t* taken_;
-  JsonFile* file_;
-  Problems* problems_;
+  const JsonPosition& position_;
+  json root_;
   std::vector<Level> levels_;
-  std::string error_;
-  std::size_t error_offset_ = 0;
+  Location place_;
+  std::string reason_;
 };
 
-// "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while …" → what
-// follows the position, which is reported in the form that all messages have.
-std::string Reason(const std::string& what) {
-  const auto cut = what.find(": ");
-  return cut == std::string::npos ? what : what.substr(cut + 2);
+// What the parser says, told in a user's words. Its own are of tokens and grammar.
+std::string Builder::Reason(std::size_t offset, std::string_view what) const {
+  const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
+  const std::string_view text = position_.text;
+  if (text.find_first_not_of(" \t\r\n") == text.npos) return "it is empty";
+  if (says("number overflow")) return "a number is too large for a computer";
+  if (says("ill-formed UTF-8")) return "a text is not UTF-8; save the file in that encoding";
+  if (says("control character")) {
+    return "a text holds a line break or a control character; is its closing quote missing?";
+  }
+  if (says("invalid comment")) return "a comment is // to the end of the line, or /* … */";
+  if (offset >= text.size()) return "it ends too early: a bracket or a quote is not closed";
+  if (says("invalid string")) {
+    return "a backslash in a text must be doubled, or stand before one of \" \\ / b f n r t u";
+  }
+  if (says("invalid number")) return "a number is not complete; write it as 0.5 or 1e-3";
+  return WrongToken(offset, what);
+}
+
+std::string Builder::WrongToken(std::size_t offset, std::string_view what) const {
+  const auto says = [&](std::string_view part) { return what.find(part) != what.npos; };
+  const std::string_view text = position_.text;
+  const std::size_t before = offset == 0 ? text.npos : text.find_last_not_of(" \t\r\n", offset - 1);
+  const bool closes = text[offset] == '}' || text[offset] == ']';
+  if (closes && before != text.npos && text[before] == ',') {
+    return "a comma stands before the closing bracket; take it out";
+  }
+  if (says("invalid literal")) {
+    return "texts and keys stand in double quotes, and a value is a text, a number, true, false, "
+           "null, a list [ … ] or an object { … }";
+  }
+  if (says("object separator")) return "a colon is missing between a key and its value";
+  if (says("object key")) return "a key in double quotes is expected here";
+  if (says("parsing object")) return "a comma or } is missing before this";
+  if (says("parsing array")) return "a comma or ] is missing before this";
+  if (says("expected end of input")) return "more follows after its end; is a bracket too many?";
+  return "a value is missing before this";
+}
+
+JsonFile Parse(std::shared_ptr<const std::string> text, const std::filesystem::path& name) {
+  JsonPosition position{.text = *text};
+  Builder builder(position);
+  if (!ScanJson(position, builder)) {
+    const Location at = builder.place();
+    throw ConfigError(name.string() + ":" + std::to_string(at.line) + ":" +
+                      std::to_string(at.column) + ": " + builder.reason());
+  }
+  return {.path = name,
+          .root = builder.Take(),
+          .places = [text = std::move(text)](std::span<const std::string> paths) {
+            return FindJsonPlaces(*text, paths);
+          }};
 }
 
 }  // namespace
 
 JsonFile ParseJson(std::string_view text, const std::filesystem::path& name) {
-  JsonFile file{.path = name, .root = {}, .source = {}};
-  Problems duplicates;
-  std::size_t taken = 0;
-  Builder builder(text, &taken, &file, &duplicates);
-  const bool ok = json::sax_parse(CountingIterator(text.data(), &taken),
-                                  CountingIterator(text.data() + text.size(), &taken), &builder,
-                                  nlohmann::detail::input_format_t::json, true,
-                                  /*ignore_comments=*/true);
-  if (!ok) {
-    const Location at = LocationOf(text, builder.error_offset());
-    throw ConfigError(name.string() + ":" + std::to_string(at.line) + ":" +
-                      std::to_string(at.column) + ": is not JSON: " + Reason(builder.error()));
-  }
-  Problems located(name.string(), file.source);
-  for (const Problem& problem : duplicates.list()) located.Add(problem.path, problem.message);
-  located.ThrowIfAny();
-  return file;
+  return Parse(std::make_shared<const std::string>(text), name);
 }
 
-JsonFile ReadJsonFile(const std::filesystem::path& path) { return ParseJson(ReadFile(path), path); }
+JsonFile ReadJsonFile(const std::filesystem::path& path) {
+  return Parse(std::make_shared<const std::string>(ReadFile(path, kLargestFile)), path);
+}
+
+std::string TextAt(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::int64_t IntegerAt(const json& object, const std::string& key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+}
 
 }  // namespace talus::base

@@ -206,7 +206,7 @@ void ReadOptions(const nlohmann::json& value, T& options, const ReadContext& con
 template <Visitable T>
 T LoadOptions(const JsonFile& file) {
   T options;
-  Problems problems(file.path.string(), file.source);
+  Problems problems(file.path.string(), file.places);
   ReadOptions(file.root, options, {problems, file.path.parent_path()});
   TreeValidator(problems).Check(options);
   problems.ThrowIfAny();

@@ -62,4 +62,72 @@ nlohmann::ordered_json ToJson(const T& value) {
   }
 }
 
+// The text of a whole file: ToJson(value).dump(2) with a line feed, made piece by piece, as the
+// document of a scene of a million spheres takes gigabytes.
+class JsonTextWriter {
+ public:
+  template <class T>
+  static std::string TextOf(const T& value) {
+    JsonTextWriter writer;
+    writer.Write(value);
+    return std::move(writer.text_) + "\n";
+  }
+
+  template <class T>
+  void operator()(std::string_view key, const T& field, FieldInfo = {}) {
+    NextLine();
+    text_ += '"';
+    text_ += key;  // a key of ours, which needs no escape
+    text_ += "\": ";
+    Write(field);
+  }
+  template <class T>
+  void operator()(std::string_view key, const std::optional<T>& field, FieldInfo = {}) {
+    if (field) (*this)(key, *field);
+  }
+
+ private:
+  void NextLine() {
+    text_ += empty_ ? "\n" : ",\n";
+    text_.append(indent_, ' ');
+    empty_ = false;
+  }
+  // Runs `body`, which calls NextLine before each member.
+  template <class Body>
+  void Nest(char open, char close, Body&& body) {
+    text_ += open;
+    indent_ += 2;
+    empty_ = true;
+    body();
+    indent_ -= 2;
+    if (!empty_) {
+      text_ += '\n';
+      text_.append(indent_, ' ');
+    }
+    empty_ = false;
+    text_ += close;
+  }
+  template <class T>
+  void Write(const T& value) {
+    if constexpr (Visitable<T>) {
+      Nest('{', '}', [&] { T::Visit(value, *this); });
+    } else if constexpr (IsVector<T>::value) {
+      Nest('[', ']', [&] {
+        for (const auto& element : value) {
+          NextLine();
+          Write(element);
+        }
+      });
+    } else if constexpr (std::same_as<T, Vec3>) {
+      Write(std::vector<double>{value.x, value.y, value.z});
+    } else {
+      text_ += ToJson(value).dump();
+    }
+  }
+
+  std::string text_;
+  std::size_t indent_ = 0;
+  bool empty_ = true;
+};
+
 }  // namespace talus::base

@@ -1,6 +1,5 @@
 #include "base/problems.h"
 
-#include <algorithm>
 #include <sstream>
 
 #include "base/error.h"
@@ -14,14 +13,17 @@ std::string Problems::FullPath(std::string_view path) const {
 }
 
 void Problems::Add(std::string_view path, std::string message) {
-  list_.push_back({FullPath(path), std::move(message)});
+  std::string full = FullPath(path);
+  known_.insert(full);
+  if (list_.size() < kMostShown) {
+    list_.push_back({std::move(full), std::move(message)});
+  } else {
+    ++num_more_;
+  }
 }
 
 void Problems::Require(bool ok, std::string_view path, double value, std::string_view rule) {
-  if (ok) return;
-  const bool known = std::any_of(list_.begin(), list_.end(),
-                                 [full = FullPath(path)](const auto& p) { return p.path == full; });
-  if (known) return;
+  if (ok || known_.contains(FullPath(path))) return;
   std::ostringstream text;
   text << "is " << value << ", " << rule;
   Add(path, text.str());
@@ -31,29 +33,23 @@ void Problems::Require(bool ok, std::string_view path, std::string_view message)
   if (!ok) Add(path, std::string(message));
 }
 
-// A missing key has no place of its own; the object that should hold it has.
-Location Problems::Find(std::string_view path) const {
-  while (true) {
-    if (const auto found = source_.find(path); found != source_.end()) return found->second;
-    if (path.empty()) return {};
-    const auto cut = path.find_last_of(".[");
-    path = cut == std::string_view::npos ? std::string_view() : path.substr(0, cut);
-  }
-}
-
 std::string Problems::Text() const {
+  std::vector<std::string> paths;
+  for (const Problem& problem : list_) paths.push_back(problem.path);
+  std::vector<Location> places(paths.size());
+  if (places_ && !paths.empty()) places = places_(paths);
   std::ostringstream text;
   for (std::size_t i = 0; i < list_.size(); ++i) {
-    const auto& [path, message] = list_[i];
     if (i > 0) text << '\n';
     if (!file_.empty()) {
       text << file_ << ':';
-      if (const Location at = Find(path); at.line > 0) text << at.line << ':' << at.column << ':';
+      if (places[i].line > 0) text << places[i].line << ':' << places[i].column << ':';
       text << ' ';
     }
-    if (!path.empty()) text << path << ": ";
-    text << message;
+    if (!paths[i].empty()) text << paths[i] << ": ";
+    text << list_[i].message;
   }
+  if (num_more_ > 0) text << "\n… and " << num_more_ << " more problems";
   return text.str();
 }
 

@@ -1,9 +1,12 @@
 // Everything that is wrong with an input, collected so that a user sees it all at once.
 #pragma once
 
-#include <map>
+#include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace talus::base {
@@ -13,8 +16,10 @@ struct Location {
   int column = 0;  // from 1
 };
 
-// JSON path such as `powder.sizes.classes[2].diameter` → where that value stands in its file.
-using SourceMap = std::map<std::string, Location, std::less<>>;
+// Finds where the values of JSON paths such as `powder.sizes.classes[2].diameter` stand in their
+// file, one for each path; a missing key has the place of the object that should hold it. Asked
+// once, and only when there is something to report: a file without problems pays nothing for it.
+using FindPlaces = std::function<std::vector<Location>(std::span<const std::string> paths)>;
 
 struct Problem {
   std::string path;     // JSON path, empty for the file as a whole
@@ -25,8 +30,8 @@ struct Problem {
 class Problems {
  public:
   Problems() = default;
-  Problems(std::string file, SourceMap source)
-      : file_(std::move(file)), source_(std::move(source)) {}
+  Problems(std::string file, FindPlaces places)
+      : file_(std::move(file)), places_(std::move(places)) {}
 
   // Adds a problem with the value at `path`, taken relative to the enclosing Within.
   void Add(std::string_view path, std::string message);
@@ -46,22 +51,28 @@ class Problems {
   }
 
   bool empty() const { return list_.empty(); }
+  // The first kMostShown; of a million bad values nobody reads more.
   const std::vector<Problem>& list() const { return list_; }
+  std::size_t size() const { return list_.size() + num_more_; }
 
-  // All problems, one a line: "spec.json:12:5: powder.density: is -1, must be positive".
+  // Those of `list`, one a line: "spec.json:12:5: powder.density: is -1, must be positive", and how
+  // many more there are.
   std::string Text() const;
 
   // Throws ConfigError(Text()) if there is any problem.
   void ThrowIfAny() const;
 
  private:
+  static constexpr std::size_t kMostShown = 100;
+
   std::string FullPath(std::string_view path) const;
-  Location Find(std::string_view path) const;
 
   std::string file_;
-  SourceMap source_;
+  FindPlaces places_;
   std::string prefix_;
   std::vector<Problem> list_;
+  std::unordered_set<std::string> known_;  // paths that have a problem
+  std::size_t num_more_ = 0;
 };
 
 }  // namespace talus::base

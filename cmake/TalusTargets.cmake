@@ -28,6 +28,19 @@ if(TALUS_SANITIZE)
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
 
+if(TALUS_THREAD_SANITIZER)
+  target_compile_options(talus_compile_options INTERFACE
+    $<BUILD_INTERFACE:-O1;-fsanitize=thread;-fno-omit-frame-pointer>)
+  target_link_options(talus_compile_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+endif()
+if(TALUS_FUZZ)
+  target_compile_options(talus_compile_options INTERFACE
+    $<BUILD_INTERFACE:-O1;-fsanitize=fuzzer-no-link,address,undefined;-fno-sanitize-recover=all>
+    $<BUILD_INTERFACE:-fno-omit-frame-pointer>)
+  target_link_options(talus_compile_options INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+endif()
+
 # talus_add_library(name [HEADERS ...] [SOURCES ...] [PUBLIC ...] [PRIVATE ...])
 function(talus_add_library name)
   cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})

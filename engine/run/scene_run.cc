@@ -10,6 +10,7 @@
 #include "base/json_writer.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/scene_json.h"
+#include "engine/scene/scene_warnings.h"
 
 namespace talus::engine {
 namespace {
@@ -28,24 +29,22 @@ StateFormats Formats(const OutputSpec& outputs) { return {outputs.vtp, outputs.c
 
 SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::path folder)
     : spec_(spec),
+      input_hash_(SceneHash(spec)),
       folder_(std::move(folder)),
       simulation_(scene),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
       pours_(BuildPours(spec_, simulation_.num_particles())),
       series_(spec_),
-      check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
+      check_steps_(CheckSteps(spec.stop, simulation_.time_step())),
+      messages_(SceneWarnings(spec, scene)) {
   state_.num_at_start = simulation_.num_particles();
   state_.pours.resize(pours_.size());
-  if (simulation_.time_step() > kWarnRayleighFraction * SmallestRayleighTime(scene)) {
-    messages_.push_back(
-        "the time step is above 0.2 Rayleigh times of the smallest sphere: single collisions are "
-        "resolved poorly");
-  }
 }
 
 SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,
                    const RunCheckpoint& checkpoint)
     : spec_(spec),
+      input_hash_(SceneHash(spec)),
       folder_(std::move(folder)),
       simulation_(Simulation::Restore(checkpoint.simulation, spec.threads)),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
@@ -175,7 +174,7 @@ RunProgress SceneRun::Progress() const {
 std::vector<std::string> SceneRun::TakeMessages() { return std::exchange(messages_, {}); }
 
 std::string SceneRun::Checkpoint(const RunTiming& timing) const {
-  return Pack({.input_hash = SceneHash(spec_),
+  return Pack({.input_hash = input_hash_,
                .timing = timing,
                .state = base::ToJson(state_).dump(),
                .simulation = simulation_.Checkpoint()});
@@ -193,7 +192,7 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
   nlohmann::ordered_json result;
   result["kind"] = "scene";
   result["status"] = "ok";
-  result["input_hash"] = base::Hex(SceneHash(spec_));
+  result["input_hash"] = base::Hex(input_hash_);
   result["reason"] = state_.stop_reason;
   result["num_particles"] = particles.size();
   result["num_left_domain"] = state_.num_left;

@@ -62,6 +62,7 @@ class SceneRun : public Run {
   double LastEvent() const;  // time of the last thing that is prescribed [s]
 
   SceneSpec spec_;
+  std::uint64_t input_hash_;
   std::filesystem::path folder_;
   Simulation simulation_;
   StateWriter states_;

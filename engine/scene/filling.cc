@@ -1,9 +1,12 @@
 #include "engine/scene/filling.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 #include "base/random.h"
 
@@ -232,6 +235,20 @@ Filling Fill(std::span<const double> radii, const FillRequest& request) {
     filling.positions[i] += region.base;
   }
   return filling;
+}
+
+std::string TooManyGrains(double num_grains) {
+  constexpr double kBytesOfGrain = 1000;  // state, neighbour list and what the filling needs
+  constexpr double kMostIndices = 2e9;
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (num_grains <= std::min(memory / kBytesOfGrain, kMostIndices)) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "makes " << num_grains << " grains, which need about " << num_grains * kBytesOfGrain / 1e9
+       << " GB; this machine has " << memory / 1e9
+       << " GB; take less, coarser grains, or check the units";
+  return text.str();
 }
 
 std::vector<double> Shuffled(std::vector<double> values, std::uint64_t seed) {

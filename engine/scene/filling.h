@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/field.h"
@@ -63,6 +64,9 @@ struct Filling {
 };
 
 Filling Fill(std::span<const double> radii, const FillRequest& request);
+
+// Why so many grains cannot be simulated on this machine; empty when they can.
+std::string TooManyGrains(double num_grains);
 
 // The same values in an order that depends on the seed only.
 std::vector<double> Shuffled(std::vector<double> values, std::uint64_t seed);

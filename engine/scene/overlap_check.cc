@@ -49,13 +49,16 @@ class OverlapCheck {
       kernels.wall_gaps(step, w, 0, static_cast<std::int64_t>(gaps.size()), gaps.data());
       for (std::size_t i = 0; i < scene_.particles.size(); ++i) {
         if (gaps[i] >= -kMaxOverlap * scene_.particles[i].radius) continue;
-        Report(static_cast<std::int32_t>(i),
-               "stands in the wall \"" + scene_.walls[w].name + "\"; move it out");
+        Report(static_cast<std::int32_t>(i), "stands in " + NameOfWall(w) + "; move it out");
       }
     }
   }
 
  private:
+  std::string NameOfWall(int w) const {
+    const std::string& name = scene_.walls[static_cast<std::size_t>(w)].name;
+    return name.empty() ? "walls[" + std::to_string(w) + "]" : "the wall \"" + name + "\"";
+  }
   void CheckPair(std::int32_t i, std::int32_t j) {
     const Particle& a = scene_.particles[i];
     const Particle& b = scene_.particles[j];

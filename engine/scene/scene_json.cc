@@ -8,9 +8,14 @@
 namespace talus::engine {
 namespace {
 
-// The solver knows of particles; in the file they are spheres, in order, and then fills.
+// The solver knows of particles; in the file they are spheres, in order, and then those of fills.
+constexpr std::string_view kParticles = "particles[";
+
+std::string SphereInFile(const std::string& index, std::size_t num_spheres) {
+  return std::stoul(index) < num_spheres ? "spheres[" + index + "]" : "a sphere of a fill";
+}
+
 std::string PathInFile(const std::string& path, std::size_t num_spheres) {
-  constexpr std::string_view kParticles = "particles[";
   if (!path.starts_with(kParticles)) return path;
   const std::size_t index = std::stoul(path.substr(kParticles.size()));
   if (index >= num_spheres) return "fills";
@@ -22,14 +27,31 @@ std::string PathInFile(const std::string& path, std::size_t num_spheres) {
   return in_file;
 }
 
+std::string MessageInFile(const base::Problem& problem, std::size_t num_spheres) {
+  std::string message = problem.message;
+  if (const auto at = message.find(kParticles); at != std::string::npos) {
+    const auto end = message.find(']', at);
+    const auto first = at + kParticles.size();
+    message.replace(at, end + 1 - at,
+                    SphereInFile(message.substr(first, end - first), num_spheres));
+  }
+  if (PathInFile(problem.path, num_spheres) != "fills") return message;
+  return "a sphere " + message + " (is the fill's region inside the walls and free of spheres?)";
+}
+
 }  // namespace
 
 LoadedScene LoadScene(const std::filesystem::path& path) {
-  const base::JsonFile file = base::ReadJsonFile(path);
+  return LoadScene(base::ReadJsonFile(path));
+}
+
+LoadedScene LoadScene(base::JsonFile file) {
+  const std::filesystem::path path = file.path;
   LoadedScene loaded{.spec = base::LoadOptions<SceneSpec>(file), .scene = {}};
+  file.root = nullptr;  // a million spheres take a gigabyte
   for (FillSpec& fill : loaded.spec.fills) ReadSizeFile(fill.sizes);
   for (PourSpec& pour : loaded.spec.pours) ReadSizeFile(pour.sizes);
-  base::Problems problems(path.string(), file.source);
+  base::Problems problems(path.string(), file.places);
   try {
     loaded.scene = BuildScene(loaded.spec);
   } catch (const base::ConfigError& error) {
@@ -40,15 +62,16 @@ LoadedScene LoadScene(const std::filesystem::path& path) {
   constexpr std::size_t kMost = 50;  // overlapping spheres may be many
   for (std::size_t i = 0; i < std::min(kMost, found.list().size()); ++i) {
     const base::Problem& problem = found.list()[i];
-    problems.Add(PathInFile(problem.path, loaded.spec.spheres.size()), problem.message);
+    problems.Add(PathInFile(problem.path, loaded.spec.spheres.size()),
+                 MessageInFile(problem, loaded.spec.spheres.size()));
   }
-  if (found.list().size() > kMost) {
-    problems.Add("", std::to_string(found.list().size() - kMost) + " more problems like these");
+  if (found.size() > kMost) {
+    problems.Add("", std::to_string(found.size() - kMost) + " more problems like these");
   }
   problems.ThrowIfAny();
   return loaded;
 }
 
-std::string SceneText(const SceneSpec& spec) { return base::ToJson(spec).dump(2) + "\n"; }
+std::string SceneText(const SceneSpec& spec) { return base::JsonTextWriter::TextOf(spec); }
 
 }  // namespace talus::engine

@@ -15,6 +15,9 @@ void RequirePositive(base::Problems& problems, const std::string& key, double va
   problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
 }
 
+constexpr double kUsualRayleighFraction = 0.15;
+constexpr double kDensest = 0.64;  // solid fraction of a random packing of equal spheres
+
 // Index of the material called `name`, or the first for no name; -1 if there is none.
 int MaterialIndex(const SceneSpec& spec, const std::string& name) {
   if (name.empty()) return 0;
@@ -35,11 +38,33 @@ void RequireMaterials(const SceneSpec& spec, const std::vector<T>& list, const s
   }
 }
 
+// Before a grain is drawn: what cannot fit would be tried for ever.
+void RequireRoom(const FillSpec& fill, double volume, const SizeCurve& curve,
+                 base::Problems& problems) {
+  const FillRegion& region = fill.region;
+  const bool box = region.shape == RegionShape::kBox;
+  const double narrowest =
+      box ? std::min(*region.width_x, *region.width_y) : region.diameter.value();
+  problems.Require(curve.largest() <= narrowest, "region", narrowest,
+                   "must be wider than the largest grain");
+  problems.Require(volume <= kDensest * region.Area() * region.height.value_or(1e300), "mass",
+                   fill.mass,
+                   "must be less: its grains alone take above 64 % of the "
+                   "region's volume; enlarge the region, or leave its height out");
+  const std::string too_many = TooManyGrains(volume / curve.mean_volume());
+  problems.Require(too_many.empty(), "mass", too_many);
+}
+
 void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
   const FillSpec& fill = spec.fills[index];
   const int material = MaterialIndex(spec, fill.material);
   const double density = spec.materials[static_cast<std::size_t>(material)].material.density;
-  std::vector<double> radii = DrawDiameters(SizeCurve(fill.sizes), fill.mass / density);
+  const SizeCurve curve(fill.sizes);
+  base::Problems problems;
+  problems.Within("fills[" + std::to_string(index) + "]",
+                  [&] { RequireRoom(fill, fill.mass / density, curve, problems); });
+  problems.ThrowIfAny();
+  std::vector<double> radii = DrawDiameters(curve, fill.mass / density);
   for (double& r : radii) r /= 2;
   // Two like fills differ.
   const std::uint64_t seed = base::Random(spec.seed, base::Stream("fills"), index).Next();
@@ -85,7 +110,7 @@ void RequireMouths(const SceneSpec& spec) {
 // The step must suit what is there and what comes.
 void SetTimeStep(const SceneSpec& spec, Scene& scene) {
   scene.time_step = spec.time_step.value_or(0);
-  scene.rayleigh_fraction = spec.rayleigh_fraction;
+  scene.rayleigh_fraction = spec.rayleigh_fraction.value_or(kUsualRayleighFraction);
   if (spec.pours.empty()) return;
   RequireMouths(spec);
   const double rayleigh = PouredRayleighTime(spec);
@@ -95,7 +120,7 @@ void SetTimeStep(const SceneSpec& spec, Scene& scene) {
         std::to_string(kMaxRayleighFraction * rayleigh * 1e6) + " us");
   }
   if (scene.time_step > 0) return;
-  scene.time_step = spec.rayleigh_fraction * rayleigh;
+  scene.time_step = scene.rayleigh_fraction * rayleigh;
   if (!scene.particles.empty()) {
     Scene now = scene;
     now.time_step = 0;
@@ -156,8 +181,10 @@ bool DomainSpec::Contains(const Vec3& point) const {
 }
 
 void SceneSpec::Validate(base::Problems& problems) const {
-  problems.Require(!materials.empty(), "materials", "must have one entry at least");
-  for (std::size_t i = 0; i < materials.size(); ++i) {
+  constexpr std::size_t kMostMaterials = 100;  // each pair of them has its constants
+  problems.Require(!materials.empty() && materials.size() <= kMostMaterials, "materials",
+                   "must have 1 to 100 entries");
+  for (std::size_t i = 0; i < std::min(materials.size(), kMostMaterials); ++i) {
     const int first = MaterialIndex(*this, materials[i].name);
     problems.Require(first == static_cast<int>(i) && !materials[i].name.empty(),
                      "materials[" + std::to_string(i) + "].name", "must be given once, not empty");
@@ -177,7 +204,16 @@ void SceneSpec::Validate(base::Problems& problems) const {
                      "spheres[" + std::to_string(i) + "].position", "is outside the domain");
   }
   problems.Require(base::IsFinite(gravity), "gravity", "must be finite");
+  problems.Require(!stop.energy_fraction || Norm(gravity) > 0, "stop.energy_fraction",
+                   "compares the energy with m g d, which is 0 without gravity; end by time or "
+                   "steps instead");
+  for (std::size_t i = 0; stop.time && i < outputs.times.size(); ++i) {
+    problems.Require(!(outputs.times[i] > *stop.time), "outputs.times[" + std::to_string(i) + "]",
+                     outputs.times[i], "must not be after stop.time");
+  }
   if (time_step) RequirePositive(problems, "time_step", *time_step);
+  problems.Require(!time_step || !rayleigh_fraction, "rayleigh_fraction",
+                   "decides the time step, and so does time_step; keep one of them");
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");
   problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
                    "checkpoint_interval", checkpoint_interval, "must not be negative");
@@ -215,7 +251,12 @@ std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres) {
     const int material = MaterialIndex(spec, pour.material);
     const double density = spec.materials[static_cast<std::size_t>(material)].material.density;
     const std::uint64_t seed = base::Random(spec.seed, base::Stream("pours"), i).Next();
-    std::vector<double> radii = DrawDiameters(SizeCurve(pour.sizes), pour.mass / density);
+    const SizeCurve curve(pour.sizes);
+    const std::string too_many = TooManyGrains(pour.mass / density / curve.mean_volume());
+    if (!too_many.empty()) {
+      throw base::ConfigError("pours[" + std::to_string(i) + "].mass: " + too_many);
+    }
+    std::vector<double> radii = DrawDiameters(curve, pour.mass / density);
     for (double& r : radii) r /= 2;
     PourPlan plan{.radii = Shuffled(std::move(radii), seed),
                   .material = material,

@@ -173,8 +173,8 @@ struct SceneSpec {
   std::optional<DomainSpec> domain{};  // default: without end
   Vec3 gravity{0, 0, -9.81};           // [m/s²]
   std::vector<TurnSpec> gravity_turns{};
-  std::optional<double> time_step{};  // [s], > 0
-  double rayleigh_fraction = 0.15;    // Δt / t_R where time_step is not given [-]
+  std::optional<double> time_step{};          // [s], > 0
+  std::optional<double> rayleigh_fraction{};  // Δt / t_R, in place of time_step [-]; default 0.15
   StopSpec stop;
   OutputSpec outputs;
   std::uint64_t seed = 1;
@@ -196,7 +196,8 @@ struct SceneSpec {
     visit("time_step", self.time_step,
           {.dimension = Dimension::kTime, .doc = "default: rayleigh_fraction decides"});
     visit("rayleigh_fraction", self.rayleigh_fraction,
-          {.doc = "time step over Rayleigh time of the smallest sphere, in (0, 0.4]"});
+          {.doc = "time step over Rayleigh time of the smallest sphere, instead of time_step, in "
+                  "(0, 0.4]; default: 0.15"});
     visit("stop", self.stop, {.required = true, .doc = "the first that is met ends the run"});
     visit("outputs", self.outputs);
     visit("seed", self.seed, {.doc = "of the fills"});

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/output_folder.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
@@ -68,9 +69,7 @@ void RunCompare(Arguments arguments) {
   const Evidence evidence = GatherEvidence(arguments.campaign, arguments.experiment);
   const std::vector<ObjectiveFinding> findings = CompareObjectives(evidence);
   const ComparedCampaign compared{evidence, findings};
-  std::error_code error;
-  std::filesystem::create_directories(arguments.out, error);
-  if (error) throw base::Error(arguments.out.string() + ": cannot be made: " + error.message());
+  base::ClaimOutputFolder(arguments.out, "compare");
   WriteComparison(compared, arguments.out);
   std::string text = ComparisonText(compared) + "\n";
   if (!arguments.with.empty()) text += StrategyComparison(arguments, compared);

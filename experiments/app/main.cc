@@ -3,10 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <span>
+#include <string>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "experiments/app/command_line.h"
 
 namespace {
@@ -39,10 +44,26 @@ int Run(int argc, char** argv) {
   return talus::base::kExitDone;
 }
 
+// What libraries throw, told as we would.
+std::string InWords(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    return "there is not enough memory for this";
+  }
+  if (const auto* files = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    return files->path1().string() + ": " + files->code().message();
+  }
+  return "a library failed in a way that talus does not expect; please report this with the input "
+         "(" +
+         std::string(error.what()) + ")";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   LetReadersGo();
+  // Names, logs and messages of others are shown, never obeyed.
+  const talus::base::PrintableStream output(std::cout);
+  const talus::base::PrintableStream errors(std::cerr);
   try {
     return Run(argc, argv);
   } catch (const talus::base::ConfigError& error) {
@@ -51,8 +72,11 @@ int main(int argc, char** argv) {
   } catch (const talus::base::Interrupted& error) {
     std::cerr << "talus: " << error.what() << '\n';
     return talus::base::kExitInterrupted;
-  } catch (const std::exception& error) {
+  } catch (const talus::base::Error& error) {
     std::cerr << "talus: " << error.what() << '\n';
+    return talus::base::kExitFailed;
+  } catch (const std::exception& error) {
+    std::cerr << "talus: " << InWords(error) << '\n';
     return talus::base::kExitFailed;
   }
 }

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/json_reader.h"
 #include "base/json_schema.h"
+#include "base/output_folder.h"
 #include "experiments/app/commands.h"
 
 namespace talus::experiments {
@@ -36,6 +37,12 @@ void AddOptimizeCommand(CLI::App& app) {
       "and an answer that makes no sense, is a failed evaluation.");
   command->callback([options] {
     const auto problem = base::LoadOptions<OptimizeProblem>(base::ReadJsonFile(options->problem));
+    const std::filesystem::path inputs[] = {
+        options->problem,
+        problem.target ? std::filesystem::path(problem.target->profile) : std::filesystem::path()};
+    if (!options->output.folder.empty()) {
+      base::ClaimOutputFolder(options->output.folder, "optimize", inputs);
+    }
     const std::string result = Optimize(problem, options->command, options->output);
     if (options->output.folder.empty()) std::cout << result;
   });

@@ -186,6 +186,11 @@ void Campaign::HandleEnd(const FinishedJob& job) {
   trial.duration_s = job.duration;
   trial.cpu_s = job.cpu_time;
   trial.host = job.host;
+  if (job.end == JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
+    throw base::Error("trial " + std::to_string(trial.id) +
+                      " could not be started: " + FailureText(job, folder_.trial(trial.id)) +
+                      "; mend this, and `talus resume` goes on with the same trial");
+  }
   if (WasEndedByOthers(job) && RunAgain(trial, job)) return;
   if (job.ok()) {
     Collect(trial, job);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/json_writer.h"
+#include "base/printable.h"
 #include "experiments/journal/journal.h"
 
 namespace talus::experiments {
@@ -30,12 +31,12 @@ Console::Console(std::filesystem::path log, Output output)
 Console::~Console() { ClearStatus(); }
 
 void Console::ClearStatus() {
-  if (std::exchange(status_shown_, false)) std::cerr << "\r\033[K" << std::flush;
+  if (std::exchange(status_shown_, false)) base::EraseTerminalLine(STDERR_FILENO);
 }
 
 // A log that cannot be written is no reason to end: what matters is in the journal.
 void Console::Log(const std::string& text) {
-  std::ofstream(log_, std::ios::app) << UtcNow() << ' ' << text << '\n';
+  std::ofstream(log_, std::ios::app) << UtcNow() << ' ' << base::Printable(text) << '\n';
 }
 
 void Console::Line(const std::string& text) {
@@ -59,7 +60,8 @@ void Console::Status(const CampaignProgress& progress) {
     if (std::exchange(last_status_, text) != text) PrintEvent("progress", json);
   }
   if (!terminal_) return;
-  std::cerr << "\r\033[K" << ProgressText(progress) << std::flush;
+  base::EraseTerminalLine(STDERR_FILENO);
+  std::cerr << ProgressText(progress) << std::flush;
   status_shown_ = true;
 }
 

@@ -20,9 +20,33 @@ std::string RunFile(std::size_t index) {
   return "run_" + std::string(index < 9 ? "0" : "") + std::to_string(index + 1) + ".png";
 }
 
+// A record in a file of its own, with its checksum: `key` stands last.
+constexpr std::string_view kChecksum = ",\n  \"checksum_xxh3\": \"";
+constexpr std::string_view kEnd = "\"\n}\n";
+
+template <class Record>
+std::string TextWithChecksum(const Record& record) {
+  std::string text = base::JsonTextWriter::TextOf(record);  // ends with "\n}\n"
+  const std::string checksum = base::Hex(base::Checksum(text));
+  text.resize(text.size() - 3);
+  return text.append(kChecksum).append(checksum).append(kEnd);
+}
+
 template <class Record>
 Record ReadRecord(const std::filesystem::path& path) {
-  return ParseRecord<Record>(base::ReadFile(path), path.string());
+  std::string text = base::ReadFile(path);
+  const std::size_t at = text.rfind(kChecksum);
+  constexpr std::size_t kDigits = 16;
+  if (at == std::string::npos || text.size() != at + kChecksum.size() + kDigits + kEnd.size()) {
+    throw base::Error(path.string() + ": is damaged: its checksum is not there");
+  }
+  const std::string checksum = text.substr(at + kChecksum.size(), kDigits);
+  text.resize(at);
+  text += "\n}\n";
+  if (base::Hex(base::Checksum(text)) != checksum) {
+    throw base::Error(path.string() + ": is damaged: it does not match its checksum");
+  }
+  return ParseRecord<Record>(text, path.string());
 }
 
 std::string IfThere(const std::filesystem::path& path) {
@@ -103,11 +127,11 @@ void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record) {
       base::WriteFileAtomically(place / RunFile(r), experiment.runs[r].png);
     }
   }
-  base::WriteFileAtomically(folder.campaign(), base::ToJson(record).dump(2) + "\n");
+  base::WriteFileAtomically(folder.campaign(), TextWithChecksum(record));
 }
 
 void KeepTrial(const CampaignFolder& folder, const TrialRecord& trial) {
-  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, base::ToJson(trial).dump(2) + "\n",
+  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, TextWithChecksum(trial),
                             base::Outlives::kProgram);
 }
 

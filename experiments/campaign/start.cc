@@ -7,8 +7,10 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "base/output_folder.h"
 #include "base/version.h"
 #include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/repair.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/image_file.h"
@@ -65,14 +67,12 @@ ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
 // The journal, or a new one from what the folder keeps beside it.
 Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   const std::filesystem::path path = JournalPath(folder.root);
-  if (!std::filesystem::exists(folder.campaign()) && !std::filesystem::exists(path)) {
-    throw base::ConfigError(folder.root.string() +
-                            ": holds no campaign; `talus calibrate SPEC` begins one");
-  }
   std::string damage = "is not there";
   if (std::filesystem::exists(path)) {
     try {
       return Journal::Open(path);
+    } catch (const base::ConfigError&) {
+      throw;  // another program's
     } catch (const base::Error& error) {
       damage = error.what();
     }
@@ -82,37 +82,71 @@ Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   return RebuildJournal(folder);
 }
 
+// A change of the campaign, to be written when nothing is left that could refuse it.
+struct SpecChange {
+  CampaignSpec spec;
+  std::string text;   // as the user wrote it
+  std::string event;  // its kind; empty when nothing changes
+  std::string words;
+};
+
 // The spec as it is to be from now on; says what has changed where that is not allowed.
-CampaignSpec SpecToGoOnWith(Journal& journal, const ResumeOptions& options) {
-  const CampaignRecord record = journal.Campaign();
+SpecChange SpecToGoOnWith(const CampaignRecord& record, const ResumeOptions& options) {
   const bool named = !options.spec.empty();
   const std::filesystem::path path = named ? options.spec : std::filesystem::path(record.spec_path);
-  if (!named && !std::filesystem::exists(path)) return ParseSpecText(record.spec_json);
-  if (base::ReadFile(path) == record.spec_text) return ParseSpecText(record.spec_json);
-  const CampaignSpec changed = LoadCampaignSpec(path);
-  const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(changed));
+  SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
+  if (named || std::filesystem::exists(path)) change.text = base::ReadFile(path);
+  if (change.text == record.spec_text) {
+    change.spec = ParseSpecText(record.spec_json);
+    return change;
+  }
+  change.spec = LoadCampaignSpec(path);
+  const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
   if (!forbidden.empty()) {
     std::string message = path.string() +
                           ": has changed since the campaign began, in what its trials depend on; "
                           "undo this, or begin a new campaign:";
-    for (const std::string& change : forbidden) message += "\n  " + change;
+    for (const std::string& what : forbidden) message += "\n  " + what;
     throw base::ConfigError(message);
   }
-  journal.SetSpec(base::ReadFile(path), SpecText(changed));
-  journal.AddEvent("spec", 0, "changed in budget, workers or other things that may change");
-  return changed;
+  change.event = "spec";
+  change.words = "changed in budget, workers or other things that may change";
+  return change;
 }
 
-void AddSimulations(Journal& journal, CampaignSpec& spec, int num_more) {
+void AddSimulations(Journal& journal, int num_more, SpecChange& change) {
   int num_search = 0;
   for (const TrialRecord& trial : journal.Trials()) num_search += trial.kind != TrialKind::kConfirm;
   const bool finished = journal.Progress().state == "finished";
-  const int from = finished ? num_search : std::max(num_search, spec.budget.simulations);
-  spec.budget.simulations = from + num_more;
-  spec.budget.min_simulations = spec.budget.simulations;
-  spec.budget.core_time.reset();  // it is counted in simulations from now on
-  journal.SetSpec(journal.Campaign().spec_text, SpecText(spec));
-  journal.AddEvent("extend", 0, "by " + std::to_string(num_more) + " simulations");
+  BudgetOptions& budget = change.spec.budget;
+  const int from = finished ? num_search : std::max(num_search, budget.simulations);
+  if (num_more > BudgetOptions::kMostSimulations - from) {
+    throw base::ConfigError("--add-simulations: " + std::to_string(num_more) +
+                            " more would be above " +
+                            std::to_string(BudgetOptions::kMostSimulations) + " simulations");
+  }
+  budget.simulations = from + num_more;
+  budget.min_simulations = budget.simulations;
+  budget.core_time.reset();  // it is counted in simulations from now on
+  change.event = "extend";
+  change.words = "by " + std::to_string(num_more) + " simulations";
+}
+
+// What may be in a folder that a campaign begins in: what a process that was killed, or another
+// that begins now, has left there before the campaign itself.
+constexpr std::string_view kMayBeThere[] = {"campaign.lock"};
+
+void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path& shown) {
+  if (std::filesystem::exists(JournalPath(folder.root)) ||
+      std::filesystem::exists(folder.campaign())) {
+    throw base::ConfigError(shown.string() + ": holds a campaign already; `talus resume " +
+                            shown.string() +
+                            "` goes on with it, or name another folder with --out");
+  }
+  if (base::HoldsOnly(folder.root, kMayBeThere)) return;
+  throw base::ConfigError(shown.string() +
+                          ": holds other files, which the campaign's could overwrite; name a new "
+                          "folder with --out");
 }
 
 }  // namespace
@@ -143,15 +177,13 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   const base::JsonFile file = base::ReadJsonFile(spec_path);
   const CampaignSpec spec = ReadCampaignSpec(file);
   const CampaignFolder folder{std::filesystem::absolute(root)};
-  if (std::filesystem::exists(JournalPath(folder.root))) {
-    throw base::ConfigError(root.string() + ": holds a campaign already; `talus resume " +
-                            root.string() + "` goes on with it, or name another folder with --out");
-  }
+  RequireNewFolder(folder, root);
   const CampaignRecord record = MakeRecord(spec, file);
   std::error_code error;
   std::filesystem::create_directories(folder.root, error);
   if (error) throw base::Error(root.string() + ": cannot be made: " + error.message());
   const CampaignLock lock(folder.root);
+  RequireNewFolder(folder, root);  // another process may have begun one meanwhile
   KeepCampaign(folder, record);
   Journal::Create(JournalPath(folder.root), record);
 }
@@ -162,11 +194,24 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
   if (!std::filesystem::is_directory(folder.root)) {
     throw base::ConfigError(root.string() + ": is no folder of a campaign");
   }
+  if (!std::filesystem::exists(folder.campaign()) &&
+      !std::filesystem::exists(JournalPath(folder.root))) {
+    throw base::ConfigError(root.string() +
+                            ": holds no campaign; `talus calibrate SPEC` begins one");
+  }
   CampaignLock lock(folder.root);
   Journal journal = OpenOrRebuild(folder, console);
-  CampaignSpec spec = SpecToGoOnWith(journal, options);
-  if (options.add_simulations > 0) AddSimulations(journal, spec, options.add_simulations);
+  const CampaignRecord record = journal.Campaign();
+  SpecChange change = SpecToGoOnWith(record, options);
+  if (options.add_simulations > 0) AddSimulations(journal, options.add_simulations, change);
+  CampaignSpec spec = change.spec;
   if (options.objective) spec.objective = *options.objective;
+  ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
+  MakeEngine(spec);            // and for templates that are not those it began with
+  if (!change.event.empty()) {
+    journal.SetSpec(change.text, SpecText(change.spec));
+    journal.AddEvent(change.event, 0, change.words);
+  }
   return {.folder = folder,
           .lock = std::move(lock),
           .journal = std::move(journal),

@@ -114,6 +114,20 @@ std::string Statement::Bytes(int column) const {
   return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
 }
 
+std::string Statement::Raw(int column) const {
+  const int type = sqlite3_column_type(statement_, column);
+  std::string bytes;
+  if (type == SQLITE_FLOAT) {  // as text it would lose digits
+    const double value = sqlite3_column_double(statement_, column);
+    bytes.assign(reinterpret_cast<const char*>(&value), sizeof value);
+  } else if (type != SQLITE_NULL) {
+    bytes = Bytes(column);
+  }
+  return std::to_string(type) + '/' + std::to_string(bytes.size()) + ':' + bytes;
+}
+
+int Statement::NumColumns() const { return sqlite3_column_count(statement_); }
+
 Database::Database(const std::filesystem::path& path, Mode mode) {
   int flags = SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX;
   if (mode == Mode::kReadOnly) {

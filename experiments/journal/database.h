@@ -42,6 +42,9 @@ class Statement {
   double Real(int column) const;  // NaN for NULL
   std::string Text(int column) const;
   std::string Bytes(int column) const;
+  // The type, the size and every bit of the value, whatever it is.
+  std::string Raw(int column) const;
+  int NumColumns() const;
 
  private:
   void BindOne(int index, std::int64_t value);

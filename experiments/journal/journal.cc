@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <fstream>
 #include <unordered_map>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "experiments/journal/checksums.h"
 #include "experiments/journal/experiment_tables.h"
 #include "experiments/journal/schema.h"
 
@@ -47,7 +49,26 @@ void Migrate(Database& database) {
   }
   database.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
                    "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
+  SealAll(database);
   transaction.Commit();
+}
+
+// From the file's head, so that another program's database is not even opened: that could change
+// it. A young journal may be in its log alone.
+void RefuseForeignFile(const std::filesystem::path& path) {
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  constexpr std::size_t kIdAt = 68;
+  std::error_code absent;
+  if (std::filesystem::file_size(path.string() + "-wal", absent) > 0 && !absent) return;
+  std::ifstream in(path, std::ios::binary);
+  char head[100] = {};
+  if (!in.read(head, sizeof head) || std::string_view(head, 16) != kMagic) return;
+  std::uint32_t id = 0;
+  for (std::size_t i = 0; i < 4; ++i) id = id << 8 | static_cast<unsigned char>(head[kIdAt + i]);
+  if (id == kJournalApplicationId) return;
+  throw base::ConfigError(path.string() +
+                          ": is a database of another program; name the folder of "
+                          "a campaign");
 }
 
 constexpr std::string_view kTrialColumns =
@@ -132,6 +153,7 @@ Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord&
   for (const char* step : kSchemaSteps) journal.database_.Execute(step);
   journal.InsertCampaign(campaign);
   journal.CreateView(campaign);
+  SealCampaign(journal.database_);
   journal.database_.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
                             "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
   transaction.Commit();
@@ -139,12 +161,16 @@ Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord&
 }
 
 Journal Journal::Open(const std::filesystem::path& path) {
+  RefuseForeignFile(path);
   Database database(path, Database::Mode::kReadWrite);
   CheckThatItIsAJournal(database, path);
   if (const std::string damage = database.Damage(); !damage.empty()) {
     throw base::Error(path.string() + ": is damaged: " + damage);
   }
   Migrate(database);
+  if (const std::string broken = BrokenSeal(database); !broken.empty()) {
+    throw base::Error(path.string() + ": is damaged: " + broken);
+  }
   return Journal(std::move(database));
 }
 
@@ -158,6 +184,12 @@ Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
   CheckThatItIsAJournal(database, path);
   if (Pragma(database, "user_version") < static_cast<std::int64_t>(kSchemaSteps.size())) {
     throw base::Error(path.string() + ": was written by an older talus; `talus resume` updates it");
+  }
+  database.Execute("BEGIN");  // another process may be writing
+  const std::string broken = BrokenSeal(database);
+  database.Execute("COMMIT");
+  if (!broken.empty()) {
+    throw base::Error(path.string() + ": is damaged: " + broken + "; `talus resume` repairs it");
   }
   return Journal(std::move(database));
 }
@@ -235,16 +267,22 @@ ProgressRecord Journal::Progress() {
 }
 
 void Journal::SetProgress(const ProgressRecord& progress) {
+  Transaction transaction(database_);
   database_
       .Prepare("UPDATE campaign SET state = ?1, stop_reason = ?2, elapsed_s = ?3, result_json = ?4")
       .Bind(progress.state, progress.stop_reason, progress.elapsed_s, progress.result_json)
       .Finish();
+  SealCampaign(database_);
+  transaction.Commit();
 }
 
 void Journal::SetSpec(std::string_view spec_text, std::string_view spec_json) {
+  Transaction transaction(database_);
   database_.Prepare("UPDATE campaign SET spec_text = ?1, spec_json = ?2")
       .Bind(spec_text, spec_json)
       .Finish();
+  SealCampaign(database_);
+  transaction.Commit();
 }
 
 std::int64_t Journal::CountTrials() {
@@ -309,6 +347,7 @@ void Journal::Insert(const TrialRecord& t) {
         .Bind(t.id, static_cast<std::int64_t>(i), t.unit[i], t.native[i])
         .Finish();
   }
+  SealTrial(database_, t.id);
 }
 
 void Journal::Restart(std::span<const TrialRecord> trials) {
@@ -320,6 +359,7 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
             "?1 AND status = 'running'")
         .Bind(t.id, t.seed, t.attempts, t.job, t.started_utc)
         .Finish();
+    SealTrial(database_, t.id);
   }
   transaction.Commit();
 }
@@ -347,6 +387,7 @@ void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
         .Bind(t.id, Blob{profile_png}, base::Hex(base::Checksum(profile_png)))
         .Finish();
   }
+  SealTrial(database_, t.id);
   transaction.Commit();
 }
 

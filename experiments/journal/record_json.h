@@ -26,7 +26,7 @@ Record ParseRecord(const std::string& text, const std::string& name) {
   Record record;
   base::JsonFile file = base::ParseJson(text, name);
   DropNulls(file.root);
-  base::Problems problems(name, file.source);
+  base::Problems problems(name, file.places);
   base::ReadOptions(file.root, record, {problems, {}});
   problems.ThrowIfAny();
   return record;

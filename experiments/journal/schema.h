@@ -154,6 +154,14 @@ DROP TABLE reference_metrics_2;
 ALTER TABLE trials ADD COLUMN experiment INTEGER NOT NULL DEFAULT 0;
 )sql";
 
-inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2, kSchemaVersion3};
+inline constexpr const char* kSchemaVersion4 = R"sql(
+CREATE TABLE checksums (  -- see checksums.h; written again after every step to a later version
+  id INTEGER PRIMARY KEY,  -- of the trial; 0 for the campaign
+  xxh3 TEXT NOT NULL
+);
+)sql";
+
+inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2, kSchemaVersion3,
+                                         kSchemaVersion4};
 
 }  // namespace talus::experiments

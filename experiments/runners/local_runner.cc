@@ -24,7 +24,9 @@ namespace talus::experiments {
 namespace {
 
 constexpr const char* kGroupFile = ".process_group";
-constexpr int kCannotRun = 127;  // exit status of the child that could not become the command
+constexpr auto kLogInterval = std::chrono::seconds(1);  // between two looks at the logs' sizes
+constexpr double kLongest = 1e9;  // of any job [s]: a clock counts nanoseconds
+constexpr int kCannotRun = 127;   // exit status of the child that could not become the command
 
 std::string HostName() {
   char name[256] = "";
@@ -65,19 +67,26 @@ bool GroupRuns(pid_t group) {
   return false;
 }
 
-// Ends the process group that an earlier, killed program has left in this folder, if it is still
-// the same one.
-void EndLeftOver(const std::filesystem::path& folder) {
-  std::ifstream in(folder / kGroupFile);
-  pid_t group = 0;
-  std::string start;
-  if (!(in >> group >> start) || group <= 1) return;
+// Ends the process group `group`, if it is still the one whose leader started at `start`.
+void EndGroup(pid_t group, const std::string& start) {
   const ProcessState leader = StateOf(std::to_string(group));
   // The leader may be gone while its children live; a group's number is not used again until they
   // are gone too.
   if (leader.state != 0 && leader.start != start) return;
   if (::kill(-group, SIGKILL) != 0) return;
   while (GroupRuns(group)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+// What an earlier, killed program has left running in this folder.
+void EndLeftOver(const std::filesystem::path& folder) {
+  std::ifstream in(folder / kGroupFile);
+  pid_t group = 0;
+  std::string start;
+  std::string mark;
+  if (!(in >> group >> start) || group <= 1) return;
+  EndGroup(group, start);
+  constexpr std::size_t kShortest = 18;  // 16 digits, "/" and ";": a torn mark would fit too many
+  if (in >> mark && mark.size() > kShortest && mark.back() == ';') KillMarked(mark);
 }
 
 // The child's side: only what is allowed between fork and exec.
@@ -121,15 +130,19 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
 
 // Ours, with OpenMP, which foreign engines use, told to keep to its share and to sleep while it
 // waits: a spinning thread would take the core of another trial.
-std::vector<std::string> Environment(int threads) {
+std::vector<std::string> Environment(int threads, const std::string& mark) {
   std::vector<std::string> list;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
-    if (text.starts_with("OMP_NUM_THREADS=") || text.starts_with("OMP_WAIT_POLICY=")) continue;
+    if (text.starts_with("OMP_NUM_THREADS=") || text.starts_with("OMP_WAIT_POLICY=") ||
+        text.starts_with(std::string(kMarkVariable) + "=")) {
+      continue;
+    }
     list.emplace_back(text);
   }
   list.push_back("OMP_NUM_THREADS=" + std::to_string(threads));
   list.push_back("OMP_WAIT_POLICY=passive");
+  list.push_back(MarkEntry(mark));
   return list;
 }
 
@@ -149,6 +162,7 @@ LocalRunner::LocalRunner(const LocalRunnerOptions& options)
                    ? options.workers
                    : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       threads_per_job_(options.threads_per_job),
+      largest_log_(options.largest_log),
       host_(HostName()) {}
 
 LocalRunner::~LocalRunner() {
@@ -188,7 +202,8 @@ void LocalRunner::StartProcess(const Job& job) {
   if (log < 0) throw base::Error(log_name + ": cannot be written: " + std::strerror(errno));
 
   std::vector<std::string> command = job.command;
-  std::vector<std::string> environment = Environment(threads_per_job_);
+  const std::string mark = guard_.MarkOf(job.id);
+  std::vector<std::string> environment = Environment(threads_per_job_, mark);
   const Launch launch{.folder = job.folder.c_str(),
                       .arguments = Pointers(command),
                       .environment = Pointers(environment),
@@ -202,15 +217,17 @@ void LocalRunner::StartProcess(const Job& job) {
   ::setpgid(pid, pid);  // in parent and child, so that it holds before either goes on
 
   const auto now = Clock::now();
-  const auto cap = std::chrono::duration<double>(job.time_cap > 0 ? job.time_cap : 1e9);
+  const auto cap =
+      std::chrono::duration<double>(job.time_cap > 0 ? std::min(job.time_cap, kLongest) : kLongest);
   running_[job.id] = {.pid = pid,
                       .pid_file = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)),
                       .start = now,
                       .deadline = now + std::chrono::duration_cast<Clock::duration>(cap),
                       .stopped = JobEnd::kExit,
+                      .why = {},
                       .folder = job.folder};
   std::ofstream(job.folder / kGroupFile)
-      << pid << ' ' << StateOf(std::to_string(pid)).start << '\n';
+      << pid << ' ' << StateOf(std::to_string(pid)).start << ' ' << mark << '\n';
 }
 
 std::vector<FinishedJob> LocalRunner::Wait(double seconds) {
@@ -220,7 +237,7 @@ std::vector<FinishedJob> LocalRunner::Wait(double seconds) {
   while (finished_.empty()) {
     const auto now = Clock::now();
     StopOverdue(now);
-    auto until = end;
+    auto until = std::min(end, now + kLogInterval);
     for (const auto& [id, process] : running_) {
       if (process.stopped == JobEnd::kExit) until = std::min(until, process.deadline);
     }
@@ -242,10 +259,23 @@ bool LocalRunner::WaitForOne(double seconds) const {
 
 void LocalRunner::StopOverdue(Clock::time_point now) {
   for (auto& [id, process] : running_) {
-    if (process.stopped != JobEnd::kExit || now < process.deadline) continue;
-    process.stopped = JobEnd::kTimeCap;
-    ::kill(-process.pid, SIGKILL);
+    if (process.stopped != JobEnd::kExit) continue;
+    std::error_code absent;
+    const std::uintmax_t log = std::filesystem::file_size(process.folder / "log.txt", absent);
+    if (now >= process.deadline) {
+      Stop(process, JobEnd::kTimeCap, "was stopped at its time cap");
+    } else if (!absent && log > largest_log_) {
+      Stop(process, JobEnd::kSignal,
+           "was stopped: it printed more than " + std::to_string(largest_log_ >> 20) +
+               " MiB to its log.txt");
+    }
   }
+}
+
+void LocalRunner::Stop(Process& process, JobEnd end, std::string why) {
+  process.stopped = end;
+  process.why = std::move(why);
+  ::kill(-process.pid, SIGKILL);
 }
 
 void LocalRunner::CollectEnded() {
@@ -260,6 +290,7 @@ void LocalRunner::CollectEnded() {
       continue;
     }
     finished_.push_back(Reap(it->first, it->second));
+    KillMarked(guard_.MarkOf(it->first));  // what the command has left in other groups
     it = running_.erase(it);
   }
 }
@@ -283,10 +314,8 @@ FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
                   .duration = std::chrono::duration<double>(Clock::now() - process.start).count(),
                   .cpu_time = seconds(usage.ru_utime) + seconds(usage.ru_stime),
                   .host = host_};
-  if (process.stopped == JobEnd::kTimeCap) {
-    job.reason = "was stopped at its time cap";
-  } else if (process.stopped == JobEnd::kCancelled) {
-    job.reason = "was cancelled";
+  if (process.stopped != JobEnd::kExit) {
+    job.reason = process.why;
   } else if (WIFSIGNALED(status)) {
     job.end = IsFromOutside(WTERMSIG(status)) ? JobEnd::kPreempted : JobEnd::kSignal;
     job.reason = SignalText(WTERMSIG(status));
@@ -301,8 +330,7 @@ FinishedJob LocalRunner::Reap(std::int64_t id, Process& process) {
 void LocalRunner::Cancel(std::int64_t id) {
   const auto found = running_.find(id);
   if (found == running_.end()) return;
-  found->second.stopped = JobEnd::kCancelled;
-  ::kill(-found->second.pid, SIGKILL);
+  Stop(found->second, JobEnd::kCancelled, "was cancelled");
 }
 
 }  // namespace talus::experiments

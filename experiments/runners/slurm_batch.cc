@@ -5,6 +5,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/error.h"
+#include "base/printable.h"
+
 namespace talus::experiments {
 namespace {
 
@@ -15,6 +18,31 @@ std::string Quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+// In double quotes, as sbatch reads its own lines; a percent sign would begin a pattern.
+std::string QuotedForSbatch(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c == '%' ? std::string("%%") : std::string(1, c);
+  }
+  return quoted + '"';
+}
+
+void RequirePlain(const std::string& what, const std::string& text) {
+  if (!base::HasControl(text)) return;
+  throw base::ConfigError(what + " \"" + base::Printable(text) +
+                          "\" has a line break or another control character, which a script for "
+                          "Slurm cannot hold; take it out");
+}
+
+void RequirePlain(const Batch& batch, const std::filesystem::path& stem) {
+  RequirePlain("the folder", stem.string());
+  for (const Job& job : batch.jobs) {
+    RequirePlain("the folder", job.folder.string());
+    for (const std::string& argument : job.command) RequirePlain("the argument", argument);
+  }
 }
 
 // sbatch counts in whole minutes.
@@ -33,7 +61,8 @@ void AddDirectives(std::ostream& out, const Batch& batch, const SlurmOptions& op
   };
   add("job-name", batch.job_name);
   add("array", "0-" + std::to_string(batch.jobs.size() - 1));
-  add("output", '"' + TaskLog(stem, "%a").string() + '"');
+  const std::string log = QuotedForSbatch(TaskLog(stem, "").string());  // "…/batch-000001-.log"
+  add("output", log.substr(0, log.size() - 5) + "%a.log\"");
   add("open-mode", "append");
   add("partition", options.partition);
   add("account", options.account);
@@ -62,6 +91,7 @@ void AddJobs(std::ostream& out, const Batch& batch) {
 
 std::string BatchScript(const Batch& batch, const SlurmOptions& options,
                         const std::filesystem::path& stem) {
+  RequirePlain(batch, stem);
   std::ostringstream out;
   out << "#!/bin/bash\n";
   AddDirectives(out, batch, options, stem);

@@ -25,6 +25,8 @@ struct Batch {
 };
 
 // `stem` is the script's path without its ending.
+// Throws ConfigError for a control character, such as a line break, in a folder or a command: the
+// shell or sbatch would read what follows it as a line of its own.
 std::string BatchScript(const Batch& batch, const SlurmOptions& options,
                         const std::filesystem::path& stem);
 

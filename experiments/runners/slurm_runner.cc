@@ -89,11 +89,6 @@ void LookAgain(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, ignored)) (void)entry;
 }
 
-std::string TextOf(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 std::optional<TaskEnd> EndOf(const Job& job, std::int64_t batch, int index) {
   const std::optional<TaskEnd> end = ReadTaskEnd(job.folder);
   const bool ours = end && end->batch == batch && end->task == index;
@@ -303,7 +298,9 @@ void SlurmRunner::JudgeEnded() {
 
 // `task` is gone from the list when it was reported.
 void SlurmRunner::Judge(Task task) {
-  const std::string log = TextOf(TaskLog(BatchFile(task.batch, ""), std::to_string(task.index)));
+  constexpr std::size_t kEndOfLog = 65536;  // Slurm's own lines come last
+  const std::string log =
+      base::ReadTail(TaskLog(BatchFile(task.batch, ""), std::to_string(task.index)), kEndOfLog);
   const Verdict verdict = VerdictOf(*task.ended, log);
   const auto end = EndOf(task.job, task.batch, task.index);
   const auto waited = std::chrono::duration<double>(Clock::now() - task.ended_since).count();

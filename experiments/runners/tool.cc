@@ -7,12 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 
 #include "base/error.h"
+#include "experiments/runners/process_guard.h"
 
 namespace talus::experiments {
 namespace {
@@ -38,23 +40,34 @@ struct Pipe {
   int ends[2] = {-1, -1};
 };
 
-// Reads both until they are closed; false when that takes longer than the cap.
-bool Collect(std::array<Pipe, 2>& pipes, ToolResult& result, Clock::time_point end) {
+// The end of what is printed on standard error says why; the rest is let go.
+void KeepEnd(std::string& errors) {
+  constexpr std::size_t kMost = 1 << 20;
+  if (errors.size() > kMost) errors.erase(0, errors.size() - kMost / 2);
+}
+
+// Reads both until they are closed. Returns why it was given up, "" if it was not.
+std::string Collect(std::array<Pipe, 2>& pipes, ToolResult& result, Clock::time_point end,
+                    std::size_t most_output) {
   std::string* texts[] = {&result.output, &result.errors};
   std::array<pollfd, 2> open{pollfd{pipes[0].ends[0], POLLIN, 0}, {pipes[1].ends[0], POLLIN, 0}};
   while (open[0].fd >= 0 || open[1].fd >= 0) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    if (left.count() <= 0) return false;
+    if (left.count() <= 0) return "gave no answer in time";
     if (::poll(open.data(), open.size(), static_cast<int>(left.count())) < 0) continue;
     for (std::size_t i = 0; i < 2; ++i) {
       if (open[i].fd < 0 || open[i].revents == 0) continue;
       char bytes[4096];
       const ssize_t count = ::read(open[i].fd, bytes, sizeof bytes);
       if (count > 0) texts[i]->append(bytes, static_cast<std::size_t>(count));
+      KeepEnd(result.errors);
+      if (result.output.size() > most_output) {
+        return "printed more than " + std::to_string(most_output >> 20) + " MiB";
+      }
       if (count == 0 || (count < 0 && errno != EINTR)) open[i].fd = -1;
     }
   }
-  return true;
+  return {};
 }
 
 // The pipe holds it all before anyone reads, so that nothing waits for a command that never does.
@@ -88,8 +101,16 @@ int Spawn(const std::vector<std::string>& command, const ToolOptions& options, c
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> environment;
+  std::string mark = MarkEntry(options.mark);
+  const std::string variable = std::string(kMarkVariable) + "=";
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    if (!std::string_view(*entry).starts_with(variable)) environment.push_back(*entry);
+  }
+  environment.push_back(mark.data());
+  environment.push_back(nullptr);
   const int code =
-      ::posix_spawnp(&pid, pointers[0], &actions, &attributes, pointers.data(), environ);
+      ::posix_spawnp(&pid, pointers[0], &actions, &attributes, pointers.data(), environment.data());
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   return code;
@@ -111,11 +132,12 @@ ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& o
     return {.status = 127, .output = {}, .errors = command[0] + ": " + std::strerror(code)};
   }
   for (Pipe& pipe : pipes) pipe.CloseWriter();
-  const auto cap = std::chrono::duration<double>(options.time_cap);
+  const auto cap = std::chrono::duration<double>(std::min(options.time_cap, 1e9));
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(cap);
-  if (!Collect(pipes, result, end)) {
+  const std::string given_up = Collect(pipes, result, end, options.most_output);
+  if (!given_up.empty()) {
     ::kill(-pid, SIGKILL);
-    result.errors += command[0] + " gave no answer in time";
+    result.errors += command[0] + " " + given_up;
   }
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {

@@ -20,6 +20,9 @@ struct ToolOptions {
   // Where standard output goes instead of `output`: it is then there even if we are killed first.
   std::filesystem::path output_file{};
   std::string input{};  // what it reads from its standard input; below 64 KiB
+  // By which a ProcessGuard ends it with us; "": it goes on, as sbatch must.
+  std::string mark{};
+  std::size_t most_output = std::size_t{64} << 20;  // [bytes], after which it is killed
 };
 
 // `command[0]` is looked up on the PATH. Throws base::Error only when the system has no process

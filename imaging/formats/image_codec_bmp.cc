@@ -36,11 +36,11 @@ struct Layout {
   std::size_t bits = 0;  // a pixel
 };
 
-Layout ReadLayout(const Bytes& bytes, const std::string& name) {
+Layout ReadLayout(const Bytes& bytes, std::size_t num_bytes, const std::string& name) {
   const auto signed_height = static_cast<std::int32_t>(bytes.Number(22, 4));
   const auto width = static_cast<std::int32_t>(bytes.Number(18, 4));
   const std::int64_t height = signed_height < 0 ? -std::int64_t{signed_height} : signed_height;
-  CheckImageSize(width, height, name);
+  CheckImageSize({.width = width, .height = height, .num_bytes = num_bytes}, name);
   const std::uint32_t header = bytes.Number(14, 4);
   const std::uint32_t bits = bytes.Number(28, 2);
   const std::uint32_t compression = bytes.Number(30, 4);
@@ -62,21 +62,27 @@ Layout ReadLayout(const Bytes& bytes, const std::string& name) {
 
 RawImage DecodeBmp(std::string_view data, const std::string& name) {
   const Bytes bytes(data, name);
-  const Layout layout = ReadLayout(bytes, name);
-  RawImage image{
-      .width = layout.width, .height = layout.height, .channels = 3, .bits = 8, .samples = {}};
-  image.samples.reserve(image.num_samples());
+  const Layout layout = ReadLayout(bytes, data.size(), name);
+  RawImage image{.width = layout.width,
+                 .height = layout.height,
+                 .channels = 3,
+                 .bits = 8,
+                 .gray = {},
+                 .samples = {}};
+  std::vector<std::uint16_t> samples;
   const std::size_t stride = (static_cast<std::size_t>(layout.width) * layout.bits + 31) / 32 * 4;
   for (int y = 0; y < layout.height; ++y) {
     const auto row = static_cast<std::size_t>(layout.bottom_up ? layout.height - 1 - y : y);
+    samples.clear();
     for (int x = 0; x < layout.width; ++x) {
       std::size_t at =
           layout.pixels + row * stride + static_cast<std::size_t>(x) * (layout.bits / 8);
       if (layout.bits == 8) at = layout.palette + 4 * bytes.Byte(at);
       for (const std::size_t channel : {2, 1, 0}) {  // stored blue, green, red
-        image.samples.push_back(static_cast<std::uint16_t>(bytes.Byte(at + channel)));
+        samples.push_back(static_cast<std::uint16_t>(bytes.Byte(at + channel)));
       }
     }
+    image.AddRow(samples);
   }
   return image;
 }

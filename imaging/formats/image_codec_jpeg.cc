@@ -55,7 +55,8 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
   constexpr unsigned kWholeSegment = 0xffff;
   jpeg_save_markers(&jpeg, JPEG_APP0 + 1, kWholeSegment);
   jpeg_read_header(&jpeg, TRUE);
-  CheckImageSize(jpeg.image_width, jpeg.image_height, name);
+  CheckImageSize(
+      {.width = jpeg.image_width, .height = jpeg.image_height, .num_bytes = bytes.size()}, name);
   jpeg.out_color_space = JCS_GRAYSCALE;  // the luma channel as the camera stored it
   jpeg_start_decompress(&jpeg);
   RawImage image{.width = static_cast<int>(jpeg.output_width),
@@ -63,13 +64,13 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
                  .channels = 1,
                  .bits = 8,
                  .orientation = OrientationOf(jpeg),
+                 .gray = {},
                  .samples = {}};
-  image.samples.reserve(image.num_samples());
   std::vector<JSAMPLE> row(jpeg.output_width);
   while (jpeg.output_scanline < jpeg.output_height) {
     JSAMPLE* rows[] = {row.data()};
     jpeg_read_scanlines(&jpeg, rows, 1);
-    image.samples.insert(image.samples.end(), row.begin(), row.end());
+    image.gray.insert(image.gray.end(), row.begin(), row.end());  // luma already
   }
   jpeg_finish_decompress(&jpeg);
   return image;

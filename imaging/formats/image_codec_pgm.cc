@@ -56,18 +56,20 @@ RawImage DecodePgm(std::string_view bytes, const std::string& name) {
   image.width = cursor.Number();
   image.height = cursor.Number();
   const int white = cursor.Number();
-  CheckImageSize(image.width, image.height, name);
+  CheckImageSize({.width = image.width, .height = image.height, .num_bytes = bytes.size()}, name);
   if (white < 1 || white > 65535) ThrowDamaged(name, "its white is not from 1 to 65535");
   image.bits = white > 255 ? 16 : 8;
   const std::int64_t full = white > 255 ? 65535 : 255;
-  if (image.num_samples() > bytes.size()) ThrowDamaged(name, "ends early");
   if (!is_text) cursor.Byte();  // the one blank after the header
-  image.samples.reserve(image.num_samples());
-  for (std::size_t i = 0; i < image.num_samples(); ++i) {
-    int sample = is_text ? cursor.Number() : cursor.Byte();
-    if (!is_text && white > 255) sample = sample << 8 | cursor.Byte();
-    if (sample > white) ThrowDamaged(name, "a pixel is brighter than white");
-    image.samples.push_back(static_cast<std::uint16_t>((sample * full + white / 2) / white));
+  std::vector<std::uint16_t> row(static_cast<std::size_t>(image.width));
+  for (int y = 0; y < image.height; ++y) {
+    for (std::uint16_t& pixel : row) {
+      int sample = is_text ? cursor.Number() : cursor.Byte();
+      if (!is_text && white > 255) sample = sample << 8 | cursor.Byte();
+      if (sample > white) ThrowDamaged(name, "a pixel is brighter than white");
+      pixel = static_cast<std::uint16_t>((sample * full + white / 2) / white);
+    }
+    image.AddRow(row);
   }
   return image;
 }

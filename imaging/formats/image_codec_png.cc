@@ -40,18 +40,47 @@ struct Reader {
 };
 
 // Palettes become RGB, packed grey becomes 8 bits, a transparent colour becomes alpha.
-void ReadHeader(Reader& reader, Source& source, RawImage& image, const std::string& name) {
+// Returns how often the rows are gone through.
+int ReadHeader(Reader& reader, Source& source, RawImage& image, const std::string& name) {
   png_set_read_fn(reader.png, &source, ReadBytes);
   png_read_info(reader.png, reader.info);
-  CheckImageSize(png_get_image_width(reader.png, reader.info),
-                 png_get_image_height(reader.png, reader.info), name);
+  CheckImageSize({.width = png_get_image_width(reader.png, reader.info),
+                  .height = png_get_image_height(reader.png, reader.info),
+                  .num_bytes = source.bytes.size()},
+                 name);
   png_set_expand(reader.png);
-  png_set_interlace_handling(reader.png);
+  const int passes = png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);
   image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
   image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   image.channels = png_get_channels(reader.png, reader.info);
   image.bits = png_get_bit_depth(reader.png, reader.info);
+  return passes;
+}
+
+void AddRow(std::span<const png_byte> bytes, std::vector<std::uint16_t>& samples, RawImage& image) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = image.bits == 8 ? bytes[i]
+                                 : static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
+  }
+  image.AddRow(samples);
+}
+
+// An interlaced image is whole only after its last pass, so that it is held in memory.
+std::vector<png_byte> ReadInterlaced(Reader& reader, const RawImage& image, std::size_t stride,
+                                     const std::string& name) {
+  constexpr std::size_t kLargest = 400'000'000;  // [bytes]
+  const auto height = static_cast<std::size_t>(image.height);
+  if (stride * height > kLargest) {
+    throw base::ConfigError(name +
+                            ": is an interlaced PNG of more than 400 MB; save it without "
+                            "interlacing");
+  }
+  std::vector<png_byte> data(stride * height);
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < height; ++y) rows.push_back(&data[y * stride]);
+  png_read_image(reader.png, rows.data());
+  return data;
 }
 
 // After the whole file is read: the chunk may follow the pixels.
@@ -92,20 +121,19 @@ RawImage DecodePng(std::string_view bytes, const std::string& name) {
   RawImage image;
   Source source{.bytes = bytes};
   Reader reader(name);
-  ReadHeader(reader, source, image, name);
+  const int passes = ReadHeader(reader, source, image, name);
   const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
-  std::vector<png_byte> data(stride * static_cast<std::size_t>(image.height));
-  std::vector<png_bytep> rows;
-  for (int y = 0; y < image.height; ++y)
-    rows.push_back(&data[static_cast<std::size_t>(y) * stride]);
-  png_read_image(reader.png, rows.data());
+  std::vector<std::uint16_t> samples(static_cast<std::size_t>(image.width) *
+                                     static_cast<std::size_t>(image.channels));
+  std::vector<png_byte> data =
+      passes > 1 ? ReadInterlaced(reader, image, stride, name) : std::vector<png_byte>(stride);
+  for (int y = 0; y < image.height; ++y) {
+    if (passes == 1) png_read_row(reader.png, data.data(), nullptr);
+    AddRow(std::span(data).subspan(passes > 1 ? static_cast<std::size_t>(y) * stride : 0, stride),
+           samples, image);
+  }
   png_read_end(reader.png, reader.info);
   image.orientation = OrientationOf(reader);
-  image.samples.resize(image.num_samples());
-  for (std::size_t i = 0; i < image.samples.size(); ++i) {
-    image.samples[i] =
-        image.bits == 8 ? data[i] : static_cast<std::uint16_t>(data[2 * i] << 8 | data[2 * i + 1]);
-  }
   return image;
 }
 

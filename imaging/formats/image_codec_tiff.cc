@@ -49,7 +49,7 @@ struct Layout {
   std::uint16_t orientation = ORIENTATION_TOPLEFT;  // numbered as in EXIF
 };
 
-Layout ReadLayout(TIFF* tiff, const std::string& name) {
+Layout ReadLayout(TIFF* tiff, std::size_t num_bytes, const std::string& name) {
   Layout layout;
   TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &layout.width);
   TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &layout.height);
@@ -61,7 +61,7 @@ Layout ReadLayout(TIFF* tiff, const std::string& name) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &layout.orientation);
   // We turn the image ourselves: libtiff mirrors, but does not turn by a quarter.
   TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  CheckImageSize(layout.width, layout.height, name);
+  CheckImageSize({.width = layout.width, .height = layout.height, .num_bytes = num_bytes}, name);
   return layout;
 }
 
@@ -71,8 +71,8 @@ RawImage EmptyImage(const Layout& layout, int channels, int bits) {
                  .channels = channels,
                  .bits = bits,
                  .orientation = layout.orientation,
+                 .gray = {},
                  .samples = {}};
-  image.samples.reserve(image.num_samples());
   return image;
 }
 
@@ -83,9 +83,10 @@ RawImage ReadDeep(TIFF* tiff, const Layout& layout, const std::string& name) {
   std::vector<std::uint16_t> row(static_cast<std::size_t>(layout.width) * layout.channels);
   for (std::uint32_t y = 0; y < layout.height; ++y) {
     if (TIFFReadScanline(tiff, row.data(), y) != 1) ThrowDamaged(name, "row cannot be decoded");
-    for (const std::uint16_t sample : row) {
-      image.samples.push_back(inverted ? static_cast<std::uint16_t>(65535 - sample) : sample);
+    if (inverted) {
+      for (std::uint16_t& sample : row) sample = static_cast<std::uint16_t>(65535 - sample);
     }
+    image.AddRow(row);
   }
   return image;
 }
@@ -99,10 +100,13 @@ RawImage ReadConverted(TIFF* tiff, const Layout& layout, const std::string& name
     ThrowDamaged(name, "cannot be decoded");
   }
   for (const std::uint32_t pixel : raster) {
+    std::uint16_t samples[4];
+    int channel = 0;
     for (const std::uint32_t sample :
          {TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel), TIFFGetA(pixel)}) {
-      image.samples.push_back(static_cast<std::uint16_t>(sample));
+      samples[channel++] = static_cast<std::uint16_t>(sample);
     }
+    image.AddRow(samples);
   }
   return image;
 }
@@ -117,7 +121,7 @@ RawImage DecodeTiff(std::string_view bytes, const std::string& name) {
       TIFFClientOpen(name.c_str(), "rm", &source, Read, Write, Seek, Close, Size, nullptr, nullptr),
       TIFFClose);
   if (!tiff) ThrowDamaged(name, "not a readable TIFF");
-  const Layout layout = ReadLayout(tiff.get(), name);
+  const Layout layout = ReadLayout(tiff.get(), bytes.size(), name);
   const bool deep = layout.bits == 16 && layout.channels <= 4 &&
                     layout.planar == PLANARCONFIG_CONTIG && layout.format == SAMPLEFORMAT_UINT &&
                     layout.photometric <= PHOTOMETRIC_RGB && !TIFFIsTiled(tiff.get());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,20 +11,24 @@
 
 namespace talus::imaging {
 
-// Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
+// Filled row by row from the top, so that a header that promises more than the file holds takes no
+// memory. Rows of 8 bits become grey at once; those of 16 are kept, as the largest sample of all
+// says how many of the bits the camera has used.
 struct RawImage {
   int width = 0;
   int height = 0;
-  int channels = 1;            // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
-  int bits = 8;                // 8 or 16
-  int orientation = kUpright;  // how the camera was held, as EXIF numbers it
-  std::vector<std::uint16_t> samples;
+  int channels = 1;                    // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
+  int bits = 8;                        // 8 or 16
+  int orientation = kUpright;          // how the camera was held, as EXIF numbers it
+  std::vector<std::uint8_t> gray;      // of 8 bits
+  std::vector<std::uint16_t> samples;  // of 16 bits
 
-  std::size_t num_samples() const {
-    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-           static_cast<std::size_t>(channels);
-  }
+  // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
+  void AddRow(std::span<const std::uint16_t> row);
 };
+
+// Samples of one pixel as a grey level, 0 … 255: luma (Rec. 601), transparency on white.
+std::uint8_t GrayLevel(const std::uint16_t* samples, int channels, double white);
 
 // Each throws ConfigError that starts with `name` when the bytes are damaged or of a kind it does
 // not read.
@@ -33,9 +38,15 @@ RawImage DecodeTiff(std::string_view bytes, const std::string& name);
 RawImage DecodeBmp(std::string_view bytes, const std::string& name);
 RawImage DecodePgm(std::string_view bytes, const std::string& name);
 
-// Throws ConfigError unless both sides are 1 … 65500 and the area is at most 200 Mpx: a damaged
-// header must not ask for all memory.
-void CheckImageSize(std::int64_t width, std::int64_t height, const std::string& name);
+struct ImageSize {
+  std::int64_t width = 0;     // [px]
+  std::int64_t height = 0;    // [px]
+  std::size_t num_bytes = 0;  // of the file
+};
+
+// Throws ConfigError unless both sides are 1 … 65500, the area is at most 200 Mpx, and the file's
+// bytes can hold that many pixels: a damaged header must not ask for all memory.
+void CheckImageSize(const ImageSize& size, const std::string& name);
 
 [[noreturn]] void ThrowDamaged(const std::string& name, const std::string& reason);
 

@@ -1,6 +1,7 @@
 #include "imaging/formats/image_file.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -23,24 +24,14 @@ RawImage Decode(std::string_view bytes, const std::string& name) {
                           "; give a PNG, JPEG, TIFF, BMP or PGM file");
 }
 
-// Cameras store 10, 12 or 14 bits in 16; the largest sample tells which.
+// Of 16 bits: cameras store 10, 12 or 14 in them; the largest sample tells which.
 double WhiteLevel(const RawImage& raw) {
-  if (raw.bits == 8) return 255;
   const std::uint16_t largest = *std::max_element(raw.samples.begin(), raw.samples.end());
   for (const int bits : {10, 12, 14}) {
     const int white = (1 << bits) - 1;
     if (largest > 255 && largest <= white) return white;
   }
   return 65535;
-}
-
-// Luma over white, in 0 … 1.
-double Luma(const std::uint16_t* s, int channels, double white) {
-  const bool color = channels >= 3;
-  const double luma = color ? (0.299 * s[0] + 0.587 * s[1] + 0.114 * s[2]) / white : s[0] / white;
-  if (channels % 2 == 1) return luma;
-  const double alpha = s[channels - 1] / white;
-  return luma * alpha + 1 - alpha;
 }
 
 template <class Image>
@@ -58,14 +49,14 @@ ColorImage ToColor(const GrayImage& gray) {
 }
 
 GrayImage DecodeGrayImage(std::string_view bytes, const std::string& name) {
-  const RawImage raw = Decode(bytes, name);
+  RawImage raw = Decode(bytes, name);
+  GrayImage gray{.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)};
+  if (raw.bits == 8) return Upright(gray, raw.orientation);
   const double white = WhiteLevel(raw);
-  GrayImage gray{.width = raw.width, .height = raw.height, .pixels = {}};
   const auto channels = static_cast<std::size_t>(raw.channels);
   gray.pixels.resize(raw.samples.size() / channels);
   for (std::size_t i = 0; i < gray.pixels.size(); ++i) {
-    const double luma = Luma(&raw.samples[i * channels], raw.channels, white);
-    gray.pixels[i] = static_cast<std::uint8_t>(std::clamp(luma, 0.0, 1.0) * 255 + 0.5);
+    gray.pixels[i] = GrayLevel(&raw.samples[i * channels], raw.channels, white);
   }
   return Upright(gray, raw.orientation);
 }

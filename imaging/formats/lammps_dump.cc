@@ -34,6 +34,14 @@ std::optional<double> LengthOf(std::string_view units) {
   return std::nullopt;
 }
 
+// "1e6" and "1000000.0" are steps too; beyond 2^53 they could not be told apart.
+std::int64_t TimestepOf(TextCursor& cursor) {
+  constexpr double kLargest = 9007199254740992;
+  const double step = cursor.Number();
+  if (!(step >= -kLargest && step <= kLargest)) cursor.Fail("this is no number of a time step");
+  return static_cast<std::int64_t>(step);
+}
+
 void ReadBox(TextCursor& cursor, std::string_view kind, DumpFrame& frame) {
   frame.triclinic = kind.find("xy") != std::string_view::npos;
   for (Axis& axis : frame.box) {
@@ -46,7 +54,7 @@ void ReadBox(TextCursor& cursor, std::string_view kind, DumpFrame& frame) {
 // Reads the head of a section into `frame`; true at `ATOMS`, after which its rows follow.
 bool ReadSection(TextCursor& cursor, std::string_view section, DumpFrame& frame) {
   if (section == "TIMESTEP") {
-    frame.timestep = static_cast<std::int64_t>(cursor.Number());
+    frame.timestep = TimestepOf(cursor);
     cursor.Line();
   } else if (section == "NUMBER OF ATOMS") {
     frame.num_atoms = cursor.Count();

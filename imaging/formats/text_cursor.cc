@@ -10,6 +10,20 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
 
+// As an error shows it.
+std::string Quoted(std::string_view word) {
+  constexpr std::size_t kMost = 40;
+  return '"' + std::string(word.substr(0, kMost)) + (word.size() > kMost ? "…\"" : "\"");
+}
+
+// Of a number out of the range of doubles: whether it is too small, not too large.
+bool IsTiny(std::string_view word) {
+  const std::size_t exponent = word.find_first_of("eE");
+  if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
+  const std::size_t digit = word.find_first_not_of("-0");  // 0.000…1 or 1000…
+  return digit != std::string_view::npos && word[digit] == '.';
+}
+
 }  // namespace
 
 std::string_view TextCursor::Line() {
@@ -33,7 +47,7 @@ double TextCursor::Number() {
   const std::string_view word = Word();
   double value = 0;
   if (word.empty()) Fail("the file ends too early; was it cut off while it was written?");
-  if (!ParseNumber(word, value)) Fail("\"" + std::string(word) + "\" is not a number");
+  if (!ParseNumber(word, value)) Fail(Quoted(word) + " is not a number");
   return value;
 }
 
@@ -42,7 +56,7 @@ std::size_t TextCursor::Count() {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) {
-    Fail("\"" + std::string(word) + "\" is not a count");
+    Fail(Quoted(word) + " is not a count");
   }
   // Every value takes at least a byte, so a larger count is wrong, and must not become memory.
   if (value > text_.size()) {
@@ -71,8 +85,12 @@ void TextCursor::Fail(const std::string& what) const {
 bool ParseNumber(std::string_view word, double& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // A denormal such as 1e-320 is read as out of range; no length is that small.
-  if (error == std::errc::result_out_of_range) value = 0;
+  if (error == std::errc::result_out_of_range) {
+    // Both 1e-320 and 1e400 are out of range, and only the exponent's sign tells which: the one is
+    // as good as zero, the other no length.
+    if (!IsTiny(word)) return false;
+    value = 0;
+  }
   return error != std::errc::invalid_argument && end == word.data() + word.size();
 }
 

@@ -16,6 +16,7 @@ class TextCursor {
 
   bool AtEnd() const { return position_ >= text_.size(); }
   std::size_t position() const { return position_; }
+  std::size_t Left() const { return AtEnd() ? 0 : text_.size() - position_; }  // [bytes]
   void Seek(std::size_t position) { position_ = position; }
   const std::string& file() const { return file_; }
 

@@ -54,14 +54,15 @@ class LegacyReader {
     } else if (word == "CELL_TYPES") {
       Values("int", cursor_.Count());
     } else if (!ReadCells(word) && !ReadAttribute(word)) {
-      cursor_.Fail("\"" + word + "\" is not known here; is the file cut off or damaged?");
+      cursor_.Fail("\"" + word.substr(0, 40) +
+                   "\" is not known here; is the file cut off or damaged?");
     }
   }
 
   void ReadPoints() {
     const std::size_t count = cursor_.Count();
     const std::string type(cursor_.Word());
-    cloud_.points = Values(type, 3 * count);
+    cloud_.points = Values(type, Product(3, count));
     has_points_ = true;
   }
 
@@ -107,7 +108,7 @@ class LegacyReader {
       cursor_.Word();
       const std::size_t components = cursor_.Count();
       const std::string type(cursor_.Word());
-      Values(type, components * num_tuples_);
+      Values(type, Product(components, num_tuples_));
     } else if (word == "COLOR_SCALARS" || word == "LOOKUP_TABLE") {
       ReadColors(word == "LOOKUP_TABLE");
     } else {
@@ -131,20 +132,21 @@ class LegacyReader {
       cursor_.Seek(start);
     }
     Keep(name, static_cast<std::size_t>(components), num_tuples_,
-         Values(std::string(words[0]), static_cast<std::size_t>(components) * num_tuples_));
+         Values(std::string(words[0]), Product(static_cast<std::size_t>(components), num_tuples_)));
   }
 
   void SkipTuples(std::size_t components) {
     cursor_.Word();
     const std::string type(cursor_.Word());
-    Values(type, components * num_tuples_);
+    Values(type, Product(components, num_tuples_));
   }
 
   // Colours are bytes in a binary file and numbers from 0 to 1 in an ASCII one.
   void ReadColors(bool table) {
     cursor_.Word();
     const std::size_t count = cursor_.Count();
-    Values(binary_ ? "unsigned_char" : "float", table ? 4 * count : count * num_tuples_);
+    Values(binary_ ? "unsigned_char" : "float",
+           table ? Product(4, count) : Product(count, num_tuples_));
   }
 
   // Arrays by name: of the whole file before POINT_DATA, of points or cells after it.
@@ -161,7 +163,7 @@ class LegacyReader {
       const std::size_t tuples = cursor_.Count();
       const std::string type(cursor_.Word());
       if (type == "string") cursor_.Fail("field " + name + " holds texts, which are not read");
-      Keep(name, components, tuples, Values(type, components * tuples));
+      Keep(name, components, tuples, Values(type, Product(components, tuples)));
     }
   }
 
@@ -175,9 +177,16 @@ class LegacyReader {
     cloud_.arrays.push_back({name, std::move(values)});
   }
 
+  std::size_t Product(std::size_t a, std::size_t b) const {
+    std::size_t product = 0;
+    if (__builtin_mul_overflow(a, b, &product)) cursor_.Fail("names more values than it can hold");
+    return product;
+  }
+
   std::vector<double> Values(const std::string& type, std::size_t count) {
     const std::optional<VtkType> known = VtkTypeOf(type);
-    if (!known) cursor_.Fail("\"" + type + "\" is not a type of VTK that is read");
+    if (!known) cursor_.Fail("\"" + type.substr(0, 40) + "\" is not a type of VTK that is read");
+    if (count > cursor_.Left()) cursor_.Fail("the file ends too early for what it names; was it cut off while it was written?");
     if (binary_) {
       cursor_.Line();  // the bytes start after the end of the line that names them
       return Decode(*known, cursor_.Bytes(count * SizeOf(*known)), std::endian::big);

@@ -10,6 +10,8 @@
 namespace talus::imaging {
 namespace {
 
+constexpr unsigned long long kMostPoints = 1ull << 32;
+
 [[noreturn]] void Fail(const std::string& file, const std::string& what) {
   throw base::ConfigError(file + ": " + what);
 }
@@ -61,6 +63,7 @@ class PieceReader {
 
   void Read(const pugi::xml_node& piece, PointCloud& cloud) const {
     const auto count = piece.attribute("NumberOfPoints").as_ullong();
+    if (count > kMostPoints) Fail(file_, "says that it has " + std::to_string(count) + " points");
     const pugi::xml_node points = piece.child("Points").child("DataArray");
     if (count > 0 && !points) Fail(file_, "has a piece without <Points>");
     if (points) Append(ValuesOf(points, 3 * count), cloud.points);
@@ -95,7 +98,8 @@ class PieceReader {
                       .format = node.attribute("format").as_string("ascii"),
                       .type = *known,
                       .text = node.text().get(),
-                      .offset = node.attribute("offset").as_ullong()},
+                      .offset = node.attribute("offset").as_ullong(),
+                      .count = count},
                      encoding_);
       if (values.size() == count) return values;
       throw base::Error("has " + std::to_string(values.size()) + " values, not " +

@@ -13,6 +13,7 @@ namespace talus::imaging {
 namespace {
 
 constexpr std::size_t kMaxBlock = std::size_t{1} << 31;  // VTK's blocks are 32 KiB
+constexpr std::size_t kMostInflated = 1032;              // bytes that deflate makes of one [zlib]
 
 // Bytes one after another, from raw or base64 text. Base64 is read in groups of four, each of which
 // may be padded: VTK encodes the counts and the data as two texts, others as one.
@@ -81,9 +82,9 @@ std::size_t TakeCount(ByteStream& stream, const VtkEncoding& encoding) {
   return static_cast<std::size_t>(count);
 }
 
-// Counts: blocks, bytes of a block, bytes of the last if it is shorter (else 0), then each block's
-// compressed bytes.
-std::string Inflate(ByteStream& stream, const VtkEncoding& encoding) {
+// At most `array_size` bytes. Counts: blocks, bytes of a block, bytes of the last if it is shorter
+// (else 0), then each block's compressed bytes.
+std::string Inflate(ByteStream& stream, const VtkEncoding& encoding, std::size_t array_size) {
   const std::size_t num_blocks = TakeCount(stream, encoding);
   const std::size_t block_size = TakeCount(stream, encoding);
   const std::size_t last_size = TakeCount(stream, encoding);
@@ -96,7 +97,12 @@ std::string Inflate(ByteStream& stream, const VtkEncoding& encoding) {
   for (std::size_t b = 0; b < num_blocks; ++b) {
     const std::string packed = stream.Take(compressed[b]);
     const bool partial = b + 1 == num_blocks && last_size > 0;
-    std::string block(partial ? last_size : block_size, '\0');
+    const std::size_t expected = partial ? last_size : block_size;
+    // Before it becomes memory: a file of 700 bytes must not ask for 2 GiB.
+    if (expected / kMostInflated > packed.size() || bytes.size() + expected > array_size) {
+      throw base::Error("has damaged block sizes");
+    }
+    std::string block(expected, '\0');
     uLongf size = block.size();
     const int status = uncompress(reinterpret_cast<Bytef*>(block.data()), &size,
                                   reinterpret_cast<const Bytef*>(packed.data()), packed.size());
@@ -129,8 +135,9 @@ std::vector<double> ReadValues(const VtkArray& array, const VtkEncoding& encodin
   }
   ByteStream stream(appended ? encoding.appended.substr(array.offset) : Trimmed(array.text),
                     !appended || encoding.appended_base64);
-  const std::string bytes =
-      encoding.zlib ? Inflate(stream, encoding) : stream.Take(TakeCount(stream, encoding));
+  const std::string bytes = encoding.zlib
+                                ? Inflate(stream, encoding, array.count * SizeOf(array.type))
+                                : stream.Take(TakeCount(stream, encoding));
   return Decode(array.type, bytes, encoding.order);
 }
 

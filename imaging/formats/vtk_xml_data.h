@@ -25,6 +25,7 @@ struct VtkArray {
   VtkType type = VtkType::kFloat;
   std::string_view text;   // what stands in the element
   std::size_t offset = 0;  // [bytes] into the appended block
+  std::size_t count = 0;   // of the values that the piece says there are, below 2^40
 };
 
 // Throws base::Error with what is wrong (cut off, not base64, damaged); the caller adds the file.

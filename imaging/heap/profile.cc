@@ -1,14 +1,18 @@
 #include "imaging/heap/profile.h"
 
+#include <cstdint>
+
 namespace talus::imaging {
 
 void Frame::Validate(base::Problems& problems) const {
   problems.Require(width > 0 && width <= 65500, "width_px", width, "must be from 1 to 65500");
   problems.Require(height > 0 && height <= 65500, "height_px", height, "must be from 1 to 65500");
+  problems.Require(std::int64_t{width} * height <= 200'000'000, "width_px", width,
+                   "px times the height must be at most 200 million");
   problems.Require(pixel_size > 0 && pixel_size < 1, "pixel_size", pixel_size,
                    "must be positive and below 1 m");
-  problems.Require(plate_diameter > 0 && plate_diameter < 100, "plate_diameter", plate_diameter,
-                   "must be positive and below 100 m");
+  problems.Require(plate_diameter > 0 && plate_diameter <= 2, "plate_diameter", plate_diameter,
+                   "must be positive and at most 2 m");
   problems.Require(center_x >= 0 && center_x <= width, "center_x_px", center_x,
                    "must be within the image");
   problems.Require(baseline >= 0 && baseline <= height, "baseline_px", baseline,

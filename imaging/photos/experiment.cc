@@ -14,6 +14,8 @@
 namespace talus::imaging {
 namespace {
 
+constexpr double kMostPixels = 20000;  // across the plate
+
 std::string Size(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
@@ -199,14 +201,16 @@ void Summarise(const ExperimentOptions& options, Experiment& result) {
 void ExperimentOptions::Validate(base::Problems& problems) const {
   const int sources = !photos.empty() + !runs.empty() + !map.empty();
   problems.Require(sources == 1, "", "needs exactly one of \"photos\", \"runs\" and \"map\"");
-  problems.Require(plate_diameter > 0 && plate_diameter < 100, "plate_diameter", plate_diameter,
-                   "must be positive and below 100 m");
+  problems.Require(plate_diameter > 0 && plate_diameter <= 2, "plate_diameter", plate_diameter,
+                   "must be positive and at most 2 m; write \"10 mm\" for 10 mm");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(!pattern.empty(), "pattern", "must not be empty");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
   problems.Require(!pixel_size || (*pixel_size > 0 && *pixel_size < plate_diameter / 8),
                    "pixel_size", pixel_size.value_or(0),
                    "must be positive and below an eighth of the plate");
+  problems.Require(!pixel_size || *pixel_size >= plate_diameter / kMostPixels, "pixel_size",
+                   pixel_size.value_or(0), "must be at least a 20000th of the plate");
   problems.Require(!threshold || (*threshold > 0 && *threshold < 1), "threshold",
                    threshold.value_or(0), "must be in (0, 1)");
   for (const PhotoRun& run : runs) {

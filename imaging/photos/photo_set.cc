@@ -1,9 +1,9 @@
 #include "imaging/photos/photo_set.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <system_error>
 
@@ -11,6 +11,8 @@
 
 namespace talus::imaging {
 namespace {
+
+constexpr std::size_t kLongestPattern = 255;  // as long as a file's name can be
 
 // Numbers by value, before words.
 struct ByNumber {
@@ -31,39 +33,86 @@ struct ByNumber {
 
 using Views = std::map<std::string, std::filesystem::path, ByNumber>;
 
-// A pattern as a regular expression, with the numbers of its groups (0 when it has none).
-struct Pattern {
-  std::regex expression;
-  std::size_t run_group = 0;
-  std::size_t view_group = 0;
-};
-
-Pattern Compile(const std::string& pattern) {
-  std::string expression;
-  Pattern compiled;
-  std::size_t groups = 0;
-  for (std::size_t i = 0; i < pattern.size(); ++i) {
-    const std::string rest = pattern.substr(i);
-    if (rest.starts_with("{run}") && compiled.run_group == 0) {
-      expression += "(.+?)";
-      compiled.run_group = ++groups;
-      i += 4;
-    } else if (rest.starts_with("{view}") && compiled.view_group == 0) {
-      expression += "(.+?)";
-      compiled.view_group = ++groups;
-      i += 5;
-    } else if (pattern[i] == '*') {
-      expression += ".*";
-    } else {
-      if (std::string_view("\\^$.|?+()[]{}").find(pattern[i]) != std::string_view::npos) {
-        expression += '\\';
+// A pattern of file names. Not a regular expression: those take time that doubles with each `*`.
+class Pattern {
+ public:
+  explicit Pattern(const std::string& text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const std::string_view rest = std::string_view(text).substr(i);
+      if (rest.starts_with("{run}") && !has_run_) {
+        has_run_ = true;
+        parts_.push_back({.kind = kRun});
+        i += 4;
+      } else if (rest.starts_with("{view}") && !has_view_) {
+        has_view_ = true;
+        parts_.push_back({.kind = kView});
+        i += 5;
+      } else if (text[i] != '*') {
+        parts_.push_back({.kind = kLetter, .letter = Lower(text[i])});
+      } else if (parts_.empty() || parts_.back().kind != kAny) {
+        parts_.push_back({.kind = kAny});
       }
-      expression += pattern[i];
     }
   }
-  compiled.expression = std::regex(expression, std::regex::icase);
-  return compiled;
-}
+
+  bool has_run() const { return has_run_; }
+  bool has_view() const { return has_view_; }
+
+  struct Match {
+    std::string run;
+    std::string view;
+  };
+  std::optional<Match> Fit(const std::string& name) const {
+    Attempt attempt{.name = name, .failed = {}, .match = {}};
+    attempt.failed.assign((name.size() + 1) * (parts_.size() + 1), false);
+    if (!Fit(attempt, 0, 0)) return std::nullopt;
+    return attempt.match;
+  }
+
+ private:
+  enum Kind { kLetter, kAny, kRun, kView };
+  struct Part {
+    Kind kind = kLetter;
+    char letter = 0;
+  };
+  struct Attempt {
+    const std::string& name;
+    std::vector<bool> failed;  // by part and place: each is tried once
+    Match match;
+  };
+
+  static char Lower(char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+
+  // Whether the name from `at` on fits the parts from `part` on. `*` takes as much as it can,
+  // {run} and {view} as little.
+  bool Fit(Attempt& attempt, std::size_t part, std::size_t at) const {
+    const std::size_t left = attempt.name.size() - at;
+    if (part == parts_.size()) return left == 0;
+    const std::size_t place = part * (attempt.name.size() + 1) + at;
+    if (attempt.failed[place]) return false;
+    const Part& p = parts_[part];
+    bool fits = false;
+    if (p.kind == kLetter) {
+      fits = left > 0 && Lower(attempt.name[at]) == p.letter && Fit(attempt, part + 1, at + 1);
+    } else if (p.kind == kAny) {
+      for (std::size_t n = left + 1; n > 0 && !fits; --n) fits = Fit(attempt, part + 1, at + n - 1);
+    } else {
+      for (std::size_t n = 1; n <= left && !fits; ++n) {
+        fits = Fit(attempt, part + 1, at + n);
+        if (fits)
+          (p.kind == kRun ? attempt.match.run : attempt.match.view) = attempt.name.substr(at, n);
+      }
+    }
+    attempt.failed[place] = !fits;
+    return fits;
+  }
+
+  std::vector<Part> parts_;
+  bool has_run_ = false;
+  bool has_view_ = false;
+};
 
 std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder) {
   std::error_code error;
@@ -74,7 +123,8 @@ std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder) 
                             error.message() + ")");
   }
   for (const auto& file : entry) {
-    if (!file.is_directory()) files.push_back(file.path());
+    // Pipes and dangling links are no photographs; a pipe that was opened would be waited for.
+    if (file.is_regular_file(error)) files.push_back(file.path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -105,16 +155,19 @@ std::set<std::string, ByNumber> ExpectedViews(const std::map<std::string, Views,
 
 std::map<std::string, Views, ByNumber> Group(const std::vector<std::filesystem::path>& files,
                                              const std::string& pattern) {
-  const Pattern compiled = Compile(pattern);
+  if (pattern.size() > kLongestPattern) {
+    throw base::ConfigError("the pattern of the photographs' names has " +
+                            std::to_string(pattern.size()) + " characters; give one of at most " +
+                            std::to_string(kLongestPattern));
+  }
+  const Pattern compiled(pattern);
   std::map<std::string, Views, ByNumber> runs;
   std::map<std::string, int> counted;  // files of a run so far, for a pattern without {view}
   for (const std::filesystem::path& file : files) {
-    std::smatch match;
-    const std::string name = file.filename().string();
-    if (!std::regex_match(name, match, compiled.expression)) continue;
-    const std::string run = compiled.run_group > 0 ? match[compiled.run_group].str() : "1";
-    const std::string view =
-        compiled.view_group > 0 ? match[compiled.view_group].str() : std::to_string(++counted[run]);
+    const auto match = compiled.Fit(file.filename().string());
+    if (!match) continue;
+    const std::string run = compiled.has_run() ? match->run : "1";
+    const std::string view = compiled.has_view() ? match->view : std::to_string(++counted[run]);
     const auto [entry, added] = runs[run].emplace(view, file);
     if (added) continue;
     throw base::ConfigError(file.string() + ": is view " + view + " of run " + run +

@@ -16,6 +16,8 @@
 
 namespace talus::imaging {
 
+inline constexpr int kMostViews = 1000;  // of one heap; more see nothing new
+
 inline constexpr int kDefaultViews = 16;
 
 // Two grains touch when the gap between them is at most this share of the smaller radius: enough

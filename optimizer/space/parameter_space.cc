@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/nearest.h"
+#include "base/random.h"
 
 namespace talus::optimizer {
 namespace {
@@ -46,6 +47,17 @@ std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
   }
   if (!any || !space.Satisfies(space.ToNative(point))) return {};
   return {point};
+}
+
+bool HasRoom(const ParameterSpace& space) {
+  constexpr int kPoints = 100000;
+  Eigen::VectorXd point(static_cast<Eigen::Index>(space.Free().size()));
+  for (int i = 0; i < kPoints; ++i) {
+    base::Random random(0, base::Stream("room between constraints"), static_cast<std::uint64_t>(i));
+    for (double& coordinate : point) coordinate = random.Uniform();
+    if (space.Satisfies(space.ToNative(point))) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -95,6 +107,9 @@ void ParameterSpace::Validate(base::Problems& problems) const {
     problems.Within("constraints[" + std::to_string(c) + "]",
                     [&] { CheckConstraint(constraints[c], parameters, problems); });
   }
+  const bool sound = problems.empty() && num_free >= 1 && num_free <= kMaxParameters;
+  problems.Require(!sound || constraints.empty() || HasRoom(*this), "constraints",
+                   "leave no room: none of 100000 points of the ranges meets them all");
 }
 
 std::vector<int> ParameterSpace::Free() const {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -38,6 +39,23 @@ TEST_F(FileTest, FailedWriteLeavesNothingBehind) {
 TEST_F(FileTest, MissingFileAndFolderAreBadInput) {
   EXPECT_THROW(ReadFile(folder_ / "absent"), ConfigError);
   EXPECT_THROW(ReadFile(folder_), ConfigError);
+}
+
+// A pipe that nobody writes to was waited for, and /dev/zero filled the memory.
+TEST_F(FileTest, PipesDevicesAndHugeFilesAreBadInput) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(ReadFile(folder_ / "pipe"), ConfigError);
+  EXPECT_THROW(ReadFile("/dev/zero"), ConfigError);
+  WriteFileAtomically(folder_ / "f", "12345");
+  EXPECT_EQ(ReadFile(folder_ / "f", 5), "12345");
+  EXPECT_THROW(ReadFile(folder_ / "f", 4), ConfigError);
+}
+
+TEST_F(FileTest, TailIsTheLastBytes) {
+  WriteFileAtomically(folder_ / "f", "12345");
+  EXPECT_EQ(ReadTail(folder_ / "f", 2), "45");
+  EXPECT_EQ(ReadTail(folder_ / "f", 9), "12345");
+  EXPECT_EQ(ReadTail(folder_ / "absent", 9), "");
 }
 
 // The reference value is XXH3's published one for no bytes at all with seed 0.

@@ -124,11 +124,69 @@ TEST(Json, SyntaxErrorsAndDoubleKeysNameTheirPlace) {
   EXPECT_THAT(ErrorOf(""), HasSubstr("is not JSON"));
 }
 
+// The parser's own words are of tokens and grammar; a user is told what to type.
+TEST(Json, SyntaxErrorsAreToldInAUsersWords) {
+  const std::pair<const char*, const char*> kCases[] = {
+      {R"({"name": "n",})", "1:14: is not JSON: a comma stands before the closing bracket"},
+      {"{\"list\": [1, 2", "it ends too early: a bracket or a quote is not closed"},
+      {R"({"name" "n"})", "a colon is missing"},
+      {R"({"name": "n" "mass": 1})", "a comma or } is missing"},
+      {R"({"list": [1 2]})", "a comma or ] is missing"},
+      {R"({name: 1})", "texts and keys stand in double quotes"},
+      {R"({"mass": NaN})", "texts and keys stand in double quotes"},
+      {R"({"mass": 1.})", "a number is not complete"},
+      {R"({"mass": 1e400})", "a number is too large"},
+      {"{\"name\": \"a\nb\"}", "is its closing quote missing?"},
+      {"{\"name\": \"\xff\"}", "is not UTF-8"},
+      {R"({"name": "C:\dir"})", "a backslash in a text must be doubled"},
+      {R"({"name": "n"} 1)", "is a bracket too many?"},
+      {"{} /* open", "a comment is //"},
+      {" \n", "it is empty"}};
+  for (const auto& [text, expected] : kCases) {
+    EXPECT_THAT(ErrorOf(text), HasSubstr(expected)) << text;
+    EXPECT_THAT(ErrorOf(text), Not(HasSubstr("json.exception"))) << text;
+    EXPECT_THAT(ErrorOf(text), Not(HasSubstr("while parsing"))) << text;
+  }
+}
+
+TEST(Json, DeepNestingIsAnError) {
+  EXPECT_NO_THROW(ParseJson(std::string(100, '[') + std::string(100, ']'), "deep.json"));
+  EXPECT_THROW(ParseJson(std::string(101, '[') + std::string(101, ']'), "deep.json"), ConfigError);
+  EXPECT_THAT(ErrorOf(std::string(1000000, '[')),
+              HasSubstr("1:101: lists and objects lie in each"));
+}
+
+// Each place was found by counting the lines before it: a list took time by its length squared, and
+// this one more than an hour.
+TEST(Json, ManyBadValuesAreReadAndCounted) {
+  std::string text = "{\"name\": \"n\", \"list\": [\n";
+  for (int i = 0; i < 100000; ++i) text += "{\"diameter\": -1},\n";
+  text += "{}]}";
+  const std::string error = ErrorOf(text);
+  EXPECT_THAT(error, HasSubstr("spec.json:2:14: list[0].diameter: is -1"));
+  EXPECT_THAT(error, HasSubstr("spec.json:101:14: list[99].diameter: is -1"));
+  EXPECT_THAT(error, HasSubstr("and 99900 more problems"));
+}
+
+TEST(Json, PlacesAreFoundInKeysWithDotsAndAfterComments) {
+  const JsonFile file = ParseJson("{ /* 1\n2 */ \"a.b\": [0,\n 12], \"a\": {\"b\": true}}", "f");
+  const std::vector<std::string> paths{"a.b[1]", "a.b.c", "", "x"};
+  const auto places = file.places(paths);
+  EXPECT_EQ(places[0].line, 3);
+  EXPECT_EQ(places[0].column, 2);
+  EXPECT_EQ(places[1].line, 3);  // of both that "a.b" may mean, the last
+  EXPECT_EQ(places[2].column, 1);
+  EXPECT_EQ(places[3].line, 1);  // no such key: the object that should hold it
+}
+
 TEST(Json, WriterIsReadBack) {
   Outer outer = Load(R"({"name": "n", "list": [{"diameter": 0.1}], "color": "blue"})");
   const Outer again = Load(ToJson(outer).dump());
   EXPECT_EQ(again.list.at(0).diameter, 0.1);  // exact: the writer gives all digits
   EXPECT_EQ(again.color, Color::kBlue);
+  outer.name = "a\"\\\n\x01 ü";
+  EXPECT_EQ(JsonTextWriter::TextOf(outer), ToJson(outer).dump(2) + "\n");
+  EXPECT_EQ(JsonTextWriter::TextOf(Outer()), ToJson(Outer()).dump(2) + "\n");
   EXPECT_FALSE(again.mass.has_value());
 }
 

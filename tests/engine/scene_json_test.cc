@@ -118,7 +118,7 @@ TEST(SceneJson, AFillWithoutRoomSaysSo) {
     "materials": [{"name": "a"}], "walls": [{"shape": "plane"}], "stop": {"steps": 1},
     "fills": [{"mass": "1 g", "region": {"diameter": "5 mm", "height": "5 mm"},
                "sizes": {"kind": "mono", "diameter": "1 mm"}}]})"),
-              HasSubstr("fills[0].region: is too small for the mass"));
+              HasSubstr("fills[0].mass: is 0.001, must be less"));
 }
 
 TEST(SceneJson, MissingFileAndBrokenJsonAreErrors) {

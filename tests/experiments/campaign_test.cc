@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "experiments/analysis/export/export.h"
 #include "experiments/campaign/status.h"
+#include "experiments/journal/database.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::experiments {
@@ -160,6 +161,62 @@ TEST_F(CampaignTest, AChangedSpecIsRefusedWithWhatChangedUnlessItMayChange) {
   int search = 0;
   for (const TrialRecord& t : Trials(folder)) search += t.kind != TrialKind::kConfirm;
   EXPECT_EQ(search, 14);
+}
+
+// The budget was raised before the rest was looked at, and a large one turned negative.
+TEST_F(CampaignTest, ARefusedExtensionChangesNothing) {
+  const fs::path folder = Begin(kSmall);
+  RunFake(folder, {});
+  const std::string before = Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json;
+  const auto extend = [&](int more) {
+    return ErrorOf([&] { RunFake(folder, {}, {.spec = {}, .add_simulations = more}); });
+  };
+  EXPECT_THAT(extend(2147483647), HasSubstr("--add-simulations: 2147483647 more would be above"));
+  const fs::path spec = scratch_.path() / "run_in" / "spec.json";
+  std::string text = base::ReadFile(spec);
+  text.replace(text.find("0.5 g"), 5, "0.6 g");
+  std::ofstream(spec) << text;
+  EXPECT_THAT(extend(5), HasSubstr("powder.mass"));
+  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json, before);
+}
+
+TEST_F(CampaignTest, ADamagedSpecInTheJournalIsRepaired) {
+  const fs::path folder = Begin(kSmall);
+  const std::string before = Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json;
+  {
+    Database database(JournalPath(folder), Database::Mode::kReadWrite);
+    database.Execute("UPDATE campaign SET spec_json = replace(spec_json, '12', '13')");
+  }
+  EXPECT_THAT(ErrorOf([&] { Journal::OpenReadOnly(JournalPath(folder)); }),
+              HasSubstr("`talus resume` repairs it"));
+  RunFake(folder, {});
+  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json, before);
+}
+
+TEST_F(CampaignTest, FilesOfOthersAreNotOverwritten) {
+  const fs::path folder = scratch_.path() / "mine";
+  fs::create_directories(folder / "trials" / "0001");
+  std::ofstream(folder / "trials" / "0001" / "thesis.txt") << "years of work";
+  EXPECT_THAT(ErrorOf([&] { Begin(kSmall, "mine"); }), HasSubstr("holds other files"));
+  EXPECT_EQ(std::distance(fs::recursive_directory_iterator(folder), {}), 3);
+  // A campaign that has lost its journal is one.
+  const fs::path other = Begin(kSmall, "other");
+  RunFake(other, {});
+  const std::string result = base::ReadFile(other / "result.json");
+  fs::remove(JournalPath(other));
+  EXPECT_THAT(ErrorOf([&] { Begin(kSmall, "other"); }), HasSubstr("holds a campaign already"));
+  EXPECT_EQ(base::ReadFile(other / "result.json"), result);
+}
+
+// As when a network file system goes away, or sbatch refuses a partition: no trial's fault.
+TEST_F(CampaignTest, TrialsThatCannotBeStartedStopTheCampaign) {
+  const fs::path folder = Begin(kSmall);
+  const std::string error = ErrorOf([&] { RunFake(folder, {.no_command = true}); });
+  EXPECT_THAT(error, HasSubstr("could not be started"));
+  EXPECT_THAT(error, HasSubstr("`talus resume` goes on with the same trial"));
+  for (const TrialRecord& trial : Trials(folder)) EXPECT_EQ(trial.status, TrialStatus::kRunning);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  for (const TrialRecord& trial : Trials(folder)) EXPECT_EQ(trial.status, TrialStatus::kOk);
 }
 
 TEST_F(CampaignTest, ASecondProcessIsRefused) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -144,6 +145,37 @@ TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
   EXPECT_THAT(CheckErrors(), HasSubstr("may not have the name of a trial's own file"));
 }
 
+// An old result among the templates was copied into every trial and taken for its own.
+TEST_F(CommandEngineTest, OldResultsAreNoResults) {
+  Deck("run.sh", "true\n");
+  Deck("heap.csv", "x,y,z,r\n0,0,1e-3,1e-3\n");
+  EXPECT_THAT(CheckErrors(), HasSubstr("heap.csv: fits \"heap.*\", so that it would be taken"));
+  fs::rename(root_ / "deck/heap.csv", root_ / "deck/old.csv");
+  Deck("run.sh", "cp -p old.csv heap.csv; touch -d 2001-01-01 heap.csv\n");
+  EXPECT_EQ(CheckErrors(), "");
+  EXPECT_THAT(FailureOf(), HasSubstr("left no file \"heap.*\" that is not older than the trial"));
+}
+
+TEST_F(CommandEngineTest, TemplatesArePlainFiles) {
+  Deck("run.sh", "true\n");
+  for (const char* name : {"pipe", "dangling", "folder"}) {
+    const fs::path path = root_ / "deck" / name;
+    if (name == std::string("pipe")) {
+      ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    } else {
+      fs::create_symlink(name == std::string("folder") ? root_ : root_ / "absent", path);
+    }
+    EXPECT_THAT(CheckErrors(), HasSubstr("a template is a plain file")) << name;
+    fs::remove(path);
+  }
+  EXPECT_EQ(CheckErrors(), "");
+  for (const char* own : {".command_done", "trial.json", "profile.png"}) {
+    Deck(own, "");
+    EXPECT_THAT(CheckErrors(), HasSubstr("may not have the name of a trial's own file")) << own;
+    fs::remove(root_ / "deck" / own);
+  }
+}
+
 TEST_F(CommandEngineTest, ProgramMayBeATemplateItself) {
   Deck("run", "#!/bin/sh\nprintf 'x,y,z,r\\n0,0,1e-3,1e-3\\n' >heap.csv\n");
   options_.command = {"./run"};
@@ -167,7 +199,7 @@ TEST_F(CommandEngineTest, LastResultInNaturalOrderCounts) {
        "done\n");
   options_.result = "post/heap_*.csv";
   Run();
-  EXPECT_EQ(FindResult(options_, root_ / "trial").filename(), "heap_10.csv");
+  EXPECT_EQ(FindResult(options_, root_ / "trial", ".command.json").filename(), "heap_10.csv");
   EXPECT_TRUE(NaturalLess("heap_009", "heap_10"));
   EXPECT_FALSE(NaturalLess("heap_10", "heap_9"));
   EXPECT_TRUE(NaturalLess("heap", "heap1"));

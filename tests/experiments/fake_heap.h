@@ -58,6 +58,7 @@ struct FakeEngineOptions {
   bool fail_at_low = false;  // no heap below μ_t = 0.3
   bool fail_once = false;    // every trial's first seed fails
   double sleep = 0;          // of each trial [s]
+  bool no_command = false;   // the program is not there
 };
 
 class FakeEngine : public TrialEngine {
@@ -81,6 +82,7 @@ class FakeEngine : public TrialEngine {
     std::ofstream(folder / "run.sh") << script << "cp drawn.png tmp && mv tmp profile.png\n";
   }
   std::vector<std::string> Command(const std::filesystem::path&) override {
+    if (options_.no_command) return {"talus-no-such-program"};
     return {"sh", "run.sh"};
   }
   bool IsComplete(const std::filesystem::path& folder) override {

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "experiments/journal/checksums.h"
 #include "experiments/journal/database.h"
 #include "experiments/journal/schema.h"
 
@@ -262,6 +263,7 @@ TEST_F(JournalTest, TenThousandTrialsAreReadInASecond) {
         "INSERT INTO metrics SELECT id, m.column1, 1, '', '' FROM trials, (VALUES ('sad'), "
         "('rmse'), ('aor1'), ('aor2'), ('aor3')) m;"
         "INSERT INTO profiles SELECT id, zeroblob(8000), '' FROM trials;");
+    SealAll(database);
   }
   const auto start = std::chrono::steady_clock::now();
   const auto trials = Journal::OpenReadOnly(File()).Trials();

@@ -162,6 +162,56 @@ TEST_F(LocalRunnerTest, JobsEndWithAKilledProgramAndTheirChildrenBeforeTheFolder
   EXPECT_FALSE(GroupLives(group)) << "a child of the command lives on";
 }
 
+// A process group did not reach what had left it, and nothing was ended before the folder was used
+// again: MPI's ranks ran on for hours.
+TEST_F(LocalRunnerTest, TheWholeTreeEndsWithAKilledProgram) {
+  const Job job =
+      Shell(1,
+            "setsid sh -c 'echo $$ > session; exec sleep 300' & "  // a session of its own
+            "(sh -c 'echo $$ > orphan; exec sleep 300' &) ; "      // its parent is gone
+            "echo $$ > leader; wait; sleep 300");
+  const pid_t program = ::fork();
+  if (program == 0) {
+    LocalRunner runner({.workers = 1});
+    runner.Submit(std::span(&job, 1));
+    runner.Wait(60);
+    ::_exit(0);
+  }
+  std::vector<pid_t> tree;
+  for (const char* name : {"session", "orphan", "leader"}) {
+    ASSERT_TRUE(Eventually([&] {
+      pid_t pid = 0;
+      return (std::ifstream(job.folder / name) >> pid) && Lives(pid);
+    })) << name;
+    std::ifstream(job.folder / name) >> tree.emplace_back();
+  }
+  ::kill(program, SIGKILL);
+  ::waitpid(program, nullptr, 0);
+  for (const pid_t pid : tree) EXPECT_TRUE(Eventually([&] { return !Lives(pid); }));
+}
+
+TEST_F(LocalRunnerTest, WhatACommandLeavesBehindEndsWithIt) {
+  const Job job = Shell(1,
+                        "setsid sh -c 'echo $$ > pid; exec sleep 300' & "
+                        "until [ -s pid ]; do sleep 0.01; done");
+  EXPECT_TRUE(RunOne(job).ok());
+  pid_t pid = 0;
+  std::ifstream(job.folder / "pid") >> pid;
+  ASSERT_GT(pid, 0);
+  EXPECT_TRUE(Eventually([&] { return !Lives(pid); }));
+}
+
+// A command that prints for ever filled the disk.
+TEST_F(LocalRunnerTest, EndlessOutputIsStopped) {
+  LocalRunner runner({.workers = 1, .threads_per_job = 1, .largest_log = 1 << 20});
+  const Job job = Shell(1, "yes");
+  runner.Submit(std::span(&job, 1));
+  const auto finished = runner.Wait(60);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kSignal);
+  EXPECT_THAT(finished[0].reason, HasSubstr("printed more than 1 MiB"));
+}
+
 TEST_F(LocalRunnerTest, WaitReturnsInTimeAndReportsEachJobOnce) {
   LocalRunner runner({.workers = 2});
   const Job jobs[] = {Shell(1, "true"), Shell(2, "sleep 0.5")};

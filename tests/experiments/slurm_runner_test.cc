@@ -101,6 +101,58 @@ class SlurmRunnerTest : public ::testing::Test {
   SlurmOptions options_;
 };
 
+// A line break in the folder's name ended the comment that the script keeps it in, and bash ran
+// what followed.
+TEST_F(SlurmRunnerTest, NamesAreNeverExecuted) {
+  const std::string mark = (root_ / "executed").string();
+  for (const std::string& name : std::vector<std::string>{
+           "$(touch " + mark + ")", "`touch " + mark + "`", "'; touch " + mark + "; '",
+           "\"; touch " + mark + "; \"", "; touch " + mark + " #", "% j & | > < * \\"}) {
+    std::string folder = name;
+    std::replace(folder.begin(), folder.end(), '/', '_');
+    SlurmRunner runner(options_, root_ / folder);
+    Job job = Shell(1, "echo \"$0\"");
+    job.command.push_back(name);
+    job.folder = root_ / folder / "trials" / "1";
+    fs::create_directories(job.folder);
+    runner.Submit({&job, 1});
+    ASSERT_EQ(Finish(runner, 1).size(), 1u) << name;
+    EXPECT_EQ(base::ReadFile(job.folder / "log.txt"), name + "\n");
+    EXPECT_FALSE(fs::exists(root_ / "executed")) << name;
+  }
+}
+
+TEST_F(SlurmRunnerTest, LineBreaksInNamesAreRefused) {
+  const std::string script = "a\ntouch executed\n";
+  SlurmRunner runner(options_, root_ / "campaign");
+  Job job = Shell(1, script);
+  EXPECT_THROW(runner.Submit({&job, 1}), base::ConfigError);
+  Job folder = Shell(2, "true");
+  folder.folder = root_ / script;
+  EXPECT_THROW(runner.Submit({&folder, 1}), base::ConfigError);
+  EXPECT_EQ(Text("submitted"), "");
+}
+
+TEST(SlurmOptions, OnlyNamesAreNames) {
+  for (const char* bad : {"a\nb", "a --wrap=x", "$(x)", "`x`", "'", "\"", ";", "-p", "a\x1b[2J"}) {
+    for (std::string SlurmOptions::*field : {&SlurmOptions::partition, &SlurmOptions::account,
+                                             &SlurmOptions::qos, &SlurmOptions::memory}) {
+      SlurmOptions options;
+      options.*field = bad;
+      base::Problems problems;
+      options.Validate(problems);
+      EXPECT_EQ(problems.size(), 1u) << bad;
+    }
+  }
+  SlurmOptions options;
+  options.modules = {"gcc\nrm"};
+  options.setup = {"a\rb"};
+  options.directives = {"--x\ny"};
+  base::Problems problems;
+  options.Validate(problems);
+  EXPECT_EQ(problems.size(), 3u);
+}
+
 TEST_F(SlurmRunnerTest, JobsGivenTogetherAreOneArrayAndTellHowTheyEnded) {
   SlurmRunner runner(options_, root_ / "campaign");
   const Job jobs[] = {Shell(7, "echo \"it's $PWD\""), Shell(8, "exit 3"), Shell(9, "kill -9 $$")};
@@ -330,6 +382,11 @@ TEST(Tool, GivesOutputStatusAndAnEndToWhatHangs) {
   EXPECT_EQ(good.output, "out\n");
   EXPECT_EQ(good.errors, "err\n");
   EXPECT_EQ(RunTool({"talus-no-such-program"}).status, 127);
+  const ToolResult endless =
+      RunTool({"yes"},
+              {.time_cap = 60, .output_file = {}, .input = {}, .mark = {}, .most_output = 1 << 20});
+  EXPECT_FALSE(endless.ok());
+  EXPECT_THAT(endless.errors, HasSubstr("printed more than 1 MiB"));
   const ToolResult hung =
       RunTool({"sleep", "100"}, {.time_cap = 0.1, .output_file = std::filesystem::path()});
   EXPECT_FALSE(hung.ok());

@@ -105,7 +105,7 @@ TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {
   EXPECT_THAT(error, HasSubstr("parameters.surface_energi: is not known here; did you mean "
                                "\"surface_energy\"?"));
   EXPECT_THAT(error, HasSubstr("powder.json:7:16: objective: must be one of \"sad\", \"rmse\""));
-  EXPECT_THAT(error, HasSubstr("budget.simulations: is 0, must be at least 1"));
+  EXPECT_THAT(error, HasSubstr("budget.simulations: is 0, must be from 1 to 1000000"));
   EXPECT_THAT(error, HasSubstr("workers: is -1"));
 }
 

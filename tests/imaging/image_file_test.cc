@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/resource.h>
 #include <tiffio.h>
+#include <zlib.h>
 // clang-format off
 #include <cstdio>  // jpeglib.h needs it first
 #include <jpeglib.h>
@@ -319,6 +321,63 @@ TEST(ImageFile, PgmOfEveryWhite) {
   }
   EXPECT_THROW(DecodeGrayImage(Pgm(false, 255).substr(0, 500), "half.pgm"), base::ConfigError);
   EXPECT_THROW(DecodeGrayImage("P2 1 1 9 10", "bright.pgm"), base::ConfigError);
+}
+
+// Of the memory that this process has ever used.
+long PeakMegabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+void PutBigEndian(std::string& bytes, std::size_t at, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
+}
+
+// 33 bytes of header took 1.5 GB.
+TEST(ImageFile, HeaderThatPromisesMoreThanTheFileHoldsTakesNoMemory) {
+  std::string png = EncodePng(Ramp());
+  PutBigEndian(png, 16, 20000);
+  PutBigEndian(png, 20, 10000);
+  PutBigEndian(
+      png, 29,
+      static_cast<std::uint32_t>(::crc32(0, reinterpret_cast<const Bytef*>(&png[12]), 17)));
+  std::string bmp = Bmp();
+  for (const std::size_t at : {18, 22}) bmp.replace(at, 4, std::string("\x10\x27\0\0", 4));
+  const long before = PeakMegabytes();
+  for (const std::string& bytes : {png, bmp}) {
+    try {
+      DecodeGrayImage(bytes, "big");
+      ADD_FAILURE();
+    } catch (const base::ConfigError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("do not fit into its"));
+    }
+  }
+  EXPECT_LT(PeakMegabytes() - before, 50);
+}
+
+// Adam7, in memory as a whole: the other way of reading a PNG.
+TEST(ImageFile, InterlacedPngIsReadAsAnyOther) {
+  const GrayImage ramp = Ramp();
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &bytes,
+      [](png_structp p, png_bytep data, png_size_t count) {
+        static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), count);
+      },
+      nullptr);
+  png_set_IHDR(png, info, 37, 21, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_ADAM7,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  png_set_interlace_handling(png);
+  std::vector<png_bytep> rows;
+  for (std::size_t y = 0; y < 21; ++y) rows.push_back(const_cast<png_bytep>(&ramp.pixels[37 * y]));
+  png_write_image(png, rows.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  EXPECT_EQ(DecodeGrayImage(bytes, "adam7"), ramp);
 }
 
 // Cut anywhere, or with any one byte turned over, a file is an image or an error that names it;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -209,6 +210,43 @@ TEST_F(SphereFilesTest, ErrorsSayWhatIsWrongAndWhere) {
               HasSubstr("r ends too early"));
   EXPECT_THAT(ErrorOf(Vtu("<DataArray type=\"Float64\" Name=\"r\" format=\"ascii\">1</DataArray>")),
               HasSubstr("r has 1 values, not 2"));
+}
+
+// Of the memory that this process has ever used.
+long PeakMegabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+// 700 bytes took 2 GiB: the block sizes became memory before the data was looked at.
+TEST_F(SphereFilesTest, BlockSizesOfACompressedFileMustFitItsBytes) {
+  // One block of 0x7fffffff bytes that takes 8 compressed, in base64.
+  const std::string file =
+      "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData>"
+      "<Piece NumberOfPoints=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+      "format=\"binary\">AQAAAP///38AAAAACAAAAAAAAAAAAAAA</DataArray></Points></Piece>"
+      "</PolyData></VTKFile>";
+  const long before = PeakMegabytes();
+  EXPECT_THAT(ErrorOf(file), HasSubstr("damaged block sizes"));
+  EXPECT_LT(PeakMegabytes() - before, 50);
+}
+
+// Undefined behaviour, which the sanitizer reports.
+TEST_F(SphereFilesTest, HugeTimeStepIsAnError) {
+  for (const char* step : {"1e300", "nan", "-1e19"}) {
+    EXPECT_THAT(ErrorOf("ITEM: TIMESTEP\n" + std::string(step) + "\nITEM: NUMBER OF ATOMS\n0\n"),
+                HasSubstr("heap.txt:2: this is no number of a time step"));
+  }
+}
+
+// 1e400 was read as 0, a place in the middle of the heap.
+TEST_F(SphereFilesTest, NumbersBeyondDoubleAreNoZeros) {
+  EXPECT_THAT(ErrorOf("x,y,z,r\n1e400,2,3,4\n"), HasSubstr("sphere 1 has a position"));
+  EXPECT_THAT(ErrorOf("x,y,z,r\n" + std::string(400, '9') + ",2,3,4\n"),
+              HasSubstr("sphere 1 has a position"));
+  EXPECT_EQ(Read("x,y,z,r\n1e-400,2,3,4\n").at(0).position.x, 0);
+  EXPECT_EQ(Read("x,y,z,r\n0." + std::string(400, '0') + "1,2,3,4\n").at(0).position.x, 0);
 }
 
 // A damaged file is an error or is read as something else, but never a crash, a hang or gigabytes.

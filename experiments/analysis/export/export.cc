@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_writer.h"
+#include "base/output_folder.h"
 
 namespace talus::experiments {
 namespace {
@@ -66,9 +67,7 @@ void ExportCampaign(const std::filesystem::path& folder, const std::filesystem::
   Journal journal = Journal::OpenReadOnly(JournalPath(folder));
   const CampaignRecord campaign = journal.Campaign();
   const std::vector<TrialRecord> trials = journal.Trials();
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) throw base::Error(out.string() + ": cannot be made: " + error.message());
+  base::ClaimOutputFolder(out, "export");
   base::WriteFileAtomically(out / "trials.csv", TrialsCsv(campaign, trials));
   base::WriteFileAtomically(out / "trials.json", TrialsJson(campaign, trials));
 }

@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/write_report.h"
 
 #include "base/file.h"
+#include "base/output_folder.h"
 #include "experiments/analysis/report/figures.h"
 #include "experiments/analysis/report/page.h"
 #include "experiments/analysis/report/tables.h"
@@ -9,6 +10,7 @@ namespace talus::experiments {
 
 std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder,
                                   const PageOptions& page) {
+  base::ClaimOutputFolder(folder, "report");
   std::filesystem::create_directories(folder / "figures");
   std::filesystem::create_directories(folder / "tables");
   for (const Picture& picture : data.pictures) {

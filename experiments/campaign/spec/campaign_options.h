@@ -9,6 +9,8 @@
 namespace talus::experiments {
 
 struct BudgetOptions {
+  static constexpr int kMostSimulations = 1000000;
+
   int simulations = 60;                // trials of noise and search together, >= 1; 0: any number
   int min_simulations = 0;             // before the strategy may end the search, >= 0
   std::optional<double> core_time{};   // [s], of the trials of noise and search together, > 0

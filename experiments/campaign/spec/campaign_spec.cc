@@ -8,6 +8,7 @@
 #include "base/json_writer.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/trials/engines/command_engine.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::experiments {
 namespace {
@@ -17,6 +18,10 @@ using nlohmann::ordered_json;
 // Keys that a running campaign may be given anew: what to spend and where, not what to find.
 constexpr std::string_view kMayChange[] = {"name",    "budget",         "confirm",      "workers",
                                            "threads", "trial_time_cap", "retry_failed", "runner"};
+
+constexpr double kLongest = 366 * 86400.0;  // [s]
+constexpr int kMostReplicates = 1000;
+constexpr int kMostWorkers = 4096;
 
 std::string Short(const ordered_json& value) {
   std::string text = value.dump();
@@ -126,19 +131,21 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
 }  // namespace
 
 void BudgetOptions::Validate(base::Problems& problems) const {
-  problems.Require(simulations >= 1 || (simulations == 0 && core_time), "simulations", simulations,
-                   "must be at least 1");
+  problems.Require(
+      (simulations >= 1 || (simulations == 0 && core_time)) && simulations <= kMostSimulations,
+      "simulations", simulations, "must be from 1 to 1000000");
   problems.Require(!core_time || *core_time > 0, "core_time", core_time.value_or(0),
                    "must be positive");
-  problems.Require(min_simulations >= 0, "min_simulations", min_simulations,
-                   "must not be negative");
+  problems.Require(min_simulations >= 0 && min_simulations <= kMostSimulations, "min_simulations",
+                   min_simulations, "must be from 0 to 1000000");
   problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
                    "must be positive");
 }
 
 void NoiseOptions::Validate(base::Problems& problems) const {
-  problems.Require(replicates == 0 || replicates >= 2, "replicates", replicates,
-                   "must be 0, or at least 2: one trial has no scatter");
+  problems.Require(replicates == 0 || (replicates >= 2 && replicates <= kMostReplicates),
+                   "replicates", replicates,
+                   "must be 0, or from 2 to 1000: one trial has no scatter");
 }
 
 void PosteriorOptions::Validate(base::Problems& problems) const {
@@ -147,8 +154,10 @@ void PosteriorOptions::Validate(base::Problems& problems) const {
 }
 
 void ConfirmOptions::Validate(base::Problems& problems) const {
-  problems.Require(candidates >= 0, "candidates", candidates, "must not be negative");
-  problems.Require(replicates >= 1, "replicates", replicates, "must be at least 1");
+  problems.Require(candidates >= 0 && candidates <= kMostReplicates, "candidates", candidates,
+                   "must be from 0 to 1000");
+  problems.Require(replicates >= 1 && replicates <= kMostReplicates, "replicates", replicates,
+                   "must be from 1 to 1000");
   problems.Require(!scale_factor || *scale_factor >= 1, "scale_factor", scale_factor.value_or(1),
                    "must be at least 1");
 }
@@ -157,11 +166,16 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(gravity > 0, "gravity", gravity, "must be positive");
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
-  problems.Require(num_views >= 1, "num_views", num_views, "must be at least 1");
-  problems.Require(replicates >= 1, "replicates", replicates, "must be at least 1");
-  problems.Require(workers >= 0, "workers", workers, "must not be negative");
-  problems.Require(threads >= 1, "threads", threads, "must be at least 1");
-  problems.Require(trial_time_cap > 0, "trial_time_cap", trial_time_cap, "must be positive");
+  problems.Require(num_views >= 1 && num_views <= imaging::kMostViews, "num_views", num_views,
+                   "must be from 1 to 1000");
+  problems.Require(replicates >= 1 && replicates <= kMostReplicates, "replicates", replicates,
+                   "must be from 1 to 1000");
+  problems.Require(workers >= 0 && workers <= kMostWorkers, "workers", workers,
+                   "must be from 0 to 4096");
+  problems.Require(threads >= 1 && threads <= kMostWorkers, "threads", threads,
+                   "must be from 1 to 4096");
+  problems.Require(trial_time_cap > 0 && trial_time_cap <= kLongest, "trial_time_cap",
+                   trial_time_cap, "must be positive, and at most a year");
   problems.Require(budget.simulations == 0 || budget.simulations > noise.replicates,
                    "budget.simulations", budget.simulations, "must be more than noise.replicates");
   ValidateExperiments(*this, problems);
@@ -209,7 +223,7 @@ CampaignSpec ParseSpecText(const std::string& text) {
 
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   CampaignSpec spec;
-  base::Problems problems(file.path.string(), file.source);
+  base::Problems problems(file.path.string(), file.places);
   base::ReadOptions(file.root, spec,
                     {problems, std::filesystem::absolute(file.path).parent_path()});
   if (spec.name.empty()) spec.name = file.path.stem().string();

@@ -1,13 +1,18 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/filling.h"
 #include "engine/scene/scene.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::experiments {
 namespace {
+
+constexpr double kLargestPlate = 2;  // [m]
 
 void RequirePositive(base::Problems& problems, const char* key, double value) {
   problems.Require(value > 0 && std::isfinite(value), key, value, "must be positive");
@@ -42,6 +47,8 @@ void WallMaterial::Validate(base::Problems& problems) const { Over({}).Validate(
 void Device::Validate(base::Problems& problems) const {
   RequirePositive(problems, "tube_inner_diameter", tube_inner_diameter);
   RequirePositive(problems, "plate_diameter", plate_diameter);
+  problems.Require(!(plate_diameter > kLargestPlate), "plate_diameter", plate_diameter,
+                   "must be at most 2 m; write \"10 mm\" for 10 mm");
   RequirePositive(problems, "plate_height", plate_height);
   RequirePositive(problems, "lift_velocity", lift_velocity);
   if (tube_length) RequirePositive(problems, "tube_length", *tube_length);
@@ -125,13 +132,16 @@ void HeapCase::Validate(base::Problems& problems) const {
   RequirePositive(problems, "gravity", gravity);
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
-  problems.Require(num_views >= 1, "num_views", num_views, "must be at least 1");
+  problems.Require(num_views >= 1 && num_views <= imaging::kMostViews, "num_views", num_views,
+                   "must be from 1 to 1000");
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");
   problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
                    "checkpoint_interval", checkpoint_interval, "must not be negative");
   if (!problems.empty() || powder.sizes.kind == engine::SizeKind::kFile) return;
   const HeapSize size = EstimateHeap(*this);
   const double largest = coarse_graining.scale_factor * engine::SizeCurve(powder.sizes).largest();
+  const std::string too_many = engine::TooManyGrains(size.grains);
+  problems.Require(too_many.empty(), "powder.mass", too_many);
   problems.Require(size.num_grains >= 1, "powder.mass", powder.mass,
                    "is less than one grain; the coarse graining may be too strong");
   problems.Require(3 * largest < device.tube_inner_diameter, "device.tube_inner_diameter",
@@ -150,7 +160,8 @@ HeapSize EstimateHeap(const HeapCase& c) {
   const double volume = c.powder.mass / c.powder.material.density;
   const double area = std::numbers::pi / 4 * std::pow(c.device.tube_inner_diameter, 2);
   HeapSize size;
-  size.num_grains = std::llround(volume / (f * f * f * curve.mean_volume()));
+  size.grains = volume / (f * f * f * curve.mean_volume());
+  size.num_grains = std::llround(std::min(size.grains, 1e18));
   size.mean_diameter = f * curve.VolumeQuantile(0.5);
   size.time_step =
       c.rayleigh_fraction * engine::RayleighTime(c.powder.material, f * curve.smallest() / 2);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/json_file.h"
 #include "base/problems.h"
 #include "engine/scene/material.h"
 #include "experiments/rigs/lifted_tube/device.h"
@@ -84,6 +85,7 @@ struct HeapCase {
 // Reads, completes (a size file's content moves into the struct) and validates a case; throws one
 // ConfigError with everything that is wrong.
 HeapCase LoadHeapCase(const std::filesystem::path& path);
+HeapCase LoadHeapCase(const base::JsonFile& file);
 
 // The case as a case.json that needs no other file.
 std::string HeapCaseText(const HeapCase& heap_case);
@@ -91,6 +93,7 @@ std::string HeapCaseText(const HeapCase& heap_case);
 // What the powder and the device mean for the cost, before anything is simulated.
 struct HeapSize {
   std::int64_t num_grains = 0;
+  double grains = 0;          // the same, however many
   double mean_diameter = 0;   // by volume of the scaled grains (D50) [m]
   double time_step = 0;       // [s]
   double filled_height = 0;   // of a loose filling [m]

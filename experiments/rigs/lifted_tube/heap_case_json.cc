@@ -5,10 +5,14 @@
 namespace talus::experiments {
 
 HeapCase LoadHeapCase(const std::filesystem::path& path) {
-  HeapCase heap_case = base::LoadOptions<HeapCase>(base::ReadJsonFile(path));
+  return LoadHeapCase(base::ReadJsonFile(path));
+}
+
+HeapCase LoadHeapCase(const base::JsonFile& file) {
+  auto heap_case = base::LoadOptions<HeapCase>(file);
   if (heap_case.powder.sizes.kind != engine::SizeKind::kFile) return heap_case;
   engine::ReadSizeFile(heap_case.powder.sizes);
-  base::Problems problems(path.string(), {});
+  base::Problems problems(file.path.string(), file.places);
   heap_case.Validate(problems);  // what only the sizes can tell
   problems.ThrowIfAny();
   return heap_case;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "engine/scene/scene_warnings.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
 
 namespace talus::experiments {
@@ -104,6 +105,9 @@ std::vector<std::string> HeapWarnings(const HeapCase& c) {
   if (across < 30) warnings.push_back(text.str());
   if (c.rayleigh_fraction > kHeapRayleighFraction) {
     warnings.push_back("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
+  }
+  for (std::string& warning : engine::AdhesionWarnings(c.models, Materials(c))) {
+    warnings.push_back(std::move(warning));
   }
   return warnings;
 }

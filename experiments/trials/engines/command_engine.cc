@@ -157,15 +157,20 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   // The mark tells a result that is whole from one that a kill has left half written.
   std::vector<std::string> command{"/bin/sh", "-c", std::string("\"$@\" || exit; : >") + kDone,
                                    "sh"};
-  const auto filled = nlohmann::json::parse(base::ReadFile(folder / kCommandFile));
-  for (const auto& argument : filled) command.push_back(argument.get<std::string>());
+  const auto filled = nlohmann::json::parse(base::ReadFile(folder / kCommandFile), nullptr, false);
+  for (const auto& argument : filled) {
+    if (!argument.is_string()) {
+      throw base::Error((folder / kCommandFile).string() + ": is damaged; remove the folder");
+    }
+    command.push_back(argument.get<std::string>());
+  }
   return command;
 }
 
 bool CommandEngine::IsComplete(const fs::path& folder) { return fs::exists(folder / kDone); }
 
 TrialOutput CommandEngine::Collect(const HeapCase& heap_case, const fs::path& folder) {
-  const fs::path file = FindResult(options_, folder);
+  const fs::path file = FindResult(options_, folder, kCommandFile);
   const Measured measured = file.extension() == ".png"
                                 ? MeasureImage(heap_case, file, folder)
                                 : MeasureSpheres(options_, heap_case, file, folder);
@@ -188,11 +193,10 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                        "\"/\", in the templates' folder");
 }
 
-CommandCase LoadCommandCase(const fs::path& path) {
-  const base::JsonFile file = base::ReadJsonFile(path);
+CommandCase LoadCommandCase(const base::JsonFile& file) {
   auto command_case = base::LoadOptions<CommandCase>(file);
   engine::ReadSizeFile(command_case.heap.powder.sizes);
-  base::Problems problems(file.path.string(), file.source);
+  base::Problems problems(file.path.string(), file.places);
   problems.Require(command_case.heap.frame.has_value(), "frame",
                    "is missing: the result is measured in it");
   problems.Within("engine", [&] {

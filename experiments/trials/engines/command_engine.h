@@ -51,7 +51,7 @@ struct CommandCase {
   void Validate(base::Problems& problems) const { heap.Validate(problems); }
 };
 
-CommandCase LoadCommandCase(const std::filesystem::path& path);
+CommandCase LoadCommandCase(const base::JsonFile& file);
 
 // `talus simulate` for a file of this kind: the whole trial in `folder`, which is new, empty or the
 // same case's; `fresh` runs it again where it is complete. Throws base::Error with the reason when

@@ -1,6 +1,19 @@
 #include "experiments/trials/engines/command_options.h"
 
+#include <fnmatch.h>
+
+#include <algorithm>
+
 namespace talus::experiments {
+
+namespace {
+
+bool IsInside(const std::filesystem::path& path) {
+  return !path.empty() && path.is_relative() && path.has_filename() &&
+         std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
+}
+
+}  // namespace
 
 void CommandOptions::Validate(base::Problems& problems) const {
   problems.Require(templates.has_value(), "templates",
@@ -8,8 +21,14 @@ void CommandOptions::Validate(base::Problems& problems) const {
   problems.Require(!command.empty() && !command.front().empty(), "command",
                    "must name a program and its arguments, such as [\"liggghts\", \"-in\", "
                    "\"in.heap\"]");
-  problems.Require(!result.empty() && std::filesystem::path(result).is_relative(), "result",
+  problems.Require(IsInside(result), "result",
                    "must be a file in the trial's folder, such as \"heap.*\"");
+  for (const char* own : {"case.json", "result.json", "log.txt", "trial.json", "profile.png"}) {
+    problems.Require(::fnmatch(result.c_str(), own, FNM_PERIOD) != 0, "result",
+                     std::string("fits ") + own +
+                         ", which talus itself writes there; name the result more closely, such as "
+                         "\"heap.*\"");
+  }
   problems.Require(!length_unit || *length_unit > 0, "length_unit", length_unit.value_or(0),
                    "must be positive");
 }

@@ -61,15 +61,28 @@ bool NaturalLess(const std::string& a, const std::string& b) {
   return j < b.size() && i >= a.size();
 }
 
-fs::path FindResult(const CommandOptions& engine, const fs::path& folder) {
+fs::path FindResult(const CommandOptions& engine, const fs::path& folder, const fs::path& started) {
   std::vector<fs::path> matches = Matches(engine, folder);
+  std::error_code absent;
+  const fs::file_time_type start = fs::last_write_time(folder / started, absent);
+  const bool any = !matches.empty();
+  if (!absent) {
+    std::erase_if(matches, [&](const fs::path& path) { return fs::last_write_time(path) < start; });
+  }
   if (matches.size() > 1) {
     std::erase_if(matches, [](const fs::path& path) { return path.filename() == kOwnHeap; });
   }
   if (!matches.empty()) return matches.back();
   const std::string log = LastLogLines(folder);
   throw base::Error("left no file \"" + engine.result + "\"" +
+                    (any ? " that is not older than the trial" : "") +
                     (log.empty() ? "" : "; its log ends with: " + log));
+}
+
+bool IsResultName(const CommandOptions& engine, const fs::path& name) {
+  const fs::path pattern(engine.result);
+  return name.parent_path() == pattern.parent_path() &&
+         ::fnmatch(pattern.filename().c_str(), name.filename().c_str(), FNM_PERIOD) == 0;
 }
 
 void RemoveResults(const CommandOptions& engine, const fs::path& folder) {

@@ -11,11 +11,16 @@
 namespace talus::experiments {
 
 // The file that `engine.result` means: of several the last in natural order (heap_9 < heap_10).
-// Throws base::Error, with the end of the log, when there is none.
-std::filesystem::path FindResult(const CommandOptions& engine, const std::filesystem::path& folder);
+// One older than `started`, a file of the trial's start, is none of this trial. Throws base::Error,
+// with the end of the log, when there is none.
+std::filesystem::path FindResult(const CommandOptions& engine, const std::filesystem::path& folder,
+                                 const std::filesystem::path& started);
 
 // Takes away what an earlier attempt has left under that name.
 void RemoveResults(const CommandOptions& engine, const std::filesystem::path& folder);
+
+// Whether a file of this name, relative to the trial's folder, would be taken for the result.
+bool IsResultName(const CommandOptions& engine, const std::filesystem::path& name);
 
 // Turned so that up is z, and moved so that the plate's centre is the origin.
 std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,

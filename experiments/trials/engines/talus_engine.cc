@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_file.h"
 #include "imaging/formats/image_file.h"
 
 namespace talus::experiments {
@@ -47,14 +48,15 @@ bool TalusEngine::IsComplete(const std::filesystem::path& folder) {
 TrialOutput TalusEngine::Collect(const HeapCase& heap_case, const std::filesystem::path& folder) {
   const auto result = nlohmann::json::parse(base::ReadFile(folder / "result.json"), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
-  if (result.value("status", "") != "ok") {
-    throw base::Error("failed: " + result.value("reason", "no reason in result.json"));
+  const std::string reason = base::TextAt(result, "reason");
+  if (base::TextAt(result, "status") != "ok") {
+    throw base::Error("failed: " + (reason.empty() ? "no reason in result.json" : reason));
   }
   TrialOutput output{.profile = imaging::ReadGrayImage(folder / "profile.png"),
-                     .num_steps = result.value("num_steps", std::int64_t{0}),
-                     .num_particles = result.value("num_grains", std::int64_t{0}),
+                     .num_steps = base::IntegerAt(result, "num_steps"),
+                     .num_particles = base::IntegerAt(result, "num_grains"),
                      .scalars = ScalarsOf(result),
-                     .note = result.value("reason", "")};
+                     .note = reason};
   if (output.profile.width != heap_case.frame->width ||
       output.profile.height != heap_case.frame->height) {
     throw base::Error("left a profile.png of another size than the experiment's");

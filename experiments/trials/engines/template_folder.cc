@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "experiments/trials/engines/command_result.h"
 
 namespace talus::experiments {
 namespace {
@@ -17,7 +18,10 @@ namespace fs = std::filesystem;
 
 // Names in a file of a trial's folder that a template may not have.
 bool IsReserved(const fs::path& path) {
-  return path == "case.json" || path == "result.json" || path == "log.txt";
+  static constexpr std::string_view kOwn[] = {
+      "case.json",     "result.json",   "log.txt",        "trial.json", "profile.png",
+      ".command.json", ".command_done", ".process_group", ".slurm_end", ".slurm_end.part"};
+  return std::find(std::begin(kOwn), std::end(kOwn), path.string()) != std::end(kOwn);
 }
 
 // The parts of the command as templates; `{{` in one of them is as in a file.
@@ -30,15 +34,31 @@ std::vector<TextTemplate> CommandParts(const CommandOptions& engine) {
 }  // namespace
 
 TemplateFolder::TemplateFolder(const fs::path& folder) : folder_(folder) {
+  constexpr std::size_t kMostFiles = 10000;
+  constexpr std::uint64_t kMostBytes = 256 << 20;  // all are kept in memory
+  std::uint64_t num_bytes = 0;
   std::error_code error;
   for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
-    if (!entry.is_regular_file()) continue;
-    const fs::path path = fs::relative(entry.path(), folder);
+    const fs::path path = entry.path().lexically_relative(folder);
+    std::error_code dangling;
+    if (entry.is_directory(dangling) && !entry.is_symlink()) continue;
+    if (!entry.is_regular_file(dangling)) {
+      throw base::ConfigError(entry.path().string() +
+                              ": is a pipe, a device, or a link to a folder or to nothing; a "
+                              "template is a plain file");
+    }
     if (IsReserved(path)) {
       throw base::ConfigError(entry.path().string() +
                               ": a template may not have the name of a trial's own file");
     }
-    File file{.path = path, .bytes = base::ReadFile(entry.path()), .text = std::nullopt};
+    File file{.path = path,
+              .bytes = base::ReadFile(entry.path(), kMostBytes - std::min(kMostBytes, num_bytes)),
+              .text = std::nullopt};
+    num_bytes += file.bytes.size();
+    if (files_.size() >= kMostFiles) {
+      throw base::ConfigError(folder.string() +
+                              ": holds more than 10000 files; name a folder of templates alone");
+    }
     if (file.bytes.find('\0') == std::string::npos && file.bytes.find("{{") != std::string::npos) {
       file.text.emplace(file.bytes, entry.path().string());
     }
@@ -57,6 +77,11 @@ void TemplateFolder::Check(const CommandOptions& engine, const TemplateValues& k
       if (file.text) file.text->Check(known, problems);
     }
   });
+  for (const File& file : files_) {
+    problems.Require(!IsResultName(engine, file.path), "templates",
+                     (folder_ / file.path).string() + ": fits \"" + engine.result +
+                         "\", so that it would be taken for every trial's result; take it out");
+  }
   problems.Within("command", [&] {
     for (const TextTemplate& part : CommandParts(engine)) part.Check(known, problems);
   });

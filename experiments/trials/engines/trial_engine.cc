@@ -29,7 +29,7 @@ void PrepareFolder(const std::filesystem::path& folder, const std::string& key_f
 std::string LastLogLines(const std::filesystem::path& folder) {
   constexpr std::size_t kMostBytes = 600;
   constexpr int kMostLines = 3;
-  std::string text = TextOf(folder / "log.txt");
+  std::string text = base::ReadTail(folder / "log.txt", 4 * kMostBytes);
   text.erase(text.find_last_not_of(" \n\r\t") + 1);
   std::size_t start = text.size();
   for (int line = 0; line < kMostLines && start != std::string::npos; ++line) {

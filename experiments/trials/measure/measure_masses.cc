@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/output_folder.h"
 #include "base/units.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
@@ -175,7 +176,7 @@ void MeasureMasses(const MeasureRequest& request, std::ostream& print) {
   const imaging::MassStudy study = imaging::StudyMass(runs);
   print << StudyText(study);
   if (request.out.empty()) return;
-  fs::create_directories(request.out);
+  base::ClaimOutputFolder(request.out, "measure", request.inputs);
   imaging::WritePng(request.out / "mass_study.png", imaging::DrawMassStudy(runs, study));
   base::WriteFileAtomically(request.out / "mass_study.csv", RunsCsv(runs));
   base::WriteFileAtomically(request.out / "mass_study.json", StudyJson(study).dump(2) + "\n");

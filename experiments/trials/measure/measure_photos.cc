@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/output_folder.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/profile_file.h"
@@ -31,6 +32,14 @@ std::vector<imaging::PhotoRun> GroupPhotos(const std::vector<fs::path>& files,
   return {{.name = "1", .photos = files}};
 }
 
+std::vector<fs::path> InputsOf(const MeasureRequest& request) {
+  std::vector<fs::path> inputs = request.inputs;
+  for (const imaging::PhotoRun& run : request.experiment.runs) {
+    inputs.insert(inputs.end(), run.photos.begin(), run.photos.end());
+  }
+  return inputs;
+}
+
 fs::path OverlayPath(const fs::path& out, const std::string& name) {
   return out / "overlays" / (name + ".png");
 }
@@ -41,6 +50,7 @@ std::string OverlayName(const imaging::MeasuredRun& run, const imaging::Measured
 
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
   const fs::path& out = request.out;
+  base::ClaimOutputFolder(out, "measure", InputsOf(request));
   fs::create_directories(out / "overlays");
   if (!experiment.runs.empty()) fs::create_directories(out / "runs");
   imaging::WriteProfile(out / "aehp.png", experiment.aehp);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_writer.h"
+#include "base/output_folder.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/profile_file.h"
@@ -60,7 +61,6 @@ Projected Project(const fs::path& file, const imaging::Frame& frame,
 
 void WriteFiles(const fs::path& out, const Projected& projected,
                 const imaging::HeapImages& reference, const std::vector<imaging::Metric>& metrics) {
-  fs::create_directories(out);
   const imaging::Profile& anhp = projected.heap.profile;
   imaging::WriteProfile(out / "anhp.png", anhp);
   imaging::WritePng(out / "difference.png", imaging::DrawDifferenceMap(anhp, reference.profile));
@@ -75,6 +75,10 @@ void WriteFiles(const fs::path& out, const Projected& projected,
 }  // namespace
 
 void MeasureSpheres(const MeasureRequest& request, std::ostream& print) {
+  if (request.num_views < 1 || request.num_views > imaging::kMostViews) {
+    throw base::ConfigError("--views: is " + std::to_string(request.num_views) +
+                            ", must be from 1 to " + std::to_string(imaging::kMostViews));
+  }
   const imaging::HeapImages reference = ReadReference(request.like);
   for (const fs::path& file : request.inputs) {
     const Projected projected = Project(file, reference.profile.frame, request);
@@ -85,6 +89,8 @@ void MeasureSpheres(const MeasureRequest& request, std::ostream& print) {
           << MetricsText(metrics);
     if (request.out.empty()) continue;
     const fs::path out = request.inputs.size() == 1 ? request.out : request.out / file.stem();
+    const fs::path inputs[] = {file, request.like};
+    base::ClaimOutputFolder(out, "measure", inputs);
     WriteFiles(out, projected, reference, metrics);
     print << "written to " << out.string() << "/\n";
   }

@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/interrupt.h"
+#include "base/json_file.h"
+#include "base/output_folder.h"
 #include "base/version.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -61,10 +63,10 @@ std::optional<nlohmann::json> ResultIn(const fs::path& folder) {
 bool IsDone(const RunJob& job, const fs::path& folder) {
   const auto result = ResultIn(folder);
   if (!result) return false;
-  if (result->value("input_hash", "") != base::Hex(job.input_hash)) {
+  if (base::TextAt(*result, "input_hash") != base::Hex(job.input_hash)) {
     RefuseFolder(folder, "result");
   }
-  return result->value("status", "") == "ok";
+  return base::TextAt(*result, "status") == "ok";
 }
 
 struct Started {
@@ -92,10 +94,31 @@ Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
   return {.run = job.start(), .earlier = {}, .message = message};
 }
 
+constexpr std::string_view kCommand = "simulate";
+
+// A folder that is not ours keeps what it has, with --fresh too.
+void RequireOwnFolder(const RunJob& job, const fs::path& folder) {
+  std::error_code absent;
+  const fs::path input = folder / job.input_name;
+  if (base::IsOutputFolder(folder, kCommand)) return;
+  if (fs::is_regular_file(input, absent) && base::ReadFile(input) == job.input) return;
+  // What a campaign has put into a trial's folder, and the user's own input.
+  std::vector<std::string_view> mine{"log.txt", "trial.json", ".process_group", ".slurm_end",
+                                     ".slurm_end.part"};
+  const std::string source = job.source.filename();
+  if (fs::equivalent(folder / source, job.source, absent)) mine.push_back(source);
+  if (base::HoldsOnly(folder, mine)) return;
+  throw base::ConfigError(folder.string() +
+                          ": holds files that `talus simulate` has not written and could "
+                          "overwrite; name a new folder with --out");
+}
+
 void PrepareFolder(const RunJob& job, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw base::Error(folder.string() + ": cannot be made: " + error.message());
+  base::WriteFileAtomically(folder / ".talus", std::string(kCommand) + "\n",
+                            base::Outlives::kProgram);
   fs::remove(folder / kResult, error);
   const fs::path input = folder / job.input_name;
   const bool same = fs::equivalent(input, job.source, error);  // the user's own is left as it is
@@ -155,6 +178,7 @@ std::string Summary(const engine::RunProgress& end, const engine::RunTiming& tim
 
 void DriveRun(const RunJob& job, const RunFolderOptions& options) {
   const fs::path& folder = options.folder;
+  RequireOwnFolder(job, folder);
   if (!options.fresh && IsDone(job, folder)) {
     RunLog(folder, options.quiet).Line(folder.string() + ": is done already");
     return;

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <iostream>
 
+#include "base/printable.h"
+
 namespace talus::experiments {
 namespace {
 
@@ -42,7 +44,10 @@ RunLog::RunLog(const std::filesystem::path& folder, bool quiet)
 RunLog::~RunLog() { EraseProgress(); }
 
 void RunLog::EraseProgress() {
-  if (progress_shown_) std::cout << "\r\033[K" << std::flush;
+  if (progress_shown_) {
+    std::cout << std::flush;
+    base::EraseTerminalLine(STDOUT_FILENO);
+  }
   progress_shown_ = false;
 }
 

@@ -1,5 +1,7 @@
 #include "experiments/trials/simulate/simulate.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "engine/run/scene_run.h"
 #include "engine/scene/scene_json.h"
@@ -10,12 +12,13 @@
 namespace talus::experiments {
 namespace {
 
-void SimulateScene(const std::filesystem::path& input, const RunFolderOptions& options) {
-  const engine::LoadedScene loaded = engine::LoadScene(input);
+void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
+  const std::filesystem::path source = input.path;
+  const engine::LoadedScene loaded = engine::LoadScene(std::move(input));
   const RunJob job{
       .kind = "scene",
       .input_hash = engine::SceneHash(loaded.spec),
-      .source = input,
+      .source = source,
       .input_name = "scene.json",
       .input = engine::SceneText(loaded.spec),
       .checkpoint_interval = loaded.spec.checkpoint_interval,
@@ -30,11 +33,11 @@ void SimulateScene(const std::filesystem::path& input, const RunFolderOptions& o
   DriveRun(job, options);
 }
 
-void SimulateHeap(const std::filesystem::path& input, const RunFolderOptions& options) {
+void SimulateHeap(base::JsonFile input, const RunFolderOptions& options) {
   const HeapCase heap_case = LoadHeapCase(input);
   const RunJob job{.kind = "heap",
                    .input_hash = HeapCaseHash(heap_case),
-                   .source = input,
+                   .source = input.path,
                    .input_name = "case.json",
                    .input = HeapCaseText(heap_case),
                    .checkpoint_interval = heap_case.checkpoint_interval,
@@ -46,7 +49,7 @@ void SimulateHeap(const std::filesystem::path& input, const RunFolderOptions& op
   DriveRun(job, options);
 }
 
-void SimulateCommand(const std::filesystem::path& input, const RunFolderOptions& options) {
+void SimulateCommand(base::JsonFile input, const RunFolderOptions& options) {
   SimulateCommandCase(LoadCommandCase(input), options.folder, options.fresh);
 }
 
@@ -59,10 +62,12 @@ constexpr InputKind kKinds[] = {
 }  // namespace
 
 void Simulate(const std::filesystem::path& input, const RunFolderOptions& options) {
-  const base::JsonFile file = base::ReadJsonFile(input);
+  base::JsonFile file = base::ReadJsonFile(input);
   std::string known;
   for (const InputKind& kind : kKinds) {
-    if (file.root.is_object() && file.root.contains(kind.key)) return kind.run(input, options);
+    if (file.root.is_object() && file.root.contains(kind.key)) {
+      return kind.run(std::move(file), options);
+    }
     known += std::string(known.empty() ? "" : "; ") + kind.what + " has \"" + kind.key + "\"";
   }
   throw base::ConfigError(input.string() + ": is nothing that can be simulated: " + known);

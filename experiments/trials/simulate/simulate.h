@@ -14,7 +14,7 @@ namespace talus::experiments {
 struct InputKind {
   const char* key;
   const char* what;
-  void (*run)(const std::filesystem::path& input, const RunFolderOptions& options);
+  void (*run)(base::JsonFile input, const RunFolderOptions& options);
 };
 
 // Reads the file's kind from its keys and runs it; throws ConfigError for an unknown kind.

@@ -1,0 +1,27 @@
+// A folder that a command writes its results into, without loss of what others keep there.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace talus::base {
+
+// Makes the folder where there is none. It may be new, empty, or one that the same command has
+// written before, which the file `.talus` in it says. Throws ConfigError, before anything is
+// written, when it holds other files or is the folder of one of `inputs`, and Error when it cannot
+// be made. `command` is what a message calls it: "measure".
+void ClaimOutputFolder(const std::filesystem::path& folder, std::string_view command,
+                       std::span<const std::filesystem::path> inputs = {});
+
+// Whether `command` has written into the folder.
+bool IsOutputFolder(const std::filesystem::path& folder, std::string_view command);
+
+// Throws ConfigError when `output` is one of `inputs`, by whatever name.
+void RequireNoInput(const std::filesystem::path& output,
+                    std::span<const std::filesystem::path> inputs);
+
+// Whether a folder is absent or holds no file but those named.
+bool HoldsOnly(const std::filesystem::path& folder, std::span<const std::string_view> names);
+
+}  // namespace talus::base

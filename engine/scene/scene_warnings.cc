@@ -1,0 +1,41 @@
+#include "engine/scene/scene_warnings.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace talus::engine {
+
+std::vector<std::string> AdhesionWarnings(const ContactModels& models,
+                                          const std::vector<Material>& materials) {
+  const bool sticky = std::any_of(materials.begin(), materials.end(),
+                                  [](const Material& m) { return m.surface_energy > 0; });
+  if (models.adhesion == Adhesion::kNone && sticky) {
+    return {"surface_energy is given, but models.adhesion is none: nothing adheres"};
+  }
+  if (models.adhesion != Adhesion::kNone && !sticky) {
+    return {"models.adhesion is " + std::string(base::NameOf(models.adhesion)) +
+            ", but no surface_energy is above 0: nothing adheres"};
+  }
+  return {};
+}
+
+std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene) {
+  std::vector<std::string> warnings = AdhesionWarnings(scene.models, scene.materials);
+  const double dt = TimeStep(scene);
+  const double share = dt / SmallestRayleighTime(scene);
+  if (share > kWarnRayleighFraction * (1 + 1e-9)) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "the time step is " << share
+         << " of the Rayleigh time of the smallest sphere; above 0.20 contacts are resolved poorly";
+    warnings.push_back(text.str());
+  }
+  if (spec.stop.steps && !spec.outputs.times.empty() &&
+      spec.outputs.times.back() > static_cast<double>(*spec.stop.steps) * dt) {
+    warnings.push_back("the last of outputs.times comes after stop.steps and is not written");
+  }
+  for (std::string& warning : warnings) warning.insert(0, "warning: ");
+  return warnings;
+}
+
+}  // namespace talus::engine

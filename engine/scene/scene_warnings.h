@@ -1,0 +1,18 @@
+// What of a valid scene is likely not what its author means. A run says it at its start.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene_spec.h"
+
+namespace talus::engine {
+
+// Adhesion without a surface energy, or a surface energy without adhesion.
+std::vector<std::string> AdhesionWarnings(const ContactModels& models,
+                                          const std::vector<Material>& materials);
+
+// These, a time step above 0.20 of the Rayleigh time (M4), and states that come after the end.
+std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene);
+
+}  // namespace talus::engine

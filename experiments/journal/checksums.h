@@ -1,0 +1,21 @@
+// Checksums of what the journal holds. SQLite has none of its rows: of bits turned over in the
+// file, one in twenty was not noticed, and a campaign could end with another answer.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "experiments/journal/database.h"
+
+namespace talus::experiments {
+
+// To be called within the transaction that has changed them. A trial is its row with its point and
+// metrics; the campaign is its row with the parameters and the experiment's metrics.
+void SealTrial(Database& database, std::int64_t trial);
+void SealCampaign(Database& database);
+void SealAll(Database& database);
+
+// What does not match its checksum, in words; empty when all does.
+std::string BrokenSeal(Database& database);
+
+}  // namespace talus::experiments

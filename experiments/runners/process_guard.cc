@@ -1,0 +1,129 @@
+#include "experiments/runners/process_guard.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <thread>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace talus::experiments {
+namespace {
+
+std::string EnvironmentOf(const std::string& pid) {
+  const int file = ::open(("/proc/" + pid + "/environ").c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};  // another user's, or gone
+  std::string text;
+  char bytes[8192];
+  for (ssize_t count = 0; (count = ::read(file, bytes, sizeof bytes)) > 0;) {
+    text.append(bytes, static_cast<std::size_t>(count));
+  }
+  ::close(file);
+  return text;
+}
+
+bool HasMark(const std::string& pid, const std::string& mark) {
+  return EnvironmentOf(pid).find(mark) != std::string::npos;
+}
+
+// The number may have gone to another process since we looked; a pidfd cannot.
+bool KillIfMarked(const std::string& pid, const std::string& mark) {
+  if (!HasMark(pid, mark)) return false;
+  const int process = static_cast<int>(::syscall(SYS_pidfd_open, std::stoi(pid), 0));
+  if (process < 0) return false;
+  const bool killed =
+      HasMark(pid, mark) && ::syscall(SYS_pidfd_send_signal, process, SIGKILL, nullptr, 0) == 0;
+  ::close(process);
+  return killed;
+}
+
+int KillRound(const std::string& mark) {
+  DIR* const processes = ::opendir("/proc");
+  if (processes == nullptr) return 0;
+  const std::string self = std::to_string(::getpid());
+  int num_killed = 0;
+  while (const dirent* entry = ::readdir(processes)) {
+    const std::string pid = entry->d_name;
+    if (pid == self || pid.find_first_not_of("0123456789") != std::string::npos) continue;
+    num_killed += KillIfMarked(pid, mark) ? 1 : 0;
+  }
+  ::closedir(processes);
+  return num_killed;
+}
+
+// The guard's side. Of its own session, so that what a terminal does to ours does not reach it. It
+// keeps the campaign's lock, which we hold, until all has ended.
+[[noreturn]] void Watch(int pipe, const std::string& token) {
+  ::setsid();
+  ::prctl(PR_SET_NAME, "talus-guard");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_IGN);
+  const int null = ::open("/dev/null", O_RDWR);
+  for (const int standard : {0, 1, 2}) ::dup2(null, standard);
+  char byte = 0;
+  while (::read(pipe, &byte, 1) < 0 && errno == EINTR) {
+  }
+  KillMarked(token);
+  ::_exit(0);
+}
+
+// Only that no two running programs share it matters: no result depends on it.
+std::string NewToken() {
+  std::random_device chance;
+  return base::Hex((static_cast<std::uint64_t>(chance()) << 32) ^ chance() ^
+                   static_cast<std::uint64_t>(::getpid()));
+}
+
+}  // namespace
+
+ProcessGuard::ProcessGuard() : token_(NewToken()) {
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) != 0) {
+    throw base::Error(std::string("no pipe can be made: ") + std::strerror(errno));
+  }
+  guard_ = ::fork();
+  if (guard_ == 0) {
+    ::close(ends[1]);
+    Watch(ends[0], token_);
+  }
+  const int code = errno;
+  ::close(ends[0]);
+  pipe_ = ends[1];
+  if (guard_ >= 0) return;
+  ::close(pipe_);
+  throw base::Error(std::string("no process can be started: ") + std::strerror(code));
+}
+
+ProcessGuard::~ProcessGuard() {
+  ::close(pipe_);
+  while (::waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+std::string ProcessGuard::MarkOf(std::int64_t job) const {
+  return token_ + "/" + std::to_string(job) + ";";
+}
+
+std::string MarkEntry(const std::string& mark) {
+  const char* outer = std::getenv(kMarkVariable);
+  return std::string(kMarkVariable) + "=" + (outer == nullptr ? "" : outer) + mark;
+}
+
+void KillMarked(const std::string& mark) {
+  constexpr auto kPause = std::chrono::milliseconds(2);
+  for (int round = 0; round < 5000 && KillRound(mark) > 0; ++round) {
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace talus::experiments

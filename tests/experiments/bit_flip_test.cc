@@ -1,0 +1,189 @@
+// Bits turned over in what a campaign keeps: each is harmless, or noticed.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <set>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_writer.h"
+#include "base/random.h"
+#include "experiments/campaign/repair.h"
+#include "experiments/journal/journal.h"
+
+namespace talus::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+CampaignRecord Campaign() {
+  CampaignRecord record;
+  record.name = "flips";
+  record.spec_text = "{\"budget\": {\"simulations\": 30}}";
+  record.spec_json = record.spec_text;
+  record.objective = "sad";
+  record.parameters = {
+      {.name = "sliding_friction", .low = 0, .high = 1, .scale = "linear", .unit = ""},
+      {.name = "rolling_friction", .low = 0, .high = 1, .scale = "linear", .unit = ""}};
+  ExperimentRecord experiment;
+  experiment.name = "heap";
+  experiment.reference = {{.name = "nebp_px", .value = 1e4, .unit = "px", .undefined = ""}};
+  experiment.aehp_png = std::string(400, 'p');
+  experiment.frame_json = "{}";
+  record.experiments = {experiment};
+  return record;
+}
+
+TrialRecord Trial(std::int64_t id) {
+  TrialRecord trial;
+  trial.id = id;
+  trial.unit = {0.01 * static_cast<double>(id), 0.5};
+  trial.native = trial.unit;
+  trial.seed = 1000 + id;
+  trial.started_utc = "2026-01-31T12:00:00Z";
+  return trial;
+}
+
+void Finish(Journal& journal, std::int64_t id) {
+  TrialRecord trial = Trial(id);
+  trial.status = TrialStatus::kOk;
+  trial.duration_s = 1.5;
+  trial.metrics = {
+      {.name = "sad_mm2", .value = 1.0 / static_cast<double>(id), .unit = "mm2", .undefined = ""}};
+  journal.Finish(trial, std::string(300, static_cast<char>('a' + id % 20)));
+}
+
+// All that an answer is made of.
+std::string Content(Journal& journal, bool with_profiles = true) {
+  std::string content = base::ToJson(journal.Campaign()).dump() +
+                        journal.Campaign().experiments.at(0).aehp_png +
+                        journal.Progress().result_json + base::ToJson(journal.Trials()).dump();
+  for (const TrialRecord& trial : journal.Trials()) {
+    if (with_profiles) content += journal.ProfilePng(trial.id);
+  }
+  return content;
+}
+
+class BitFlips : public testing::Test {
+ protected:
+  BitFlips() : folder_(fs::temp_directory_path() / ("talus_flips_" + std::to_string(::getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "copy");
+  }
+  ~BitFlips() override { fs::remove_all(folder_); }
+
+  static std::string Flipped(std::string bytes, std::uint64_t round) {
+    base::Random random(7, base::Stream("bit flips"), round);
+    bytes[random.Below(bytes.size())] ^= static_cast<char>(1 << random.Below(8));
+    return bytes;
+  }
+
+  fs::path folder_;
+};
+
+// Of 100 flips 5 were not noticed, and one changed the answer.
+TEST_F(BitFlips, OfTheJournalAreHarmlessOrNoticed) {
+  const fs::path path = JournalPath(folder_);
+  std::string good;
+  {
+    Journal journal = Journal::Create(path, Campaign());
+    for (std::int64_t id = 1; id <= 12; ++id) {
+      const TrialRecord trial = Trial(id);
+      journal.Start({&trial, 1});
+      if (id < 12) Finish(journal, id);
+    }
+    good = Content(journal);
+  }
+  const std::string bytes = base::ReadFile(path);
+  int noticed = 0;
+  for (std::uint64_t round = 0; round < 1000; ++round) {
+    const fs::path copy = JournalPath(folder_ / "copy");
+    for (const char* rest : {"-wal", "-shm"}) fs::remove(copy.string() + rest);
+    base::WriteFileAtomically(copy, Flipped(bytes, round), base::Outlives::kProgram);
+    try {
+      Journal journal = Journal::Open(copy);
+      // A profile has its own checksum: a damaged one is taken from the trial's folder.
+      const bool whole = Content(journal) == good;
+      if (!whole) {
+        std::string without = Content(journal, false);
+        Journal original = Journal::OpenReadOnly(path);
+        ASSERT_EQ(without, Content(original, false)) << "round " << round;
+      }
+      noticed += whole ? 0 : 1;
+    } catch (const base::Error&) {
+      ++noticed;
+    }
+  }
+  EXPECT_GT(noticed, 100);  // the others hit free space
+}
+
+// SQLite takes a frame that does not match its checksum for the end of the log: the journal is then
+// as it was after an earlier commit, and what is missing is found in the trials' folders.
+TEST_F(BitFlips, OfTheLogLeaveAnEarlierStateOrAreNoticed) {
+  const fs::path path = JournalPath(folder_);
+  Journal journal = Journal::Create(path, Campaign());
+  std::set<std::string> states{Content(journal)};
+  for (std::int64_t id = 1; id <= 12; ++id) {
+    const TrialRecord trial = Trial(id);
+    journal.Start({&trial, 1});
+    states.insert(Content(journal));
+    Finish(journal, id);
+    states.insert(Content(journal));
+  }
+  const std::string log = base::ReadFile(path.string() + "-wal");
+  ASSERT_GT(log.size(), 10000u);
+  const std::string main = base::ReadFile(path);
+  for (std::uint64_t round = 0; round < 300; ++round) {
+    const fs::path copy = JournalPath(folder_ / "copy");
+    fs::remove(copy.string() + "-shm");
+    base::WriteFileAtomically(copy, main, base::Outlives::kProgram);
+    base::WriteFileAtomically(copy.string() + "-wal", Flipped(log, round),
+                              base::Outlives::kProgram);
+    try {
+      Journal flipped = Journal::Open(copy);
+      EXPECT_TRUE(states.contains(Content(flipped))) << "round " << round;
+    } catch (const base::Error&) {
+    }
+  }
+}
+
+// The journal is made anew from these; they had no checksum.
+TEST_F(BitFlips, OfTheTrialsFoldersAreNoticed) {
+  const CampaignFolder folder{folder_ / "copy"};
+  fs::create_directories(folder.trial(1));
+  KeepCampaign(folder, Campaign());
+  KeepTrial(folder, Trial(1));
+  std::string good;
+  {
+    Journal journal = RebuildJournal(folder);
+    good = Content(journal);
+  }
+  for (const fs::path& file : {folder.campaign(), folder.trial(1) / "trial.json"}) {
+    const std::string bytes = base::ReadFile(file);
+    for (std::uint64_t round = 0; round < 200; ++round) {
+      base::WriteFileAtomically(file, Flipped(bytes, round), base::Outlives::kProgram);
+      EXPECT_THROW(RebuildJournal(folder), base::Error) << file << " round " << round;
+    }
+    base::WriteFileAtomically(file, bytes);
+  }
+  Journal journal = RebuildJournal(folder);
+  EXPECT_EQ(Content(journal), good);
+}
+
+// `resume` opened any database for writing, and made it one with a log, before it looked what it
+// was.
+TEST_F(BitFlips, AnotherProgramsDatabaseIsNotTouched) {
+  const fs::path path = JournalPath(folder_);
+  {
+    Database database(path, Database::Mode::kCreate);
+    database.Execute("PRAGMA journal_mode = DELETE; CREATE TABLE thesis (chapter TEXT);");
+  }
+  const std::string before = base::ReadFile(path);
+  EXPECT_THROW(Journal::Open(path), base::ConfigError);
+  EXPECT_EQ(base::ReadFile(path), before);
+  EXPECT_FALSE(fs::exists(path.string() + "-wal"));
+}
+
+}  // namespace
+}  // namespace talus::experiments

@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""bad_input_test.py TALUS SOURCE_DIR: every bad input ends with exit status 2, names file, place and
+remedy, and touches nothing.
+
+The table is tests/system/bad_inputs.txt: one row a case, with columns parted by " | ".
+
+    FILE | PLACE = VALUE | EXPECTED | EXPECTED | …
+
+FILE is a good input (below); the value at the PLACE in it is replaced by the JSON VALUE, or taken away
+by "PLACE -". Each EXPECTED must be in the message. A row "$ ARGUMENTS | EXPECTED | …" runs talus with
+these arguments instead, in a folder with good files.
+"""
+import concurrent.futures
+import hashlib
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+TALUS = sys.argv[1]
+SOURCE = pathlib.Path(sys.argv[2])
+ROWS = SOURCE / "tests/system/bad_inputs.txt"
+# What a library would say, which nobody can act on.
+RAW = ("json.exception", "filesystem error", "OpenCV", "std::", "terminate called", "basic_string",
+       "what():", "Assertion", "please report")
+
+
+def without_comments(text):
+    return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
+
+
+def example(name):
+    return json.loads(without_comments((SOURCE / "examples" / name).read_text()))
+
+
+def spec():
+    good = example("demo/campaign.json")
+    good["experiment"]["photos"] = str(SOURCE / "examples/photos/powder_a")
+    return good
+
+
+def command_case():
+    good = example("scenes/heap_case.json")
+    good["engine"] = {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]}
+    del good["engine"]["kind"]
+    return good
+
+
+GOOD = {  # name: content, and how it is tried
+    "spec": (spec, ["validate", "{}"]),
+    "case": (lambda: example("scenes/heap_case.json"), ["simulate", "{}", "--out", "new"]),
+    "command": (command_case, ["simulate", "{}", "--out", "new"]),
+    "scene": (lambda: example("scenes/bouncing_pair.json"), ["simulate", "{}", "--out", "new"]),
+    "packing": (lambda: example("scenes/packing.json"), ["simulate", "{}", "--out", "new"]),
+    "problem": (lambda: example("optimize/bowl.json"),
+                ["optimize", "{}", "--out", "new.json", "--", "cat"]),
+}
+
+
+def replaced(root, place, value):
+    """`value` at "a.b[3].c"; taken away if it is None; appended at "[+]"."""
+    steps = [int(s[1:-1]) if s[1:-1].isdigit() else s for s in re.findall(r"\[[^]]*\]|[^.\[]+", place)]
+    at = root
+    for step in steps[:-1]:
+        at = at.setdefault(step, {}) if isinstance(at, dict) else at[step]
+    if steps[-1] == "[+]":
+        at.append(value)
+    elif value is None:
+        del at[steps[-1]]
+    else:
+        at[steps[-1]] = value
+    return root
+
+
+def good_folder(folder):
+    (folder / "deck").mkdir()
+    (folder / "deck/run.sh").write_text("exit 3 # {{ sliding_friction }} {{ rolling_friction }}\n")
+    (folder / "mine").mkdir()
+    (folder / "mine/thesis.txt").write_text("years of work\n")
+    for name, (content, _) in GOOD.items():
+        (folder / f"{name}.json").write_text(json.dumps(content(), indent=1))
+    (folder / "text.json").write_text("not JSON\n")
+    (folder / "empty.json").write_text("")
+    (folder / "white.png").write_bytes(bytes.fromhex(
+        "89504e470d0a1a0a0000000d4948445200000001000000010800000000"
+        "3a7e9b550000000a49444154789c63f80f0001010100")[:60])
+    (folder / "spheres.csv").write_text("x,y,z\n1,2,3\n")
+    (folder / "link").symlink_to("nowhere")
+
+
+def state(folder):
+    """Everything in it, by name and content."""
+    return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
+            for p in folder.rglob("*") if p.is_file()}
+
+
+def check(row):
+    """What is wrong with the answer to the row; empty if nothing is."""
+    number, text = row
+    case, *rest = [column.strip() for column in text.split(" | ")]
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        good_folder(folder)
+        if case.startswith("$"):
+            arguments, expected = shlex.split(case[1:]), rest
+        else:
+            change, expected = rest[0], rest[1:]
+            content, arguments = GOOD[case]
+            place, _, value = change.partition(" = ")
+            new = None if place.endswith(" -") else json.loads(value, parse_constant=float)
+            bad = replaced(content(), place.removesuffix(" -"), new)
+            (folder / f"{case}.json").write_text(
+                json.dumps(bad, indent=1).replace("Infinity", "1e400").replace("NaN", "nan"))
+            arguments = [argument.replace("{}", f"{case}.json") for argument in arguments]
+            key = re.split(r"[.\[ ]", place)[0]
+            if expected[0].startswith(key):  # else the message is of a file that the input names
+                expected = expected + [f"{case}.json:"]
+        before = state(folder)
+        try:
+            done = subprocess.run([TALUS, *arguments], cwd=folder, capture_output=True, timeout=60,
+                                  stdin=subprocess.DEVNULL)
+        except subprocess.TimeoutExpired:
+            return f"row {number}: {text}\n  takes more than a minute"
+        message = done.stderr.decode(errors="backslashreplace")
+        wrong = []
+        if done.returncode != 2:
+            wrong.append(f"exit status {done.returncode}, not 2")
+        wrong += [f"does not say {e!r}" for e in expected if e not in message]
+        wrong += [f"says {raw!r}" for raw in RAW if raw in message]
+        wrong += [f"touches {path}" for path in sorted(set(before.items()) ^ set(state(folder).items()))]
+        if wrong:
+            return f"row {number}: {text}\n  " + "\n  ".join(wrong) + f"\n  message: {message[:600]}"
+    return ""
+
+
+def main():
+    rows = [(number, line) for number, line in enumerate(ROWS.read_text().splitlines(), 1)
+            if line.strip() and not line.startswith("#")]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        faults = [fault for fault in pool.map(check, rows) if fault]
+    for fault in faults:
+        print(fault)
+    print(f"{len(rows)} bad inputs, {len(faults)} of them not refused as they should be")
+    assert len(rows) >= 300, "the table has lost rows"
+    sys.exit(1 if faults else 0)
+
+
+main()

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""kill_test.py TALUS SOURCE_DIR [--kills N]: kill -9 of a campaign at random moments.
+
+Two workers run another engine whose command leaves processes in sessions of their own. After each kill
+nothing of it may run on, and what was finished must stay as it was; in the end the campaign has the
+trials that it was to have, each once. `bench/kills` runs the same with 200 kills.
+"""
+import argparse
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+DECK = """#!/bin/sh
+setsid sleep 300 &
+(sleep 300 &)
+sleep 0.05
+awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} 'BEGIN {
+  print "x_m,y_m,z_m,diameter_m"; d = 4e-4; R = 5e-3; H = R * (0.2 + 0.5 * mu + 0.3 * mr)
+  for (z = d / 2; z < H; z += d) { r = R * (1 - z / H)
+    for (x = -R; x <= R; x += d) for (y = -R; y <= R; y += d)
+      if (x * x + y * y <= r * r) print x "," y "," z "," d } }' >heap.part
+mv heap.part heap.csv
+"""
+
+
+def without_comments(text):
+    return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
+
+
+def make_spec(source, folder, simulations):
+    spec = json.loads(without_comments((source / "examples/demo/campaign.json").read_text()))
+    spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
+    spec["experiment"]["pixel_size"] = "200 um"
+    spec["budget"] = {"simulations": simulations, "min_simulations": simulations}
+    spec["noise"] = {"replicates": 2}
+    spec["confirm"] = {"candidates": 1, "replicates": 2}
+    spec["strategy"] = {"kind": "sobol", "num_points": simulations}
+    spec["workers"] = 2
+    spec["coarse_graining"] = {"scale_factor": 1}
+    spec["engine"] = {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"],
+                      "result": "heap.csv"}
+    (folder / "deck").mkdir()
+    (folder / "deck/run.sh").write_text(DECK)
+    (folder / "spec.json").write_text(json.dumps(spec))
+
+
+def processes_in(folder):
+    """The command lines of what runs in this folder."""
+    found = []
+    for process in pathlib.Path("/proc").iterdir():
+        if not process.name.isdigit():
+            continue
+        try:
+            if os.readlink(process / "cwd").startswith(str(folder / "out/trials")):
+                found.append((process / "cmdline").read_bytes().replace(b"\0", b" ").decode())
+        except OSError:
+            pass
+    return found
+
+
+def finished_trials(talus, folder):
+    subprocess.run([talus, "export", "out"], cwd=folder, check=True, capture_output=True)
+    trials = json.loads((folder / "out/export/trials.json").read_text())["trials"]
+    return {t["id"]: (t["unit_point"], t["seed"], t["status"], t["metrics"])
+            for t in trials if t["status"] != "running"}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("talus")
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("--kills", type=int, default=20)
+    arguments = parser.parse_args()
+    talus, dice = arguments.talus, random.Random(1)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name).resolve()
+        simulations = 2 + 2 * arguments.kills
+        make_spec(arguments.source, folder, simulations)
+        before, kills = {}, 0
+        command = [talus, "calibrate", "spec.json", "--out", "out"]
+        while True:
+            campaign = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE,
+                                        stderr=subprocess.STDOUT)
+            try:
+                output = campaign.communicate(timeout=None if kills == arguments.kills
+                                              else dice.uniform(0.02, 1.5))[0].decode()
+            except subprocess.TimeoutExpired:
+                campaign.send_signal(signal.SIGKILL)
+                output = campaign.communicate()[0].decode()
+                kills += 1
+            deadline = time.monotonic() + 20
+            while processes_in(folder) and time.monotonic() < deadline:
+                time.sleep(0.01)
+            assert not processes_in(folder), f"these live on: {processes_in(folder)}"
+            if not (folder / "out/journal.sqlite").exists():
+                assert campaign.returncode == -9, output
+                for file in sorted((folder / "out").rglob("*")) if (folder / "out").exists() else []:
+                    assert file.name in ("campaign.lock", "aehp.png", "aehp_sd.png", "campaign.json") \
+                        or ".tmp" in file.name, file
+                if (folder / "out/campaign.json").exists():
+                    command = [talus, "resume", "out"]
+                else:
+                    subprocess.run(["rm", "-rf", "out"], cwd=folder, check=True)
+                continue
+            command = [talus, "resume", "out"]
+            assert campaign.returncode in (0, -9), output
+            now = finished_trials(talus, folder)
+            lost = [trial for trial, content in before.items() if now.get(trial) != content]
+            assert not lost, f"these trials are lost or changed: {lost}"
+            before = now
+            if campaign.returncode == 0:
+                break
+        search = [t for t in before if before[t][2] == "ok"]
+        assert len(search) == len(before) == simulations + 2, (len(search), len(before))
+        assert sorted(before) == list(range(1, simulations + 3))
+        print(f"{kills} kills, {len(before)} trials, none lost, nothing left running")
+
+
+main()
