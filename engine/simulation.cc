@@ -119,6 +119,7 @@ ListStatistics Simulation::Statistics() const {
           .num_rebuilds = state_->tuner.num_rebuilds(),
           .num_pairs = counts.pairs,
           .num_contacts = counts.touching,
+          .num_chunks = static_cast<std::int64_t>(state_->list.chunks().size()),
           .kernels = state_->kernels->name};
 }
 

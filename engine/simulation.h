@@ -42,6 +42,7 @@ struct ListStatistics {
   std::int64_t num_rebuilds = 0;  // since the start
   std::int64_t num_pairs = 0;     // listed
   std::int64_t num_contacts = 0;  // of them, touching when the list was made
+  std::int64_t num_chunks = 0;    // that threads can share
   const char* kernels = "";       // instruction set: "avx512", "avx2", "sse2"
 };
 

@@ -1,114 +1,32 @@
 // Forces of one panel: eight pairs at a time, all of one run with the same two materials.
 //
-// Each block is loaded, answered by the law and added to the force rows in list order, so that the
-// sums do not depend on who computes what. Pairs out of reach cost the distance test only.
+// Each block is loaded, answered by the law and added to the force rows in an order that follows
+// from the list and the positions, so that the sums do not depend on who computes what. Pairs out
+// of reach cost the distance test only.
 #pragma once
 
+#include "engine/kernel/batch.h"
 #include "engine/kernel/shapes.h"
 #include "engine/kernel/simd.h"
 
 namespace talus::engine::TALUS_TARGET {
 
-struct Positions {
-  Vector<Lanes> at;
-  Lanes radius;
-};
-
-TALUS_INLINE Positions LoadPositions(const StepView& step, const std::int32_t* index) {
-  const Quads q = LoadQuads(step.motion, 8, index);
-  return {{q.x, q.y, q.z}, q.w};
-}
-
-TALUS_INLINE Body<Lanes> LoadBody(const StepView& step, const std::int32_t* index,
-                                  const Lanes& radius) {
-  const Quads v = LoadQuads(step.motion + 4, 8, index);
-  const Quads w = LoadQuads(step.spin, 4, index);
-  return {radius, v.w, w.w, {v.x, v.y, v.z}, {w.x, w.y, w.z}};
-}
-
-// A part of a block, one vector wide.
-struct Part {
-  PairBlock& block;
-  std::uint8_t& touching;
-  int lane;  // the part's first lane in its block
-  Mask valid;
-
-  TALUS_INLINE const std::int32_t* first() const { return block.first + lane; }
-  TALUS_INLINE const std::int32_t* second() const { return block.second + lane; }
-  TALUS_INLINE unsigned mask() const { return (1u << Lanes::kWidth) - 1u; }
-
-  TALUS_INLINE void Load(History<Lanes>& h) const {
-    h.spring = LoadVector(block.spring);
-    h.moment = LoadVector(block.moment);
-  }
-  TALUS_INLINE void Store(const History<Lanes>& h, bool has_moment) const {
-    StoreVector(h.spring, block.spring);
-    if (has_moment) StoreVector(h.moment, block.moment);
-  }
-  TALUS_INLINE void SetTouching(unsigned bits) const {
-    touching = static_cast<std::uint8_t>((touching & ~(mask() << lane)) | (bits << lane));
-  }
-  // Nothing of this part is in reach: forget what it remembers.
-  TALUS_INLINE void Clear() const {
-    if (((touching >> lane) & mask()) == 0) return;
-    const Lanes zero(0.0);
-    const Vector<Lanes> none{zero, zero, zero};
-    Store({none, none}, true);
-    SetTouching(0);
-  }
-
- private:
-  TALUS_INLINE Vector<Lanes> LoadVector(const double (&from)[3][kBlock]) const {
-    return {Lanes::Load(from[0] + lane), Lanes::Load(from[1] + lane), Lanes::Load(from[2] + lane)};
-  }
-  TALUS_INLINE void StoreVector(const Vector<Lanes>& a, double (&to)[3][kBlock]) const {
-    a.x.Store(to[0] + lane);
-    a.y.Store(to[1] + lane);
-    a.z.Store(to[2] + lane);
-  }
-};
-
-template <class NormalLaw, class RollingLaw>
-TALUS_INLINE Response<Lanes> Answer(const PairConstants& constants, const StepView& step,
-                                    const Contact<Lanes>& contact, Mask active, const Part& part) {
-  History<Lanes> history;
-  part.Load(history);
-  const Response<Lanes> response =
-      Respond<NormalLaw, RollingLaw>(constants, contact, Lanes(step.time_step), history);
-  const Mask touches = active & (contact.overlap > Lanes(0.0));
-  history.spring = OrZero(touches, history.spring);
-  history.moment = OrZero(touches, history.moment);
-  part.Store(history, RollingLaw::kHasMoment);
-  part.SetTouching(Bits(touches));
-  return {OrZero(active, response.force), OrZero(active, response.lever),
-          OrZero(active, response.rolling)};
-}
+// Parts with more lanes in reach than this are answered where they are.
+inline constexpr int kFewLanes = Lanes::kWidth / 2 - 1;
 
 template <class NormalLaw, class RollingLaw>
 TALUS_INLINE void SpherePart(const StepView& step, const PanelView& panel,
-                             const PairConstants& constants, const Part& part) {
-  const Positions pi = LoadPositions(step, part.first());
-  const Positions pj = LoadPositions(step, part.second());
-  const Vector<Lanes> offset = pj.at - pi.at;
-  const Lanes square = Dot(offset, offset);
-  const Lanes radii = pi.radius + pj.radius;
-  const Lanes reach = radii + Lanes(constants.adhesion_gap);
-  const Mask active = part.valid & (square < reach * reach);
-  if (Bits(active) == 0) return part.Clear();
-
-  const Body<Lanes> i = LoadBody(step, part.first(), pi.radius);
-  const Body<Lanes> j = LoadBody(step, part.second(), pj.radius);
-  const Lanes inverse = Rsqrt(square);
-  const Lanes inverse_radii = Rsqrt(radii * radii);
-  const Vector<Lanes> surface = i.radius * i.angular_velocity + j.radius * j.angular_velocity;
-  const Contact<Lanes> contact = MakeContact(inverse * offset, radii - square * inverse,
-                                             i.radius * j.radius * inverse_radii, surface, i, j);
-  const Response<Lanes> on_i =
-      Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
-  AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, part.first(),
-                   panel.begin);
-  AddToRows<true>(on_i.force, on_i.rolling - j.radius * on_i.lever, panel.forces, part.second(),
-                  panel.begin);
+                             const PairConstants& constants, const Part& part,
+                             Batch<NormalLaw, RollingLaw>& batch) {
+  const Pairs pairs(step, constants, part.first(), part.second(), part.valid);
+  const unsigned active = Bits(pairs.active);
+  if (active == 0) return part.Clear();
+  if (__builtin_popcount(active) > kFewLanes) {
+    SphereForces<NormalLaw, RollingLaw>(step, panel, constants, pairs, part);
+    return;
+  }
+  batch.Add(part, active);
+  if (batch.full()) batch.Flush();
 }
 
 template <class NormalLaw, class RollingLaw>
@@ -167,6 +85,7 @@ void Forces(const StepView& step, const PanelView& panel) {
     PairConstants constants = step.constants[run.constants];
     constants.keeps_spring = constants.keeps_spring && run.wall < 0;
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
+    Batch<NormalLaw, RollingLaw> batch(step, panel, constants);
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;
       ahead.Block(panel.blocks + at + 3);
@@ -175,12 +94,13 @@ void Forces(const StepView& step, const PanelView& panel) {
         const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
         const Part part{panel.blocks[at], panel.touching[at], lane, Lanes::Iota() < Lanes(left)};
         if (run.wall < 0) {
-          SpherePart<NormalLaw, RollingLaw>(step, panel, constants, part);
+          SpherePart<NormalLaw, RollingLaw>(step, panel, constants, part, batch);
         } else {
           WallPart<NormalLaw, RollingLaw>(step, panel, constants, step.walls[run.wall], part);
         }
       }
     }
+    batch.Flush();
   }
 }
 

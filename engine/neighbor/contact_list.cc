@@ -13,6 +13,8 @@ namespace {
 // than a layer of the grid's cells, so that forces reach into the next chunk only: what is added
 // across chunks costs more than what the second-level cache saves.
 constexpr std::int64_t kChunkSize = 1024;
+constexpr std::int64_t kLargeChunkSize = 12288;
+constexpr std::int64_t kFewChunks = 24;      // until chunks are large
 constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them evenly
 
 // Rows and blocks of so many particles stay in the second-level cache while their touching pairs,
@@ -103,7 +105,9 @@ void ContactList::CutPanels(Chunk& chunk) {
 }
 
 void ContactList::CutChunks(std::int64_t num_particles) {
-  std::int64_t num_chunks = std::clamp<std::int64_t>(num_particles / kChunkSize, 1, kMaxChunks);
+  std::int64_t num_chunks = std::clamp<std::int64_t>(num_particles / kChunkSize, 1, kFewChunks);
+  num_chunks =
+      std::max(num_chunks, std::min<std::int64_t>(num_particles / kLargeChunkSize, kMaxChunks));
   if (num_chunks > 1) {
     num_chunks = (num_chunks + kChunksTogether - 1) / kChunksTogether * kChunksTogether;
   }

@@ -21,7 +21,7 @@
 
 namespace talus::engine {
 
-inline constexpr int kMaxChunks = 24;
+inline constexpr int kMaxChunks = 128;
 
 struct ListCounts {
   std::int64_t pairs = 0;     // listed
