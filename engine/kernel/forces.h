@@ -29,23 +29,50 @@ TALUS_INLINE void SpherePart(const StepView& step, const PanelView& panel,
   if (batch.full()) batch.Flush();
 }
 
-template <class NormalLaw, class RollingLaw>
+// `kAny` of all shapes and motions; else of the few shapes that do not turn.
+template <class NormalLaw, class RollingLaw, bool kAny>
 TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
                            const PairConstants& constants, const WallView& wall, const Part& part) {
   const Positions p = LoadPositions(step, part.first());
-  const NearestPoint<Lanes> nearest = Nearest(wall, p.at);
+  const NearestPoint<Lanes> nearest = kAny ? Nearest(wall, p.at) : NearestOfFew(wall, p.at);
   const Lanes overlap = p.radius - nearest.distance;
   const Mask active = part.valid & (overlap > Lanes(-constants.adhesion_gap));
   if (Bits(active) == 0) return part.Clear();
 
   const Body<Lanes> i = LoadBody(step, part.first(), p.radius);
-  const Body<Lanes> j = WallBody(wall, p.at, nearest);
+  const Lanes zero(0.0);
+  const Vector<Lanes> none{zero, zero, zero};
+  const Body<Lanes> j = kAny ? WallBody(wall, p.at, nearest)
+                             : Body<Lanes>{zero, zero, zero, Broadcast<Lanes>(wall.velocity), none};
   const Contact<Lanes> contact =
       MakeContact(nearest.normal, overlap, i.radius, i.radius * i.angular_velocity, i, j);
   const Response<Lanes> on_i =
       Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
   AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, part.first(),
                    panel.begin);
+}
+
+// A part of a run by its place, so that nothing of the caller's has to be in memory.
+struct Place {
+  const Run* run;
+  std::int64_t block;
+  int lane;
+};
+
+TALUS_INLINE Part PartAt(const PanelView& panel, const Run& run, std::int64_t b, int lane) {
+  const std::int64_t at = run.first_block + b;
+  const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
+  return {panel.blocks[at], panel.touching[at], lane, Lanes::Iota() < Lanes(left)};
+}
+
+// Not inlined: scenes without such walls must not pay for them.
+template <class NormalLaw, class RollingLaw>
+[[gnu::noinline]] void AnyWallPart(const StepView& step, const PanelView& panel, Place place) {
+  const Run& run = *place.run;
+  PairConstants constants = step.constants[run.constants];
+  constants.keeps_spring = false;  // between spheres only
+  WallPart<NormalLaw, RollingLaw, true>(step, panel, constants, step.walls[run.wall],
+                                        PartAt(panel, run, place.block, place.lane));
 }
 
 // Asks for what the sweep will come to soon. A panel's pairs reach `window` particles beyond their
@@ -91,12 +118,16 @@ void Forces(const StepView& step, const PanelView& panel) {
       ahead.Block(panel.blocks + at + 3);
       ahead.Rows(panel.blocks[at].first[0]);
       for (int lane = 0; lane < kBlock; lane += Lanes::kWidth) {
-        const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
-        const Part part{panel.blocks[at], panel.touching[at], lane, Lanes::Iota() < Lanes(left)};
+        const Part part = PartAt(panel, run, b, lane);
         if (run.wall < 0) {
           SpherePart<NormalLaw, RollingLaw>(step, panel, constants, part, batch);
+          continue;
+        }
+        const WallView& wall = step.walls[run.wall];
+        if (wall.turns || wall.kind >= ShapeKind::kAnnulus) {
+          AnyWallPart<NormalLaw, RollingLaw>(step, panel, {&panel.runs[r], b, lane});
         } else {
-          WallPart<NormalLaw, RollingLaw>(step, panel, constants, step.walls[run.wall], part);
+          WallPart<NormalLaw, RollingLaw, false>(step, panel, constants, wall, part);
         }
       }
     }

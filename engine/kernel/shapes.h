@@ -67,19 +67,25 @@ template <class V>
   return FromOffset((nearest_h - h) * axis + outwards * radial, axis);
 }
 
+// Of a plane, a disc, a cylinder.
 template <class V>
-TALUS_INLINE NearestPoint<V> Nearest(const WallView& wall, const Vector<V>& x) {
+TALUS_INLINE NearestPoint<V> NearestOfFew(const WallView& wall, const Vector<V>& x) {
   const Vector<V> axis = Broadcast<V>(wall.axis);
   const Vector<V> from_base = x - Broadcast<V>(wall.point);
   const V h = Dot(from_base, axis);
   if (wall.kind == ShapeKind::kPlane) return {-axis, h};
-  if (wall.kind >= ShapeKind::kAnnulus) return NearestOfMore(wall, from_base);
   const Vector<V> radial = from_base - h * axis + V(1e-100) * Broadcast<V>(wall.across);
   const V rho_squared = Max(Dot(radial, radial), V(1e-200));
   const V ratio = V(wall.radius) * Rsqrt(rho_squared);  // of the wall's radius to ρ
   const V along = h - Max(V(0.0), Min(h, V(wall.length)));
   const V across = V(1.0) - (wall.kind == ShapeKind::kOpenCylinder ? ratio : Min(ratio, V(1.0)));
   return FromOffset(-(along * axis + across * radial), axis);
+}
+
+template <class V>
+TALUS_INLINE NearestPoint<V> Nearest(const WallView& wall, const Vector<V>& x) {
+  if (wall.kind < ShapeKind::kAnnulus) return NearestOfFew(wall, x);
+  return NearestOfMore(wall, x - Broadcast<V>(wall.point));
 }
 
 // The wall where a sphere at x meets it: a body without inverse masses, whose surface moves as the

@@ -14,9 +14,9 @@ namespace talus::engine {
 namespace {
 
 constexpr double kBulk = 0.58;        // solid fraction in the funnel
-constexpr double kStream = 0.3;       // solid fraction just below its mouth
+constexpr double kStream = 0.22;      // solid fraction just below its mouth
 constexpr double kSlabDiameters = 2;  // height of a batch, in largest diameters
-constexpr int kTries = 200;           // places tried for a grain before it waits
+constexpr int kTries = 500;           // places tried for a grain before it waits
 
 double Largest(const std::vector<double>& radii) {
   return radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());

@@ -6,7 +6,7 @@
 //   W = 0.58 ρ_b √g (D − 1.4 d)^(5/2)     ρ_b = 0.58 ρ     docs/physics.md, F1 [beverloo1961]
 //
 // D the mouth's diameter, d the mean one of the grains by volume. The grains leave the mouth at the
-// speed at which the stream fills 0.3 of its section, and are placed at random in a slab above
+// speed at which the stream fills 0.22 of its section, and are placed at random in a slab above
 // it, where they touch nothing; those that find no room wait. Everything follows from the seed and
 // from how many have come, so that a run goes on from a checkpoint with the same bits.
 #pragma once

@@ -136,7 +136,8 @@ TEST(SceneJson, TheShippedSchemaIsTheParsers) {
 }
 
 TEST(SceneJson, TheShippedExamplesAreValid) {
-  for (const char* name : {"bouncing_pair.json", "packing.json"}) {
+  for (const char* name : {"bouncing_pair.json", "packing.json", "drum.json", "hopper.json",
+                           "draw_down.json", "column_collapse.json", "tilting_box.json"}) {
     EXPECT_NO_THROW(LoadScene(std::string(TALUS_SOURCE_DIR "/examples/scenes/") + name)) << name;
   }
 }

@@ -49,5 +49,47 @@ TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfTheRayleighTime) {
   EXPECT_EQ(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().size(), 1u);
 }
 
+class ExampleScene : public ::testing::TestWithParam<const char*> {};
+
+// A wall that cuts through the fill would end the run within these steps.
+TEST_P(ExampleScene, Runs) {
+  LoadedScene loaded =
+      LoadScene(std::string(TALUS_SOURCE_DIR "/examples/scenes/") + GetParam() + ".json");
+  loaded.spec.stop.steps = 300;
+  loaded.spec.outputs.times.clear();
+  const fs::path folder = fs::path(::testing::TempDir()) / (std::string("example_") + GetParam());
+  fs::create_directories(folder);
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  while (run.Advance()) {
+  }
+  run.WriteResults({});
+  const auto result = nlohmann::json::parse(base::ReadFile(folder / "result.json"));
+  EXPECT_EQ(result["reason"], "steps");
+  EXPECT_EQ(result["num_particles"], loaded.scene.particles.size());
+  EXPECT_EQ(fs::exists(folder / "series.csv"), loaded.spec.outputs.interval.has_value());
+}
+INSTANTIATE_TEST_SUITE_P(All, ExampleScene,
+                         ::testing::Values("drum", "hopper", "draw_down", "column_collapse",
+                                           "tilting_box"));
+
+// What lies still behind its gate is not at its end.
+TEST(SceneRun, ASceneIsNotAtRestBeforeItsGateHasOpened) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_gate";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa", "restitution": 0.3}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, "2.5 mm"]}],
+    "walls": [{"shape": "plane"},
+              {"shape": "disc", "diameter": "1 cm", "position": [0, 0, "2 mm"],
+               "removed_at": "0.1 s"}],
+    "stop": {"time": 0.5, "energy_fraction": 1e-4}})";
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  while (run.Advance()) {
+  }
+  EXPECT_GT(run.Progress().time, 0.12);  // 0.1 s, and 2 mm of fall
+  EXPECT_LT(run.Progress().time, 0.3);
+}
+
 }  // namespace
 }  // namespace talus::engine
