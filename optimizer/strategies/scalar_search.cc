@@ -16,6 +16,11 @@
 namespace talus::optimizer {
 namespace {
 
+// Posterior sd of the answer is inflated: point-estimated hyper-parameters make it overconfident.
+// Calibrated by bench/optimizers/value_coverage.cc.
+constexpr double kInflationIfNoisy = 1.5;
+constexpr double kInflationIfDeterministic = 1.25;
+
 // Below this probability that an evaluation works, no step near the best point is taken.
 constexpr double kSafe = 0.7;
 
@@ -124,7 +129,8 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
     return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
   }
   const ScalarFit& fit = Fit(record);
-  Answer answer = DescribeMinimum(ScalarModel(fit), record.domain(), Best(record),
+  const double inflation = record.deterministic() ? kInflationIfDeterministic : kInflationIfNoisy;
+  Answer answer = DescribeMinimum(ScalarModel(fit, inflation), record.domain(), Best(record),
                                   {.seed = record.options().seed});
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();
   const Eigen::ArrayXd error = left_out.mean - fit.process.values();
