@@ -69,24 +69,42 @@ std::vector<surrogate::SearchTask> LocalSearches(const SearchOptions& options, i
   return tasks;
 }
 
+Found BestOfList(const CheapFunction& function, const Domain& domain) {
+  const Eigen::VectorXd values = function.values(domain.candidates);
+  Eigen::Index best = 0;
+  const double value = values.minCoeff(&best);
+  return {domain.candidates.row(best), value};
+}
+
 }  // namespace
 
 Found SearchCube(const CheapFunction& function, const Domain& domain,
                  const Eigen::MatrixXd& centers, const SearchOptions& options) {
+  if (domain.IsList()) return BestOfList(function, domain);
   const Eigen::MatrixXd candidates = Candidates(domain, centers, options);
   const Eigen::VectorXd values = function.values(candidates);
   const auto inside = [&](const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
     if (!domain.Contains(x)) return std::numeric_limits<double>::infinity();
     return function.value_and_gradient(x, gradient);
   };
+  const auto at_levels = [&](const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+    const double value = inside(domain.Snap(x), gradient);
+    for (Eigen::Index k = 0; gradient != nullptr && k < gradient->size(); ++k) {
+      if (domain.HasLevels(k)) (*gradient)[k] = 0;  // the search moves the other coordinates
+    }
+    return value;
+  };
   Found best{{}, std::numeric_limits<double>::infinity()};
   for (const Eigen::Index start : Starts(candidates, values, options.num_local)) {
     Eigen::VectorXd from = candidates.row(start);
     for (surrogate::SearchTask& task : LocalSearches(options, domain.num_parameters)) {
       task.start = from;
-      const surrogate::Minimum found = surrogate::Minimize(inside, task);
+      const surrogate::Minimum found = domain.levels.empty() ? surrogate::Minimize(inside, task)
+                                                             : surrogate::Minimize(at_levels, task);
       from = found.point;
-      if (found.value < best.value || best.point.size() == 0) best = {found.point, found.value};
+      if (found.value < best.value || best.point.size() == 0) {
+        best = {domain.levels.empty() ? found.point : domain.Snap(found.point), found.value};
+      }
     }
   }
   return best;

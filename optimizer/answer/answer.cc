@@ -182,6 +182,13 @@ void DescribeTies(const ObjectiveModel& model, const Domain& domain,
   constexpr int kNumTied = 12;
   const double tolerance = answer.noise_sd > 0 ? answer.noise_sd : answer.predicted_sd;
   const double level = answer.predicted_value + tolerance;
+  if (domain.IsList()) {
+    const Eigen::MatrixXd inside = Below(model, domain.candidates, level);
+    answer.tied_volume =
+        static_cast<double>(inside.rows()) / static_cast<double>(domain.candidates.rows());
+    answer.tied = FarthestApart(inside, answer.point, kNumTied);
+    return;
+  }
   const Eigen::MatrixXd tied = Stack(Below(model, candidates, level), answer.point.transpose());
   const Box box = Wrap(tied);
   const Eigen::MatrixXd inside = Below(model, Inside(domain, RSequenceIn(box, options)), level);

@@ -7,10 +7,33 @@
 namespace talus::optimizer {
 
 DesignQueue::DesignQueue(const Domain& domain, const Points& points) {
-  for (const Eigen::VectorXd& point : domain.guesses) Append(point, false);
+  for (const Eigen::VectorXd& point : domain.guesses) AppendSnapped(domain, point);
   for (const Eigen::VectorXd& point : points) {
-    if (domain.Contains(point)) Append(point, false);
+    if (domain.Contains(point)) AppendSnapped(domain, point);
   }
+}
+
+// Of a list, the nearest candidate that is not in the queue yet.
+void DesignQueue::AppendSnapped(const Domain& domain, const Eigen::VectorXd& point) {
+  if (domain.IsContinuous()) return Append(point, false);
+  const auto is_queued = [&](const Eigen::VectorXd& other) {
+    return std::any_of(items_.begin(), items_.end(),
+                       [&](const Item& item) { return SamePoint(item.point, other); });
+  };
+  if (!domain.IsList()) {
+    const Eigen::VectorXd snapped = domain.Snap(point);
+    if (domain.Contains(snapped) && !is_queued(snapped)) Append(snapped, false);
+    return;
+  }
+  std::optional<Eigen::Index> nearest;
+  double least = 0;
+  for (Eigen::Index i = 0; i < domain.candidates.rows(); ++i) {
+    const double distance = (domain.candidates.row(i) - point.transpose()).squaredNorm();
+    if ((nearest && distance >= least) || is_queued(domain.candidates.row(i))) continue;
+    nearest = i;
+    least = distance;
+  }
+  if (nearest) Append(domain.candidates.row(*nearest), false);
 }
 
 void DesignQueue::Append(const Eigen::VectorXd& point, bool is_evaluated) {

@@ -13,7 +13,8 @@ namespace talus::optimizer {
 
 class DesignQueue {
  public:
-  // The domain's guesses, then those of `points` that the domain contains.
+  // The domain's guesses, then those of `points` that the domain contains; at levels, or at
+  // candidates of a list, each once.
   DesignQueue(const Domain& domain, const Points& points);
 
   void Append(const Eigen::VectorXd& point, bool is_evaluated);
@@ -28,6 +29,8 @@ class DesignQueue {
   int size() const { return static_cast<int>(items_.size()); }
 
  private:
+  void AppendSnapped(const Domain& domain, const Eigen::VectorXd& point);
+
   struct Item {
     Eigen::VectorXd point;
     bool is_evaluated = false;

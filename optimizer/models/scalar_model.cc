@@ -93,16 +93,17 @@ Moments ScalarModel::Predict(const Eigen::MatrixXd& points) const {
   Moments moments{raw.mean, raw.variance.cwiseSqrt()};
   for (Eigen::Index i = 0; i < raw.mean.size(); ++i) {
     moments.mean[i] = fit_.transform.Backward(raw.mean[i]);
-    moments.sd[i] *= fit_.transform.BackwardSlope(raw.mean[i]);
+    moments.sd[i] *= inflation_ * fit_.transform.BackwardSlope(raw.mean[i]);
   }
   return moments;
 }
 
 Eigen::MatrixXd ScalarModel::Draw(const Eigen::MatrixXd& points, int num_draws,
                                   base::Random random) const {
-  return fit_.process.Draw(points, num_draws, random).unaryExpr([this](double t) {
-    return fit_.transform.Backward(t);
-  });
+  Eigen::MatrixXd draws = fit_.process.Draw(points, num_draws, random);
+  const Eigen::RowVectorXd mean = fit_.process.PredictAll(points).mean.transpose();
+  draws = (inflation_ * (draws.rowwise() - mean)).rowwise() + mean;
+  return draws.unaryExpr([this](double t) { return fit_.transform.Backward(t); });
 }
 
 double ScalarModel::NoiseSd(const Eigen::VectorXd& x) const {

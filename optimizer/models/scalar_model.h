@@ -58,7 +58,9 @@ class ScalarFitter {
 // In units of the objective: the mean is transformed back, the standard deviation to first order.
 class ScalarModel : public ObjectiveModel {
  public:
-  explicit ScalarModel(ScalarFit fit) : fit_(std::move(fit)) {}
+  // `inflation`: factor on the posterior standard deviations and on the deviations of draws.
+  explicit ScalarModel(ScalarFit fit, double inflation = 1)
+      : fit_(std::move(fit)), inflation_(inflation) {}
 
   int num_parameters() const override { return static_cast<int>(fit_.process.dimension()); }
   Moments Predict(const Eigen::MatrixXd& points) const override;
@@ -68,6 +70,7 @@ class ScalarModel : public ObjectiveModel {
 
  private:
   ScalarFit fit_;
+  double inflation_ = 1;
 };
 
 // In units of the transformed objective, in which the process is Gaussian: for acquisition.

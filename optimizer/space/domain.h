@@ -1,4 +1,5 @@
-// Where a strategy may look: the unit cube, less what constraints forbid.
+// Where a strategy may look: the unit cube, less what constraints forbid; or a list of candidates,
+// or levels of single parameters, within it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +12,24 @@ struct Domain {
   int num_parameters = 3;                     // 1 … 6
   std::vector<Eigen::VectorXd> guesses = {};  // points to be evaluated first, unit cube
   std::function<bool(const Eigen::VectorXd&)> feasible = {};  // empty: the whole cube
+  // The only points there are, one a row; empty: any point.
+  Eigen::MatrixXd candidates = {};
+  // The only values of a coordinate, ascending, one list a parameter; an empty list: any value. No
+  // lists at all: any value of any parameter.
+  std::vector<std::vector<double>> levels = {};
 
   bool Contains(const Eigen::VectorXd& point) const {
     return (point.array() >= 0).all() && (point.array() <= 1).all() &&
            (!feasible || feasible(point));
   }
+  bool IsList() const { return candidates.rows() > 0; }
+  bool IsContinuous() const { return !IsList() && levels.empty(); }
+  bool HasLevels(Eigen::Index coordinate) const {
+    return !levels.empty() && !levels[static_cast<std::size_t>(coordinate)].empty();
+  }
+
+  // The nearest candidate, or the point with each coordinate at its nearest level.
+  Eigen::VectorXd Snap(const Eigen::VectorXd& point) const;
 };
 
 // Two points nearer than this in every coordinate are the same one: a point that went through

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/nearest.h"
 #include "base/random.h"
+#include "optimizer/space/candidate_table.h"
+#include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
 namespace {
@@ -60,6 +63,22 @@ bool HasRoom(const ParameterSpace& space) {
   return false;
 }
 
+// Every combination of levels, the last parameter fastest.
+Eigen::MatrixXd Combinations(const std::vector<std::vector<double>>& levels) {
+  Eigen::Index size = 1;
+  for (const auto& one : levels) size *= static_cast<Eigen::Index>(one.size());
+  Eigen::MatrixXd rows(size, static_cast<Eigen::Index>(levels.size()));
+  Eigen::Index period = size;
+  for (Eigen::Index k = 0; k < rows.cols(); ++k) {
+    const auto& one = levels[static_cast<std::size_t>(k)];
+    period /= static_cast<Eigen::Index>(one.size());
+    for (Eigen::Index i = 0; i < size; ++i) {
+      rows(i, k) = one[static_cast<std::size_t>(i / period) % one.size()];
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 void Parameter::Validate(base::Problems& problems) const {
@@ -67,8 +86,10 @@ void Parameter::Validate(base::Problems& problems) const {
   if (fixed) {
     problems.Require(std::isfinite(*fixed), "fixed", *fixed, "must be finite");
     problems.Require(!guess, "guess", "has no meaning beside \"fixed\"");
+    problems.Require(levels.empty(), "levels", "have no meaning beside \"fixed\"");
     return;
   }
+  if (!levels.empty()) return ValidateLevels(problems);
   problems.Require(std::isfinite(low), "low", low, "must be given and finite (or give \"fixed\")");
   problems.Require(std::isfinite(high), "high", high,
                    "must be given and finite (or give \"fixed\")");
@@ -82,16 +103,43 @@ void Parameter::Validate(base::Problems& problems) const {
   }
 }
 
+void Parameter::ValidateLevels(base::Problems& problems) const {
+  problems.Require(std::isnan(low) && std::isnan(high), "levels",
+                   "stand in place of low and high: take these away");
+  problems.Require(levels.size() >= 2, "levels",
+                   "must be two or more; give one value as \"fixed\"");
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::string path = "levels[" + std::to_string(i) + "]";
+    problems.Require(std::isfinite(levels[i]), path, levels[i], "must be finite");
+    problems.Require(i == 0 || levels[i] > levels[i - 1], path, levels[i],
+                     "must be above the one before");
+    problems.Require(scale != Scale::kLog || levels[i] > 0, path, levels[i],
+                     "must be positive on a log scale");
+  }
+  if (!guess) return;
+  problems.Require(std::find(levels.begin(), levels.end(), *guess) != levels.end(), "guess", *guess,
+                   "must be one of the levels");
+}
+
 double Parameter::ToNative(double unit) const {
   if (fixed) return *fixed;
+  const double from = lowest();
+  const double to = highest();
   const double value =
-      scale == Scale::kLog ? low * std::pow(high / low, unit) : low + unit * (high - low);
-  return std::clamp(value, low, high);  // rounding must not leave the range at its ends
+      scale == Scale::kLog ? from * std::pow(to / from, unit) : from + unit * (to - from);
+  if (!levels.empty()) {  // exactly, not but for rounding
+    return *std::min_element(levels.begin(), levels.end(), [&](double a, double b) {
+      return std::abs(a - value) < std::abs(b - value);
+    });
+  }
+  return std::clamp(value, from, to);  // rounding must not leave the range at its ends
 }
 
 double Parameter::ToUnit(double native) const {
-  return scale == Scale::kLog ? std::log(native / low) / std::log(high / low)
-                              : (native - low) / (high - low);
+  const double from = lowest();
+  const double to = highest();
+  return scale == Scale::kLog ? std::log(native / from) / std::log(to / from)
+                              : (native - from) / (to - from);
 }
 
 void ParameterSpace::Validate(base::Problems& problems) const {
@@ -158,7 +206,59 @@ Domain ParameterSpace::MakeDomain() const {
       return space.Satisfies(space.ToNative(unit));
     };
   }
+  AddLevels(domain);
+  if (!candidates.empty()) AddTable(domain);
   return domain;
+}
+
+// Levels of every parameter are a list of candidates, where that is not too long.
+void ParameterSpace::AddLevels(Domain& domain) const {
+  std::vector<std::vector<double>> levels;
+  double num_combinations = 1;
+  for (const int i : Free()) {
+    const Parameter& parameter = parameters[static_cast<std::size_t>(i)];
+    levels.emplace_back();
+    for (const double level : parameter.levels) levels.back().push_back(parameter.ToUnit(level));
+    num_combinations *= static_cast<double>(levels.back().size());
+  }
+  if (std::all_of(levels.begin(), levels.end(), [](const auto& one) { return one.empty(); })) {
+    return;
+  }
+  if (num_combinations >= 1 && num_combinations <= kMaxCandidates) {
+    const Eigen::MatrixXd all = Combinations(levels);
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      if (domain.Contains(all.row(i))) kept.push_back(i);
+    }
+    if (kept.empty()) throw base::ConfigError("no combination of levels satisfies the constraints");
+    domain.candidates = all(kept, Eigen::all);
+  } else {
+    domain.levels = std::move(levels);
+  }
+}
+
+// Rows outside the ranges are no candidates.
+void ParameterSpace::AddTable(Domain& domain) const {
+  std::vector<std::string> names;
+  for (const int i : Free()) names.push_back(parameters[static_cast<std::size_t>(i)].name);
+  std::vector<Eigen::VectorXd> kept;
+  for (const std::vector<double>& row : ReadCandidateTable(candidates, names)) {
+    Eigen::VectorXd unit(static_cast<Eigen::Index>(row.size()));
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      unit[static_cast<Eigen::Index>(k)] =
+          parameters[static_cast<std::size_t>(Free()[k])].ToUnit(row[k]);
+    }
+    if (domain.Contains(unit) && !IsAmong(unit, kept)) kept.push_back(unit);
+  }
+  if (kept.empty()) {
+    throw base::ConfigError(candidates.string() +
+                            ": has no candidate within the ranges and constraints");
+  }
+  domain.candidates.resize(static_cast<Eigen::Index>(kept.size()), domain.num_parameters);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    domain.candidates.row(static_cast<Eigen::Index>(i)) = kept[i];
+  }
+  domain.levels.clear();
 }
 
 }  // namespace talus::optimizer

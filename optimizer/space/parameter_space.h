@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
@@ -26,8 +27,9 @@ struct Parameter {
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
   Scale scale = Scale::kLinear;
-  std::optional<double> guess;  // in [low, high]: tried first
-  std::optional<double> fixed;  // held at this value and not searched; needs no range
+  std::optional<double> guess = {};  // in [low, high]: tried first
+  std::optional<double> fixed = {};  // held at this value and not searched; needs no range
+  std::vector<double> levels = {};   // the only values, ascending; in place of low and high
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -37,11 +39,18 @@ struct Parameter {
     visit("scale", self.scale, {.doc = "log spreads trials evenly over decades; needs low > 0"});
     visit("guess", self.guess, {.doc = "a value thought to be good, tried first"});
     visit("fixed", self.fixed, {.doc = "holds the parameter at this value"});
+    visit("levels", self.levels,
+          {.doc = "the only values it may take, ascending; in place of low and high"});
   }
   void Validate(base::Problems& problems) const;
 
+  double lowest() const { return levels.empty() ? low : levels.front(); }
+  double highest() const { return levels.empty() ? high : levels.back(); }
   double ToNative(double unit) const;
   double ToUnit(double native) const;
+
+ private:
+  void ValidateLevels(base::Problems& problems) const;
 };
 
 // Σ factor value ≤ at_most, in native values.
@@ -68,12 +77,15 @@ struct LinearConstraint {
 
 struct ParameterSpace {
   std::vector<Parameter> parameters;
-  std::vector<LinearConstraint> constraints;
+  std::vector<LinearConstraint> constraints = {};
+  std::filesystem::path candidates = {};  // CSV table of the only points; none when empty
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("parameters", self.parameters, {.required = true, .doc = "1 to 6 free parameters"});
     visit("constraints", self.constraints, {.doc = "linear inequalities between parameters"});
+    visit("candidates", self.candidates,
+          {.doc = "a CSV table of the only points there are; its head names the parameters"});
   }
   void Validate(base::Problems& problems) const;
 
@@ -86,8 +98,13 @@ struct ParameterSpace {
 
   bool Satisfies(std::span<const double> native) const;
 
-  // The domain of a strategy. Holds a copy of this space, so it may outlive it.
+  // The domain of a strategy. Holds a copy of this space, so it may outlive it. Reads the table of
+  // candidates; throws base::ConfigError when that cannot be used.
   Domain MakeDomain() const;
+
+ private:
+  void AddLevels(Domain& domain) const;
+  void AddTable(Domain& domain) const;
 };
 
 }  // namespace talus::optimizer

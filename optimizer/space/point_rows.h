@@ -8,7 +8,8 @@
 
 namespace talus::optimizer {
 
-// Those of the rows that the domain contains, in their order.
+// Those of the rows that the domain contains, at its levels; of a domain that is a list, the
+// candidates nearest to them.
 Eigen::MatrixXd Inside(const Domain& domain, const Eigen::MatrixXd& points);
 
 // One matrix above the other.

@@ -38,11 +38,12 @@ const std::optional<FieldModel>& FieldStrategy::Model() {
   return model_;
 }
 
-ModelView FieldStrategy::ViewOf(const FieldModel& model, std::uint64_t seed) const {
+ModelView FieldStrategy::ViewOf(const FieldModel& model, const Domain& domain,
+                                std::uint64_t seed) const {
   const History& history = record().history();
   return {.model = model,
           .feasibility = record().feasibility(),
-          .domain = record().domain(),
+          .domain = domain,
           .points = history.points,
           .failure_cost = history.values.maxCoeff() - history.values.minCoeff(),
           .searches = kImageSearches,
@@ -60,7 +61,7 @@ Proposal FieldStrategy::ByModel(const Points& asked) {
 Eigen::VectorXd FieldStrategy::Step(const FieldModel& model, const Points& asked) const {
   const int turn = fields_.size() + static_cast<int>(asked.size());
   if (!record().deterministic()) {
-    if (has_exact_target_ && turn % 3 == 0) return Best(model);
+    if (has_exact_target_ && turn % 3 == 0) return Best(model, record().OpenDomain(asked));
     if (!has_exact_target_ && turn % 2 == 0) return ByDraw(model, asked);
   }
   return ByImprovement(model, asked);
@@ -74,7 +75,8 @@ Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& ask
   constexpr int kNumNear = 100;
   const auto index = static_cast<std::uint64_t>(fields_.size()) + asked.size();
   base::Random random(record().options().seed, base::Stream("explored draw"), index);
-  const ModelView view = ViewOf(model, record().options().seed);
+  const Domain open = record().OpenDomain(asked);
+  const ModelView view = ViewOf(model, open, record().options().seed);
   const Eigen::VectorXd lowest = LowestMean(view);
   Eigen::MatrixXd candidates =
       Stack(RSequence(kNumEven, view.domain.num_parameters, view.seed + index),
@@ -94,10 +96,10 @@ Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& ask
 // Under noise the incumbent is an evaluated point, as for numbers; without, the lowest prediction
 // anywhere, since the images can be known far better than the evaluations are spaced.
 Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Points& asked) const {
-  Eigen::MatrixXd centers = BestEvaluated(ViewOf(model, 0));
+  Eigen::MatrixXd centers = BestEvaluated(ViewOf(model, record().domain(), 0));
   Incumbent incumbent;
   if (record().deterministic()) {
-    centers = Stack(centers, Best(model).transpose());
+    centers = Stack(centers, Best(model, record().domain()).transpose());
     centers.row(0).swap(centers.row(centers.rows() - 1));
   } else {
     incumbent.noise = model.NoiseSd(centers.row(0));
@@ -106,20 +108,22 @@ Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Poin
   FieldModel with_fantasies = model;
   for (const Eigen::VectorXd& point : asked) with_fantasies.AddFantasy(point);
   const std::uint64_t index = static_cast<std::uint64_t>(fields_.size()) + asked.size();
-  const ModelView view = ViewOf(with_fantasies, record().options().seed + 7919 * index);
+  const Domain open = record().OpenDomain(asked);
+  const ModelView view = ViewOf(with_fantasies, open, record().options().seed + 7919 * index);
   return MostExpectedImprovement(view, incumbent, centers);
 }
 
-Eigen::VectorXd FieldStrategy::Best(const FieldModel& model) const {
-  return LowestMean(ViewOf(model, record().options().seed));
+Eigen::VectorXd FieldStrategy::Best(const FieldModel& model, const Domain& domain) const {
+  return LowestMean(ViewOf(model, domain, record().options().seed));
 }
 
 std::optional<std::string> FieldStrategy::StopReason() {
   if (!record().MayStop(fields_.size())) return std::nullopt;
   if (!Model()) return by_values_.StopReason(record());
-  const Eigen::VectorXd best = Best(*model_);
+  const Eigen::VectorXd best = Best(*model_, record().domain());
   const Moments at = model_->Predict(best.transpose());
-  const double bound = LowestBound(ViewOf(*model_, record().options().seed), best.transpose());
+  const double bound =
+      LowestBound(ViewOf(*model_, record().domain(), record().options().seed), best.transpose());
   return record().ReasonToStop(at.mean[0] + kBoundSds * at.sd[0] - std::min(bound, at.mean[0]),
                                model_->NoiseSd(best));
 }
@@ -145,7 +149,7 @@ Answer FieldStrategy::Recommend() {
   // Each candidate costs an image, so there are fewer than of a process of values; and fewer still
   // where a metric other than the sum of differences is measured on each.
   const bool slow = fields_.has_metric();
-  Answer answer = DescribeMinimum(*model_, record().domain(), Best(*model_),
+  Answer answer = DescribeMinimum(*model_, record().domain(), Best(*model_, record().domain()),
                                   {.num_candidates = slow ? 300 : 800,
                                    .num_draw_candidates = slow ? 80 : 300,
                                    .num_draws = slow ? 100 : 200,

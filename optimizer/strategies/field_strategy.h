@@ -28,11 +28,11 @@ class FieldStrategy : public SurrogateStrategy {
   void Update(const Observation& observation) override;
 
   const std::optional<FieldModel>& Model();
-  ModelView ViewOf(const FieldModel& model, std::uint64_t seed) const;
+  ModelView ViewOf(const FieldModel& model, const Domain& domain, std::uint64_t seed) const;
   Eigen::VectorXd Step(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd ByImprovement(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd ByDraw(const FieldModel& model, const Points& asked) const;
-  Eigen::VectorXd Best(const FieldModel& model) const;
+  Eigen::VectorXd Best(const FieldModel& model, const Domain& domain) const;
   Answer RecommendByValues();
 
   FieldHistory fields_;

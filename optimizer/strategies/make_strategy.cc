@@ -34,6 +34,12 @@ Points SobolInside(const Domain& domain, int num_points, std::uint64_t seed) {
   return inside;
 }
 
+bool TakesLists(StrategyKind kind) {
+  using enum StrategyKind;
+  return kind == kSurrogate || kind == kGp || kind == kField || kind == kRbf || kind == kLhs ||
+         kind == kSobol;
+}
+
 ReplayOptions SearchOf(StrategyKind kind) {
   using surrogate::SearchAlgorithm;
   switch (kind) {
@@ -91,10 +97,14 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
   options.ValidateFor(domain.num_parameters, problems);
   problems.Require(options.kind != StrategyKind::kField || field != nullptr, "kind",
                    "is \"field\", but evaluations bring no images here: use \"surrogate\"");
+  problems.Require(domain.IsContinuous() || TakesLists(options.kind), "kind",
+                   "is a search over continuous parameters: with levels or candidates use "
+                   "\"surrogate\", \"gp\", \"field\", \"rbf\", \"lhs\" or \"sobol\"");
   problems.ThrowIfAny();
   const SurrogateOptions surrogate{.num_initial = options.num_initial,
                                    .stop_multiple = options.stop_multiple,
                                    .max_replicates = options.max_replicates,
+                                   .exact = options.exact,
                                    .seed = seed};
   switch (options.kind) {
     case StrategyKind::kSurrogate:

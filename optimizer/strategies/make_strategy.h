@@ -37,6 +37,7 @@ struct StrategyOptions {
   int num_initial = 0;         // of surrogates: size of the initial design, in [0, 100]; 0: 2 d + 3
   double stop_multiple = 0.7;  // of surrogates: stop when the gain left is below this × noise sd
   int max_replicates = 5;      // of surrogates: deliberate repeats beside the first, in [0, 1000]
+  bool exact = false;          // of surrogates: the same point always gives the same value
   int num_points = 60;         // of lhs and sobol, in [1, 10000]
   std::vector<int> levels = {};  // of grid, one a parameter, each >= 1; empty: 8 each
   int refine_best = 20;          // of grid: this many of the best are refined by half steps, >= 0
@@ -50,8 +51,13 @@ struct StrategyOptions {
     visit("stop_multiple", self.stop_multiple,
           {.doc = "surrogate, gp, field: stops when less than this times the noise standard "
                   "deviation of one evaluation is left to gain; 0 never"});
-    visit("max_replicates", self.max_replicates,
-          {.doc = "surrogate, gp, field, rbf: deliberate repeats beside the first one, in all"});
+    visit(
+        "max_replicates", self.max_replicates,
+        {.doc = "surrogate, gp, field, rbf: deliberate repeats beside the first one, in all; of a "
+                "list of candidates, how often each may be evaluated"});
+    visit("exact", self.exact,
+          {.doc = "surrogate, gp, field, rbf: the same parameters always give the same value, so "
+                  "that nothing is repeated"});
     visit("num_points", self.num_points, {.doc = "lhs, sobol: size of the design, 1 to 10000"});
     visit("levels", self.levels,
           {.doc = "grid: values of each parameter, in their order; 8 each if not given"});

@@ -73,7 +73,7 @@ Proposal RbfStrategy::ByModel(const Points& asked) {
     return values(x.transpose())[0];
   };
   const Found found =
-      SearchCube({values, value}, record().domain(), lowest.transpose(),
+      SearchCube({values, value}, record().OpenDomain(asked), lowest.transpose(),
                  {.num_local = 2, .kinked = true, .seed = record().StepSeed(asked)});
   return record().ReplicateOrPerturb(found.point, asked);
 }

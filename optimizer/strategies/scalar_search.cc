@@ -16,14 +16,19 @@
 namespace talus::optimizer {
 namespace {
 
+// Posterior sd of the answer is inflated: point-estimated hyper-parameters make it overconfident.
+// Calibrated by bench/optimizers/value_coverage.cc.
+constexpr double kInflation = 1.5;
+
 // Below this probability that an evaluation works, no step near the best point is taken.
 constexpr double kSafe = 0.7;
 
-ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, std::uint64_t seed) {
+ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, const Domain& domain,
+                 std::uint64_t seed) {
   const Eigen::VectorXd mean = model.Means(record.history().points);
   return {.model = model,
           .feasibility = record.feasibility(),
-          .domain = record.domain(),
+          .domain = domain,
           .points = record.history().points,
           .failure_cost = mean.maxCoeff() - mean.minCoeff(),
           .searches = {},
@@ -33,6 +38,7 @@ ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, std::u
 // A step near the best point, where the next one is to be one; not a failing or evaluated point.
 std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
                                         std::span<const Eigen::VectorXd> asked) {
+  if (record.domain().IsList()) return std::nullopt;
   const History& history = record.history();
   std::optional<Eigen::VectorXd> step;
   switch (NextStep(history.values, record.design_size() + 1, static_cast<int>(asked.size()))) {
@@ -45,6 +51,7 @@ std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
       step = LocalStep(history, record.domain(), asked, record.StepSeed(asked));
       break;
   }
+  if (step && !record.domain().IsContinuous()) step = record.domain().Snap(*step);
   if (!step || record.WasEvaluated(*step, asked) ||
       record.feasibility().Probability(*step) < kSafe) {
     return std::nullopt;
@@ -79,7 +86,8 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
   }
   const TransformedModel model(std::move(process));
   const double noise = record.deterministic() ? 0 : model.NoiseSd(points.row(0));
-  const ModelView view = ViewOf(model, record, record.StepSeed(asked));
+  const Domain open = record.OpenDomain(asked);
+  const ModelView view = ViewOf(model, record, open, record.StepSeed(asked));
   if (StepsByKnowledge(record, asked)) {
     const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
     const KnowledgeStep step = MostKnowledge(view, model.process(), minimisers);
@@ -99,13 +107,13 @@ Eigen::VectorXd ScalarSearch::Best(const SearchRecord& record) {
     return history.points.row(best);
   }
   const TransformedModel model(Fit(record).process);
-  return LowestMean(ViewOf(model, record, record.options().seed));
+  return LowestMean(ViewOf(model, record, record.domain(), record.options().seed));
 }
 
 std::optional<std::string> ScalarSearch::StopReason(const SearchRecord& record) {
   const ScalarFit& fit = Fit(record);
   const TransformedModel model(fit.process);
-  const ModelView view = ViewOf(model, record, record.options().seed);
+  const ModelView view = ViewOf(model, record, record.domain(), record.options().seed);
   const double bound = fit.transform.Backward(LowestBound(view, BestEvaluated(view)));
   if (record.deterministic()) {
     return record.ReasonToStop(record.history().values.minCoeff() - bound, 0);
@@ -120,7 +128,7 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
     return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
   }
   const ScalarFit& fit = Fit(record);
-  Answer answer = DescribeMinimum(ScalarModel(fit), record.domain(), Best(record),
+  Answer answer = DescribeMinimum(ScalarModel(fit, kInflation), record.domain(), Best(record),
                                   {.seed = record.options().seed});
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();
   const Eigen::ArrayXd error = left_out.mean - fit.process.values();

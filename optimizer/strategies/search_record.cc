@@ -51,7 +51,7 @@ std::optional<Proposal> SearchRecord::BeforeModel(std::span<const Eigen::VectorX
 // The best point, since near it the noise matters; not one that has failed meanwhile.
 std::optional<Eigen::VectorXd> SearchRecord::FirstRepeat(
     std::span<const Eigen::VectorXd> asked) const {
-  if (repeats_.num_repeats > 0 || history_.size() == 0) return std::nullopt;
+  if (options_.exact || repeats_.num_repeats > 0 || history_.size() == 0) return std::nullopt;
   for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
     if (IsAmong(history_.points.row(i), asked)) return std::nullopt;  // the repeat is under way
   }
@@ -77,14 +77,35 @@ bool SearchRecord::WasEvaluated(const Eigen::VectorXd& point,
                      [&](const Observation& seen) { return SamePoint(seen.point, point); });
 }
 
-Eigen::VectorXd SearchRecord::MostFeasible(std::uint64_t seed) const {
+Domain SearchRecord::OpenDomain(std::span<const Eigen::VectorXd> asked) const {
+  if (!domain_.IsList()) return domain_;
+  const int most = deterministic() ? 1 : std::max(1, options_.max_replicates);
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < domain_.candidates.rows(); ++i) {
+    const Eigen::VectorXd point = domain_.candidates.row(i);
+    const auto is_here = [&](const Eigen::VectorXd& other) { return SamePoint(point, other); };
+    const auto num_asked = std::count_if(asked.begin(), asked.end(), is_here);
+    const auto num_told = std::count_if(
+        told_.begin(), told_.end(), [&](const Observation& seen) { return is_here(seen.point); });
+    if (num_asked + num_told < most && !HasFailed(point)) open.push_back(i);
+  }
+  Domain domain = domain_;
+  domain.candidates = domain_.candidates(open, Eigen::all);
+  return domain;
+}
+
+Eigen::VectorXd SearchRecord::MostFeasible(std::span<const Eigen::VectorXd> asked) const {
   constexpr int kNumCandidates = 1000;
+  const Domain domain = OpenDomain(asked);
   Eigen::VectorXd best = Eigen::VectorXd::Constant(domain_.num_parameters, 0.5);
   double highest = -1;
-  const Eigen::MatrixXd candidates = RSequence(kNumCandidates, domain_.num_parameters, seed);
+  const Eigen::MatrixXd candidates =
+      domain.IsList()
+          ? domain.candidates
+          : Inside(domain, RSequence(kNumCandidates, domain_.num_parameters, StepSeed(asked)));
   for (Eigen::Index i = 0; i < candidates.rows(); ++i) {
     const double probability = feasibility_.Probability(candidates.row(i));
-    if (probability <= highest || !domain_.Contains(candidates.row(i))) continue;
+    if (probability <= highest) continue;
     highest = probability;
     best = candidates.row(i);
   }
@@ -93,7 +114,10 @@ Eigen::VectorXd SearchRecord::MostFeasible(std::uint64_t seed) const {
 
 Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
                                           std::span<const Eigen::VectorXd> asked) const {
-  if (!repeats_.deterministic && repeats_.num_repeats < 1 + options_.max_replicates) {
+  if (domain_.IsList()) {
+    return {point, WasEvaluated(point, asked) ? Origin::kRepeat : Origin::kModel};
+  }
+  if (!deterministic() && repeats_.num_repeats < 1 + options_.max_replicates) {
     for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
       const Eigen::VectorXd near = history_.points.row(i);
       if ((near - point).norm() < kReplicateDistance && !IsAmong(near, asked) && !HasFailed(near)) {
@@ -107,6 +131,7 @@ Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
     for (Eigen::Index k = 0; k < moved.size(); ++k) {
       moved[k] = std::clamp(point[k] + reach * random.Normal(), 0.0, 1.0);
     }
+    if (!domain_.IsContinuous()) moved = domain_.Snap(moved);
   }
   return {moved, Origin::kModel};
 }
@@ -116,13 +141,13 @@ std::uint64_t SearchRecord::StepSeed(std::span<const Eigen::VectorXd> asked) con
 }
 
 bool SearchRecord::MayStop(int num_evaluations) const {
-  return options_.stop_multiple > 0 && repeats_.num_repeats > 0 &&
+  return options_.stop_multiple > 0 && (options_.exact || repeats_.num_repeats > 0) &&
          num_evaluations >= 2 * design_.size();
 }
 
 std::optional<std::string> SearchRecord::ReasonToStop(double gain, double noise) const {
   const std::string left = "what is left to gain, at most " + Rounded(std::max(0.0, gain));
-  if (repeats_.deterministic) {
+  if (deterministic()) {
     const double typical = history_.values.mean() - history_.values.minCoeff();
     if (!(gain <= kStopShare * typical)) return std::nullopt;
     return left + ", is below a millionth of the mean value less the lowest, " + Rounded(typical);

@@ -28,7 +28,9 @@ namespace talus::optimizer {
 struct SurrogateOptions {
   int num_initial = 0;         // evaluations of the design; 0: 2 d + 3
   double stop_multiple = 0.7;  // stop when the expected gain is below this × noise sd; 0: never
-  int max_replicates = 5;      // deliberate replicates beside the first repeat, in all
+  int max_replicates = 5;      // deliberate replicates beside the first repeat, in all; of a list
+                               // of candidates, how often each may be evaluated
+  bool exact = false;          // the same point always gives the same value: nothing is repeated
   std::uint64_t seed = 1;
 };
 
@@ -43,8 +45,11 @@ class SearchRecord {
   // points that are being evaluated.
   std::optional<Proposal> BeforeModel(std::span<const Eigen::VectorXd> asked) const;
 
+  // Where the next evaluation may be: the domain, less the candidates that are used up.
+  Domain OpenDomain(std::span<const Eigen::VectorXd> asked) const;
+
   // Where an evaluation most probably works: all there is to go by while hardly any has.
-  Eigen::VectorXd MostFeasible(std::uint64_t seed) const;
+  Eigen::VectorXd MostFeasible(std::span<const Eigen::VectorXd> asked) const;
 
   // The proposal that a model's choice of `point` becomes.
   Proposal ReplicateOrPerturb(const Eigen::VectorXd& point,
@@ -66,7 +71,7 @@ class SearchRecord {
   const std::vector<Observation>& told() const { return told_; }
   const History& history() const { return history_; }
   const Feasibility& feasibility() const { return feasibility_; }
-  bool deterministic() const { return repeats_.deterministic; }
+  bool deterministic() const { return options_.exact || repeats_.deterministic; }
   int design_size() const { return design_.size(); }
 
  private:

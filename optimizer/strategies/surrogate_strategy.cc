@@ -6,16 +6,19 @@ std::vector<Proposal> SurrogateStrategy::Ask(int count, std::span<const Eigen::V
   Points asked(pending.begin(), pending.end());
   std::vector<Proposal> proposals;
   for (int i = 0; i < count; ++i) {
-    proposals.push_back(Next(asked));
+    const auto next = Next(asked);
+    if (!next) break;
+    proposals.push_back(*next);
     asked.push_back(proposals.back().point);
   }
   return proposals;
 }
 
-Proposal SurrogateStrategy::Next(const Points& asked) {
+std::optional<Proposal> SurrogateStrategy::Next(const Points& asked) {
   if (const auto first = record_.BeforeModel(asked)) return *first;
+  if (record_.domain().IsList() && !record_.OpenDomain(asked).IsList()) return std::nullopt;
   if (record_.history().size() < 2) {
-    return record_.ReplicateOrPerturb(record_.MostFeasible(record_.StepSeed(asked)), asked);
+    return record_.ReplicateOrPerturb(record_.MostFeasible(asked), asked);
   }
   return ByModel(asked);
 }

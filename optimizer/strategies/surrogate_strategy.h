@@ -28,7 +28,8 @@ class SurrogateStrategy : public Strategy {
   const SearchRecord& record() const { return record_; }
 
  private:
-  Proposal Next(const Points& asked);
+  // None when every candidate of a list is used up.
+  std::optional<Proposal> Next(const Points& asked);
 
   SearchRecord record_;
 };

@@ -1,0 +1,25 @@
+#include "optimizer/space/domain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::optimizer {
+
+Eigen::VectorXd Domain::Snap(const Eigen::VectorXd& point) const {
+  if (IsList()) {
+    Eigen::Index nearest = 0;
+    (candidates.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+    return candidates.row(nearest);
+  }
+  Eigen::VectorXd snapped = point;
+  for (Eigen::Index k = 0; k < point.size(); ++k) {
+    if (!HasLevels(k)) continue;
+    const std::vector<double>& allowed = levels[static_cast<std::size_t>(k)];
+    snapped[k] = *std::min_element(allowed.begin(), allowed.end(), [&](double a, double b) {
+      return std::abs(a - point[k]) < std::abs(b - point[k]);
+    });
+  }
+  return snapped;
+}
+
+}  // namespace talus::optimizer
