@@ -87,6 +87,11 @@ std::vector<std::string> HeapWarnings(const HeapCase& c) {
   if (c.rayleigh_fraction > kHeapRayleighFraction) {
     warnings.push_back("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }
+  if (c.models.rolling == engine::Rolling::kConstant && c.rayleigh_fraction > 0.15) {
+    warnings.push_back(
+        "constant rolling resistance creeps in proportion to the time step: set rayleigh_fraction "
+        "to 0.15 or less");
+  }
   return warnings;
 }
 
