@@ -109,6 +109,11 @@ std::vector<std::string> HeapWarnings(const HeapCase& c) {
   for (std::string& warning : engine::AdhesionWarnings(c.models, Materials(c))) {
     warnings.push_back(std::move(warning));
   }
+  if (c.models.rolling == engine::Rolling::kConstant && c.rayleigh_fraction > 0.15) {
+    warnings.push_back(
+        "constant rolling resistance creeps in proportion to the time step: set rayleigh_fraction "
+        "to 0.15 or less");
+  }
   return warnings;
 }
 
