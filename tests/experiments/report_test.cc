@@ -12,6 +12,7 @@
 #include "experiments/analysis/report/svg_chart.h"
 #include "experiments/analysis/report/tables.h"
 #include "experiments/analysis/report/write_report.h"
+#include "experiments/campaign/campaign_result.h"
 #include "tests/experiments/synthetic_campaign.h"
 #include "tests/experiments/synthetic_journal.h"
 
@@ -164,6 +165,45 @@ TEST_F(Report, JournalGivesBackWhatTheCampaignHas) {
   EXPECT_TRUE(std::filesystem::exists(folder / "report" / "tables" / "trials.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder / "report" / "figures" / "aehp.png"));
   std::filesystem::remove_all(folder);
+}
+
+CampaignResult ResultWithPosterior() {
+  CampaignResult result;
+  result.objective = "sad_mm2";
+  result.parameters.resize(2);
+  result.parameters[0].name = "sliding_friction";
+  result.parameters[1].name = "rolling_friction";
+  result.correlation = {{1, -0.95}, {-0.95, 1}};
+  result.posterior.emplace();
+  result.posterior->region_volume = 0.2;
+  result.posterior->branches = {
+      {.share = 0.9, .values = {0.3, 0.1}, .low = {0.2, 0.05}, .high = {0.4, 0.2}}};
+  return result;
+}
+
+TEST(ConclusionOf, VerdictSaysWhatKindOfAnswerThereIs) {
+  CampaignResult result = ResultWithPosterior();
+  EXPECT_THAT(
+      ConclusionOf(ResultText(result)).verdict,
+      StartsWith("The measurements determine a curve, not a point: μ_r falls as μ_t rises"));
+  result.correlation = {{1, 0}, {0, 1}};
+  EXPECT_THAT(ConclusionOf(ResultText(result)).verdict, HasSubstr("determine a point"));
+  result.posterior->branches.push_back(
+      {.share = 0.1, .values = {0.8, 0.4}, .low = {0.7, 0.3}, .high = {0.9, 0.5}});
+  const Conclusion conclusion = ConclusionOf(ResultText(result));
+  EXPECT_THAT(conclusion.verdict, HasSubstr("2 separate answers"));
+  ASSERT_EQ(conclusion.branches.size(), 2u);
+  EXPECT_EQ(conclusion.branches[1].values, std::vector<double>({0.8, 0.4}));
+  result.posterior.reset();
+  EXPECT_EQ(ConclusionOf(ResultText(result)).verdict, "");
+}
+
+TEST_F(Report, PageHoldsTheVerdictAndItsBranches) {
+  ReportData data = Data();
+  data.evidence.conclusion = ConclusionOf(ResultText(ResultWithPosterior()));
+  const json headline = json::parse(PageJson(data))["headline"];
+  EXPECT_EQ(headline["verdict"], data.evidence.conclusion->verdict);
+  EXPECT_EQ(headline["branches"][0]["high"], json({0.4, 0.2}));
 }
 
 TEST(GatherEvidence, NamesAFolderWithoutACampaign) {

@@ -61,9 +61,19 @@ struct RecommendedValue {
   double high = 0;
 };
 
+// One of several separate answers: a connected part of the joint 90 % region.
+struct AnswerBranch {
+  double share = 0;            // of the posterior in the region
+  std::vector<double> values;  // SI, in the order of Evidence::parameters, as low and high
+  std::vector<double> low;
+  std::vector<double> high;
+};
+
 // What the campaign itself concludes.
 struct Conclusion {
-  std::string objective{};  // key of one of kObjectives
+  std::string verdict{};  // a point, a curve or several answers, in a sentence; empty: not known
+  std::vector<AnswerBranch> branches{};  // the likeliest first; empty where there is no posterior
+  std::string objective{};               // key of one of kObjectives
   std::vector<RecommendedValue> values{};
   double predicted = kUndefined;     // the objective there, by the campaign's model
   double predicted_sd = kUndefined;  // of that mean

@@ -1,10 +1,13 @@
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/objective.h"
+#include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/describe_posterior.h"
 
 namespace talus::experiments {
 namespace {
@@ -39,6 +42,20 @@ std::string ObjectiveKey(const std::string& result_key) {
   throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
 }
 
+// The report's first line: what kind of answer the posterior is.
+void AddVerdict(const CampaignResult& result, Conclusion& conclusion) {
+  if (!result.posterior) return;
+  std::vector<std::string> names;
+  for (const ResultParameter& p : result.parameters) names.push_back(SymbolOf(p.name));
+  conclusion.verdict = PosteriorSentence(*result.posterior, names, result.correlation);
+  conclusion.verdict.front() = static_cast<char>(std::toupper(conclusion.verdict.front()));
+  conclusion.verdict += ".";
+  for (const ResultBranch& branch : result.posterior->branches) {
+    conclusion.branches.push_back(
+        {.share = branch.share, .values = branch.values, .low = branch.low, .high = branch.high});
+  }
+}
+
 }  // namespace
 
 Conclusion ConclusionOf(const std::string& result_json) {
@@ -50,6 +67,7 @@ Conclusion ConclusionOf(const std::string& result_json) {
                         .tied_volume = result.tied_volume,
                         .conditions = ConditionTexts(result.conditions),
                         .model = result.model};
+  AddVerdict(result, conclusion);
   for (const ResultWarning& warning : result.warnings) conclusion.warnings.push_back(warning.text);
   for (const ResultParameter& p : result.parameters) {
     conclusion.values.push_back({p.value, p.credible_low, p.credible_high});

@@ -103,6 +103,14 @@ Json HeadlineJson(const Conclusion& c) {
                                         {"low", Number(v.low)},
                                         {"high", Number(v.high)}};
                           })},
+          {"verdict", c.verdict},
+          {"branches", List(c.branches,
+                            [](const AnswerBranch& b) {
+                              return Json{{"share", Number(b.share)},
+                                          {"values", Numbers(b.values)},
+                                          {"low", Numbers(b.low)},
+                                          {"high", Numbers(b.high)}};
+                            })},
           {"predicted", Number(c.predicted)},
           {"predicted_sd", Number(c.predicted_sd)},
           {"confirmed", Number(c.confirmed)},

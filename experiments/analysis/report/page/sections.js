@@ -41,6 +41,17 @@ function fact(name, value, note) {
     element("dd", {}, value, note ? element("small", {}, note) : null));
 }
 
+// What kind of answer it is, before any number; several answers are listed side by side.
+function verdict(h) {
+  if (!h.verdict) return null;
+  const several = h.branches.length > 1;
+  return element("div", {class: "card", id: "verdict"}, element("p", {}, element("strong", {}, h.verdict)),
+    several ? table([{title: "Answer"}, {title: "of the posterior"},
+      ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit}))],
+      h.branches.map((b, i) => [String(i + 1), percent(b.share), ...b.values.map((x, k) =>
+        format(x) + " (" + format(b.low[k]) + " to " + format(b.high[k]) + ")")])) : null);
+}
+
 function answerSection() {
   const h = D.headline, o = D.campaign.objective, parts = [];
   if (!h) {
@@ -51,6 +62,7 @@ function answerSection() {
         D.parameters.map((p, k) => p.symbol + " = " + formatUnit(own.model.values[k], p.unit)).join(", ") + "."
         : "There are too few trials to say anything about the best set."))));
   } else {
+    parts.push(verdict(h));
     const times = o.noise_floor ? " × the noise floor" : "";
     const ratio = (x) => o.noise_floor ? format(x / o.noise_floor, 2) + times : "";
     const facts = [];
