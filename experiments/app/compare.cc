@@ -20,6 +20,7 @@ struct Arguments {
   std::string campaign;
   std::filesystem::path out;
   std::string objective;
+  std::string experiment;
   int add_simulations = 20;
   std::vector<std::string> with;
 };
@@ -37,7 +38,8 @@ std::string StrategyComparison(const Arguments& arguments, const ComparedCampaig
   std::vector<std::string> names{arguments.campaign};
   names.insert(names.end(), arguments.with.begin(), arguments.with.end());
   std::vector<Evidence> all{compared.evidence};
-  for (const std::string& name : arguments.with) all.push_back(GatherEvidence(name));
+  for (const std::string& name : arguments.with)
+    all.push_back(GatherEvidence(name, arguments.experiment));
   const auto runs = CompareStrategies(names, all);
   double margin = 0;
   for (const ObjectiveFinding& f : compared.findings) {
@@ -63,7 +65,7 @@ void WriteComparison(const ComparedCampaign& compared, const std::filesystem::pa
 void RunCompare(Arguments arguments) {
   if (!arguments.objective.empty()) SearchOn(arguments);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
-  const Evidence evidence = GatherEvidence(arguments.campaign);
+  const Evidence evidence = GatherEvidence(arguments.campaign, arguments.experiment);
   const std::vector<ObjectiveFinding> findings = CompareObjectives(evidence);
   const ComparedCampaign compared{evidence, findings};
   std::error_code error;
@@ -97,6 +99,8 @@ void AddCompareCommand(CLI::App& app) {
                    "so many more for --objective; default: 20")
       ->check(CLI::PositiveNumber)
       ->needs(objective);
+  command->add_option("--experiment", arguments->experiment,
+                      "whose trials are compared, in a campaign with several; default: the first");
   command->add_option("--with", arguments->with,
                       "other campaigns on the same experiment, to compare their strategies");
   command->callback([arguments] { RunCompare(*arguments); });

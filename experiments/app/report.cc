@@ -20,6 +20,7 @@ constexpr int kWatchPeriod = 5;  // between two looks at the campaign [s]
 struct Arguments {
   std::filesystem::path campaign;
   std::filesystem::path out;
+  std::string experiment;
   bool watch = false;
 };
 
@@ -37,7 +38,7 @@ void Watch(const Arguments& arguments) {
   while (interrupt.Asked() == base::Interrupt::kNone) {
     // Asked before the journal is read: what was written last is still shown.
     const bool worked_on = IsWorkedOn(arguments.campaign);
-    const Evidence evidence = GatherEvidence(arguments.campaign);
+    const Evidence evidence = GatherEvidence(arguments.campaign, arguments.experiment);
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
       const auto page = WriteReport(MakeReportData(evidence), arguments.out,
@@ -61,6 +62,8 @@ void AddReportCommand(CLI::App& app) {
   command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/report");
+  command->add_option("--experiment", arguments->experiment,
+                      "whose trials are shown, in a campaign with several; default: the first");
   command->add_flag("--watch", arguments->watch,
                     "write it anew whenever a trial ends, until the campaign does; the open page "
                     "follows by itself");
@@ -70,8 +73,8 @@ void AddReportCommand(CLI::App& app) {
       Watch(*arguments);
       return;
     }
-    const auto page =
-        WriteReport(MakeReportData(GatherEvidence(arguments->campaign)), arguments->out);
+    const auto page = WriteReport(
+        MakeReportData(GatherEvidence(arguments->campaign, arguments->experiment)), arguments->out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }

@@ -207,6 +207,7 @@ void Campaign::Collect(TrialRecord& trial, const FinishedJob&) {
   try {
     output = parts_.engine->Collect(CaseOfTrial(trial), folder_.trial(trial.id));
     trial.metrics = ReferenceOf(trial).Measure(output.profile);
+    trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
   } catch (const base::Error& error) {
     FailOrRetry(trial, error.what());
     return;
@@ -300,8 +301,15 @@ void Campaign::WriteResult(ProgressRecord& progress) {
 
 void Campaign::NoteBest(const TrialRecord& trial) {
   const auto value = ReferenceOf(trial).Value(trial);
-  if (trial.status != TrialStatus::kOk || trial.kind == TrialKind::kConfirm || !value) return;
+  if (trial.status != TrialStatus::kOk || !IsOfSearch(trial) || !value) return;
+  // Objectives of different experiments or grain sizes do not compare.
+  if (trial.experiment != 0 || trial.scale_factor != spec_.coarse_graining.scale_factor) return;
   if (!best_ || *value < best_->first) best_ = {*value, trial.id};
+}
+
+std::optional<std::string> Campaign::NameIfSeveral(const TrialRecord& trial) const {
+  if (!spec_.IsJoint()) return std::nullopt;
+  return record_.experiments[static_cast<std::size_t>(trial.experiment)].name;
 }
 
 void Campaign::Report(const TrialRecord& trial) {
@@ -309,6 +317,8 @@ void Campaign::Report(const TrialRecord& trial) {
                   .kind = trial.kind,
                   .status = trial.status,
                   .values = trial.native,
+                  .experiment = NameIfSeveral(trial),
+                  .scale_factor = trial.scale_factor,
                   .objective = ReferenceOf(trial).Value(trial),
                   .unit = references_.front().unit(),
                   .best = best_ && best_->second == trial.id,

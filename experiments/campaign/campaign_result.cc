@@ -25,6 +25,23 @@ std::string ParameterLines(const CampaignResult& result) {
   return text;
 }
 
+std::string ExperimentLines(const std::vector<ResultConfirmed>& experiments,
+                            const std::string& unit) {
+  std::string text;
+  for (const ResultConfirmed& e : experiments) {
+    text += "    " + Padded(e.name, 16) + NumberText4(e.mean) + unit;
+    if (e.over_floor) {
+      text += ", its mean profile " + NumberText4(*e.over_floor) + " times the noise floor";
+    }
+    for (const ResultScalar& s : e.scalars) {
+      text += "; " + s.name + " " + NumberText4(s.mean) + ", measured " + NumberText4(s.measured) +
+              " ± " + NumberText4(s.measured_sd);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 std::string ConfirmedLines(const CampaignResult& result) {
   const std::string unit = " " + result.objective_unit;
   std::string text;
@@ -40,6 +57,7 @@ std::string ConfirmedLines(const CampaignResult& result) {
       for (const double value : c.values) text += " " + NumberText4(value);
     }
     text += "\n";
+    if (c.experiments) text += ExperimentLines(*c.experiments, unit);
   }
   return text;
 }

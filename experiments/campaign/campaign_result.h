@@ -36,7 +36,48 @@ struct ResultParameter {
   }
 };
 
-// A set that was simulated again with fresh seeds.
+// A number that an experiment has measured, and the mean of the confirming trials.
+struct ResultScalar {
+  std::string name;
+  double mean = kNotKnown;
+  double measured = kNotKnown;
+  double measured_sd = kNotKnown;  // standard error
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("mean", self.mean);
+    visit("measured", self.measured);
+    visit("measured_sd", self.measured_sd);
+  }
+};
+
+// How the confirming trials of one experiment came out.
+struct ResultConfirmed {
+  std::string name;
+  int num_trials = 0;                       // that succeeded
+  double mean = kNotKnown;                  // of the objective
+  double standard_error = kNotKnown;        // of that mean; not known for one trial
+  std::optional<double> sad_mm2{};          // mean SAD of the trials, whatever the objective
+  std::optional<double> profile_sad_mm2{};  // SAD of their mean profile
+  std::optional<double> over_floor{};       // … over the experiment's noise floor
+  std::vector<ResultScalar> scalars{};
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("num_trials", self.num_trials);
+    visit("objective_mean", self.mean);
+    visit("objective_standard_error", self.standard_error);
+    visit("sad_mm2", self.sad_mm2);
+    visit("mean_profile_sad_mm2", self.profile_sad_mm2);
+    visit("mean_profile_sad_over_noise_floor", self.over_floor);
+    visit("scalars", self.scalars);
+  }
+};
+
+// A set that was simulated again with fresh seeds. The numbers beside the list are of the first
+// experiment.
 struct ResultCandidate {
   std::vector<double> values{};  // in the order of the parameters, SI
   double scale_factor = 1;
@@ -45,6 +86,7 @@ struct ResultCandidate {
   double standard_error = kNotKnown;        // of that mean; not known for one trial
   std::optional<double> sad_mm2{};          // mean SAD of the trials, whatever the objective
   std::optional<double> profile_sad_mm2{};  // SAD of their mean profile
+  std::optional<std::vector<ResultConfirmed>> experiments{};  // with several, or with numbers
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -55,6 +97,7 @@ struct ResultCandidate {
     visit("objective_standard_error", self.standard_error);
     visit("sad_mm2", self.sad_mm2);
     visit("mean_profile_sad_mm2", self.profile_sad_mm2);
+    visit("experiments", self.experiments);
   }
 };
 

@@ -32,31 +32,79 @@ Sample SampleOf(const std::vector<double>& values) {
   return sample;
 }
 
+std::vector<const TrialRecord*> Confirming(const Planner& planner, std::size_t candidate,
+                                           int experiment) {
+  std::vector<const TrialRecord*> trials;
+  for (const TrialRecord& trial : planner.trials()) {
+    if (trial.kind == TrialKind::kConfirm && trial.set == planner.ConfirmSet(candidate) &&
+        trial.experiment == experiment) {
+      trials.push_back(&trial);
+    }
+  }
+  return trials;
+}
+
+// The mean of a metric over the trials that have it; nothing where none has.
+std::optional<double> MeanMetric(const std::vector<const TrialRecord*>& trials,
+                                 const std::string& name) {
+  std::vector<double> values;
+  for (const TrialRecord* trial : trials) {
+    if (const auto value = trial->Metric(name)) values.push_back(*value);
+  }
+  if (values.empty()) return std::nullopt;
+  return SampleOf(values).mean;
+}
+
+ResultConfirmed ConfirmedOf(const std::vector<const TrialRecord*>& trials, const Evidenced& of,
+                            std::size_t experiment) {
+  const Reference& reference = of.references[experiment];
+  const ExperimentRecord& record = of.campaign.experiments[experiment];
+  ResultConfirmed confirmed{.name = record.name};
+  std::vector<double> objective;
+  std::vector<imaging::GrayImage> profiles;
+  for (const TrialRecord* trial : trials) {
+    if (const auto value = reference.Value(*trial)) objective.push_back(*value);
+    if (trial->status != TrialStatus::kOk) continue;
+    if (auto profile = of.profile(trial->id)) profiles.push_back(std::move(*profile));
+  }
+  const Sample sample = SampleOf(objective);
+  confirmed.num_trials = sample.count;
+  confirmed.mean = sample.mean;
+  confirmed.standard_error = sample.sd / std::sqrt(sample.count);
+  confirmed.sad_mm2 = MeanMetric(trials, MetricOf(Objective::kSad));
+  if (!profiles.empty()) {
+    TrialRecord mean;
+    mean.metrics = reference.Measure(imaging::MeanImage(profiles));
+    confirmed.profile_sad_mm2 = mean.Metric(MetricOf(Objective::kSad));
+  }
+  if (confirmed.profile_sad_mm2 && record.noise_mm2) {
+    confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;
+  }
+  for (const ScalarRecord& scalar : record.scalars) {
+    confirmed.scalars.push_back({.name = scalar.name,
+                                 .mean = MeanMetric(trials, scalar.name).value_or(kNotKnown),
+                                 .measured = scalar.value,
+                                 .measured_sd = scalar.standard_error});
+  }
+  return confirmed;
+}
+
 ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::size_t index,
                             const Eigen::VectorXd& point) {
   ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
-  std::vector<double> objective;
-  std::vector<double> sad;
-  std::vector<imaging::GrayImage> profiles;
-  for (const TrialRecord& trial : planner.trials()) {
-    if (trial.kind != TrialKind::kConfirm || trial.set != planner.ConfirmSet(index)) continue;
-    candidate.scale_factor = trial.scale_factor;
-    if (const auto value = of.references.front().Value(trial)) objective.push_back(*value);
-    if (trial.status == TrialStatus::kOk) {
-      if (auto profile = of.profile(trial.id)) profiles.push_back(std::move(*profile));
-    }
-    if (const auto value = trial.Metric(MetricOf(Objective::kSad))) sad.push_back(*value);
+  std::vector<ResultConfirmed> all;
+  for (std::size_t e = 0; e < of.references.size(); ++e) {
+    const auto trials = Confirming(planner, index, static_cast<int>(e));
+    for (const TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
+    all.push_back(ConfirmedOf(trials, of, e));
   }
-  const Sample sample = SampleOf(objective);
-  candidate.num_trials = sample.count;
-  candidate.mean = sample.mean;
-  candidate.standard_error = sample.sd / std::sqrt(sample.count);
-  if (!sad.empty()) candidate.sad_mm2 = SampleOf(sad).mean;
-  if (!profiles.empty()) {
-    TrialRecord mean;
-    mean.metrics = of.references.front().Measure(imaging::MeanImage(profiles));
-    candidate.profile_sad_mm2 = mean.Metric(MetricOf(Objective::kSad));
-  }
+  const ResultConfirmed& first = all.front();
+  candidate.num_trials = first.num_trials;
+  candidate.mean = first.mean;
+  candidate.standard_error = first.standard_error;
+  candidate.sad_mm2 = first.sad_mm2;
+  candidate.profile_sad_mm2 = first.profile_sad_mm2;
+  if (all.size() > 1 || !first.scalars.empty()) candidate.experiments = std::move(all);
   return candidate;
 }
 
@@ -100,7 +148,9 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, co
     if (candidate.num_trials > 0) result.confirmed.push_back(candidate);
   }
   if (result.confirmed.empty()) return;
-  if (const std::size_t best = BestCandidate(result.confirmed); best > 0) {
+  // Where several experiments are to be met, none of them alone decides.
+  const std::size_t best = of.references.size() > 1 ? 0 : BestCandidate(result.confirmed);
+  if (best > 0) {
     std::rotate(result.confirmed.begin(), result.confirmed.begin() + static_cast<long>(best),
                 result.confirmed.begin() + static_cast<long>(best) + 1);
     for (std::size_t i = 0; i < result.parameters.size(); ++i) {

@@ -11,6 +11,9 @@ std::string ProgressText(const TrialProgress& trial) {
   for (std::size_t i = 0; i < trial.values.size(); ++i) {
     text += (i == 0 ? " at " : " ") + NumberText4(trial.values[i]);
   }
+  if (trial.experiment) {
+    text += ", " + *trial.experiment + " at scale factor " + NumberText4(trial.scale_factor);
+  }
   if (trial.status == TrialStatus::kFailed) {
     text += " failed: " + trial.reason;
   } else if (trial.objective) {

@@ -16,12 +16,14 @@ struct TrialProgress {
   std::int64_t trial = 0;
   TrialKind kind = TrialKind::kSearch;
   TrialStatus status = TrialStatus::kRunning;
-  std::vector<double> values{};       // native units, in the order of the free parameters
-  std::optional<double> objective{};  // none where it is not defined
-  std::string unit{};                 // of the objective, for people: "mm²"
-  bool best = false;                  // the lowest objective so far
-  std::string reason{};               // of a failure
-  double duration = 0;                // [s]
+  std::vector<double> values{};             // native units, in the order of the free parameters
+  std::optional<std::string> experiment{};  // where several make one answer
+  double scale_factor = 1;                  // of the coarse graining
+  std::optional<double> objective{};        // none where it is not defined
+  std::string unit{};                       // of the objective, for people: "mm²"
+  bool best = false;                        // the lowest objective so far
+  std::string reason{};                     // of a failure
+  double duration = 0;                      // [s]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -29,6 +31,8 @@ struct TrialProgress {
     visit("kind", self.kind);
     visit("status", self.status);
     visit("values", self.values);
+    visit("experiment", self.experiment);
+    visit("scale_factor", self.scale_factor);
     visit("objective", self.objective);
     visit("unit", self.unit);
     visit("best", self.best);

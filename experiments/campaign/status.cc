@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/console.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -34,25 +35,58 @@ struct Counts {
   }
 };
 
+// Trials of one experiment at one scale factor: only their objectives compare.
+struct Kind {
+  int experiment = 0;
+  double scale_factor = 1;
+
+  bool Is(const TrialRecord& trial) const {
+    return trial.experiment == experiment && trial.scale_factor == scale_factor;
+  }
+};
+
 std::string BestLine(const std::vector<TrialRecord>& trials, const CampaignRecord& campaign,
-                     const Reference& reference) {
+                     const Reference& reference, const Kind& kind) {
   const TrialRecord* best = nullptr;
   double best_value = 0;
   for (const TrialRecord& trial : trials) {
+    if (!kind.Is(trial) || !IsOfSearch(trial)) continue;
     const auto value = reference.Value(trial);
-    if (trial.kind == TrialKind::kConfirm || !value || (best && *value >= best_value)) continue;
+    if (!value || (best && *value >= best_value)) continue;
     best = &trial;
     best_value = *value;
   }
-  if (best == nullptr) return "  best so far       no trial has succeeded yet\n";
-  std::string text = "  best so far       " + NumberText4(best_value) + " " + reference.unit() +
-                     ", trial " + std::to_string(best->id) + ":";
+  if (best == nullptr) return "no trial has succeeded yet\n";
+  std::string text = NumberText4(best_value) + " " + reference.unit() + ", trial " +
+                     std::to_string(best->id) + ":";
   for (std::size_t i = 0; i < best->native.size(); ++i) {
     text += (i == 0 ? " " : ", ") + campaign.parameters[i].name + " " +
             NumberText4(best->native[i]) +
             (campaign.parameters[i].unit.empty() ? "" : " " + campaign.parameters[i].unit);
   }
   return text + "\n";
+}
+
+std::string BestLines(const std::vector<TrialRecord>& trials, const CampaignRecord& campaign,
+                      const CampaignSpec& spec) {
+  const std::vector<Reference> references = ReferencesOf(campaign, spec);
+  if (!spec.IsJoint()) {
+    return "  best so far       " + BestLine(trials, campaign, references.front(),
+                                             {.scale_factor = spec.coarse_graining.scale_factor});
+  }
+  std::string text;
+  for (std::size_t e = 0; e < references.size(); ++e) {
+    for (const double factor : spec.coarse_graining.Levels()) {
+      const Kind kind{.experiment = static_cast<int>(e), .scale_factor = factor};
+      const auto count = std::count_if(trials.begin(), trials.end(), [&](const TrialRecord& t) {
+        return kind.Is(t) && IsOfSearch(t);
+      });
+      text += "  " + campaign.experiments[e].name + " at scale factor " + NumberText4(factor) +
+              ": " + std::to_string(count) + " trials, best " +
+              BestLine(trials, campaign, references[e], kind);
+    }
+  }
+  return text;
 }
 
 std::string FailureLines(const std::vector<TrialRecord>& trials) {
@@ -76,7 +110,6 @@ std::string StatusText(const std::filesystem::path& root) {
   const ProgressRecord progress = journal.Progress();
   const std::vector<TrialRecord> trials = journal.Trials();
   const CampaignSpec spec = ParseSpecText(campaign.spec_json);
-  const Reference reference = ReferencesOf(campaign, spec).front();
   const Counts counts(trials);
   const bool alive = IsWorkedOn(folder.root);
 
@@ -94,9 +127,11 @@ std::string StatusText(const std::filesystem::path& root) {
   text += "  now               " + std::to_string(counts.running) +
           (alive ? " running\n" : " to be run again\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
-  text += BestLine(trials, campaign, reference);
-  if (const auto floor = campaign.experiments.front().noise_mm2) {
-    text += "  noise floor       " + NumberText4(*floor) + " mm² (experiment)\n";
+  text += BestLines(trials, campaign, spec);
+  for (const ExperimentRecord& e : campaign.experiments) {
+    if (!e.noise_mm2) continue;
+    text += "  noise floor       " + NumberText4(*e.noise_mm2) + " mm² (" +
+            (campaign.experiments.size() > 1 ? e.name : "experiment") + ")\n";
   }
   if (counts.finished > 0) {
     text += "  a trial takes     " + DurationText(counts.seconds / counts.finished) + "\n";

@@ -47,6 +47,12 @@ inline imaging::GrayImage DrawHeap(double sliding, double rolling, std::uint64_t
   return image;
 }
 
+// [kg] that falls over the rim: less the more the grains rub; scatters by 1 mg.
+inline double FallenMass(double sliding, std::uint64_t seed) {
+  base::Random random(seed, base::Stream("fake balance"));
+  return 1e-6 * (50 - 60 * sliding + random.Normal());
+}
+
 struct FakeEngineOptions {
   bool die_once = false;     // every third trial is ended by SIGKILL when it is run first
   bool fail_at_low = false;  // no heap below μ_t = 0.3
@@ -85,6 +91,11 @@ class FakeEngine : public TrialEngine {
     return {.profile = imaging::ReadGrayImage(folder / "profile.png"),
             .num_steps = std::llround(size.simulated_time / size.time_step),
             .num_particles = size.num_grains,
+            .scalars = {{.name = "mass_fallen_kg",
+                         .value =
+                             FallenMass(heap_case.powder.material.sliding_friction, heap_case.seed),
+                         .unit = "kg",
+                         .undefined = ""}},
             .note = ""};
   }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/lifted_tube/landing.h"
@@ -54,6 +55,25 @@ TEST(HeapRig, RoughGrainsHeapUpAndSlipperyOnesRunOff) {
   EXPECT_EQ(rough.state.settling.reason, PhaseEnd::kAtRest);
   EXPECT_EQ(rough.state.lifting.reason, PhaseEnd::kCleared);
   EXPECT_EQ(rough.state.num_carried, 0);
+}
+
+// A balance sees every grain once: on the plate, or fallen; this powder sticks to no tube.
+TEST(HeapRig, WhatLiesOnThePlateAndWhatFellIsWhatWasFilled) {
+  const HeapCase c = Coarse(0.3, 0.05);
+  HeapRig rig(c);
+  while (rig.Advance()) {
+  }
+  const auto heap = GrainsOfHeap(rig.simulation());
+  const auto result = nlohmann::json::parse(HeapResultText(c, rig, heap, {}));
+  const auto& observables = result["observables"];
+  const double on_plate = observables["mass_on_plate_kg"];
+  const double fallen = observables["mass_fallen_kg"];
+  const auto num_fallen = observables["num_fallen"].get<std::int64_t>();
+  EXPECT_GT(num_fallen, 0);
+  // Grains of one size: masses are in the ratio of the counts.
+  const double grain = (on_plate + fallen) / static_cast<double>(rig.state().num_filled);
+  EXPECT_NEAR(fallen, grain * static_cast<double>(num_fallen), 1e-9 * fallen);
+  EXPECT_NEAR(on_plate + fallen, c.powder.mass, grain);  // to a whole number of grains
 }
 
 TEST(HeapRig, NothingFallsBeforeTheTubeIsLifted) {

@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "base/error.h"
+#include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/export/export.h"
 #include "experiments/campaign/consider.h"
 #include "experiments/campaign/describe_posterior.h"
+#include "experiments/campaign/status.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::experiments {
@@ -144,6 +149,79 @@ TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
   ASSERT_NE(found, result.warnings.end());
   EXPECT_NEAR(found->value.value(), 12.5, 1e-9);
   EXPECT_THAT(ResultSummary(result), HasSubstr("only 12.5 grains across the plate of \"heap\""));
+}
+
+// The same powder by two tests: a map of a heap, and another with what fell beside it.
+class TwoExperiments : public ::testing::Test {
+ protected:
+  fs::path Begin(const std::string& name) const {
+    const fs::path in = scratch_.path() / (name + "_in");
+    WriteFakeSpec(in, "");
+    const std::string map = R"("map": "map.png", "plate_diameter": "10 mm",
+      "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
+                "baseline_px": 76, "plate_diameter": "10 mm"})";
+    std::ofstream(in / "spec.json") << R"({
+      "experiments": [
+        {"name": "heap", )" << map << R"(},
+        {"name": "fast lift", )" << map
+                                    << R"(, "device": {"lift_velocity": "20 cm/s"},
+         "mass_fallen": {"value": "23 mg", "sd": "1 mg"}}],
+      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+      "coarse_graining": {"scale_factor": 2},
+      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
+                     "rolling_friction": {"min": 0.05, "max": 0.5}},
+      "budget": {"simulations": 20}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1})";
+    BeginCampaign(in / "spec.json", scratch_.path() / name);
+    return scratch_.path() / name;
+  }
+  ScratchFolder scratch_;
+};
+
+TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
+  const fs::path folder = Begin("run");
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
+  const auto trials = journal.Trials();
+  ASSERT_EQ(trials.size(), 20u + 4u);
+  std::array<int, 2> searched{};
+  std::array<int, 2> confirmed{};
+  for (const TrialRecord& trial : trials) {
+    const auto e = static_cast<std::size_t>(trial.experiment);
+    ++(trial.kind == TrialKind::kConfirm ? confirmed : searched).at(e);
+    const HeapCase heap_case = LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    EXPECT_EQ(heap_case.device.lift_velocity, trial.experiment == 0 ? 0.01 : 0.2);
+    EXPECT_TRUE(trial.Metric("mass_fallen_kg").has_value());
+  }
+  EXPECT_GT(searched[0], 0);
+  EXPECT_GT(searched[1], 0);
+  EXPECT_EQ(confirmed, (std::array{2, 2}));
+  const CampaignRecord record = journal.Campaign();
+  ASSERT_EQ(record.experiments.size(), 2u);
+  EXPECT_EQ(record.experiments[1].scalars.at(0).value, 23e-6);
+
+  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+  const auto& experiments = result.confirmed.at(0).experiments;
+  ASSERT_TRUE(experiments && experiments->size() == 2);
+  EXPECT_EQ((*experiments)[1].name, "fast lift");
+  EXPECT_EQ((*experiments)[1].scalars.at(0).measured, 23e-6);
+  EXPECT_EQ(result.posterior.value().experiments.size(), 2u);
+  EXPECT_THAT(ResultSummary(result), HasSubstr("mass_fallen_kg"));
+  EXPECT_THAT(StatusText(folder), HasSubstr("fast lift at scale factor 2: "));
+  EXPECT_THAT(TrialsCsv(record, trials), HasSubstr(",fast lift,2,"));
+  // Trials are compared with the experiment that they are of.
+  const Evidence fast = GatherEvidence(folder, "fast lift");
+  EXPECT_EQ(fast.trials.size(), static_cast<std::size_t>(searched[1] + confirmed[1]));
+  EXPECT_THROW(GatherEvidence(folder, "slow lift"), base::ConfigError);
+}
+
+TEST_F(TwoExperiments, ADamagedJournalIsMadeAnewWithBoth) {
+  const fs::path folder = Begin("run");
+  RunFake(folder, {});
+  const std::string table = TrialTable(folder);
+  fs::resize_file(JournalPath(folder), 5000);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(folder), table);
+  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Campaign().experiments.size(), 2u);
 }
 
 TEST(PosteriorInWords, ABranchACurveOrAPoint) {

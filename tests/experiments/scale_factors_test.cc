@@ -82,6 +82,58 @@ TEST(ScaleFactors, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(ErrorOf(R"("posterior": {"model_error": 1})"), HasSubstr("posterior: has no effect"));
 }
 
+std::string ErrorOfExperiments(const std::string& list, const std::string& more = "") {
+  try {
+    ReadCampaignSpec(base::ParseJson(R"({
+      "powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},)" +
+                                         more + "\"experiments\": [" + list + "]}",
+                                     "/folder/powder.json"));
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Experiments, WhatCannotBeIsRefusedWithItsPlace) {
+  const std::string heap = R"({"name": "heap", "map": "m.png", "plate_diameter": "10 mm")";
+  EXPECT_EQ(ErrorOfExperiments(heap + "}"), "");
+  EXPECT_THAT(ErrorOfExperiments(heap + "}, " + heap + "}"),
+              HasSubstr("experiments[1].name: \"heap\" stands there twice"));
+  EXPECT_THAT(ErrorOfExperiments(R"({"name": "heap", "plate_diameter": "10 mm"})"),
+              HasSubstr("experiments[0]: needs exactly one of \"photos\""));
+  EXPECT_THAT(ErrorOfExperiments(heap + R"(, "mass_fallen": {"value": "21 mg"}})"),
+              HasSubstr("experiments[0].mass_fallen.sd: is missing"));
+  EXPECT_THAT(ErrorOfExperiments(heap + R"(, "mass_fallen": {"value": "21 mg", "sd": 0}})"),
+              HasSubstr("experiments[0].mass_fallen.sd: is 0, must be positive"));
+  EXPECT_THAT(ErrorOfExperiments(heap + R"(, "device": {"plate_diameter": "30 mm"}})"),
+              HasSubstr("experiments[0].plate_diameter: is 0.01, is not the device's"));
+  EXPECT_THAT(ErrorOfExperiments(""), HasSubstr("experiments: is empty"));
+  EXPECT_THAT(ErrorOfExperiments(heap + "}", R"("experiment": {"map": "m.png",
+                                                "plate_diameter": "10 mm"},)"),
+              HasSubstr("experiments: stands beside experiment"));
+}
+
+TEST(Experiments, EachHasItsOwnDeviceOrTheCampaigns) {
+  const CampaignSpec spec = ReadCampaignSpec(base::ParseJson(R"({
+    "powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},
+    "device": {"lift_velocity": "2 cm/s"},
+    "experiments": [
+      {"name": "heap", "map": "m.png", "plate_diameter": "10 mm"},
+      {"name": "wide", "map": "w.png", "plate_diameter": "30 mm",
+       "device": {"plate_diameter": "30 mm", "lift_velocity": "5 cm/s"},
+       "mass_fallen": {"value": "21 mg", "sd": "2 mg"}}]})",
+                                                             "/folder/powder.json"));
+  EXPECT_TRUE(spec.IsJoint());
+  EXPECT_EQ(TypicalCase(spec, 0, 1).device.lift_velocity, 0.02);
+  EXPECT_EQ(TypicalCase(spec, 1, 1).device.plate_diameter, 0.03);
+  const auto scalars = ScalarsOf(ExperimentsOf(spec)[1]);
+  ASSERT_EQ(scalars.size(), 1u);
+  EXPECT_EQ(scalars[0].metric, "mass_fallen_kg");
+  EXPECT_DOUBLE_EQ(scalars[0].value, 21e-6);
+  EXPECT_DOUBLE_EQ(scalars[0].standard_error, 2e-6);
+  EXPECT_EQ(SpecText(ParseSpecText(SpecText(spec))), SpecText(spec));
+}
+
 TEST(ScaleFactors, CoreTimeTakesThePlaceOfANumberOfSimulations) {
   const CampaignSpec spec = Read(R"("budget": {"core_time": "16 min"})");
   EXPECT_EQ(spec.budget.core_time, 960);

@@ -3,6 +3,7 @@
 #include <sys/utsname.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -90,9 +91,19 @@ imaging::Profile ReadReference(const ExperimentRecord& record) {
   return aehp;
 }
 
-void AddTrials(Evidence& evidence, const CampaignRecord& record,
+// The scale factor that most trials of the search have, the finer of two with as many.
+double UsualScaleFactor(const std::vector<TrialRecord>& trials) {
+  std::map<double, int> counts;
+  for (const TrialRecord& t : trials) counts[t.scale_factor] += t.kind != TrialKind::kConfirm;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? 1 : most->first;
+}
+
+void AddTrials(Evidence& evidence, const ExperimentRecord& record,
                const std::vector<TrialRecord>& trials) {
-  evidence.reference.metrics = InColumns(record.experiments.front().reference, evidence.metrics);
+  evidence.reference.metrics = InColumns(record.reference, evidence.metrics);
   for (const TrialRecord& trial : trials) {
     evidence.trials.push_back(EvidenceOf(trial, evidence.metrics));
   }
@@ -100,10 +111,10 @@ void AddTrials(Evidence& evidence, const CampaignRecord& record,
     trial.metrics.resize(evidence.metrics.size(), kUndefined);
   }
   evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
-  std::vector<MetricRecord> errors = record.experiments.front().reference;
+  std::vector<MetricRecord> errors = record.reference;
   for (MetricRecord& metric : errors) metric.value = metric.standard_error;
   evidence.reference.errors = InColumns(errors, evidence.metrics);
-  if (!trials.empty()) evidence.scale_factor = trials.front().scale_factor;
+  evidence.scale_factor = UsualScaleFactor(trials);
 }
 
 void AddTimes(Evidence& evidence, double elapsed) {
@@ -139,9 +150,19 @@ std::string SeedsText(const std::vector<TrialEvidence>& trials) {
   return std::to_string(trials.size()) + " trials, each with its own in tables/trials.csv";
 }
 
+std::size_t ExperimentNamed(const CampaignRecord& record, const std::string& name) {
+  if (name.empty()) return 0;
+  std::string names;
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    if (record.experiments[e].name == name) return e;
+    names += (e == 0 ? "\"" : ", \"") + record.experiments[e].name + "\"";
+  }
+  throw base::ConfigError("the campaign has no experiment \"" + name + "\"; it has " + names);
+}
+
 }  // namespace
 
-Evidence GatherEvidence(const std::filesystem::path& campaign) {
+Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment) {
   if (!std::filesystem::exists(JournalPath(campaign))) {
     throw base::ConfigError(campaign.string() + ": holds no campaign (" +
                             JournalPath(campaign).filename().string() +
@@ -160,9 +181,15 @@ Evidence GatherEvidence(const std::filesystem::path& campaign) {
   for (const ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
-  AddTrials(evidence, record, journal->Trials());
-  evidence.reference.aehp = ReadReference(record.experiments.front());
-  evidence.reference.noise_floor = record.experiments.front().noise_mm2.value_or(kUndefined);
+  const std::size_t index = ExperimentNamed(record, experiment);
+  const ExperimentRecord& compared_with = record.experiments.at(index);
+  std::vector<TrialRecord> trials = journal->Trials();
+  std::erase_if(trials, [&](const TrialRecord& t) {
+    return static_cast<std::size_t>(t.experiment) != index;
+  });
+  AddTrials(evidence, compared_with, trials);
+  evidence.reference.aehp = ReadReference(compared_with);
+  evidence.reference.noise_floor = compared_with.noise_mm2.value_or(kUndefined);
   if (!progress.result_json.empty()) {
     evidence.conclusion = ConclusionOf(progress.result_json);
     evidence.objective = evidence.conclusion->objective;

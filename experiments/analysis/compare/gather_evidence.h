@@ -8,8 +8,9 @@
 
 namespace talus::experiments {
 
-// Reads the journal, also while a process is writing it. Throws ConfigError when there is none.
-Evidence GatherEvidence(const std::filesystem::path& campaign);
+// Reads the journal, also while a process is writing it: the trials of one experiment, the first
+// where none is named. Throws ConfigError when there is no such campaign or experiment.
+Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment = {});
 
 // From the text of result.json.
 Conclusion ConclusionOf(const std::string& result_json);

@@ -7,6 +7,7 @@
 #include "base/json_reader.h"
 #include "base/json_writer.h"
 #include "base/version.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/lifted_tube/landing.h"
 
 namespace talus::experiments {
@@ -75,6 +76,33 @@ double PlateRadius(const engine::Simulation& simulation) {
   return std::get<engine::SolidCylinder>(plate).radius;
 }
 
+double Volume(const engine::Particle& p) {
+  return 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
+}
+
+// What a balance would show. A grain that flies when the test ends counts by where it is: above the
+// plate's top as on the plate, below it as fallen. What the tube has carried away is neither.
+ordered_json Observables(const HeapCase& c, const HeapRig& rig) {
+  const HeapState& state = rig.state();
+  double present = 0;
+  double below = 0;
+  std::int64_t num_below = 0;
+  for (const engine::Particle& p : rig.simulation().Particles()) {
+    present += Volume(p);
+    if (p.position.z >= 0) continue;
+    below += Volume(p);
+    ++num_below;
+  }
+  const std::int64_t num_gone = state.num_fallen + state.num_carried;
+  const double gone = std::max(0.0, FilledVolume(c) - present);
+  const double fallen_share =
+      num_gone > 0 ? static_cast<double>(state.num_fallen) / static_cast<double>(num_gone) : 0;
+  const double density = c.powder.material.density;
+  return {{"mass_on_plate_kg", density * (present - below)},
+          {"mass_fallen_kg", density * (below + gone * fallen_share)},
+          {"num_fallen", state.num_fallen + num_below}};
+}
+
 }  // namespace
 
 std::vector<engine::Particle> GrainsOfHeap(const engine::Simulation& simulation) {
@@ -112,6 +140,7 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
                       {"carried_by_tube", state.num_carried},
                       {"in_flight", simulation.num_particles() - on_heap}};
   result["heap"] = Heap(c, heap);
+  result["observables"] = Observables(c, rig);
   result["conditions"] = Conditions(c, simulation);
   if (c.frame) {
     result["profile"] = base::ToJson(*c.frame);

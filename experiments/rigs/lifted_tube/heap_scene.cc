@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "experiments/rigs/lifted_tube/pouring.h"
@@ -55,6 +56,12 @@ engine::Material UsedMaterial(const HeapCase& c) {
   material.surface_energy *=
       std::pow(c.coarse_graining.scale_factor, c.coarse_graining.surface_energy_exponent);
   return material;
+}
+
+double FilledVolume(const HeapCase& c) {
+  double cubes = 0;
+  for (const double r : DrawRadii(c)) cubes += r * r * r;
+  return 4.0 / 3 * std::numbers::pi * cubes;
 }
 
 HeapScene MakeHeapScene(const HeapCase& c) {

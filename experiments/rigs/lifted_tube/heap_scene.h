@@ -28,4 +28,7 @@ engine::Material UsedMaterial(const HeapCase& heap_case);
 // What a user should know before trusting the result, a sentence each; none when all is well.
 std::vector<std::string> HeapWarnings(const HeapCase& heap_case);
 
+// Of all grains that are filled in [m³].
+double FilledVolume(const HeapCase& heap_case);
+
 }  // namespace talus::experiments

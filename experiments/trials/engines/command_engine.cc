@@ -1,6 +1,8 @@
 #include "experiments/trials/engines/command_engine.h"
 
+#include <algorithm>
 #include <fstream>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -38,7 +40,21 @@ struct Measured {
   imaging::GrayImage profile;
   std::size_t num_spheres = 0;  // in the file
   std::size_t num_grains = 0;   // of the heap
+  std::vector<MetricRecord> scalars{};
 };
+
+// The mass that is filled in is the case's, whatever the other engine's grains come to.
+std::vector<MetricRecord> MassesOf(const HeapCase& heap_case,
+                                   const std::vector<base::Sphere>& heap) {
+  double volume = 0;
+  for (const base::Sphere& s : heap) {
+    volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
+  }
+  const double on_plate = volume * heap_case.powder.material.density;
+  const double fallen = std::max(0.0, heap_case.powder.mass - on_plate);
+  return {{.name = "mass_on_plate_kg", .value = on_plate, .unit = "kg", .undefined = ""},
+          {.name = "mass_fallen_kg", .value = fallen, .unit = "kg", .undefined = ""}};
+}
 
 void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
   std::vector<engine::Particle> particles(spheres.size());
@@ -64,7 +80,10 @@ Measured MeasureSpheres(const CommandOptions& options, const HeapCase& heap_case
   base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(profile.image),
                             Outlives::kProgram);
   if (file.filename() != "heap.vtp") WriteHeap(folder / "heap.vtp", heap);
-  return {.profile = profile.image, .num_spheres = spheres.size(), .num_grains = heap.size()};
+  return {.profile = profile.image,
+          .num_spheres = spheres.size(),
+          .num_grains = heap.size(),
+          .scalars = MassesOf(heap_case, heap)};
 }
 
 Measured MeasureImage(const HeapCase& heap_case, const fs::path& file, const fs::path& folder) {
@@ -155,6 +174,7 @@ TrialOutput CommandEngine::Collect(const HeapCase& heap_case, const fs::path& fo
   return {.profile = measured.profile,
           .num_steps = 0,
           .num_particles = static_cast<std::int64_t>(measured.num_spheres),
+          .scalars = measured.scalars,
           .note = {}};
 }
 

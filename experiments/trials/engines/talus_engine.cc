@@ -9,6 +9,23 @@
 
 namespace talus::experiments {
 
+namespace {
+
+// Results of earlier versions have none.
+std::vector<MetricRecord> ScalarsOf(const nlohmann::json& result) {
+  std::vector<MetricRecord> scalars;
+  if (!result.contains("observables")) return scalars;
+  for (const auto& [name, value] : result["observables"].items()) {
+    scalars.push_back({.name = name,
+                       .value = value.get<double>(),
+                       .unit = name.ends_with("_kg") ? "kg" : "-",
+                       .undefined = ""});
+  }
+  return scalars;
+}
+
+}  // namespace
+
 TalusEngine::TalusEngine(std::filesystem::path program) : program_(std::move(program)) {}
 
 std::filesystem::path TalusEngine::ThisProgram() {
@@ -36,6 +53,7 @@ TrialOutput TalusEngine::Collect(const HeapCase& heap_case, const std::filesyste
   TrialOutput output{.profile = imaging::ReadGrayImage(folder / "profile.png"),
                      .num_steps = result.value("num_steps", std::int64_t{0}),
                      .num_particles = result.value("num_grains", std::int64_t{0}),
+                     .scalars = ScalarsOf(result),
                      .note = result.value("reason", "")};
   if (output.profile.width != heap_case.frame->width ||
       output.profile.height != heap_case.frame->height) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/journal/records.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "imaging/gray_image.h"
 
@@ -16,6 +17,7 @@ struct TrialOutput {
   imaging::GrayImage profile;  // ANHP in the case's frame
   std::int64_t num_steps = 0;  // 0 when not known
   std::int64_t num_particles = 0;
+  std::vector<MetricRecord> scalars{};  // what was measured beside the image
   std::string note;  // how it ended, such as a phase that met its time cap; may be empty
 };
 
