@@ -125,7 +125,7 @@ TEST(CompareObjectives, SaysWhyAnObjectiveHasNoAnswer) {
 TEST(CompareObjectives, LeavesOutTrialsAtAnotherScaleAndFailures) {
   Evidence evidence = OneParameter("sad_mm2", {{0.1, 3}, {0.2, 2}, {0.3, 1}, {0.4, 0.5}});
   evidence.trials[2].scale_factor = 2;
-  evidence.trials[3].state = TrialState::kFailed;
+  evidence.trials[3].state = TrialStatus::kFailed;
   EXPECT_THAT(Find(evidence, "sad").from_trials.best[0].trials, ElementsAre(2));
 }
 

@@ -150,7 +150,7 @@ TEST_F(Report, JournalGivesBackWhatTheCampaignHas) {
   ASSERT_EQ(read.trials.size(), made.trials.size());
   EXPECT_EQ(read.trials[3].values, made.trials[3].values);
   EXPECT_EQ(read.trials[3].metrics, made.trials[3].metrics);
-  EXPECT_EQ(read.trials[12].state, TrialState::kFailed);
+  EXPECT_EQ(read.trials[12].state, TrialStatus::kFailed);
   EXPECT_EQ(read.trials[12].reason, made.trials[12].reason);
   EXPECT_EQ(read.reference.aehp.image, made.reference.aehp.image);
   EXPECT_EQ(read.reference.aehp.frame, made.reference.aehp.frame);

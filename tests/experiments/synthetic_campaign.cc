@@ -118,7 +118,7 @@ TrialEvidence MakeTrial(int i, const Evidence& evidence, const SyntheticOptions&
   trial.cpu_seconds = 0.97 * trial.seconds;
   trial.metrics.assign(evidence.metrics.size(), kUndefined);
   if (i % options.every_failed == options.every_failed - 1) {
-    trial.state = TrialState::kFailed;
+    trial.state = TrialStatus::kFailed;
     trial.reason = i % 2 == 0 ? "a velocity is not finite at step 81000"
                               : "the heap is lost: 71 % of the grains left the plate";
     return trial;

@@ -108,12 +108,12 @@ void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path
     record.seed = t.seed;
     record.started_utc = "2026-01-31T12:00:00Z";
     journal.Start({&record, 1});
-    record.status = t.state == TrialState::kDone ? TrialStatus::kOk : TrialStatus::kFailed;
+    record.status = t.state;
     record.reason = t.reason;
     record.duration_s = t.seconds;
     record.cpu_s = t.cpu_seconds;
     record.finished_utc = "2026-01-31T12:01:00Z";
-    const bool done = t.state == TrialState::kDone;
+    const bool done = t.state == TrialStatus::kOk;
     if (done) record.metrics = RecordsOf(evidence, t.metrics);
     journal.Finish(record, done ? imaging::EncodePng(evidence.profile(t.id)->image) : "");
   }

@@ -17,7 +17,7 @@ struct Measurement {
 std::vector<Measurement> MeasurementsOf(const Evidence& evidence, std::size_t column) {
   std::vector<Measurement> found;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state != TrialState::kDone || std::isnan(trial.metrics[column])) continue;
+    if (trial.state != TrialStatus::kOk || std::isnan(trial.metrics[column])) continue;
     if (trial.scale_factor != evidence.scale_factor) continue;  // another simulation of the set
     found.push_back({&trial, trial.metrics[column]});
   }

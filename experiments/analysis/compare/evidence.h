@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/field.h"
+#include "experiments/journal/records.h"
 #include "imaging/heap/profile.h"
 #include "optimizer/space/parameter_space.h"
 
@@ -32,11 +32,9 @@ struct MetricInfo {
   std::string unit;  // "mm2", "deg", "-"
 };
 
-enum class TrialState { kDone, kFailed, kRunning };
-
 struct TrialEvidence {
   int id = 0;
-  TrialState state = TrialState::kDone;
+  TrialStatus state = TrialStatus::kOk;
   std::string purpose;         // why it was run: "noise", "design", "search", "confirm"
   Eigen::VectorXd point;       // unit cube
   std::vector<double> values;  // in the order of Evidence::parameters, SI
@@ -113,10 +111,3 @@ struct Evidence {
 std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_view metric);
 
 }  // namespace talus::experiments
-
-template <>
-struct talus::base::Names<talus::experiments::TrialState> {
-  using S = talus::experiments::TrialState;
-  static constexpr std::array kList{std::pair{"done", S::kDone}, std::pair{"failed", S::kFailed},
-                                    std::pair{"running", S::kRunning}};
-};

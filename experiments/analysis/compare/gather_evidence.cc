@@ -19,18 +19,6 @@
 namespace talus::experiments {
 namespace {
 
-TrialState StateOf(TrialStatus status) {
-  switch (status) {
-    case TrialStatus::kOk:
-      return TrialState::kDone;
-    case TrialStatus::kFailed:
-      return TrialState::kFailed;
-    case TrialStatus::kRunning:
-      return TrialState::kRunning;
-  }
-  return TrialState::kRunning;
-}
-
 ParameterInfo InfoOf(const ParameterRecord& record) {
   ParameterInfo info;
   info.range.name = record.name;
@@ -66,7 +54,7 @@ std::vector<double> InColumns(const std::vector<MetricRecord>& records,
 TrialEvidence EvidenceOf(const TrialRecord& record, std::vector<MetricInfo>& columns) {
   TrialEvidence trial;
   trial.id = static_cast<int>(record.id);
-  trial.state = StateOf(record.status);
+  trial.state = record.status;
   trial.purpose = base::NameOf(record.kind);
   trial.point = Eigen::Map<const Eigen::VectorXd>(record.unit.data(),
                                                   static_cast<Eigen::Index>(record.unit.size()));
@@ -74,8 +62,8 @@ TrialEvidence EvidenceOf(const TrialRecord& record, std::vector<MetricInfo>& col
   trial.seed = record.seed;
   trial.scale_factor = record.scale_factor;
   trial.metrics = InColumns(record.metrics, columns);
-  if (trial.state == TrialState::kFailed) trial.reason = record.reason;
-  if (trial.state != TrialState::kRunning) {
+  if (trial.state == TrialStatus::kFailed) trial.reason = record.reason;
+  if (trial.state != TrialStatus::kRunning) {
     trial.seconds = record.duration_s;
     trial.cpu_seconds = record.cpu_s;
   }
@@ -121,7 +109,7 @@ void AddTimes(Evidence& evidence, double elapsed) {
   double wall = 0;
   double cpu = 0;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state == TrialState::kRunning) continue;
+    if (trial.state == TrialStatus::kRunning) continue;
     wall += trial.seconds;
     cpu += trial.cpu_seconds;
   }

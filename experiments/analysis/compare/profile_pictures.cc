@@ -68,7 +68,7 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
     add(finding.from_trials.best.front().trials.front(), "best by " + title, ", " + title);
   }
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.purpose == "confirm" && trial.state == TrialState::kDone) {
+    if (trial.purpose == "confirm" && trial.state == TrialStatus::kOk) {
       add(trial.id, "a confirming trial", ", a confirming trial");
       break;
     }

@@ -47,8 +47,8 @@ StrategyRun RunOf(const std::string& name, const Evidence& evidence, const Objec
   const auto column = MetricColumn(evidence, info.metric);
   double best = kUndefined;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state == TrialState::kRunning || trial.purpose == "confirm") continue;
-    if (trial.state == TrialState::kDone && column) {
+    if (trial.state == TrialStatus::kRunning || trial.purpose == "confirm") continue;
+    if (trial.state == TrialStatus::kOk && column) {
       const double value = info.Value(trial.metrics[*column], evidence.reference.metrics[*column]);
       best = std::isnan(value) ? best : std::fmin(best, value);
     }

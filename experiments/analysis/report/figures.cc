@@ -31,7 +31,7 @@ std::vector<Valued> ValuedTrials(const ReportData& data) {
   const auto column = MetricColumn(data.evidence, data.own().info.metric);
   if (!column) return valued;
   for (const TrialEvidence& t : data.evidence.trials) {
-    if (t.state != TrialState::kDone || std::isnan(t.metrics[*column])) continue;
+    if (t.state != TrialStatus::kOk || std::isnan(t.metrics[*column])) continue;
     valued.push_back({&t, data.own().info.Value(t.metrics[*column], data.own().reference)});
   }
   return valued;
@@ -156,7 +156,7 @@ std::string Scatter(const ReportData& data, const PairChance& pair) {
                  AxisOf(data.evidence.parameters[pair.j]));
   std::vector<SvgPoint> all;
   for (const TrialEvidence& t : data.evidence.trials) {
-    if (t.state == TrialState::kDone) all.push_back({t.values[pair.i], t.values[pair.j]});
+    if (t.state == TrialStatus::kOk) all.push_back({t.values[pair.i], t.values[pair.j]});
   }
   chart.Points(all, {.color = "#9aa5ad", .width = 5}, "trials");
   for (std::size_t k = 0; k < data.findings.size(); ++k) {

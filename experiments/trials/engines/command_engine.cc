@@ -103,7 +103,7 @@ Measured MeasureImage(const HeapCase& heap_case, const fs::path& file, const fs:
 std::string ResultText(const HeapCase& heap_case, const Measured& measured, const fs::path& file) {
   nlohmann::ordered_json result;
   result["kind"] = kKind;
-  result["status"] = "done";
+  result["status"] = "ok";
   result["talus_version"] = base::Version();
   result["result_file"] = file.filename().string();
   result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};

@@ -77,7 +77,7 @@ const legendStyle = {top: 0, left: 0, icon: "circle", itemHeight: 11, itemWidth:
 const tooltipStyle = {confine: true, borderColor: line, textStyle: {color: ink, fontSize: 13}};
 const lines = (texts) => texts.map((t) => echarts.format.encodeHTML(t)).join("<br>");
 
-const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "done");
+const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "ok");
 
 // At most `limit` of them, evenly through their order, and always those that `keep` names.
 function thin(indices, limit, keep = new Set()) {

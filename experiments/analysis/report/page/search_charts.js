@@ -68,7 +68,7 @@ function timeChart() {
       lines(["Trial " + t.id[e.data[2]] + ": " + duration(e.data[1])])},
     xAxis: valueAxis("trial", {nameGap: 28, min: 0}),
     yAxis: valueAxis("time (s)", {min: 0}),
-    series: ["done", "failed"].map((state, k) => ({
+    series: ["ok", "failed"].map((state, k) => ({
       type: "scatter", name: state, symbolSize: shown.length > 800 ? 4 : 6,
       symbol: state === "failed" ? "diamond" : "circle",
       itemStyle: {color: palette[k], opacity: .75},

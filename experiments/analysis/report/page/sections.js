@@ -4,9 +4,9 @@ const objectiveValue = (x, digits) => formatUnit(x, D.campaign.objective.unit, d
 function standing() {
   const c = D.campaign, failed = D.trials.state.filter((s) => s === "failed").length;
   const running = D.trials.state.filter((s) => s === "running").length;
-  const done = D.trials.state.filter((s) => s === "done").length;
+  const done = D.trials.state.filter((s) => s === "ok").length;
   const confirming = D.trials.state.filter(
-    (s, i) => s === "done" && D.trials.purpose[i] === "confirm").length;
+    (s, i) => s === "ok" && D.trials.purpose[i] === "confirm").length;
   const parts = [done - confirming + " simulations" + (c.budget ? " of at most " + c.budget : "")];
   if (confirming) parts.push(confirming + " confirming");
   if (failed) parts.push(failed + " failed");
