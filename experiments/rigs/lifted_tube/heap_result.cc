@@ -80,27 +80,28 @@ double Volume(const engine::Particle& p) {
   return 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
 }
 
-// What a balance would show. A grain that flies when the test ends counts by where it is: above the
-// plate's top as on the plate, below it as fallen. What the tube has carried away is neither.
-ordered_json Observables(const HeapCase& c, const HeapRig& rig) {
+double Volume(const std::vector<engine::Particle>& grains) {
+  double volume = 0;
+  for (const engine::Particle& p : grains) volume += Volume(p);
+  return volume;
+}
+
+// What a balance would show: the heap is on the plate, and what is neither of it nor carried away
+// by the tube has fallen, or is about to.
+ordered_json Observables(const HeapCase& c, const HeapRig& rig,
+                         const std::vector<engine::Particle>& heap) {
   const HeapState& state = rig.state();
-  double present = 0;
-  double below = 0;
-  std::int64_t num_below = 0;
-  for (const engine::Particle& p : rig.simulation().Particles()) {
-    present += Volume(p);
-    if (p.position.z >= 0) continue;
-    below += Volume(p);
-    ++num_below;
-  }
+  const std::vector<engine::Particle> present = rig.simulation().Particles();
+  const auto num_falling = static_cast<std::int64_t>(present.size() - heap.size());
   const std::int64_t num_gone = state.num_fallen + state.num_carried;
-  const double gone = std::max(0.0, FilledVolume(c) - present);
+  const double gone = std::max(0.0, FilledVolume(c, state.num_filled) - Volume(present));
   const double fallen_share =
       num_gone > 0 ? static_cast<double>(state.num_fallen) / static_cast<double>(num_gone) : 0;
+  const double falling = Volume(present) - Volume(heap);
   const double density = c.powder.material.density;
-  return {{"mass_on_plate_kg", density * (present - below)},
-          {"mass_fallen_kg", density * (below + gone * fallen_share)},
-          {"num_fallen", state.num_fallen + num_below}};
+  return {{"mass_on_plate_kg", density * Volume(heap)},
+          {"mass_fallen_kg", density * (gone * fallen_share + falling)},
+          {"num_fallen", state.num_fallen + num_falling}};
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
                       {"carried_by_tube", state.num_carried},
                       {"in_flight", simulation.num_particles() - on_heap}};
   result["heap"] = Heap(c, heap);
-  result["observables"] = Observables(c, rig);
+  result["observables"] = Observables(c, rig, heap);
   result["conditions"] = Conditions(c, simulation);
   if (c.frame) {
     result["profile"] = base::ToJson(*c.frame);

@@ -58,9 +58,12 @@ engine::Material UsedMaterial(const HeapCase& c) {
   return material;
 }
 
-double FilledVolume(const HeapCase& c) {
+double FilledVolume(const HeapCase& c, std::int64_t num_grains) {
+  const std::vector<double> radii = DrawRadii(c);
   double cubes = 0;
-  for (const double r : DrawRadii(c)) cubes += r * r * r;
+  for (std::size_t i = 0; i < std::min(radii.size(), static_cast<std::size_t>(num_grains)); ++i) {
+    cubes += radii[i] * radii[i] * radii[i];
+  }
   return 4.0 / 3 * std::numbers::pi * cubes;
 }
 

@@ -1,6 +1,7 @@
 // The scene of a heap test at time 0: tube and plate, and the powder filled into the tube.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ engine::Material UsedMaterial(const HeapCase& heap_case);
 // What a user should know before trusting the result, a sentence each; none when all is well.
 std::vector<std::string> HeapWarnings(const HeapCase& heap_case);
 
-// Of all grains that are filled in [m³].
-double FilledVolume(const HeapCase& heap_case);
+// Of the first grains of a filling, in their order [m³].
+double FilledVolume(const HeapCase& heap_case, std::int64_t num_grains);
 
 }  // namespace talus::experiments
