@@ -66,6 +66,7 @@ class Campaign {
   CampaignEnd End(base::Interrupt interrupt);
   void WriteResult(ProgressRecord& progress);
   void NoteBest(const TrialRecord& trial);
+  // Of its experiment, where trials differ by experiment or scale factor.
   void Report(const TrialRecord& trial);
   void ShowStatus();
   double Elapsed() const;  // [s], all sessions

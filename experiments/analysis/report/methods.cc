@@ -68,18 +68,18 @@ std::string StartedWith(const Evidence& evidence) {
 
 std::string MethodsText(const ReportData& data) {
   const Evidence& e = data.evidence;
-  const auto count = [&](TrialState state, bool confirming) {
+  const auto count = [&](TrialStatus state, bool confirming) {
     return std::ranges::count_if(e.trials, [&](const TrialEvidence& t) {
       return t.state == state && (t.purpose == "confirm") == confirming;
     });
   };
-  const auto failed = count(TrialState::kFailed, false) + count(TrialState::kFailed, true);
+  const auto failed = count(TrialStatus::kFailed, false) + count(TrialStatus::kFailed, true);
   std::string text = "The contact parameters were calibrated with talus " + StartedWith(e) +
                      ". Simulated heaps were projected into the frame of the experiment's average "
                      "heap profile and compared with it by the ";
   text += data.own().info.title;
   text += ". Calibrated were " + Searched(e) + ". The strategy \"" + e.strategy + "\" chose " +
-          std::to_string(count(TrialState::kDone, false)) + " simulations that gave a heap";
+          std::to_string(count(TrialStatus::kOk, false)) + " simulations that gave a heap";
   text += failed > 0 ? "; " + std::to_string(failed) + " failed." : ".";
   if (std::isfinite(e.reference.noise_floor)) {
     text += " The experiment's runs differ from the mean of the others by " +
