@@ -93,7 +93,7 @@ void ValidateProblem(const base::JsonFile& file, bool) {
 }
 
 void ValidateCommandCase(const base::JsonFile& file, bool) {
-  LoadCommandCase(file.path);
+  LoadCommandCase(file);
   std::cout << file.path.string() << ": is a case of another engine in order\n";
 }
 
