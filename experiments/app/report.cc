@@ -62,8 +62,6 @@ void AddReportCommand(CLI::App& app) {
   command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/report");
-  command->add_option("--experiment", arguments->experiment,
-                      "whose trials are shown, in a campaign with several; default: the first");
   command->add_flag("--watch", arguments->watch,
                     "write it anew whenever a trial ends, until the campaign does; the open page "
                     "follows by itself");

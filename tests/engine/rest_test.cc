@@ -34,6 +34,12 @@ Vec3 Turned(const Vec3& a) {  // by 40° about (1,2,3)/√14, Rodrigues
 struct TurnWall {
   void operator()(Plane& s) const { Turn(s.point, s.normal); }
   void operator()(Disc& s) const { Turn(s.center, s.normal); }
+  void operator()(Annulus& s) const { Turn(s.center, s.normal); }
+  void operator()(Rectangle& s) const {
+    Turn(s.center, s.normal);
+    s.edge = Turned(s.edge);
+  }
+  void operator()(Cone& s) const { Turn(s.base, s.axis); }
   void operator()(OpenCylinder& s) const { Turn(s.base, s.axis); }
   void operator()(SolidCylinder& s) const { Turn(s.base, s.axis); }
   static void Turn(Vec3& a, Vec3& b) {
