@@ -9,6 +9,7 @@
 #include "base/json_schema.h"
 #include "base/output_folder.h"
 #include "experiments/app/commands.h"
+#include "experiments/trials/optimize/evaluator.h"
 
 namespace talus::experiments {
 
@@ -41,6 +42,8 @@ void AddOptimizeCommand(CLI::App& app) {
         options->problem,
         problem.target ? std::filesystem::path(problem.target->profile) : std::filesystem::path()};
     if (!options->output.folder.empty()) {
+      Evaluator(problem,
+                options->command);  // refuses what it cannot use before anything is written
       base::ClaimOutputFolder(options->output.folder, "optimize", inputs);
     }
     const std::string result = Optimize(problem, options->command, options->output);

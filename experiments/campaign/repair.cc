@@ -1,6 +1,7 @@
 #include "experiments/campaign/repair.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,13 +33,13 @@ std::string TextWithChecksum(const Record& record) {
   return text.append(kChecksum).append(checksum).append(kEnd);
 }
 
-template <class Record>
-Record ReadRecord(const std::filesystem::path& path) {
+// The text without its checksum; nothing where it has none.
+std::optional<std::string> CheckedText(const std::filesystem::path& path) {
   std::string text = base::ReadFile(path);
   const std::size_t at = text.rfind(kChecksum);
   constexpr std::size_t kDigits = 16;
   if (at == std::string::npos || text.size() != at + kChecksum.size() + kDigits + kEnd.size()) {
-    throw base::Error(path.string() + ": is damaged: its checksum is not there");
+    return std::nullopt;
   }
   const std::string checksum = text.substr(at + kChecksum.size(), kDigits);
   text.resize(at);
@@ -46,7 +47,14 @@ Record ReadRecord(const std::filesystem::path& path) {
   if (base::Hex(base::Checksum(text)) != checksum) {
     throw base::Error(path.string() + ": is damaged: it does not match its checksum");
   }
-  return ParseRecord<Record>(text, path.string());
+  return text;
+}
+
+template <class Record>
+Record ReadRecord(const std::filesystem::path& path) {
+  const std::optional<std::string> text = CheckedText(path);
+  if (!text) throw base::Error(path.string() + ": is damaged: its checksum is not there");
+  return ParseRecord<Record>(*text, path.string());
 }
 
 std::string IfThere(const std::filesystem::path& path) {
@@ -66,10 +74,14 @@ void PutAside(const std::filesystem::path& journal) {
   }
 }
 
-// Before schema 3 there was one experiment, whose keys stood beside the campaign's own.
-std::string WithExperiments(const std::string& text) {
-  auto json = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!json.is_object() || json.contains("experiments")) return text;
+// Before schema 3 there was one experiment, whose keys stood beside the campaign's own, and no
+// checksum.
+std::string WithExperiments(const std::filesystem::path& path) {
+  if (const std::optional<std::string> checked = CheckedText(path)) return *checked;
+  auto json = nlohmann::ordered_json::parse(base::ReadFile(path), nullptr, false);
+  if (!json.is_object() || json.contains("experiments")) {
+    throw base::Error(path.string() + ": is damaged: its checksum is not there");
+  }
   nlohmann::ordered_json experiment;
   experiment["name"] = "heap";
   for (const char* key :
@@ -83,8 +95,8 @@ std::string WithExperiments(const std::string& text) {
 }
 
 CampaignRecord KeptCampaign(const CampaignFolder& folder) {
-  auto record = ParseRecord<CampaignRecord>(WithExperiments(base::ReadFile(folder.campaign())),
-                                            folder.campaign().string());
+  auto record =
+      ParseRecord<CampaignRecord>(WithExperiments(folder.campaign()), folder.campaign().string());
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);

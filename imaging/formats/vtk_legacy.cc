@@ -186,7 +186,9 @@ class LegacyReader {
   std::vector<double> Values(const std::string& type, std::size_t count) {
     const std::optional<VtkType> known = VtkTypeOf(type);
     if (!known) cursor_.Fail("\"" + type.substr(0, 40) + "\" is not a type of VTK that is read");
-    if (count > cursor_.Left()) cursor_.Fail("the file ends too early for what it names; was it cut off while it was written?");
+    if (count > cursor_.Left())
+      cursor_.Fail(
+          "the file ends too early for what it names; was it cut off while it was written?");
     if (binary_) {
       cursor_.Line();  // the bytes start after the end of the line that names them
       return Decode(*known, cursor_.Bytes(count * SizeOf(*known)), std::endian::big);

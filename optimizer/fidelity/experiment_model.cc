@@ -200,9 +200,9 @@ OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
                       .log_sd = Eigen::VectorXd::Zero(points.rows())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
-    const Eigen::ArrayXd variance = kCaution * kCaution * all.variance.array() + open_[k];
-    misfit.residual.col(k) = (measured_[k] - all.mean.array()) / variance.sqrt();
-    misfit.log_sd.array() += 0.5 * variance.log();
+    const Eigen::ArrayXd cautious = kCaution * kCaution * all.variance.array() + open_[k];
+    misfit.residual.col(k) = (measured_[k] - all.mean.array()) / cautious.sqrt();
+    misfit.log_sd.array() += 0.5 * (all.variance.array() + open_[k]).log();
   }
   return misfit;
 }

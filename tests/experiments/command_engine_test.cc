@@ -90,7 +90,7 @@ TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
   EXPECT_EQ(output.profile.at(20, 19), 255);
   EXPECT_EQ(output.profile.at(24, 23), 255);
   EXPECT_TRUE(fs::exists(root_ / "trial/heap.vtp"));
-  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"status\": \"done\""));
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"status\": \"ok\""));
   EXPECT_THAT(Text("trial/case.json"), HasSubstr("\"command\""));
 }
 
