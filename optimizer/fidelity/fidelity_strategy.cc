@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include "base/random.h"
@@ -45,6 +46,25 @@ ExperimentData FirstOf(const ExperimentData& data, int count) {
   }
   first.scalars.assign(data.scalars.begin(), data.scalars.begin() + n);
   return first;
+}
+
+// Spearman's, one column of `sample` a parameter: a valley that is bent is as tight as a straight
+// one.
+Eigen::MatrixXd RankCorrelation(const Eigen::MatrixXd& sample) {
+  Eigen::MatrixXd ranks(sample.rows(), sample.cols());
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(sample.rows()));
+  for (Eigen::Index k = 0; k < sample.cols(); ++k) {
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return sample(a, k) < sample(b, k); });
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+      ranks(order[rank], k) = static_cast<double>(rank);
+    }
+  }
+  const Eigen::MatrixXd centred = ranks.rowwise() - ranks.colwise().mean();
+  const Eigen::MatrixXd covariance = centred.transpose() * centred;
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
 // Σ |image - what its column edges make of it| / Σ image.
@@ -352,10 +372,7 @@ Answer FidelityStrategy::Recommend() {
   Summarise(answer);
   const PosteriorSummary& summary = *answer.posterior;
   answer.credible = CredibleRanges(summary.draws, 0.9);
-  const Eigen::MatrixXd centred = summary.draws.rowwise() - summary.draws.colwise().mean();
-  const Eigen::MatrixXd covariance = centred.transpose() * centred;
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt().cwiseMax(1e-12);
-  answer.correlation = sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
+  answer.correlation = RankCorrelation(summary.draws);
   for (int i = 0; i < kMostTied; ++i) {
     answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));
   }
