@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <utility>
 
 #include "base/random.h"
 #include "optimizer/answer/answer.h"
 #include "optimizer/answer/credible_ranges.h"
+#include "optimizer/answer/rank_correlation.h"
 #include "optimizer/answer/sobol_indices.h"
 #include "optimizer/designs/design.h"
 #include "optimizer/fidelity/branches.h"
@@ -46,25 +46,6 @@ ExperimentData FirstOf(const ExperimentData& data, int count) {
   }
   first.scalars.assign(data.scalars.begin(), data.scalars.begin() + n);
   return first;
-}
-
-// Spearman's, one column of `sample` a parameter: a valley that is bent is as tight as a straight
-// one.
-Eigen::MatrixXd RankCorrelation(const Eigen::MatrixXd& sample) {
-  Eigen::MatrixXd ranks(sample.rows(), sample.cols());
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(sample.rows()));
-  for (Eigen::Index k = 0; k < sample.cols(); ++k) {
-    std::iota(order.begin(), order.end(), Eigen::Index{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](Eigen::Index a, Eigen::Index b) { return sample(a, k) < sample(b, k); });
-    for (std::size_t rank = 0; rank < order.size(); ++rank) {
-      ranks(order[rank], k) = static_cast<double>(rank);
-    }
-  }
-  const Eigen::MatrixXd centred = ranks.rowwise() - ranks.colwise().mean();
-  const Eigen::MatrixXd covariance = centred.transpose() * centred;
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
 // Σ |image - what its column edges make of it| / Σ image.

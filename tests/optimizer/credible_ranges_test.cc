@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "optimizer/answer/rank_correlation.h"
 
 namespace talus::optimizer {
 namespace {
@@ -59,6 +60,17 @@ TEST(CredibleRanges, OfEqualDrawsAreThatDraw) {
     EXPECT_EQ(range.low, 0.25);
     EXPECT_EQ(range.high, 0.25);
   }
+}
+
+TEST(RankCorrelation, IsOneAlongAnyRisingCurve) {
+  Eigen::MatrixXd sample(200, 2);
+  for (int i = 0; i < 200; ++i) {
+    sample(i, 0) = (i * 37 % 200) / 200.0;
+    sample(i, 1) = -std::exp(8 * sample(i, 0));
+  }
+  const Eigen::MatrixXd correlation = RankCorrelation(sample);
+  EXPECT_NEAR(correlation(0, 1), -1, 1e-12);
+  EXPECT_NEAR(correlation(1, 1), 1, 1e-12);
 }
 
 }  // namespace
