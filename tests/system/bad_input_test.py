@@ -39,6 +39,9 @@ def example(name):
 def spec():
     good = example("demo/campaign.json")
     good["experiment"]["photos"] = str(SOURCE / "examples/photos/powder_a")
+    good["coarse_graining"] = {"scale_factor": 1.5}  # one grain size, so that all strategies serve
+    good["budget"] = {"simulations": 30}
+    good["noise"] = {"replicates": 3}
     return good
 
 
