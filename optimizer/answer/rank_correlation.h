@@ -5,8 +5,8 @@
 
 namespace talus::optimizer {
 
-// Spearman's rank correlation between the columns of `sample`, one draw a row and no column constant:
-// a valley that is bent is as tight as a straight one.
+// Spearman's rank correlation between the columns of `sample`, one draw a row and no column
+// constant: a valley that is bent is as tight as a straight one.
 Eigen::MatrixXd RankCorrelation(const Eigen::MatrixXd& sample);
 
 }  // namespace talus::optimizer
