@@ -1,11 +1,13 @@
-# `cmake --install` puts the program, the libraries with their headers, and what find_package(talus)
-# needs in the usual places.
+# `cmake --install` puts the program, the libraries with their public headers, and what
+# find_package(talus) needs in the usual places.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 get_property(talus_libraries GLOBAL PROPERTY talus_libraries)
+list(REMOVE_ITEM talus_libraries talus_experiments)  # part of the program
 install(TARGETS ${talus_libraries} talus_compile_options EXPORT talusTargets
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus)
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS talus)
 install(EXPORT talusTargets NAMESPACE talus::
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/talus)

@@ -41,22 +41,20 @@ if(TALUS_FUZZ)
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
 
-# talus_add_library(name [HEADERS ...] [SOURCES ...] [PUBLIC ...] [PRIVATE ...])
+# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...])
+# PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  if(ARG_SOURCES)
-    add_library(talus_${name} STATIC ${ARG_SOURCES})
-    set(scope PUBLIC)
-    target_link_libraries(talus_${name} PRIVATE ${ARG_PRIVATE})
-  else()
-    add_library(talus_${name} INTERFACE)
-    set(scope INTERFACE)
-  endif()
+  cmake_parse_arguments(ARG "" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
-  target_sources(talus_${name} ${scope} FILE_SET HEADERS
-    BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
-  target_link_libraries(talus_${name} ${scope} talus::compile_options ${ARG_PUBLIC})
+  target_include_directories(talus_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_sources(talus_${name}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_PUBLIC_HEADERS}
+    PRIVATE FILE_SET internal_headers TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
+      FILES ${ARG_HEADERS})
+  target_link_libraries(talus_${name} PUBLIC talus::compile_options ${ARG_PUBLIC}
+    PRIVATE ${ARG_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
 

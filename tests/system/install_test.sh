@@ -15,7 +15,21 @@ for example in "$share"/talus/examples/*/campaign.json; do
   schema=$(sed -n 's/.*"$schema": "\([^"]*\)".*/\1/p' "$example")
   test -s "$(dirname "$example")/$schema" || { echo "$example: $schema does not resolve"; exit 1; }
 done
-cmake -S "$1/tests/system/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" \
-  -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-cmake --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-"$work/build/consumer"
+# build SOURCE NAME: configures and builds a project against the installed package, in $work/NAME.
+build() {
+  cmake -S "$1" -B "$work/$2" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
+    >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+  cmake --build "$work/$2" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+}
+# prints PATTERN PROGRAM: the program ends well and a line it prints matches.
+prints() {
+  "$2" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+  cat "$work/log"
+  grep -Eq "$1" "$work/log" || { echo "$2 does not print $1"; exit 1; }
+}
+build "$1/tests/system/headers" headers
+build "$share/talus/examples/library" library
+prints '^200 grains, [1-9][0-9]* contacts' "$work/library/simulate_scene"
+prints '^sad_px: [1-9]' "$work/library/compare_profiles"
+prints '^after [1-9][0-9]* evaluations: +0\.(2[5-9]|3[0-5])[0-9]* +0\.(6[5-9]|7[0-5])' \
+  "$work/library/ask_tell"
