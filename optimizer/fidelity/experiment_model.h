@@ -34,8 +34,9 @@ struct ExperimentState {
 
 // Misfit of the predicted outputs from the measured ones, one point a row.
 struct OutputMisfit {
-  Eigen::MatrixXd residual;  // (measured - predicted mean) / sd, one output a column
-  Eigen::VectorXd log_sd;    // Σ ln sd over the outputs
+  Eigen::MatrixXd residual;  // (measured - predicted mean) / sd, one output a column; sd with the
+                             // surrogate's part inflated
+  Eigen::VectorXd log_sd;    // Σ ln sd over the outputs, not inflated
 };
 
 class ExperimentModel {

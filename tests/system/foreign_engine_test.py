@@ -30,7 +30,7 @@ def cheap(folder):
     spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
     spec["experiment"]["pixel_size"] = "100 um"
     # 254 grains. LIGGGHTS refuses a modulus below 5 MPa; the step grows by the root of 26.25 / 5.
-    spec["coarse_graining"]["scale_factor"] = 3.5
+    spec["coarse_graining"]["scale_factor"] = 2.5
     spec["powder"]["material"]["youngs_modulus"] = "5 MPa"
     spec["device"]["lift_velocity"] = "200 mm/s"
     spec["rules"] = {"settling": {"max_time": "0.05 s"}, "heap": {"max_time": "0.1 s"}}
