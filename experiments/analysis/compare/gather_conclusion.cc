@@ -4,10 +4,10 @@
 
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
-#include "experiments/analysis/compare/objective.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/campaign/describe_posterior.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::experiments {
 namespace {
@@ -35,9 +35,7 @@ std::vector<std::string> ConditionTexts(const ResultConditions& c) {
 // A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
 std::string ObjectiveKey(const std::string& result_key) {
   for (const ObjectiveInfo& info : kObjectives) {
-    if (result_key == info.metric || result_key == std::string(info.key) + "_difference_deg") {
-      return std::string(info.key);
-    }
+    if (result_key == info.ValueKey()) return std::string(info.key);
   }
   throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
 }
