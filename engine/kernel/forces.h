@@ -54,12 +54,12 @@ TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
 
 // A part of a run by its place, so that nothing of the caller's has to be in memory.
 struct Place {
-  const Run* run;
+  const PairRun* run;
   std::int64_t block;
   int lane;
 };
 
-TALUS_INLINE Part PartAt(const PanelView& panel, const Run& run, std::int64_t b, int lane) {
+TALUS_INLINE Part PartAt(const PanelView& panel, const PairRun& run, std::int64_t b, int lane) {
   const std::int64_t at = run.first_block + b;
   const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
   return {panel.blocks[at], panel.touching[at], lane, Lanes::Iota() < Lanes(left)};
@@ -68,7 +68,7 @@ TALUS_INLINE Part PartAt(const PanelView& panel, const Run& run, std::int64_t b,
 // Not inlined: scenes without such walls must not pay for them.
 template <class NormalLaw, class RollingLaw>
 [[gnu::noinline]] void AnyWallPart(const StepView& step, const PanelView& panel, Place place) {
-  const Run& run = *place.run;
+  const PairRun& run = *place.run;
   PairConstants constants = step.constants[run.constants];
   constants.keeps_spring = false;  // between spheres only
   WallPart<NormalLaw, RollingLaw, true>(step, panel, constants, step.walls[run.wall],
@@ -108,7 +108,7 @@ template <class NormalLaw, class RollingLaw>
 void Forces(const StepView& step, const PanelView& panel) {
   Ahead ahead(step, panel);
   for (std::int64_t r = 0; r < panel.num_runs; ++r) {
-    const Run run = panel.runs[r];
+    const PairRun run = panel.runs[r];
     PairConstants constants = step.constants[run.constants];
     constants.keeps_spring = constants.keeps_spring && run.wall < 0;
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;

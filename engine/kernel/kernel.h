@@ -51,7 +51,7 @@ struct WallView {
 };
 
 // Consecutive blocks whose pairs have the same two materials, or the same material and wall.
-struct Run {
+struct PairRun {
   std::int64_t first_block;
   std::int64_t num_pairs;  // lanes beyond these in the last block are void
   std::int32_t constants;  // index into StepView::constants
@@ -75,7 +75,7 @@ struct PanelView {
   std::int64_t begin, end, window_end, fresh;
   PairBlock* blocks;
   std::uint8_t* touching;  // of each block: lanes with δ > 0 at the last evaluation
-  const Run* runs;
+  const PairRun* runs;
   std::int64_t num_runs;
   double* forces;
 };

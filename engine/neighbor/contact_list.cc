@@ -45,7 +45,7 @@ PanelView Chunk::View(const Panel& panel) {
 template <class Visitor>
 void ContactList::VisitTouching(Visitor&& visit) const {
   for (const Chunk& chunk : chunks_) {
-    for (const Run& run : chunk.runs) {
+    for (const PairRun& run : chunk.runs) {
       for (std::int64_t k = 0; k < run.num_pairs; ++k) {
         const std::int64_t at = run.first_block + k / kBlock;
         const int lane = static_cast<int>(k % kBlock);

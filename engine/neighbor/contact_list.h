@@ -39,7 +39,7 @@ struct Chunk {
   std::vector<Panel> panels;
   AlignedVector<PairBlock> blocks;
   std::vector<std::uint8_t> touching;
-  std::vector<Run> runs;
+  std::vector<PairRun> runs;
   double* forces = nullptr;         // rows of [begin, window_end), zero between two steps
   std::vector<Overhang> overhangs;  // of the chunks before
   ListCounts counts;

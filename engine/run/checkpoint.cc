@@ -19,7 +19,7 @@ constexpr std::uint32_t kVersion = 3;  // raised with every change of what is wr
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};
   std::uint32_t version = kVersion;
-  std::uint32_t layout = 0x01020304u + sizeof(PairBlock) + sizeof(PairConstants) + sizeof(Run);
+  std::uint32_t layout = 0x01020304u + sizeof(PairBlock) + sizeof(PairConstants) + sizeof(PairRun);
   std::uint64_t size = 0;
   std::uint64_t checksum = 0;
 };

@@ -101,7 +101,7 @@ std::vector<WallLoad> SimulationState::WallLoads() const {
   const ScalarLaw law = PickLaw(models, NormalLaws{});
   std::vector<WallLoad> loads(walls.size());
   for (const Chunk& chunk : list.chunks()) {
-    for (const Run& run : chunk.runs) {
+    for (const PairRun& run : chunk.runs) {
       if (run.wall < 0) continue;
       const WallView& wall = walls.views()[run.wall];
       for (std::int64_t k = 0; k < run.num_pairs; ++k) {
@@ -126,7 +126,7 @@ std::vector<ContactInfo> SimulationState::Contacts() const {
   const ScalarLaw law = PickLaw(models, NormalLaws{});
   std::vector<ContactInfo> result;
   for (const Chunk& chunk : list.chunks()) {
-    for (const Run& run : chunk.runs) {
+    for (const PairRun& run : chunk.runs) {
       for (std::int64_t k = 0; k < run.num_pairs; ++k) {
         const PairBlock& block = chunk.blocks[run.first_block + k / kBlock];
         const int lane = static_cast<int>(k % kBlock);

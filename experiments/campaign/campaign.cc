@@ -318,7 +318,7 @@ void Campaign::Report(const TrialRecord& trial) {
                          .status = trial.status,
                          .values = trial.native,
                          .objective = ReferenceOf(trial).Value(trial),
-                         .unit = references_.front().unit(),
+                         .unit = std::string(references_.front().info().unit),
                          .best = best_ && best_->second == trial.id,
                          .reason = trial.reason,
                          .duration = trial.duration_s};
@@ -334,7 +334,7 @@ void Campaign::ShowStatus() {
   int num_finished = 0;
   CampaignProgress progress{.budget = spec_.budget.simulations,
                             .num_running = static_cast<int>(running_.size()),
-                            .unit = references_.front().unit()};
+                            .unit = std::string(references_.front().info().unit)};
   for (const TrialRecord& trial : planner_.trials()) {
     if (trial.kind != TrialKind::kConfirm) ++progress.num_search;
     if (trial.status == TrialStatus::kRunning || !(trial.duration_s > 0)) continue;

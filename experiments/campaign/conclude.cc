@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "base/version.h"
 #include "experiments/campaign/describe_posterior.h"
@@ -46,7 +47,7 @@ std::vector<const TrialRecord*> Confirming(const Planner& planner, std::size_t c
 
 // The mean of a metric over the trials that have it; nothing where none has.
 std::optional<double> MeanMetric(const std::vector<const TrialRecord*>& trials,
-                                 const std::string& name) {
+                                 std::string_view name) {
   std::vector<double> values;
   for (const TrialRecord* trial : trials) {
     if (const auto value = trial->Metric(name)) values.push_back(*value);
@@ -71,11 +72,11 @@ ResultConfirmed ConfirmedOf(const std::vector<const TrialRecord*>& trials, const
   confirmed.num_trials = sample.count;
   confirmed.mean = sample.mean;
   confirmed.standard_error = sample.sd / std::sqrt(sample.count);
-  confirmed.sad_mm2 = MeanMetric(trials, MetricOf(Objective::kSad));
+  confirmed.sad_mm2 = MeanMetric(trials, InfoOf(Objective::kSad).metric);
   if (!profiles.empty()) {
     TrialRecord mean;
     mean.metrics = reference.Measure(imaging::MeanImage(profiles));
-    confirmed.profile_sad_mm2 = mean.Metric(MetricOf(Objective::kSad));
+    confirmed.profile_sad_mm2 = mean.Metric(InfoOf(Objective::kSad).metric);
   }
   if (confirmed.profile_sad_mm2 && record.noise_mm2) {
     confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;
@@ -225,8 +226,8 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   result.name = of.spec.name;
   result.talus_version = base::Version();
   result.stop_reason = planner.stop_reason();
-  result.objective = of.references.front().key();
-  result.objective_unit = of.references.front().unit();
+  result.objective = of.references.front().info().ValueKey();
+  result.objective_unit = of.references.front().info().unit;
   AddParameters(*answer, planner, result);
   result.predicted = answer->predicted_value;
   result.predicted_sd = answer->predicted_sd;

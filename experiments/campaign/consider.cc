@@ -101,7 +101,7 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
                            .credible_level = {},
                            .experiments = {},
                            .nearest = NearestTrials(trials, references, point),
-                           .objective_unit = references.front().unit()};
+                           .objective_unit = std::string(references.front().info().unit)};
   const std::vector<double> native = space.ToNative(point);
   for (const int i : space.Free()) {
     considered.values.push_back(native[static_cast<std::size_t>(i)]);

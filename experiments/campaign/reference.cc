@@ -45,32 +45,16 @@ int MethodOf(Objective objective) {
 
 }  // namespace
 
-std::string MetricOf(Objective objective) {
-  switch (objective) {
-    case Objective::kSad:
-      return "sad_mm2";
-    case Objective::kRmse:
-      return "rmse_gray";
-    case Objective::kAor1:
-      return "repose_angle_1_mean_deg";
-    case Objective::kAor2:
-      return "repose_angle_2_mean_deg";
-    case Objective::kAor3:
-      return "repose_angle_3_mean_deg";
-  }
-  return {};
-}
-
 Reference::Reference(imaging::Profile aehp, ReferenceOptions options)
     : aehp_{.profile = std::move(aehp), .parts = {}},
       options_(std::move(options)),
       region_(RegionThatMatters(aehp_.profile)) {
-  if (!IsAngle(options_.objective)) return;
+  if (!info().is_angle) return;
   const imaging::Measured angle = AngleOf(aehp_.profile.image);
   if (!angle.defined()) {
-    throw base::ConfigError(
-        "objective: the experiment's " + std::string(base::NameOf(options_.objective)) +
-        " is not defined, because " + angle.not_defined + "; use \"sad\" or \"rmse\"");
+    throw base::ConfigError("objective: the experiment's " + std::string(info().key) +
+                            " is not defined, because " + angle.not_defined +
+                            "; use \"sad\" or \"rmse\"");
   }
   angle_ = angle.value;
 }
@@ -96,20 +80,9 @@ std::vector<MetricRecord> Reference::Measure(const imaging::GrayImage& profile) 
 }
 
 std::optional<double> Reference::Value(const TrialRecord& trial) const {
-  const std::optional<double> value = trial.Metric(MetricOf(options_.objective));
-  if (!value || !IsAngle(options_.objective)) return value;
-  return std::abs(*value - angle_);
-}
-
-std::string Reference::unit() const {
-  if (IsAngle(options_.objective)) return "°";
-  return options_.objective == Objective::kSad ? "mm²" : "grey levels";
-}
-
-std::string Reference::key() const {
-  const Objective objective = options_.objective;
-  return IsAngle(objective) ? std::string(base::NameOf(objective)) + "_difference_deg"
-                            : MetricOf(objective);
+  const std::optional<double> value = trial.Metric(info().metric);
+  if (!value) return value;
+  return info().Value(*value, angle_);
 }
 
 std::vector<float> Reference::Field(const imaging::GrayImage& profile) const {
@@ -158,7 +131,7 @@ imaging::GrayImage Reference::ImageOf(std::span<const float> field) const {
 // is measured, since a search asks thousands of times.
 double Reference::ValueOfField(std::span<const float> field) const {
   const imaging::GrayImage image = ImageOf(field);
-  if (IsAngle(options_.objective)) {
+  if (info().is_angle) {
     const imaging::Measured angle = AngleOf(image);
     constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
     return angle.defined() ? std::abs(angle.value - angle_) : kWorst;

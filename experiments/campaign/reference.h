@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/campaign/spec/objective.h"
+#include "experiments/journal/objective.h"
 #include "experiments/journal/records.h"
 #include "imaging/heap/metrics.h"
 #include "optimizer/models/field_objective.h"
@@ -34,8 +34,7 @@ class Reference {
   // What is minimised, or nothing where it is not defined.
   std::optional<double> Value(const TrialRecord& trial) const;
 
-  std::string unit() const;  // of Value, for people: "mm²"
-  std::string key() const;   // its name with the unit: "sad_mm2"
+  const ObjectiveInfo& info() const { return InfoOf(options_.objective); }  // of Value
 
   // The part of a profile that matters, 1 = powder: where the experiment has powder, with a margin;
   // never below the plate.
@@ -52,8 +51,5 @@ class Reference {
   imaging::Region region_;
   double angle_ = 0;  // of the experiment, for an angle objective [deg]
 };
-
-// "sad_mm2": the metric that an objective looks at.
-std::string MetricOf(Objective objective);
 
 }  // namespace talus::experiments

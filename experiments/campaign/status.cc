@@ -57,8 +57,8 @@ std::string BestLine(const std::vector<TrialRecord>& trials, const CampaignRecor
     best_value = *value;
   }
   if (best == nullptr) return "no trial has succeeded yet\n";
-  std::string text = NumberText4(best_value) + " " + reference.unit() + ", trial " +
-                     std::to_string(best->id) + ":";
+  std::string text = NumberText4(best_value) + " " + std::string(reference.info().unit) +
+                     ", trial " + std::to_string(best->id) + ":";
   for (std::size_t i = 0; i < best->native.size(); ++i) {
     text += (i == 0 ? " " : ", ") + campaign.parameters[i].name + " " +
             NumberText4(best->native[i]) +

@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/experiment_tables.h"
+#include "experiments/journal/objective.h"
 #include "experiments/journal/schema.h"
 
 namespace talus::experiments {
@@ -221,10 +222,10 @@ void Journal::CreateView(const CampaignRecord& campaign) {
         ",\n (SELECT value FROM points WHERE trial = t.id AND position = " + std::to_string(i) +
         ") AS " + ColumnName(p);
   }
-  for (const char* metric : {"sad_mm2", "rmse_gray", "repose_angle_1_mean_deg",
-                             "repose_angle_2_mean_deg", "repose_angle_3_mean_deg"}) {
-    columns += ",\n (SELECT value FROM metrics WHERE trial = t.id AND name = '" +
-               std::string(metric) + "') AS " + metric;
+  for (const ObjectiveInfo& objective : kObjectives) {
+    const std::string metric(objective.metric);
+    columns += ",\n (SELECT value FROM metrics WHERE trial = t.id AND name = '" + metric +
+               "') AS " + metric;
   }
   database_.Execute("CREATE VIEW results AS " + columns +
                     ",\n t.scale_factor, (SELECT name FROM experiments WHERE position = "

@@ -47,14 +47,12 @@ ObjectiveFinding Find(const Evidence& evidence, std::string_view key) {
   throw std::out_of_range("no such objective");
 }
 
-TEST(Objectives, AreThoseOfASpecWithTheirMetrics) {
-  for (const auto& [name, objective] : base::Names<Objective>::kList) {
-    const auto same = [&, key = name](const ObjectiveInfo& info) { return info.key == key; };
-    const auto found = std::find_if(kObjectives.begin(), kObjectives.end(), same);
-    ASSERT_NE(found, kObjectives.end()) << name;
-    EXPECT_EQ(found->metric, MetricOf(objective));
-    EXPECT_EQ(found->is_angle, IsAngle(objective));
-  }
+TEST(Objectives, NameTheirMetricAndTheirValue) {
+  EXPECT_EQ(base::NameOf(Objective::kRmse), "rmse");
+  EXPECT_EQ(InfoOf(Objective::kRmse).ValueKey(), "rmse_gray");
+  EXPECT_EQ(InfoOf(Objective::kAor2).metric, "repose_angle_2_mean_deg");
+  EXPECT_EQ(InfoOf(Objective::kAor2).ValueKey(), "aor2_difference_deg");
+  EXPECT_EQ(InfoOf(Objective::kAor2).Value(31, 34), 3);
 }
 
 TEST(CompareObjectives, TakesRepeatsAsOneSetWithTheirMean) {

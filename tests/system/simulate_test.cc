@@ -104,7 +104,7 @@ TEST_F(Simulate, ACaseLeavesItsTrialFolder) {
   for (const char* phase : {"filling", "settling", "lifting", "heap"}) {
     EXPECT_TRUE(result["phases"][phase]["reason"].is_string()) << phase;
   }
-  EXPECT_EQ(result["conditions"]["lift_velocity_m_s"], 0.05);
+  EXPECT_EQ(result["conditions"]["lift_velocity_m_per_s"], 0.05);
   EXPECT_TRUE(fs::exists(folder_ / "trial/profile.png"));
   EXPECT_FALSE(fs::exists(folder_ / "trial/checkpoint.bin"));
   EXPECT_THAT(Read("trial/log.txt"), HasSubstr("lifting ended at"));

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "experiments/analysis/compare/evidence.h"
-#include "experiments/analysis/compare/objective.h"
 #include "experiments/analysis/compare/objective_model.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::experiments {
 

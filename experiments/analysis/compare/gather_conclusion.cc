@@ -1,43 +1,34 @@
 #include <cctype>
 #include <cmath>
-#include <sstream>
 
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
-#include "experiments/analysis/compare/objective.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/console.h"
 #include "experiments/campaign/describe_posterior.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::experiments {
 namespace {
 
-std::string Number(double x) {
-  std::ostringstream text;
-  text.precision(4);
-  text << x;
-  return text.str();
-}
-
 std::vector<std::string> ConditionTexts(const ResultConditions& c) {
   std::vector<std::string> texts{
-      "Young's modulus of the grains " + Number(c.youngs_modulus / 1e6) + " MPa",
-      "lift velocity " + Number(c.lift_velocity * 100) + " cm/s",
+      "Young's modulus of the grains " + NumberText4(c.youngs_modulus / 1e6) + " MPa",
+      "lift velocity " + NumberText4(c.lift_velocity * 100) + " cm/s",
       "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
   texts.push_back(c.scale_factor == 1
                       ? "grains at their true size"
-                      : "grains " + Number(c.scale_factor) +
+                      : "grains " + NumberText4(c.scale_factor) +
                             " times their true size, surface energy scaled with exponent " +
-                            Number(c.surface_energy_exponent));
+                            NumberText4(c.surface_energy_exponent));
   return texts;
 }
 
 // A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
 std::string ObjectiveKey(const std::string& result_key) {
   for (const ObjectiveInfo& info : kObjectives) {
-    if (result_key == info.metric || result_key == std::string(info.key) + "_difference_deg") {
-      return std::string(info.key);
-    }
+    if (result_key == info.ValueKey()) return std::string(info.key);
   }
   throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
 }

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "experiments/analysis/compare/objective.h"
+#include "experiments/journal/objective.h"
 #include "surrogate/process/gaussian_process.h"
 
 namespace talus::experiments {

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "experiments/analysis/compare/aligned.h"
 #include "experiments/analysis/compare/csv.h"
-#include "experiments/analysis/compare/objective.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::experiments {
 namespace {

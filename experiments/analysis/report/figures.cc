@@ -67,7 +67,7 @@ std::string Convergence(const ReportData& data, const std::vector<Valued>& value
   }
   chart.Line(best, {.width = 2}, "best so far");
   const double floor = data.evidence.reference.noise_floor;
-  if (info.key == "sad" && std::isfinite(floor)) {
+  if (info.objective == Objective::kSad && std::isfinite(floor)) {
     chart.Line({{0, floor}, {last, floor}}, {.color = "#55626d", .dashed = true},
                "noise floor of the experiment");
   }

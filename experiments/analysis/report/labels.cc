@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "experiments/journal/objective.h"
+
 namespace talus::experiments {
 namespace {
 
@@ -38,11 +40,12 @@ std::string SymbolOf(std::string_view parameter) {
 }
 
 std::string MetricTitle(std::string_view metric) {
+  for (const ObjectiveInfo& info : kObjectives) {
+    if (info.metric == metric) return std::string(info.title);
+  }
   static constexpr std::array kTitles{
-      Entry{"sad_mm2", "SAD"},
       Entry{"sad_relative", "SAD / NEBP"},
       Entry{"sad_px", "SAD"},
-      Entry{"rmse_gray", "RMSE"},
       Entry{"iou", "IoU"},
       Entry{"nebp_px", "NEBP"},
       Entry{"nebp_mm2", "NEBP"},
@@ -50,13 +53,10 @@ std::string MetricTitle(std::string_view metric) {
       Entry{"static_cohesive_index", "Static cohesive index"},
       Entry{"repose_angle_1_left_deg", "AOR 1 left"},
       Entry{"repose_angle_1_right_deg", "AOR 1 right"},
-      Entry{"repose_angle_1_mean_deg", "AOR 1"},
       Entry{"repose_angle_2_left_deg", "AOR 2 left"},
       Entry{"repose_angle_2_right_deg", "AOR 2 right"},
-      Entry{"repose_angle_2_mean_deg", "AOR 2"},
       Entry{"repose_angle_3_left_deg", "AOR 3 left"},
       Entry{"repose_angle_3_right_deg", "AOR 3 right"},
-      Entry{"repose_angle_3_mean_deg", "AOR 3"},
   };
   return Find(kTitles, metric);
 }

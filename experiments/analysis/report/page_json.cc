@@ -79,7 +79,7 @@ Json CampaignJson(const ReportData& data) {
   for (const TrialEvidence& t : e.trials) cpu += std::isfinite(t.cpu_seconds) ? t.cpu_seconds : 0;
   const ObjectiveFinding& own = data.own();
   // The noise floor is a SAD: no other objective can be held against it.
-  const double floor = own.info.key == "sad" ? e.reference.noise_floor : kUndefined;
+  const double floor = own.info.objective == Objective::kSad ? e.reference.noise_floor : kUndefined;
   return {{"name", e.name},
           {"state", e.state},
           {"stop_reason", e.stop_reason},

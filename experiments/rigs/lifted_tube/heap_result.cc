@@ -47,10 +47,10 @@ ordered_json Conditions(const HeapCase& c, const engine::Simulation& simulation)
   ordered_json conditions;
   conditions["scale_factor"] = c.coarse_graining.scale_factor;
   conditions["surface_energy_exponent"] = c.coarse_graining.surface_energy_exponent;
-  conditions["surface_energy_j_m2"] = c.powder.material.surface_energy;
-  conditions["surface_energy_used_j_m2"] = used.surface_energy;
+  conditions["surface_energy_J_per_m2"] = c.powder.material.surface_energy;
+  conditions["surface_energy_used_J_per_m2"] = used.surface_energy;
   conditions["youngs_modulus_pa"] = used.youngs_modulus;
-  conditions["lift_velocity_m_s"] = c.device.lift_velocity;
+  conditions["lift_velocity_m_per_s"] = c.device.lift_velocity;
   conditions["rayleigh_fraction"] = c.rayleigh_fraction;
   conditions["time_step_s"] = simulation.time_step();
   conditions["plate_over_mean_diameter"] = c.device.plate_diameter / EstimateHeap(c).mean_diameter;

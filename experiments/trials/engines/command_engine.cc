@@ -109,7 +109,7 @@ std::string ResultText(const HeapCase& heap_case, const Measured& measured, cons
   result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};
   result["conditions"] = {{"scale_factor", heap_case.coarse_graining.scale_factor},
                           {"youngs_modulus_pa", heap_case.powder.material.youngs_modulus},
-                          {"lift_velocity_m_s", heap_case.device.lift_velocity},
+                          {"lift_velocity_m_per_s", heap_case.device.lift_velocity},
                           {"seed", heap_case.seed}};
   result["profile"] = base::ToJson(*heap_case.frame);
   result["profile"]["file"] = "profile.png";
