@@ -113,7 +113,7 @@ std::string PosteriorSentence(const ResultPosterior& posterior,
              (correlation[i][j] < 0 ? " rises" : "") + where;
     }
   }
-  return "the measurements determine a point, within the ranges above" + where;
+  return "the measurements determine a point, within its ranges" + where;
 }
 
 }  // namespace talus::experiments

@@ -3,6 +3,8 @@
 #include <sys/utsname.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <thread>
@@ -79,14 +81,13 @@ imaging::Profile ReadReference(const ExperimentRecord& record) {
   return aehp;
 }
 
-// The scale factor that most trials of the search have, the finer of two with as many.
-double UsualScaleFactor(const std::vector<TrialRecord>& trials) {
-  std::map<double, int> counts;
-  for (const TrialRecord& t : trials) counts[t.scale_factor] += t.kind != TrialKind::kConfirm;
-  const auto most =
-      std::max_element(counts.begin(), counts.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == counts.end() ? 1 : most->first;
+// The finest scale factor of the search: what others say of a set is biased by their grains.
+double FinestOfSearch(const std::vector<TrialRecord>& trials) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const TrialRecord& t : trials) {
+    if (t.kind != TrialKind::kConfirm) finest = std::min(finest, t.scale_factor);
+  }
+  return std::isfinite(finest) ? finest : 1;
 }
 
 void AddTrials(Evidence& evidence, const ExperimentRecord& record,
@@ -102,7 +103,7 @@ void AddTrials(Evidence& evidence, const ExperimentRecord& record,
   std::vector<MetricRecord> errors = record.reference;
   for (MetricRecord& metric : errors) metric.value = metric.standard_error;
   evidence.reference.errors = InColumns(errors, evidence.metrics);
-  evidence.scale_factor = UsualScaleFactor(trials);
+  evidence.scale_factor = FinestOfSearch(trials);
 }
 
 void AddTimes(Evidence& evidence, double elapsed) {
