@@ -1,6 +1,6 @@
 // Twin calibrations with coarse levels on synthetic heaps: does the joint 90 % region hold the
 // truth, how large is it, and how far is the recommended set? The same core seconds are spent with
-// all scale factors, and with one alone. docs/optimizers.md prints the table.
+// all scale factors, and with one alone. docs/posterior.md says what came out.
 //
 //   fidelity_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
 //

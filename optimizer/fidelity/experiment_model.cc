@@ -248,10 +248,10 @@ Eigen::VectorXd ExperimentModel::GainOfAll(const Eigen::MatrixXd& points) const 
   return gain;
 }
 
-void ExperimentModel::Believe(const Eigen::VectorXd& x, int level) {
+void ExperimentModel::AddFantasy(const Eigen::VectorXd& x, int level) {
   const double growth = setup_.levels->growth(level);
   for (surrogate::FidelityProcess& output : outputs_) {
-    output.Believe({.x = x, .growth = growth}, level);
+    output.AddFantasy({.x = x, .growth = growth}, level);
   }
 }
 

@@ -45,7 +45,7 @@ class ExperimentModel {
     const ExperimentTarget* target = nullptr;          // outlives the model
     std::shared_ptr<const surrogate::FieldCode> code;  // null without images
     const Levels* levels = nullptr;
-    double model_error = 0.5;  // FidelityOptions
+    double model_error = 1;  // FidelityOptions
   };
   // `frozen`, where not null, is taken instead of fitting.
   ExperimentModel(const Setup& setup, const ExperimentData& data, const ExperimentState* frozen);
@@ -67,7 +67,7 @@ class ExperimentModel {
   // The same for perfect knowledge at each point (V' = 0): where something is left to learn.
   Eigen::VectorXd GainOfAll(const Eigen::MatrixXd& points) const;
 
-  void Believe(const Eigen::VectorXd& x, int level);
+  void AddFantasy(const Eigen::VectorXd& x, int level);
 
   // The least learnt discrepancy of the strongest outputs, in [0, 1]; 0 for one scale factor.
   double DiscrepancyLeft() const;

@@ -242,9 +242,9 @@ std::optional<Proposal> FidelityStrategy::TooFewAt(const Eigen::VectorXd& point,
 Proposal FidelityStrategy::ByGain(std::span<const Proposal> asked) {
   const std::size_t turn = observations_.size() + asked.size();
   const std::uint64_t seed = options_.seed + 7919 * turn;
-  Posterior believed = Model();
+  Posterior with_fantasies = Model();
   for (const Proposal& p : asked) {
-    believed.models()[static_cast<std::size_t>(p.experiment)].Believe(
+    with_fantasies.models()[static_cast<std::size_t>(p.experiment)].AddFantasy(
         p.point, levels_.LevelOf(p.scale_factor));
   }
   const double softness = turn % 2 == 0 ? 1 : kExploring;
@@ -252,7 +252,7 @@ Proposal FidelityStrategy::ByGain(std::span<const Proposal> asked) {
   const PosteriorSample sample = Model().Sample(domain_, start, softness, seed);
   Eigen::MatrixXd points = sample.Draws(kCandidates, seed);
   Eigen::VectorXd score = Eigen::VectorXd::Zero(points.rows());
-  for (const ExperimentModel& model : believed.models()) score += model.GainOfAll(points);
+  for (const ExperimentModel& model : with_fantasies.models()) score += model.GainOfAll(points);
   const Feasibility feasibility(MakeHistory(observations_, domain_.num_parameters));
   score += feasibility.Penalty(points);
   constexpr Eigen::Index kBest = 6;
@@ -263,17 +263,18 @@ Proposal FidelityStrategy::ByGain(std::span<const Proposal> asked) {
   order.resize(std::min<std::size_t>(order.size(), kBest));
   points = Eigen::MatrixXd(points(order, Eigen::all));
   if (auto few = TooFewAt(points.row(0), asked)) return *few;
-  return MostPerCost(believed, points);
+  return MostPerCost(with_fantasies, points);
 }
 
-Proposal FidelityStrategy::MostPerCost(const Posterior& believed,
+Proposal FidelityStrategy::MostPerCost(const Posterior& with_fantasies,
                                        const Eigen::MatrixXd& points) const {
   Proposal best;
   double most = -1;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     for (std::size_t e = 0; e < targets_.size(); ++e) {
       for (int level = 0; level < levels_.size(); ++level) {
-        const double rate = believed.models()[e].Gain(points.row(i), level) / CostOf(e, level);
+        const double rate =
+            with_fantasies.models()[e].Gain(points.row(i), level) / CostOf(e, level);
         if (rate <= most) continue;
         most = rate;
         best = {.point = points.row(i),

@@ -158,7 +158,7 @@ Predictions FidelityProcess::LeaveOneOut() const {
   return result;
 }
 
-void FidelityProcess::Believe(const FidelityPoint& at, int level) {
+void FidelityProcess::AddFantasy(const FidelityPoint& at, int level) {
   const double value =
       (Predict(at.x.transpose(), at.growth).mean[0] - state_.centre) / state_.scale;
   const Eigen::Index n = data_.values.size();

@@ -50,8 +50,8 @@ class FidelityProcess {
   // Each evaluation from all others; the variance includes its noise.
   Predictions LeaveOneOut() const;
 
-  // Takes the prediction there for an evaluation (kriging believer).
-  void Believe(const FidelityPoint& at, int level);
+  // Adds a fantasy: the prediction there, taken for an evaluation (kriging believer).
+  void AddFantasy(const FidelityPoint& at, int level);
 
   double noise_variance(int level) const;
   // sd of the linear discrepancy that the prior allows, and that evaluations leave, averaged over

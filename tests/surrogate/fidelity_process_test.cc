@@ -116,7 +116,7 @@ TEST(FidelityProcess, BridgeSaysWhatAnEvaluationTeaches) {
   const auto bridge = process.BridgeAt(at);
   const double seen = bridge.coarse_variance + process.noise_variance(0);
   const double expected = bridge.variance - bridge.covariance * bridge.covariance / seen;
-  process.Believe(at, 0);
+  process.AddFantasy(at, 0);
   EXPECT_NEAR(process.Predict(at.x.transpose(), 0).variance[0], expected, 1e-6);
 }
 
