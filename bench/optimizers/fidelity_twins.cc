@@ -44,17 +44,6 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-// An additive recurrence: even over a box in which every parameter shows.
-Vec Truth(int instance) {
-  const Vec step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-  Vec truth;
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    const double t = 0.5 + instance * step[k];
-    truth[k] = 0.2 + 0.5 * (t - std::floor(t));
-  }
-  return truth;
-}
-
 int NoiseLevel(double factor) { return factor < 1.2 ? 1 : factor < 1.8 ? 3 : 2; }
 
 Image Heap(const Problem& problem, const Vec& x, double factor, std::uint64_t run) {
@@ -93,7 +82,7 @@ struct Tally {
 
 void Calibrate(const Options& options, int instance, Tally& tally) {
   const auto problem = MakeProblem("heap", instance);
-  const Vec truth = Truth(instance);
+  const Vec truth = TwinTruth(instance);
   const optimizer::ExperimentTarget target = TargetOf(*problem, truth, instance);
   const auto seed = static_cast<std::uint64_t>(instance);
   const auto strategy = optimizer::MakeFidelityStrategy(

@@ -342,6 +342,16 @@ std::vector<std::string> ProblemNames() {
   return {"ellipsoid", "rosenbrock", "rastrigin", "sector",     "branin3",
           "hartmann3", "banana",     "heap",      "heap_misfit"};
 }
+Vec TwinTruth(int instance) {
+  const Vec step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  Vec truth;
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const double t = 0.5 + instance * step[k];
+    truth[k] = 0.2 + 0.5 * (t - std::floor(t));
+  }
+  return truth;
+}
+
 std::unique_ptr<Problem> MakeProblem(const std::string& name, int instance) {
   Rng r(Mix(HashString(name)) ^ Mix(static_cast<std::uint64_t>(instance) * 7919u));
   std::unique_ptr<Problem> p;

@@ -41,6 +41,10 @@ struct Problem {
 std::vector<std::string> ProblemNames();
 std::unique_ptr<Problem> MakeProblem(const std::string& name, int instance);
 
+// The parameters of a twin calibration, by an additive recurrence: even over a box in which every
+// parameter shows.
+Vec TwinTruth(int instance);
+
 // The noiseless optimum: exact, or by a long numerical search for heap_misfit.
 void Optimum(const Problem& problem, Vec& point, double& value);
 

@@ -45,17 +45,6 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-// An additive recurrence: even over a box in which every parameter shows.
-Vec Truth(int instance) {
-  const Vec step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-  Vec truth;
-  for (std::size_t k = 0; k < truth.size(); ++k) {
-    const double t = 0.5 + instance * step[k];
-    truth[k] = 0.2 + 0.5 * (t - std::floor(t));
-  }
-  return truth;
-}
-
 optimizer::FieldObjective Objective(const Problem& problem, const Vec& truth, int heaps,
                                     std::uint64_t seed) {
   optimizer::FieldObjective field;
@@ -126,7 +115,7 @@ int Main(int argc, char** argv) {
   int num_all = 0;
   for (int instance = options.first; instance <= options.last; ++instance) {
     const auto problem = MakeProblem("heap", instance);
-    const Vec truth = Truth(instance);
+    const Vec truth = TwinTruth(instance);
     const auto answer = Calibrate(options, *problem, truth, static_cast<std::uint64_t>(instance));
     std::printf("%3d", instance);
     num_all += Count(answer, truth, tally) ? 1 : 0;

@@ -58,24 +58,6 @@ ordered_json Conditions(const HeapCase& c, const engine::Simulation& simulation)
   return conditions;
 }
 
-ordered_json Heap(const HeapCase& c, const std::vector<engine::Particle>& grains) {
-  double volume = 0;
-  double height = 0;
-  for (const engine::Particle& p : grains) {
-    volume += 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
-    height = std::max(height, p.position.z + p.radius);
-  }
-  return {{"mass_kg", volume * c.powder.material.density},
-          {"height_m", height},
-          {"num_grains", grains.size()}};
-}
-
-double PlateRadius(const engine::Simulation& simulation) {
-  const engine::WallShape& plate = simulation.Walls().at(kPlate).shape;
-  if (const auto* disc = std::get_if<engine::Disc>(&plate)) return disc->radius;
-  return std::get<engine::SolidCylinder>(plate).radius;
-}
-
 double Volume(const engine::Particle& p) {
   return 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
 }
@@ -84,6 +66,22 @@ double Volume(const std::vector<engine::Particle>& grains) {
   double volume = 0;
   for (const engine::Particle& p : grains) volume += Volume(p);
   return volume;
+}
+
+ordered_json Heap(const HeapCase& c, const std::vector<engine::Particle>& grains) {
+  double height = 0;
+  for (const engine::Particle& p : grains) {
+    height = std::max(height, p.position.z + p.radius);
+  }
+  return {{"mass_kg", Volume(grains) * c.powder.material.density},
+          {"height_m", height},
+          {"num_grains", grains.size()}};
+}
+
+double PlateRadius(const engine::Simulation& simulation) {
+  const engine::WallShape& plate = simulation.Walls().at(kPlate).shape;
+  if (const auto* disc = std::get_if<engine::Disc>(&plate)) return disc->radius;
+  return std::get<engine::SolidCylinder>(plate).radius;
 }
 
 // What a balance would show: the heap is on the plate, and what is neither of it nor carried away
