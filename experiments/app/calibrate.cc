@@ -7,7 +7,7 @@
 #include "experiments/app/go_on.h"
 #include "experiments/campaign/start.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddCalibrateCommand(CLI::App& app) {
   struct Arguments {
@@ -27,7 +27,7 @@ void AddCalibrateCommand(CLI::App& app) {
     const std::filesystem::path folder = arguments->out.empty()
                                              ? std::filesystem::path(arguments->spec).stem()
                                              : std::filesystem::path(arguments->out);
-    BeginCampaign(arguments->spec, folder);
+    campaign::BeginCampaign(arguments->spec, folder);
     GoOn(folder, {}, arguments->tell);
   });
 }
@@ -35,7 +35,7 @@ void AddCalibrateCommand(CLI::App& app) {
 void AddResumeCommand(CLI::App& app) {
   struct Arguments {
     std::string folder;
-    ResumeOptions options;
+    campaign::ResumeOptions options;
     std::string spec;
     TellOptions tell;
   };
@@ -56,4 +56,4 @@ void AddResumeCommand(CLI::App& app) {
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

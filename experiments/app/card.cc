@@ -8,7 +8,7 @@
 
 #include "experiments/app/commands.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddCardCommand(CLI::App& app) {
   struct Arguments {
@@ -21,15 +21,17 @@ void AddCardCommand(CLI::App& app) {
   command->add_option("DIR", arguments->input, "folder of a finished campaign, or a case.json")
       ->required();
   std::vector<std::string> formats;
-  for (const auto& [name, format] : base::Names<CardFormat>::kList) formats.emplace_back(name);
+  for (const auto& [name, format] : base::Names<analysis::CardFormat>::kList)
+    formats.emplace_back(name);
   command->add_option("--format", arguments->format, "whose lines")
       ->check(CLI::IsMember(formats))
       ->capture_default_str();
   command->callback([arguments] {
-    for (const auto& [name, format] : base::Names<CardFormat>::kList) {
-      if (arguments->format == name) std::cout << CardText(ReadCard(arguments->input), format);
+    for (const auto& [name, format] : base::Names<analysis::CardFormat>::kList) {
+      if (arguments->format == name)
+        std::cout << analysis::CardText(analysis::ReadCard(arguments->input), format);
     }
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

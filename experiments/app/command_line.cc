@@ -13,7 +13,7 @@
 #include "base/version.h"
 #include "experiments/app/commands.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 const CLI::App* FindVerb(const CLI::App& app, std::string_view name) {
@@ -120,4 +120,4 @@ void AddCompletionCommand(CLI::App& app) {
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace talus::experiments {
+namespace talus::app {
 
 // Adds every verb, and what all share: --version, one verb a call.
 void DescribeCommandLine(CLI::App& app);
@@ -25,4 +25,4 @@ std::string ManPage(const CLI::App& app, const CLI::App& verb);
 enum class Shell { kBash, kZsh, kFish };
 std::string CompletionScript(const CLI::App& app, Shell shell);
 
-}  // namespace talus::experiments
+}  // namespace talus::app

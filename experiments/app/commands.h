@@ -6,7 +6,7 @@ namespace CLI {
 class App;
 }
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddCardCommand(CLI::App& app);
 void AddCompareCommand(CLI::App& app);
@@ -24,4 +24,4 @@ void AddHelpCommand(CLI::App& app);
 void AddManCommand(CLI::App& app);
 void AddCompletionCommand(CLI::App& app);
 
-}  // namespace talus::experiments
+}  // namespace talus::app

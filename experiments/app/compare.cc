@@ -14,7 +14,7 @@
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 struct Arguments {
@@ -27,7 +27,7 @@ struct Arguments {
 };
 
 void SearchOn(const Arguments& arguments) {
-  for (const auto& [name, objective] : base::Names<Objective>::kList) {
+  for (const auto& [name, objective] : base::Names<journal::Objective>::kList) {
     if (name != arguments.objective) continue;
     GoOn(arguments.campaign, {.add_simulations = arguments.add_simulations, .objective = objective},
          {});
@@ -35,43 +35,45 @@ void SearchOn(const Arguments& arguments) {
   }
 }
 
-std::string StrategyComparison(const Arguments& arguments, const ComparedCampaign& compared) {
+std::string StrategyComparison(const Arguments& arguments,
+                               const analysis::ComparedCampaign& compared) {
   std::vector<std::string> names{arguments.campaign};
   names.insert(names.end(), arguments.with.begin(), arguments.with.end());
-  std::vector<Evidence> all{compared.evidence};
+  std::vector<analysis::Evidence> all{compared.evidence};
   for (const std::string& name : arguments.with)
-    all.push_back(GatherEvidence(name, arguments.experiment));
-  const auto runs = CompareStrategies(names, all);
+    all.push_back(analysis::GatherEvidence(name, arguments.experiment));
+  const auto runs = analysis::CompareStrategies(names, all);
   double margin = 0;
-  for (const ObjectiveFinding& f : compared.findings) {
+  for (const analysis::ObjectiveFinding& f : compared.findings) {
     if (f.info.key == all.front().objective) margin = f.margin();
   }
-  base::WriteFileAtomically(arguments.out / "strategies.csv", StrategiesCsv(runs));
-  return StrategiesText(runs, margin) + "\n";
+  base::WriteFileAtomically(arguments.out / "strategies.csv", analysis::StrategiesCsv(runs));
+  return analysis::StrategiesText(runs, margin) + "\n";
 }
 
-void WriteComparison(const ComparedCampaign& compared, const std::filesystem::path& out) {
-  const auto shown = TrialsToShow(compared.evidence, compared.findings);
-  std::vector<Picture> pictures = ProfilePictures(compared.evidence, shown);
-  pictures.push_back(SideBySide(compared.evidence, shown));
-  for (const Picture& picture : pictures) {
+void WriteComparison(const analysis::ComparedCampaign& compared, const std::filesystem::path& out) {
+  const auto shown = analysis::TrialsToShow(compared.evidence, compared.findings);
+  std::vector<analysis::Picture> pictures = analysis::ProfilePictures(compared.evidence, shown);
+  pictures.push_back(analysis::SideBySide(compared.evidence, shown));
+  for (const analysis::Picture& picture : pictures) {
     if (picture.png.empty()) continue;
     base::WriteFileAtomically(out / (picture.name + ".png"), picture.png);
   }
-  base::WriteFileAtomically(out / "objectives.csv", ObjectivesCsv(compared));
-  base::WriteFileAtomically(out / "ten_best.csv", TenBestCsv(compared));
-  base::WriteFileAtomically(out / "compare.json", ComparisonJson(compared));
+  base::WriteFileAtomically(out / "objectives.csv", analysis::ObjectivesCsv(compared));
+  base::WriteFileAtomically(out / "ten_best.csv", analysis::TenBestCsv(compared));
+  base::WriteFileAtomically(out / "compare.json", analysis::ComparisonJson(compared));
 }
 
 void RunCompare(Arguments arguments) {
   if (!arguments.objective.empty()) SearchOn(arguments);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
-  const Evidence evidence = GatherEvidence(arguments.campaign, arguments.experiment);
-  const std::vector<ObjectiveFinding> findings = CompareObjectives(evidence);
-  const ComparedCampaign compared{evidence, findings};
+  const analysis::Evidence evidence =
+      analysis::GatherEvidence(arguments.campaign, arguments.experiment);
+  const std::vector<analysis::ObjectiveFinding> findings = analysis::CompareObjectives(evidence);
+  const analysis::ComparedCampaign compared{evidence, findings};
   base::ClaimOutputFolder(arguments.out, "compare");
   WriteComparison(compared, arguments.out);
-  std::string text = ComparisonText(compared) + "\n";
+  std::string text = analysis::ComparisonText(compared) + "\n";
   if (!arguments.with.empty()) text += StrategyComparison(arguments, compared);
   base::WriteFileAtomically(arguments.out / "compare.txt", text);
   std::cout << text << "  Tables and pictures are in " << arguments.out.string() << '\n';
@@ -87,7 +89,8 @@ void AddCompareCommand(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/compare");
   std::vector<std::string> objectives;
-  for (const auto& [name, objective] : base::Names<Objective>::kList) objectives.emplace_back(name);
+  for (const auto& [name, objective] : base::Names<journal::Objective>::kList)
+    objectives.emplace_back(name);
   CLI::Option* objective =
       command
           ->add_option("--objective", arguments->objective,
@@ -105,4 +108,4 @@ void AddCompareCommand(CLI::App& app) {
   command->callback([arguments] { RunCompare(*arguments); });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

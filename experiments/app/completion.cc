@@ -6,7 +6,7 @@
 
 #include "experiments/app/command_line.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 struct Flag {
@@ -186,4 +186,4 @@ std::string CompletionScript(const CLI::App& app, Shell shell) {
   return {};
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "experiments/app/commands.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 struct Arguments {
@@ -34,8 +34,10 @@ std::map<std::string, std::string> ReadSet(const std::vector<std::string>& texts
 }
 
 void Consider(const Arguments& arguments) {
-  const ConsideredSet considered = ConsiderSet(arguments.folder, ReadSet(arguments.set));
-  std::cout << (arguments.json ? ConsideredJson(considered) : ConsideredText(considered))
+  const campaign::ConsideredSet considered =
+      campaign::ConsiderSet(arguments.folder, ReadSet(arguments.set));
+  std::cout << (arguments.json ? campaign::ConsideredJson(considered)
+                               : campaign::ConsideredText(considered))
             << std::flush;
 }
 
@@ -53,4 +55,4 @@ void AddConsiderCommand(CLI::App& app) {
   command->callback([arguments] { Consider(*arguments); });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

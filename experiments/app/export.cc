@@ -8,7 +8,7 @@
 
 #include "experiments/app/commands.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddExportCommand(CLI::App& app) {
   struct Arguments {
@@ -24,10 +24,10 @@ void AddExportCommand(CLI::App& app) {
     const std::filesystem::path folder = arguments->folder;
     const std::filesystem::path out =
         arguments->out.empty() ? folder / "export" : std::filesystem::path(arguments->out);
-    ExportCampaign(folder, out);
+    analysis::ExportCampaign(folder, out);
     std::cout << "written: " << (out / "trials.csv").string() << ", "
               << (out / "trials.json").string() << std::endl;
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -8,33 +8,33 @@
 #include "base/error.h"
 #include "experiments/campaign/make_parts.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 struct Ended {
-  CampaignEnd end;
+  campaign::CampaignEnd end;
   std::filesystem::path folder;
   TellOptions tell;
 };
 
-void PrintEnd(const Campaign& campaign, const Ended& ended) {
+void PrintEnd(const campaign::Campaign& campaign, const Ended& ended) {
   const auto& [end, folder, tell] = ended;
   switch (end) {
-    case CampaignEnd::kFinished:
+    case campaign::CampaignEnd::kFinished:
       if (tell.quiet) return;
       if (tell.json) {
-        const auto result = nlohmann::ordered_json::parse(ResultText(*campaign.result()));
+        const auto result = nlohmann::ordered_json::parse(campaign::ResultText(*campaign.result()));
         std::cout << nlohmann::ordered_json{{"event", "result"}, {"result", result}}.dump()
                   << std::endl;
         return;
       }
-      std::cout << ResultSummary(*campaign.result()) << "  written to        "
+      std::cout << campaign::ResultSummary(*campaign.result()) << "  written to        "
                 << (folder / "result.json").string() << "\n  report            talus report "
                 << folder.string() << std::endl;
       return;
-    case CampaignEnd::kInterrupted:
+    case campaign::CampaignEnd::kInterrupted:
       throw base::Interrupted("interrupted; `talus resume " + folder.string() + "` goes on");
-    case CampaignEnd::kFailed:
+    case campaign::CampaignEnd::kFailed:
       throw base::Error("the campaign has no result; `talus status " + folder.string() +
                         "` says why");
   }
@@ -42,9 +42,9 @@ void PrintEnd(const Campaign& campaign, const Ended& ended) {
 
 }  // namespace
 
-Console::Output TellOptions::output() const {
-  if (quiet) return Console::Output::kQuiet;
-  return json ? Console::Output::kJson : Console::Output::kStandardError;
+campaign::Console::Output TellOptions::output() const {
+  if (quiet) return campaign::Console::Output::kQuiet;
+  return json ? campaign::Console::Output::kJson : campaign::Console::Output::kStandardError;
 }
 
 void AddTellFlags(CLI::App& command, TellOptions& tell) {
@@ -55,17 +55,17 @@ void AddTellFlags(CLI::App& command, TellOptions& tell) {
       ->excludes(quiet);
 }
 
-void GoOn(const std::filesystem::path& folder, const ResumeOptions& options,
+void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& options,
           const TellOptions& tell) {
   const base::InterruptGuard interrupt;
-  Console console(CampaignFolder{folder}.log(), tell.output());
-  OpenedCampaign opened = OpenCampaign(folder, options, console);
-  CampaignParts parts{.runner = MakeRunner(opened.spec, opened.folder.root),
-                      .engine = MakeEngine(opened.spec)};
-  Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal), opened.spec,
-                    std::move(parts), console);
-  const CampaignEnd end = campaign.Run(interrupt);
+  campaign::Console console(campaign::CampaignFolder{folder}.log(), tell.output());
+  campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
+  campaign::CampaignParts parts{.runner = campaign::MakeRunner(opened.spec, opened.folder.root),
+                                .engine = campaign::MakeEngine(opened.spec)};
+  campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
+                              opened.spec, std::move(parts), console);
+  const campaign::CampaignEnd end = campaign.Run(interrupt);
   PrintEnd(campaign, {.end = end, .folder = folder, .tell = tell});
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -10,18 +10,18 @@ namespace CLI {
 class App;
 }
 
-namespace talus::experiments {
+namespace talus::app {
 
 // How much a verb that works on a campaign tells: --quiet and --json.
 struct TellOptions {
   bool quiet = false;
   bool json = false;
-  Console::Output output() const;
+  campaign::Console::Output output() const;
 };
 void AddTellFlags(CLI::App& command, TellOptions& tell);
 
 // Prints the result. Throws base::Interrupted when the user ends it, base::Error without a result.
-void GoOn(const std::filesystem::path& folder, const ResumeOptions& options,
+void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& options,
           const TellOptions& tell);
 
-}  // namespace talus::experiments
+}  // namespace talus::app

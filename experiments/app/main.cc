@@ -29,14 +29,14 @@ void LetReadersGo() {
 
 int Run(int argc, char** argv) {
   CLI::App app("calibrates discrete element models of powders from photographs of heaps", "talus");
-  talus::experiments::DescribeCommandLine(app);
+  talus::app::DescribeCommandLine(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const std::string suggestion =
         error.get_exit_code() == 0
             ? std::string()
-            : talus::experiments::Suggestion(
+            : talus::app::Suggestion(
                   app, std::span(argv + 1, static_cast<std::size_t>(std::max(argc - 1, 0))));
     if (!suggestion.empty()) throw talus::base::ConfigError("talus: " + suggestion);
     return app.exit(error) == 0 ? talus::base::kExitDone : talus::base::kExitBadInput;

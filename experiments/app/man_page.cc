@@ -6,7 +6,7 @@
 #include "base/version.h"
 #include "experiments/app/command_line.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 // A hyphen-minus that can be searched and pasted, a backslash that is one, no request by accident.
@@ -81,4 +81,4 @@ std::string ManPage(const CLI::App& app) {
   return roff + ExitStatus();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -9,7 +9,7 @@
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/profile_file.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
 // The flags as they are typed; lengths and angles carry their units.
@@ -66,23 +66,23 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
 }
 
 void Measure(const MeasureFlags& flags) {
-  MeasureRequest request{.inputs = {flags.inputs.begin(), flags.inputs.end()},
-                         .out = flags.out,
-                         .experiment = Experiment(flags),
-                         .is_map = flags.map,
-                         .like = flags.like,
-                         .num_views = flags.views,
-                         .length_unit = std::nullopt};
+  trials::MeasureRequest request{.inputs = {flags.inputs.begin(), flags.inputs.end()},
+                                 .out = flags.out,
+                                 .experiment = Experiment(flags),
+                                 .is_map = flags.map,
+                                 .like = flags.like,
+                                 .num_views = flags.views,
+                                 .length_unit = std::nullopt};
   if (!flags.length_unit.empty()) {
     request.length_unit =
         Quantity("--length-unit", "1 " + flags.length_unit, base::Dimension::kLength);
   }
   if (!flags.like.empty()) {
-    MeasureSpheres(request, std::cout);
+    trials::MeasureSpheres(request, std::cout);
   } else if (flags.choose_mass) {
-    MeasureMasses(request, std::cout);
+    trials::MeasureMasses(request, std::cout);
   } else {
-    MeasurePhotos(request, std::cout);
+    trials::MeasurePhotos(request, std::cout);
   }
 }
 
@@ -131,4 +131,4 @@ void AddMeasureCommand(CLI::App& app) {
   verb->callback([flags] { Measure(*flags); });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

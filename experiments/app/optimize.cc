@@ -11,13 +11,13 @@
 #include "experiments/app/commands.h"
 #include "experiments/trials/optimize/evaluator.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddOptimizeCommand(CLI::App& app) {
   struct Options {
     std::string problem;
     std::vector<std::string> command;
-    OptimizeOutput output;
+    trials::OptimizeOutput output;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
@@ -37,18 +37,19 @@ void AddOptimizeCommand(CLI::App& app) {
       "0,\n"
       "and an answer that makes no sense, is a failed evaluation.");
   command->callback([options] {
-    const auto problem = base::LoadOptions<OptimizeProblem>(base::ReadJsonFile(options->problem));
+    const auto problem =
+        base::LoadOptions<trials::OptimizeProblem>(base::ReadJsonFile(options->problem));
     const std::filesystem::path inputs[] = {
         options->problem,
         problem.target ? std::filesystem::path(problem.target->profile) : std::filesystem::path()};
     if (!options->output.folder.empty()) {
-      Evaluator(problem,
-                options->command);  // refuses what it cannot use before anything is written
+      trials::Evaluator(problem,
+                        options->command);  // refuses what it cannot use before anything is written
       base::ClaimOutputFolder(options->output.folder, "optimize", inputs);
     }
-    const std::string result = Optimize(problem, options->command, options->output);
+    const std::string result = trials::Optimize(problem, options->command, options->output);
     if (options->output.folder.empty()) std::cout << result;
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -11,7 +11,7 @@
 #include "experiments/app/commands.h"
 #include "experiments/campaign/campaign_folder.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 namespace {
 
@@ -25,9 +25,10 @@ struct Arguments {
 };
 
 // What a newer page would show: nothing is written while it stays the same.
-std::string StateOf(const Evidence& evidence) {
+std::string StateOf(const analysis::Evidence& evidence) {
   std::string state = evidence.state;
-  for (const TrialEvidence& trial : evidence.trials) state += base::NameOf(trial.state).front();
+  for (const analysis::TrialEvidence& trial : evidence.trials)
+    state += base::NameOf(trial.state).front();
   return state;
 }
 
@@ -37,12 +38,13 @@ void Watch(const Arguments& arguments) {
   std::string shown;
   while (interrupt.Asked() == base::Interrupt::kNone) {
     // Asked before the journal is read: what was written last is still shown.
-    const bool worked_on = IsWorkedOn(arguments.campaign);
-    const Evidence evidence = GatherEvidence(arguments.campaign, arguments.experiment);
+    const bool worked_on = campaign::IsWorkedOn(arguments.campaign);
+    const analysis::Evidence evidence =
+        analysis::GatherEvidence(arguments.campaign, arguments.experiment);
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
-      const auto page = WriteReport(MakeReportData(evidence), arguments.out,
-                                    {.reload = worked_on ? kWatchPeriod : 0});
+      const auto page = analysis::WriteReport(analysis::MakeReportData(evidence), arguments.out,
+                                              {.reload = worked_on ? kWatchPeriod : 0});
       if (shown.empty()) std::cout << "The report is " << page.string() << std::endl;
       shown = state;
     }
@@ -73,10 +75,11 @@ void AddReportCommand(CLI::App& app) {
       Watch(*arguments);
       return;
     }
-    const auto page = WriteReport(
-        MakeReportData(GatherEvidence(arguments->campaign, arguments->experiment)), arguments->out);
+    const auto page = analysis::WriteReport(analysis::MakeReportData(analysis::GatherEvidence(
+                                                arguments->campaign, arguments->experiment)),
+                                            arguments->out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

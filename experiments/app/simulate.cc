@@ -6,12 +6,12 @@
 
 #include "experiments/app/commands.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddSimulateCommand(CLI::App& app) {
   struct Options {
     std::string input;
-    RunFolderOptions run;
+    trials::RunFolderOptions run;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
@@ -28,8 +28,8 @@ void AddSimulateCommand(CLI::App& app) {
   command->callback([options] {
     const std::filesystem::path input = options->input;
     if (options->run.folder.empty()) options->run.folder = input.stem();
-    Simulate(input, options->run);
+    trials::Simulate(input, options->run);
   });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

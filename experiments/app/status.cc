@@ -8,13 +8,13 @@
 
 #include "experiments/app/commands.h"
 
-namespace talus::experiments {
+namespace talus::app {
 
 void AddStatusCommand(CLI::App& app) {
   auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("status", "Where a campaign stands; also while it runs");
   command->add_option("DIR", *folder, "the campaign's folder")->required();
-  command->callback([folder] { std::cout << StatusText(*folder) << std::flush; });
+  command->callback([folder] { std::cout << campaign::StatusText(*folder) << std::flush; });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

@@ -14,52 +14,54 @@
 #include "experiments/trials/engines/command_engine.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 
-namespace talus::experiments {
+namespace talus::app {
 namespace {
 
-void PrintExperiment(const ExperimentRecord& e, const CampaignRecord& record) {
+void PrintExperiment(const journal::ExperimentRecord& e, const journal::CampaignRecord& record) {
   std::cout << "  experiment        " << (record.experiments.size() > 1 ? e.name + ": " : "")
-            << "NEBP " << NumberText4(e.nebp_px) << " px";
-  if (e.noise_mm2) std::cout << ", noise floor " << NumberText4(*e.noise_mm2) << " mm²";
-  for (const ScalarRecord& s : e.scalars) {
-    std::cout << ", " << s.name << " " << NumberText4(s.value) << " ± "
-              << NumberText4(s.standard_error);
+            << "NEBP " << campaign::NumberText4(e.nebp_px) << " px";
+  if (e.noise_mm2) std::cout << ", noise floor " << campaign::NumberText4(*e.noise_mm2) << " mm²";
+  for (const journal::ScalarRecord& s : e.scalars) {
+    std::cout << ", " << s.name << " " << campaign::NumberText4(s.value) << " ± "
+              << campaign::NumberText4(s.standard_error);
   }
   std::cout << '\n';
 }
 
 // Where a warning holds, in campaigns with several of such places.
-std::string At(const CampaignSpec& spec, const std::string& experiment, double scale_factor) {
+std::string At(const campaign::CampaignSpec& spec, const std::string& experiment,
+               double scale_factor) {
   if (!spec.IsJoint()) return "";
-  return experiment + " at scale factor " + NumberText4(scale_factor) + ": ";
+  return experiment + " at scale factor " + campaign::NumberText4(scale_factor) + ": ";
 }
 
-void PrintSearched(const std::vector<ParameterRecord>& parameters, const CampaignSpec& spec) {
+void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
+                   const campaign::CampaignSpec& spec) {
   std::cout << "  searched         ";
-  for (const ParameterRecord& p : parameters) {
-    std::cout << ' ' << p.name << " in " << NumberText4(p.low) << " … " << NumberText4(p.high)
-              << (p.unit.empty() ? "" : " " + p.unit) << ';';
+  for (const journal::ParameterRecord& p : parameters) {
+    std::cout << ' ' << p.name << " in " << campaign::NumberText4(p.low) << " … "
+              << campaign::NumberText4(p.high) << (p.unit.empty() ? "" : " " + p.unit) << ';';
   }
   std::cout << " minimising " << base::NameOf(spec.objective) << '\n';
 }
 
 void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
-  const CampaignSpec spec = ReadCampaignSpec(file);
-  CampaignRecord record;
-  if (with_experiment) record = MakeRecord(spec, file);
+  const campaign::CampaignSpec spec = campaign::ReadCampaignSpec(file);
+  journal::CampaignRecord record;
+  if (with_experiment) record = campaign::MakeRecord(spec, file);
   std::cout << file.path.string() << ": is in order\n";
-  PrintSearched(SearchedParameters(spec), spec);
+  PrintSearched(campaign::SearchedParameters(spec), spec);
   if (!with_experiment) std::cout << "  experiment        not looked at (--without-experiment)\n";
-  for (const ExperimentRecord& e : record.experiments) PrintExperiment(e, record);
+  for (const journal::ExperimentRecord& e : record.experiments) PrintExperiment(e, record);
   std::cout << std::flush;
-  if (spec.engine.kind == EngineKind::kTalus) {
-    std::cout << EstimateText(spec, EstimateCampaign(spec));
+  if (spec.engine.kind == campaign::EngineKind::kTalus) {
+    std::cout << campaign::EstimateText(spec, campaign::EstimateCampaign(spec));
   }
-  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       for (const std::string& warning :
-           HeapWarnings(TypicalCase(spec, static_cast<int>(e), factor))) {
+           rigs::HeapWarnings(campaign::TypicalCase(spec, static_cast<int>(e), factor))) {
         std::cout << "  warning: " << At(spec, experiments[e].name, factor) << warning << '\n';
       }
     }
@@ -67,14 +69,14 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
 }
 
 void ValidateHeap(const base::JsonFile& file, bool) {
-  const HeapCase heap_case = LoadHeapCase(file.path);
-  const HeapSize size = EstimateHeap(heap_case);
+  const rigs::HeapCase heap_case = rigs::LoadHeapCase(file.path);
+  const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
   std::cout << file.path.string() << ": is a heap case in order\n  grains            "
-            << size.num_grains << " of " << NumberText4(1e3 * size.mean_diameter)
+            << size.num_grains << " of " << campaign::NumberText4(1e3 * size.mean_diameter)
             << " mm (D50)\n  steps             about "
-            << NumberText4(size.simulated_time / size.time_step) << " of "
-            << NumberText4(size.time_step) << " s\n";
-  for (const std::string& warning : HeapWarnings(heap_case)) {
+            << campaign::NumberText4(size.simulated_time / size.time_step) << " of "
+            << campaign::NumberText4(size.time_step) << " s\n";
+  for (const std::string& warning : rigs::HeapWarnings(heap_case)) {
     std::cout << "  warning: " << warning << '\n';
   }
 }
@@ -87,13 +89,13 @@ void ValidateScene(const base::JsonFile& file, bool) {
 }
 
 void ValidateProblem(const base::JsonFile& file, bool) {
-  const auto problem = base::LoadOptions<OptimizeProblem>(file);
+  const auto problem = base::LoadOptions<trials::OptimizeProblem>(file);
   std::cout << file.path.string() << ": is a problem for `talus optimize` in order\n"
             << "  evaluations       at most " << problem.evaluations << '\n';
 }
 
 void ValidateCommandCase(const base::JsonFile& file, bool) {
-  LoadCommandCase(file);
+  trials::LoadCommandCase(file);
   std::cout << file.path.string() << ": is a case of another engine in order\n";
 }
 
@@ -137,4 +139,4 @@ void AddValidateCommand(CLI::App& app) {
   command->callback([arguments] { Validate(arguments->path, !arguments->without_experiment); });
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::app

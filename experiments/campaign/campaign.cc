@@ -15,27 +15,27 @@
 #include "experiments/trials/simulate/run_log.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr int kMostReruns = 3;        // of a trial that others keep ending
 constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and the clock
 
 // Ended from outside: says nothing of the parameters, and may go better next time.
-bool WasEndedByOthers(const FinishedJob& job) {
-  return job.end == JobEnd::kPreempted || job.end == JobEnd::kNodeFailure ||
-         (job.end == JobEnd::kExit && job.exit_status == base::kExitInterrupted);
+bool WasEndedByOthers(const runners::FinishedJob& job) {
+  return job.end == runners::JobEnd::kPreempted || job.end == runners::JobEnd::kNodeFailure ||
+         (job.end == runners::JobEnd::kExit && job.exit_status == base::kExitInterrupted);
 }
 
 // "ended with exit status 1: last lines of its log"
-std::string FailureText(const FinishedJob& job, const std::filesystem::path& folder) {
-  const std::string log = LastLogLines(folder);
+std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder) {
+  const std::string log = trials::LastLogLines(folder);
   return job.reason + (log.empty() ? "" : ": " + log);
 }
 
 }  // namespace
 
-Campaign::Campaign(CampaignFolder folder, CampaignLock lock, Journal journal,
+Campaign::Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal journal,
                    const CampaignSpec& spec, CampaignParts parts, Console& console)
     : folder_(std::move(folder)),
       lock_(std::move(lock)),
@@ -74,23 +74,23 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
       return End(asked);
     }
     ShowStatus();
-    for (const FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
+    for (const runners::FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
   }
 }
 
 // Trials become known by their ids, observations are told in the order in which they finished.
 void Campaign::TellFinished() {
-  const std::vector<TrialRecord> trials = journal_.Trials();
-  for (const TrialRecord& trial : trials) planner_.Started(trial);
-  for (const TrialRecord& trial : InOrderOfFinish(trials)) {
+  const std::vector<journal::TrialRecord> trials = journal_.Trials();
+  for (const journal::TrialRecord& trial : trials) planner_.Started(trial);
+  for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
     planner_.Finished(trial, StoredField(journal_, folder_, references_, trial));
     NoteBest(trial);
   }
 }
 
 void Campaign::TakeUpRunning() {
-  for (const TrialRecord& trial : journal_.Trials()) {
-    if (trial.status != TrialStatus::kRunning) continue;
+  for (const journal::TrialRecord& trial : journal_.Trials()) {
+    if (trial.status != journal::TrialStatus::kRunning) continue;
     if (parts_.runner->Adopt(JobOf(trial), trial.job)) {
       running_[trial.id] = trial;
     } else {
@@ -101,23 +101,23 @@ void Campaign::TakeUpRunning() {
 
 bool Campaign::StartTrials() {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
-    planner_.StopSearch("the time budget of " + DurationText(*spec_.budget.wall_clock) +
+    planner_.StopSearch("the time budget of " + trials::DurationText(*spec_.budget.wall_clock) +
                         " is used");
   }
   const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
   if (room <= 0) return false;
-  std::vector<TrialRecord> trials;
+  std::vector<journal::TrialRecord> trials;
   while (!waiting_.empty() && static_cast<int>(trials.size()) < room) {
     trials.push_back(waiting_.front());
     waiting_.pop_front();
   }
-  std::vector<TrialRecord> planned = planner_.Next(room - static_cast<int>(trials.size()));
-  for (TrialRecord& trial : planned) trial.started_utc = UtcNow();
+  std::vector<journal::TrialRecord> planned = planner_.Next(room - static_cast<int>(trials.size()));
+  for (journal::TrialRecord& trial : planned) trial.started_utc = journal::UtcNow();
   if (!planned.empty()) {
     journal_.Start(planned, parts_.runner->JobsOutliveUs() ? base::Outlives::kPowerCut
                                                            : base::Outlives::kProgram);
   }
-  for (const TrialRecord& trial : planned) planner_.Started(trial);
+  for (const journal::TrialRecord& trial : planned) planner_.Started(trial);
   trials.insert(trials.end(), planned.begin(), planned.end());
   if (trials.empty()) return false;
   Submit(trials);
@@ -126,17 +126,17 @@ bool Campaign::StartTrials() {
 
 // A trial whose folder holds its result already, because the process ended before it could be
 // journalled, is not run twice.
-void Campaign::Submit(const std::vector<TrialRecord>& trials) {
-  std::vector<Job> jobs;
-  std::vector<FinishedJob> ended;
-  for (const TrialRecord& trial : trials) {
-    Job job = JobOf(trial);
+void Campaign::Submit(const std::vector<journal::TrialRecord>& trials) {
+  std::vector<runners::Job> jobs;
+  std::vector<runners::FinishedJob> ended;
+  for (const journal::TrialRecord& trial : trials) {
+    runners::Job job = JobOf(trial);
     parts_.engine->Prepare(CaseOfTrial(trial), job.folder);
     KeepTrial(folder_, trial);
     running_[trial.id] = trial;
     if (parts_.engine->IsComplete(job.folder)) {
       ended.push_back({.id = trial.id,
-                       .end = JobEnd::kExit,
+                       .end = runners::JobEnd::kExit,
                        .exit_status = 0,
                        .reason = {},
                        .duration = std::numeric_limits<double>::quiet_NaN(),
@@ -149,17 +149,17 @@ void Campaign::Submit(const std::vector<TrialRecord>& trials) {
   }
   if (!jobs.empty()) {
     const std::vector<std::string> names = parts_.runner->Submit(jobs);
-    std::vector<TrialRecord> renamed;
+    std::vector<journal::TrialRecord> renamed;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-      TrialRecord& trial = running_[jobs[i].id];
+      journal::TrialRecord& trial = running_[jobs[i].id];
       if (std::exchange(trial.job, names[i]) != names[i]) renamed.push_back(trial);
     }
     if (!renamed.empty()) journal_.Restart(renamed);
   }
-  for (const FinishedJob& job : ended) HandleEnd(job);
+  for (const runners::FinishedJob& job : ended) HandleEnd(job);
 }
 
-Job Campaign::JobOf(const TrialRecord& trial) const {
+runners::Job Campaign::JobOf(const journal::TrialRecord& trial) const {
   const auto reruns = reruns_.find(trial.id);
   return {.id = trial.id,
           .attempt = trial.attempts + (reruns == reruns_.end() ? 0 : reruns->second),
@@ -168,7 +168,7 @@ Job Campaign::JobOf(const TrialRecord& trial) const {
           .time_cap = spec_.trial_time_cap};
 }
 
-HeapCase Campaign::CaseOfTrial(const TrialRecord& trial) const {
+rigs::HeapCase Campaign::CaseOfTrial(const journal::TrialRecord& trial) const {
   const std::vector<double> values = planner_.space().ToNative(PointOf(trial));
   return CaseOf(spec_,
                 {.values = values,
@@ -178,15 +178,16 @@ HeapCase Campaign::CaseOfTrial(const TrialRecord& trial) const {
                 ReferenceOf(trial).frame());
 }
 
-void Campaign::HandleEnd(const FinishedJob& job) {
+void Campaign::HandleEnd(const runners::FinishedJob& job) {
   const auto found = running_.find(job.id);
   if (found == running_.end()) return;
-  TrialRecord trial = std::move(found->second);
+  journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
   trial.duration_s = job.duration;
   trial.cpu_s = job.cpu_time;
   trial.host = job.host;
-  if (job.end == JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
+  if (job.end ==
+      runners::JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
     throw base::Error("trial " + std::to_string(trial.id) +
                       " could not be started: " + FailureText(job, folder_.trial(trial.id)) +
                       "; mend this, and `talus resume` goes on with the same trial");
@@ -199,7 +200,7 @@ void Campaign::HandleEnd(const FinishedJob& job) {
   }
 }
 
-bool Campaign::RunAgain(TrialRecord& trial, const FinishedJob& job) {
+bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job) {
   if (++reruns_[trial.id] > kMostReruns) return false;
   journal_.AddEvent("rerun", trial.id, job.reason);
   console_.Line("trial " + std::to_string(trial.id) + " " + job.reason + "; it is run again");
@@ -207,8 +208,8 @@ bool Campaign::RunAgain(TrialRecord& trial, const FinishedJob& job) {
   return true;
 }
 
-void Campaign::Collect(TrialRecord& trial, const FinishedJob&) {
-  TrialOutput output;
+void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&) {
+  trials::TrialOutput output;
   try {
     output = parts_.engine->Collect(CaseOfTrial(trial), folder_.trial(trial.id));
     trial.metrics = ReferenceOf(trial).Measure(output.profile);
@@ -217,14 +218,14 @@ void Campaign::Collect(TrialRecord& trial, const FinishedJob&) {
     FailOrRetry(trial, error.what());
     return;
   }
-  trial.status = TrialStatus::kOk;
+  trial.status = journal::TrialStatus::kOk;
   trial.reason = output.note;
   trial.num_steps = output.num_steps;
   trial.num_particles = output.num_particles;
   Close(trial, &output.profile);
 }
 
-void Campaign::FailOrRetry(TrialRecord& trial, const std::string& reason) {
+void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {
   // A full disk is not the parameters' fault; nothing is recorded, and the trial is run again.
   RequireWritable(folder_.root);
   if (reason.find("No space left on device") != std::string::npos) {
@@ -240,13 +241,13 @@ void Campaign::FailOrRetry(TrialRecord& trial, const std::string& reason) {
     waiting_.push_back(trial);
     return;
   }
-  trial.status = TrialStatus::kFailed;
+  trial.status = journal::TrialStatus::kFailed;
   trial.reason = reason;
   Close(trial, nullptr);
 }
 
-void Campaign::Close(TrialRecord& trial, const imaging::GrayImage* profile) {
-  trial.finished_utc = UtcNow();
+void Campaign::Close(journal::TrialRecord& trial, const imaging::GrayImage* profile) {
+  trial.finished_utc = journal::UtcNow();
   journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
   NoteElapsed();
   planner_.Finished(trial,
@@ -273,10 +274,11 @@ void Campaign::DropRunning() {
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
-  ProgressRecord progress{.state = finished ? "finished" : "interrupted",
-                          .stop_reason = finished ? planner_.stop_reason() : "it was interrupted",
-                          .elapsed_s = Elapsed(),
-                          .result_json = {}};
+  journal::ProgressRecord progress{
+      .state = finished ? "finished" : "interrupted",
+      .stop_reason = finished ? planner_.stop_reason() : "it was interrupted",
+      .elapsed_s = Elapsed(),
+      .result_json = {}};
   if (finished) {
     result_ = Conclude(
         planner_,
@@ -295,7 +297,7 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
   return CampaignEnd::kFailed;
 }
 
-void Campaign::WriteResult(ProgressRecord& progress) {
+void Campaign::WriteResult(journal::ProgressRecord& progress) {
   progress.result_json = ResultText(*result_);
   base::WriteFileAtomically(folder_.result(), progress.result_json);
   const auto answer = planner_.Recommend();
@@ -304,15 +306,15 @@ void Campaign::WriteResult(ProgressRecord& progress) {
                             PosteriorCsv(*answer->posterior, planner_.space(), record_.parameters));
 }
 
-void Campaign::NoteBest(const TrialRecord& trial) {
+void Campaign::NoteBest(const journal::TrialRecord& trial) {
   const auto value = ReferenceOf(trial).Value(trial);
-  if (trial.status != TrialStatus::kOk || !IsOfSearch(trial) || !value) return;
+  if (trial.status != journal::TrialStatus::kOk || !IsOfSearch(trial) || !value) return;
   // Objectives of different experiments or grain sizes do not compare.
   if (trial.experiment != 0 || trial.scale_factor != spec_.coarse_graining.scale_factor) return;
   if (!best_ || *value < best_->first) best_ = {*value, trial.id};
 }
 
-void Campaign::Report(const TrialRecord& trial) {
+void Campaign::Report(const journal::TrialRecord& trial) {
   TrialProgress progress{.trial = trial.id,
                          .kind = trial.kind,
                          .status = trial.status,
@@ -335,9 +337,9 @@ void Campaign::ShowStatus() {
   CampaignProgress progress{.budget = spec_.budget.simulations,
                             .num_running = static_cast<int>(running_.size()),
                             .unit = std::string(references_.front().info().unit)};
-  for (const TrialRecord& trial : planner_.trials()) {
-    if (trial.kind != TrialKind::kConfirm) ++progress.num_search;
-    if (trial.status == TrialStatus::kRunning || !(trial.duration_s > 0)) continue;
+  for (const journal::TrialRecord& trial : planner_.trials()) {
+    if (trial.kind != journal::TrialKind::kConfirm) ++progress.num_search;
+    if (trial.status == journal::TrialStatus::kRunning || !(trial.duration_s > 0)) continue;
     seconds += trial.duration_s;
     ++num_finished;
   }
@@ -355,4 +357,4 @@ void Campaign::ShowStatus() {
   console_.Status(progress);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

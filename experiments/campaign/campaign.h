@@ -23,12 +23,12 @@
 #include "experiments/runners/runner.h"
 #include "experiments/trials/engines/trial_engine.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // What a campaign works with, so that tests can put others in their place.
 struct CampaignParts {
-  std::unique_ptr<Runner> runner;
-  std::unique_ptr<TrialEngine> engine;
+  std::unique_ptr<runners::Runner> runner;
+  std::unique_ptr<trials::TrialEngine> engine;
 };
 
 enum class CampaignEnd { kFinished, kInterrupted, kFailed };
@@ -37,8 +37,8 @@ class Campaign {
  public:
   // Goes on with the journal in `folder`, whose spec is `spec`; see start.h for how both come to
   // be.
-  Campaign(CampaignFolder folder, CampaignLock lock, Journal journal, const CampaignSpec& spec,
-           CampaignParts parts, Console& console);
+  Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal journal,
+           const CampaignSpec& spec, CampaignParts parts, Console& console);
 
   // Until the budget is used, the strategy says stop, or somebody interrupts. Throws base::Error
   // when the journal or the folder cannot be written; the running trials are then run again by the
@@ -53,38 +53,38 @@ class Campaign {
   void TellFinished();
   void TakeUpRunning();
   bool StartTrials();
-  void Submit(const std::vector<TrialRecord>& trials);
-  Job JobOf(const TrialRecord& trial) const;
-  HeapCase CaseOfTrial(const TrialRecord& trial) const;
-  void HandleEnd(const FinishedJob& job);
-  bool RunAgain(TrialRecord& trial, const FinishedJob& job);
-  void Collect(TrialRecord& trial, const FinishedJob& job);
-  void FailOrRetry(TrialRecord& trial, const std::string& reason);
-  void Close(TrialRecord& trial, const imaging::GrayImage* profile);
+  void Submit(const std::vector<journal::TrialRecord>& trials);
+  runners::Job JobOf(const journal::TrialRecord& trial) const;
+  rigs::HeapCase CaseOfTrial(const journal::TrialRecord& trial) const;
+  void HandleEnd(const runners::FinishedJob& job);
+  bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
+  void Collect(journal::TrialRecord& trial, const runners::FinishedJob& job);
+  void FailOrRetry(journal::TrialRecord& trial, const std::string& reason);
+  void Close(journal::TrialRecord& trial, const imaging::GrayImage* profile);
   void NoteElapsed();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);
-  void WriteResult(ProgressRecord& progress);
-  void NoteBest(const TrialRecord& trial);
+  void WriteResult(journal::ProgressRecord& progress);
+  void NoteBest(const journal::TrialRecord& trial);
   // Of its experiment, where trials differ by experiment or scale factor.
-  void Report(const TrialRecord& trial);
+  void Report(const journal::TrialRecord& trial);
   void ShowStatus();
   double Elapsed() const;  // [s], all sessions
-  const Reference& ReferenceOf(const TrialRecord& trial) const {
+  const Reference& ReferenceOf(const journal::TrialRecord& trial) const {
     return references_[static_cast<std::size_t>(trial.experiment)];
   }
 
   CampaignFolder folder_;
   CampaignLock lock_;
-  Journal journal_;
+  journal::Journal journal_;
   CampaignSpec spec_;
-  CampaignRecord record_;
+  journal::CampaignRecord record_;
   std::vector<Reference> references_;  // of the experiments
   Planner planner_;
   CampaignParts parts_;
   Console& console_;
-  std::map<std::int64_t, TrialRecord> running_;
-  std::deque<TrialRecord> waiting_;                      // to be run again, when there is room
+  std::map<std::int64_t, journal::TrialRecord> running_;
+  std::deque<journal::TrialRecord> waiting_;             // to be run again, when there is room
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<CampaignResult> result_;
@@ -93,4 +93,4 @@ class Campaign {
   double elapsed_before_ = 0;  // [s]
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

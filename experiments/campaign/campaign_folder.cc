@@ -15,7 +15,7 @@
 #include "base/file.h"
 #include "base/file_lock.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 // A process that is killed while it starts a worker leaves its lock to the worker, until this
@@ -76,4 +76,4 @@ void RequireWritable(const std::filesystem::path& root) {
   std::filesystem::remove(probe);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

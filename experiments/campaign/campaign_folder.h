@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct CampaignFolder {
   std::filesystem::path root;
@@ -38,4 +38,4 @@ bool IsWorkedOn(const std::filesystem::path& root);
 // folder that has become read-only. So that such a thing is not taken for a trial's own failure.
 void RequireWritable(const std::filesystem::path& root);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

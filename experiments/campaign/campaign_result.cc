@@ -7,7 +7,7 @@
 #include "experiments/campaign/describe_posterior.h"
 #include "experiments/journal/record_json.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 std::string Padded(std::string text, std::size_t width) {
@@ -104,11 +104,11 @@ std::string ResultText(const CampaignResult& result) { return base::ToJson(resul
 CampaignResult ParseResult(const std::string& text) {
   // Earlier versions wrote warnings as sentences only.
   auto json = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (!json.is_object()) return ParseRecord<CampaignResult>(text, "the result");
+  if (!json.is_object()) return journal::ParseRecord<CampaignResult>(text, "the result");
   for (auto& warning : json["warnings"]) {
     if (warning.is_string()) warning = {{"kind", "other"}, {"text", warning}};
   }
-  return ParseRecord<CampaignResult>(json.dump(), "the result");
+  return journal::ParseRecord<CampaignResult>(json.dump(), "the result");
 }
 
 std::string ResultSummary(const CampaignResult& r) {
@@ -133,4 +133,4 @@ std::string ResultSummary(const CampaignResult& r) {
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -10,7 +10,7 @@
 #include "experiments/campaign/result_posterior.h"
 #include "experiments/campaign/result_warning.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
@@ -193,4 +193,4 @@ CampaignResult ParseResult(const std::string& text);
 // The same for people, in some twenty lines.
 std::string ResultSummary(const CampaignResult& result);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -8,21 +8,21 @@
 #include "imaging/formats/image_file.h"
 #include "optimizer/strategies/make_strategy.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
-                                                   const CampaignRecord& record,
+                                                   const journal::CampaignRecord& record,
                                                    const std::vector<Reference>& references) {
   std::vector<optimizer::ExperimentTarget> targets;
   for (std::size_t e = 0; e < references.size(); ++e) {
-    const ExperimentRecord& experiment = record.experiments[e];
+    const journal::ExperimentRecord& experiment = record.experiments[e];
     optimizer::ExperimentTarget target{.name = experiment.name,
                                        .image = references[e].MakeFieldObjective()};
-    for (const RunRecord& run : experiment.runs) {
+    for (const journal::RunRecord& run : experiment.runs) {
       target.runs.push_back(
           references[e].Field(imaging::DecodeGrayImage(run.png, "the journal's run " + run.name)));
     }
-    for (const ScalarRecord& scalar : experiment.scalars) {
+    for (const journal::ScalarRecord& scalar : experiment.scalars) {
       target.scalars.push_back(
           {.name = scalar.name, .value = scalar.value, .standard_error = scalar.standard_error});
     }
@@ -35,7 +35,7 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
 }
 
 std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
-                                                       const CampaignRecord& record,
+                                                       const journal::CampaignRecord& record,
                                                        const std::vector<Reference>& references) {
   const PosteriorOptions posterior = spec.posterior.value_or(PosteriorOptions{});
   return optimizer::MakeFidelityStrategy({.scale_factors = spec.coarse_graining.Levels(),
@@ -49,26 +49,28 @@ std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
 }
 
 std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(
-    const CampaignSpec& spec, const CampaignRecord& record,
+    const CampaignSpec& spec, const journal::CampaignRecord& record,
     const std::vector<Reference>& references) {
   if (spec.IsJoint()) return MakeJointStrategy(spec, record, references);
   const optimizer::FieldObjective field = references.front().MakeFieldObjective();
   return optimizer::MakeStrategy(spec.strategy, SpaceOf(spec).MakeDomain(), &field, spec.seed);
 }
 
-std::vector<TrialRecord> InOrderOfFinish(std::vector<TrialRecord> trials) {
-  std::erase_if(trials, [](const TrialRecord& t) { return t.status == TrialStatus::kRunning; });
+std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialRecord> trials) {
+  std::erase_if(trials, [](const journal::TrialRecord& t) {
+    return t.status == journal::TrialStatus::kRunning;
+  });
   std::sort(trials.begin(), trials.end(),
             [](const auto& a, const auto& b) { return a.finish_order < b.finish_order; });
   return trials;
 }
 
-Eigen::VectorXd PointOf(const TrialRecord& trial) {
+Eigen::VectorXd PointOf(const journal::TrialRecord& trial) {
   return Eigen::Map<const Eigen::VectorXd>(trial.unit.data(),
                                            static_cast<Eigen::Index>(trial.unit.size()));
 }
 
-optimizer::Observation ObservationOf(const TrialRecord& trial, const Reference& reference,
+optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Reference& reference,
                                      std::vector<float> field) {
   const std::optional<double> value = reference.Value(trial);
   optimizer::Observation observation{
@@ -78,14 +80,14 @@ optimizer::Observation ObservationOf(const TrialRecord& trial, const Reference& 
       // Not the processor time, which differs from run to run and would take proposals with it.
       .cost = static_cast<double>(trial.num_particles) * static_cast<double>(trial.num_steps) /
               kUsualSpeed,
-      .failed = trial.status != TrialStatus::kOk || !value,
+      .failed = trial.status != journal::TrialStatus::kOk || !value,
       .value = value.value_or(0),
       .field = std::move(field)};
-  for (const ScalarRecord& scalar : reference.scalars()) {
+  for (const journal::ScalarRecord& scalar : reference.scalars()) {
     observation.scalars.push_back(
         trial.Metric(scalar.name).value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return observation;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

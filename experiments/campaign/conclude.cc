@@ -9,7 +9,7 @@
 #include "experiments/campaign/describe_posterior.h"
 #include "imaging/spheres/projection.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr std::size_t kMostTied = 200;  // listed; the tied volume counts them all
@@ -33,11 +33,11 @@ Sample SampleOf(const std::vector<double>& values) {
   return sample;
 }
 
-std::vector<const TrialRecord*> Confirming(const Planner& planner, std::size_t candidate,
-                                           int experiment) {
-  std::vector<const TrialRecord*> trials;
-  for (const TrialRecord& trial : planner.trials()) {
-    if (trial.kind == TrialKind::kConfirm && trial.set == planner.ConfirmSet(candidate) &&
+std::vector<const journal::TrialRecord*> Confirming(const Planner& planner, std::size_t candidate,
+                                                    int experiment) {
+  std::vector<const journal::TrialRecord*> trials;
+  for (const journal::TrialRecord& trial : planner.trials()) {
+    if (trial.kind == journal::TrialKind::kConfirm && trial.set == planner.ConfirmSet(candidate) &&
         trial.experiment == experiment) {
       trials.push_back(&trial);
     }
@@ -46,42 +46,42 @@ std::vector<const TrialRecord*> Confirming(const Planner& planner, std::size_t c
 }
 
 // The mean of a metric over the trials that have it; nothing where none has.
-std::optional<double> MeanMetric(const std::vector<const TrialRecord*>& trials,
+std::optional<double> MeanMetric(const std::vector<const journal::TrialRecord*>& trials,
                                  std::string_view name) {
   std::vector<double> values;
-  for (const TrialRecord* trial : trials) {
+  for (const journal::TrialRecord* trial : trials) {
     if (const auto value = trial->Metric(name)) values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
   return SampleOf(values).mean;
 }
 
-ResultConfirmed ConfirmedOf(const std::vector<const TrialRecord*>& trials, const Evidenced& of,
-                            std::size_t experiment) {
+ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
+                            const Evidenced& of, std::size_t experiment) {
   const Reference& reference = of.references[experiment];
-  const ExperimentRecord& record = of.campaign.experiments[experiment];
+  const journal::ExperimentRecord& record = of.campaign.experiments[experiment];
   ResultConfirmed confirmed{.name = record.name};
   std::vector<double> objective;
   std::vector<imaging::GrayImage> profiles;
-  for (const TrialRecord* trial : trials) {
+  for (const journal::TrialRecord* trial : trials) {
     if (const auto value = reference.Value(*trial)) objective.push_back(*value);
-    if (trial->status != TrialStatus::kOk) continue;
+    if (trial->status != journal::TrialStatus::kOk) continue;
     if (auto profile = of.profile(trial->id)) profiles.push_back(std::move(*profile));
   }
   const Sample sample = SampleOf(objective);
   confirmed.num_trials = sample.count;
   confirmed.mean = sample.mean;
   confirmed.standard_error = sample.sd / std::sqrt(sample.count);
-  confirmed.sad_mm2 = MeanMetric(trials, InfoOf(Objective::kSad).metric);
+  confirmed.sad_mm2 = MeanMetric(trials, journal::InfoOf(journal::Objective::kSad).metric);
   if (!profiles.empty()) {
-    TrialRecord mean;
+    journal::TrialRecord mean;
     mean.metrics = reference.Measure(imaging::MeanImage(profiles));
-    confirmed.profile_sad_mm2 = mean.Metric(InfoOf(Objective::kSad).metric);
+    confirmed.profile_sad_mm2 = mean.Metric(journal::InfoOf(journal::Objective::kSad).metric);
   }
   if (confirmed.profile_sad_mm2 && record.noise_mm2) {
     confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;
   }
-  for (const ScalarRecord& scalar : record.scalars) {
+  for (const journal::ScalarRecord& scalar : record.scalars) {
     confirmed.scalars.push_back({.name = scalar.name,
                                  .mean = MeanMetric(trials, scalar.name).value_or(kNotKnown),
                                  .measured = scalar.value,
@@ -96,7 +96,7 @@ ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::si
   std::vector<ResultConfirmed> all;
   for (std::size_t e = 0; e < of.references.size(); ++e) {
     const auto trials = Confirming(planner, index, static_cast<int>(e));
-    for (const TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
+    for (const journal::TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
     all.push_back(ConfirmedOf(trials, of, e));
   }
   const ResultConfirmed& first = all.front();
@@ -175,10 +175,10 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
 
 ResultCost CostOf(const Planner& planner, const Evidenced& of) {
   ResultCost cost{.elapsed = of.elapsed};
-  for (const TrialRecord& trial : planner.trials()) {
-    if (trial.status == TrialStatus::kRunning) continue;
+  for (const journal::TrialRecord& trial : planner.trials()) {
+    if (trial.status == journal::TrialStatus::kRunning) continue;
     ++cost.num_trials;
-    if (trial.status == TrialStatus::kFailed) ++cost.num_failed;
+    if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
     const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * of.spec.threads;
     if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
   }
@@ -190,8 +190,9 @@ void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
-      const HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
-      const double across = heap_case.device.plate_diameter / EstimateHeap(heap_case).mean_diameter;
+      const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
+      const double across =
+          heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
       if (across >= kAdvised) continue;
       result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
                                         .experiment = experiments[e].name,
@@ -247,8 +248,8 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   }
   AddWarnings(*answer, of.spec, result);
   std::vector<double> noise;
-  for (const TrialRecord& trial : planner.trials()) {
-    if (trial.kind != TrialKind::kNoise) continue;
+  for (const journal::TrialRecord& trial : planner.trials()) {
+    if (trial.kind != journal::TrialKind::kNoise) continue;
     if (const auto value = of.references.front().Value(trial)) noise.push_back(*value);
   }
   if (noise.size() >= 2) result.replicates_sd = SampleOf(noise).sd;
@@ -258,4 +259,4 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   return result;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -10,11 +10,11 @@
 #include "experiments/campaign/planner.h"
 #include "experiments/journal/records.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct Evidenced {
   const CampaignSpec& spec;
-  const CampaignRecord& campaign;
+  const journal::CampaignRecord& campaign;
   const std::vector<Reference>& references;  // of the experiments
   // A trial's ANHP.
   std::function<std::optional<imaging::GrayImage>(std::int64_t)> profile;
@@ -24,4 +24,4 @@ struct Evidenced {
 // Nothing when no trial has succeeded.
 std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

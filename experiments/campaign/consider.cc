@@ -12,7 +12,7 @@
 #include "experiments/campaign/describe_posterior.h"
 #include "experiments/campaign/start.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr std::size_t kMostNear = 5;
@@ -50,12 +50,12 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
   return point;
 }
 
-std::vector<NearTrial> NearestTrials(const std::vector<TrialRecord>& trials,
+std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
                                      const std::vector<Reference>& references,
                                      const Eigen::VectorXd& point) {
   std::vector<NearTrial> near;
-  for (const TrialRecord& trial : trials) {
-    if (trial.status == TrialStatus::kRunning) continue;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status == journal::TrialStatus::kRunning) continue;
     near.push_back(
         {.trial = trial,
          .distance = (PointOf(trial) - point).lpNorm<Eigen::Infinity>(),
@@ -67,7 +67,7 @@ std::vector<NearTrial> NearestTrials(const std::vector<TrialRecord>& trials,
   return near;
 }
 
-std::string SetText(const std::vector<ParameterRecord>& parameters,
+std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
                     const std::vector<double>& values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -82,15 +82,15 @@ std::string SetText(const std::vector<ParameterRecord>& parameters,
 ConsideredSet ConsiderSet(const std::filesystem::path& root,
                           const std::map<std::string, std::string>& set) {
   const CampaignFolder folder{root};
-  Journal journal = Journal::OpenReadOnly(JournalPath(folder.root));
-  const CampaignRecord record = journal.Campaign();
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
+  const journal::CampaignRecord record = journal.Campaign();
   const CampaignSpec spec = ParseSpecText(record.spec_json);
   const std::vector<Reference> references = ReferencesOf(record, spec);
   const optimizer::ParameterSpace space = SpaceOf(spec);
   const Eigen::VectorXd point = ReadSet(space, set);
   const auto strategy = MakeJointStrategy(spec, record, references);
-  const std::vector<TrialRecord> trials = journal.Trials();
-  for (const TrialRecord& trial : InOrderOfFinish(trials)) {
+  const std::vector<journal::TrialRecord> trials = journal.Trials();
+  for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
     if (!IsOfSearch(trial)) continue;
     strategy->Tell(ObservationOf(trial, references[static_cast<std::size_t>(trial.experiment)],
                                  StoredField(journal, folder, references, trial)));
@@ -167,4 +167,4 @@ std::string ConsideredJson(const ConsideredSet& c) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

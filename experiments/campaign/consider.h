@@ -11,16 +11,16 @@
 #include "experiments/campaign/result_posterior.h"
 #include "experiments/journal/records.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct NearTrial {
-  TrialRecord trial;
+  journal::TrialRecord trial;
   double distance = 0;              // largest difference of a parameter, in its range's widths
   std::optional<double> objective;  // nothing where it failed or is not defined
 };
 
 struct ConsideredSet {
-  std::vector<ParameterRecord> parameters;
+  std::vector<journal::ParameterRecord> parameters;
   std::vector<double> values;  // in their order, SI
   double target_scale_factor = 1;
   std::optional<double> credible_level;  // of the smallest joint region that holds it; nothing
@@ -39,4 +39,4 @@ ConsideredSet ConsiderSet(const std::filesystem::path& folder,
 std::string ConsideredText(const ConsideredSet& considered);
 std::string ConsideredJson(const ConsideredSet& considered);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -12,11 +12,11 @@
 #include "base/printable.h"
 #include "experiments/journal/journal.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 void PrintEvent(const char* event, const nlohmann::ordered_json& fields) {
-  nlohmann::ordered_json line{{"event", event}, {"time_utc", UtcNow()}};
+  nlohmann::ordered_json line{{"event", event}, {"time_utc", journal::UtcNow()}};
   line.update(fields);
   std::cout << line.dump() << std::endl;
 }
@@ -36,7 +36,7 @@ void Console::ClearStatus() {
 
 // A log that cannot be written is no reason to end: what matters is in the journal.
 void Console::Log(const std::string& text) {
-  std::ofstream(log_, std::ios::app) << UtcNow() << ' ' << base::Printable(text) << '\n';
+  std::ofstream(log_, std::ios::app) << journal::UtcNow() << ' ' << base::Printable(text) << '\n';
 }
 
 void Console::Line(const std::string& text) {
@@ -71,4 +71,4 @@ std::string NumberText4(double value) {
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

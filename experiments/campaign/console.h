@@ -7,7 +7,7 @@
 
 #include "experiments/campaign/progress.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 class Console {
  public:
@@ -41,4 +41,4 @@ class Console {
 // Four significant digits: more than a calibration knows.
 std::string NumberText4(double value);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

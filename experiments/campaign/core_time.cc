@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 // 0 where it is not known.
-double Measured(const TrialRecord& trial, int threads) {
-  if (trial.status == TrialStatus::kRunning) return 0;
+double Measured(const journal::TrialRecord& trial, int threads) {
+  if (trial.status == journal::TrialStatus::kRunning) return 0;
   const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * threads;
   return std::isfinite(seconds) ? seconds : 0;
 }
@@ -15,18 +15,18 @@ double Measured(const TrialRecord& trial, int threads) {
 }  // namespace
 
 double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor) {
-  const HeapSize size = EstimateHeap(TypicalCase(spec, experiment, scale_factor));
+  const rigs::HeapSize size = rigs::EstimateHeap(TypicalCase(spec, experiment, scale_factor));
   return static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
 }
 
-double CoreTime::GrainSteps(const TrialRecord& trial) {
+double CoreTime::GrainSteps(const journal::TrialRecord& trial) {
   const Kind kind{trial.experiment, trial.scale_factor};
   const auto [entry, is_new] = grain_steps_.try_emplace(kind, 0);
   if (is_new) entry->second = GrainStepsOf(spec_, kind.first, kind.second);
   return entry->second;
 }
 
-double CoreTime::Estimate(const TrialRecord& trial) {
+double CoreTime::Estimate(const journal::TrialRecord& trial) {
   const auto same = measured_.find({trial.experiment, trial.scale_factor});
   if (same != measured_.end()) return same->second.seconds / same->second.count;
   double steps = 0;
@@ -38,10 +38,10 @@ double CoreTime::Estimate(const TrialRecord& trial) {
   return GrainSteps(trial) / (seconds > 0 ? steps / seconds : kUsualSpeed);
 }
 
-double CoreTime::Of(std::span<const TrialRecord> trials) {
+double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   measured_.clear();
   double sum = 0;
-  for (const TrialRecord& trial : trials) {
+  for (const journal::TrialRecord& trial : trials) {
     const double seconds = Measured(trial, spec_.threads);
     if (seconds == 0) continue;
     GrainSteps(trial);
@@ -50,10 +50,10 @@ double CoreTime::Of(std::span<const TrialRecord> trials) {
     ++total.count;
     sum += seconds;
   }
-  for (const TrialRecord& trial : trials) {
+  for (const journal::TrialRecord& trial : trials) {
     if (Measured(trial, spec_.threads) == 0) sum += Estimate(trial);
   }
   return sum;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

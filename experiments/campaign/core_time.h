@@ -9,7 +9,7 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // Of a usual core [grain steps/s]. Estimates that a strategy is told use it rather than the speed
 // of this machine, so that equal specs and seeds make equal proposals everywhere.
@@ -24,13 +24,13 @@ class CoreTime {
 
   // [core seconds] of all these trials: those that run still count by what others of their
   // experiment and scale factor took.
-  double Of(std::span<const TrialRecord> trials);
+  double Of(std::span<const journal::TrialRecord> trials);
 
  private:
   using Kind = std::pair<int, double>;  // experiment and scale factor
 
-  double Estimate(const TrialRecord& trial);
-  double GrainSteps(const TrialRecord& trial);
+  double Estimate(const journal::TrialRecord& trial);
+  double GrainSteps(const journal::TrialRecord& trial);
 
   const CampaignSpec& spec_;
   std::map<Kind, double> grain_steps_;
@@ -41,4 +41,4 @@ class CoreTime {
   std::map<Kind, Total> measured_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -5,7 +5,7 @@
 
 #include "experiments/campaign/console.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr double kAlarm = 3;    // implausibility above which no set fits
@@ -78,9 +78,10 @@ std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
 
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
                          const optimizer::ParameterSpace& space,
-                         const std::vector<ParameterRecord>& parameters) {
+                         const std::vector<journal::ParameterRecord>& parameters) {
   std::string csv;
-  for (const ParameterRecord& p : parameters) csv += (csv.empty() ? "" : ",") + ColumnName(p);
+  for (const journal::ParameterRecord& p : parameters)
+    csv += (csv.empty() ? "" : ",") + journal::ColumnName(p);
   csv += "\n";
   for (Eigen::Index i = 0; i < summary.draws.rows(); ++i) {
     std::string line;
@@ -116,4 +117,4 @@ std::string PosteriorSentence(const ResultPosterior& posterior,
   return "the measurements determine a point, within its ranges" + where;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -10,7 +10,7 @@
 #include "optimizer/fidelity/posterior_summary.h"
 #include "optimizer/space/parameter_space.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // Values of the free parameters at a point of the unit cube, SI.
 std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
@@ -27,7 +27,7 @@ std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior);
 // Its draws, one a line, SI with the units in the head.
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
                          const optimizer::ParameterSpace& space,
-                         const std::vector<ParameterRecord>& parameters);
+                         const std::vector<journal::ParameterRecord>& parameters);
 
 // "these images determine a curve, not a point: …", for people. `correlation` is between the
 // parameters, as a result holds it.
@@ -35,4 +35,4 @@ std::string PosteriorSentence(const ResultPosterior& posterior,
                               const std::vector<std::string>& names,
                               const std::vector<std::vector<double>>& correlation);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -9,18 +9,18 @@
 #include "experiments/rigs/lifted_tube/heap_rig.h"
 #include "experiments/trials/simulate/run_log.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 // Cost goes with the number of grain steps, whatever the number of grains, so a small heap tells
 // the speed; filling a large one would take longer than the measurement.
-double MeasureSpeed(HeapCase heap_case, std::int64_t num_grains) {
+double MeasureSpeed(rigs::HeapCase heap_case, std::int64_t num_grains) {
   constexpr double kEnoughGrains = 2000;
   constexpr double kSeconds = 1;
   const double reduction = std::cbrt(static_cast<double>(num_grains) / kEnoughGrains);
   heap_case.coarse_graining.scale_factor *= std::max(1.0, reduction);
   heap_case.threads = 1;
-  HeapRig rig(heap_case);
+  rigs::HeapRig rig(heap_case);
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   double seconds = 0;
@@ -37,7 +37,7 @@ TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double sca
   // Peak resident memory of runs with 6,000, 48,000 and 280,000 grains (20, 46 and 193 MB).
   constexpr double kProgram = 16e6;
   constexpr double kGrain = 650;
-  const HeapSize size = EstimateHeap(TypicalCase(spec, experiment, scale_factor));
+  const rigs::HeapSize size = rigs::EstimateHeap(TypicalCase(spec, experiment, scale_factor));
   return {.experiment = experiment,
           .scale_factor = scale_factor,
           .num_grains = size.num_grains,
@@ -74,12 +74,12 @@ std::string OneTrialText(const CampaignEstimate& e) {
 std::string BoughtText(const BudgetOptions& budget, const TrialEstimate& trial) {
   std::string text;
   if (budget.core_time) {
-    text += "; " + DurationText(*budget.core_time) + " of core time buy " +
+    text += "; " + trials::DurationText(*budget.core_time) + " of core time buy " +
             std::to_string(static_cast<std::int64_t>(*budget.core_time / trial.core_seconds));
   }
   if (budget.simulations > 0) {
     text += "; " + std::to_string(budget.simulations) + " simulations take " +
-            DurationText(budget.simulations * trial.core_seconds) + " of core time";
+            trials::DurationText(budget.simulations * trial.core_seconds) + " of core time";
   }
   return text;
 }
@@ -95,18 +95,20 @@ std::string TrialLines(const CampaignSpec& spec, const CampaignEstimate& e) {
             NumberText4(1e3 * trial.mean_diameter) + " mm, " +
             NumberText4(std::round(trial.num_steps)) + " steps, " +
             NumberText4(std::round(1e-6 * trial.memory)) + " MB, " +
-            DurationText(trial.core_seconds) + " of a core" + BoughtText(spec.budget, trial) + "\n";
+            trials::DurationText(trial.core_seconds) + " of a core" +
+            BoughtText(spec.budget, trial) + "\n";
   }
   return text;
 }
 
 std::string TimeText(const CampaignEstimate& e) {
   const double trial_time = e.trials.front().core_seconds;
-  return "  time              about " + DurationText(trial_time) + " a trial, " +
-         (e.confirm_time == trial_time ? ""
-                                       : DurationText(e.confirm_time) + " a confirming one, ") +
-         DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) + " trials, " +
-         std::to_string(e.num_workers) + " at a time\n";
+  return "  time              about " + trials::DurationText(trial_time) + " a trial, " +
+         (e.confirm_time == trial_time
+              ? ""
+              : trials::DurationText(e.confirm_time) + " a confirming one, ") +
+         trials::DurationText(e.campaign_time) + " for " + std::to_string(e.num_trials) +
+         " trials, " + std::to_string(e.num_workers) + " at a time\n";
 }
 
 }  // namespace
@@ -145,8 +147,8 @@ std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& e) {
                             " million grain steps a second on a core\n";
   if (one) return OneTrialText(e) + speed + TimeText(e);
   return TrialLines(spec, e) + speed + "  time              at most " +
-         DurationText(e.campaign_time) + " with the confirmation, " +
+         trials::DurationText(e.campaign_time) + " with the confirmation, " +
          std::to_string(e.num_workers) + " at a time\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

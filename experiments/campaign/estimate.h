@@ -7,7 +7,7 @@
 
 #include "experiments/campaign/spec/campaign_spec.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // A trial of one experiment at one scale factor.
 struct TrialEstimate {
@@ -35,4 +35,4 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
 
 std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& estimate);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

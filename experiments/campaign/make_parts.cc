@@ -8,31 +8,32 @@
 #include "experiments/trials/engines/command_engine.h"
 #include "experiments/trials/engines/talus_engine.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
-std::unique_ptr<Runner> MakeRunner(const CampaignSpec& spec, const std::filesystem::path& folder) {
+std::unique_ptr<runners::Runner> MakeRunner(const CampaignSpec& spec,
+                                            const std::filesystem::path& folder) {
   switch (spec.runner.kind) {
     case RunnerKind::kLocal:
-      return std::make_unique<LocalRunner>(
-          LocalRunnerOptions{.workers = spec.workers, .threads_per_job = spec.threads});
+      return std::make_unique<runners::LocalRunner>(
+          runners::LocalRunnerOptions{.workers = spec.workers, .threads_per_job = spec.threads});
     case RunnerKind::kSlurm: {
-      SlurmOptions options = spec.runner.slurm;
+      runners::SlurmOptions options = spec.runner.slurm;
       if (spec.workers > 0) options.max_jobs = std::min(options.max_jobs, spec.workers);
       options.cores = std::max(options.cores, spec.threads);
-      return std::make_unique<SlurmRunner>(options, folder);
+      return std::make_unique<runners::SlurmRunner>(options, folder);
     }
   }
   throw base::Error("unknown kind of runner");
 }
 
-std::unique_ptr<TrialEngine> MakeEngine(const CampaignSpec& spec) {
+std::unique_ptr<trials::TrialEngine> MakeEngine(const CampaignSpec& spec) {
   switch (spec.engine.kind) {
     case EngineKind::kTalus:
-      return std::make_unique<TalusEngine>();
+      return std::make_unique<trials::TalusEngine>();
     case EngineKind::kCommand:
-      return std::make_unique<CommandEngine>(spec.engine.command);
+      return std::make_unique<trials::CommandEngine>(spec.engine.command);
   }
   throw base::Error("unknown kind of engine");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

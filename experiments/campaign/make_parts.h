@@ -8,10 +8,11 @@
 #include "experiments/runners/runner.h"
 #include "experiments/trials/engines/trial_engine.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // `folder` is the campaign's, absolute.
-std::unique_ptr<Runner> MakeRunner(const CampaignSpec& spec, const std::filesystem::path& folder);
-std::unique_ptr<TrialEngine> MakeEngine(const CampaignSpec& spec);
+std::unique_ptr<runners::Runner> MakeRunner(const CampaignSpec& spec,
+                                            const std::filesystem::path& folder);
+std::unique_ptr<trials::TrialEngine> MakeEngine(const CampaignSpec& spec);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

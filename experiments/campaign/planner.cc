@@ -11,7 +11,7 @@
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/designs/design.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr int kMostAsked = 8;         // the strategies' limit
@@ -34,11 +34,11 @@ const char* NameOfOrigin(optimizer::Origin origin) {
   return "";
 }
 
-std::uint64_t StreamOf(TrialKind kind) {
+std::uint64_t StreamOf(journal::TrialKind kind) {
   switch (kind) {
-    case TrialKind::kNoise:
+    case journal::TrialKind::kNoise:
       return base::Stream("trial of noise");
-    case TrialKind::kConfirm:
+    case journal::TrialKind::kConfirm:
       return base::Stream("trial of confirmation");
     default:
       return base::Stream("trial of search");
@@ -56,14 +56,14 @@ Planner::Planner(const CampaignSpec& spec, std::vector<Reference> references,
       strategy_(std::move(strategy)),
       core_time_(spec_) {}
 
-void Planner::Started(const TrialRecord& trial) {
+void Planner::Started(const journal::TrialRecord& trial) {
   trials_.push_back(trial);
   if (IsOfSearch(trial)) candidates_.reset();
 }
 
-void Planner::Finished(const TrialRecord& trial, std::vector<float> field) {
+void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> field) {
   const auto known = std::find_if(trials_.begin(), trials_.end(),
-                                  [&](const TrialRecord& t) { return t.id == trial.id; });
+                                  [&](const journal::TrialRecord& t) { return t.id == trial.id; });
   *known = trial;
   if (!IsOfSearch(trial)) return;
   strategy_->Tell(ObservationOf(trial, ReferenceOf(trial), std::move(field)));
@@ -73,9 +73,9 @@ void Planner::Finished(const TrialRecord& trial, std::vector<float> field) {
 // A campaign whose first trials all fail has a mistake in its set-up; going on would only cost.
 void Planner::CheckThatSomeSucceed() {
   int failed = 0;
-  for (const TrialRecord& trial : trials_) {
-    if (trial.status == TrialStatus::kOk) return;
-    if (trial.status == TrialStatus::kFailed) ++failed;
+  for (const journal::TrialRecord& trial : trials_) {
+    if (trial.status == journal::TrialStatus::kOk) return;
+    if (trial.status == journal::TrialStatus::kFailed) ++failed;
   }
   if (failed < kFailuresToGiveUp) return;
   StopSearch("the first " + std::to_string(failed) + " trials all failed, the last because it " +
@@ -86,17 +86,18 @@ void Planner::StopSearch(const std::string& reason) {
   if (stop_reason_.empty()) stop_reason_ = reason;
 }
 
-int Planner::Count(TrialKind kind) const {
-  return static_cast<int>(std::count_if(trials_.begin(), trials_.end(),
-                                        [&](const TrialRecord& t) { return t.kind == kind; }));
+int Planner::Count(journal::TrialKind kind) const {
+  return static_cast<int>(
+      std::count_if(trials_.begin(), trials_.end(),
+                    [&](const journal::TrialRecord& t) { return t.kind == kind; }));
 }
 
 int Planner::NumOfSearch() const {
   return static_cast<int>(std::count_if(trials_.begin(), trials_.end(), IsOfSearch));
 }
 
-std::vector<TrialRecord> Planner::Next(int count) {
-  std::vector<TrialRecord> planned;
+std::vector<journal::TrialRecord> Planner::Next(int count) {
+  std::vector<journal::TrialRecord> planned;
   const std::size_t num_before = trials_.size();
   while (static_cast<int>(planned.size()) < count) {
     const int wanted = count - static_cast<int>(planned.size());
@@ -109,8 +110,9 @@ std::vector<TrialRecord> Planner::Next(int count) {
   return planned;
 }
 
-TrialRecord Planner::Make(TrialKind kind, const optimizer::Proposal& proposal) const {
-  TrialRecord trial;
+journal::TrialRecord Planner::Make(journal::TrialKind kind,
+                                   const optimizer::Proposal& proposal) const {
+  journal::TrialRecord trial;
   trial.kind = kind;
   trial.objective = base::NameOf(spec_.objective);
   trial.experiment = proposal.experiment;
@@ -123,17 +125,18 @@ TrialRecord Planner::Make(TrialKind kind, const optimizer::Proposal& proposal) c
   return trial;
 }
 
-void Planner::Append(TrialRecord trial, std::vector<TrialRecord>& planned) {
+void Planner::Append(journal::TrialRecord trial, std::vector<journal::TrialRecord>& planned) {
   trial.id = trials_.empty() ? 1 : trials_.back().id + 1;
-  trial.kind_index = trial.kind == TrialKind::kDesign || trial.kind == TrialKind::kSearch
-                         ? Count(TrialKind::kDesign) + Count(TrialKind::kSearch)
-                         : Count(trial.kind);
+  trial.kind_index =
+      trial.kind == journal::TrialKind::kDesign || trial.kind == journal::TrialKind::kSearch
+          ? Count(journal::TrialKind::kDesign) + Count(journal::TrialKind::kSearch)
+          : Count(trial.kind);
   trial.seed = SeedOf(trial);
   trials_.push_back(trial);
   planned.push_back(std::move(trial));
 }
 
-std::int64_t Planner::SeedOf(const TrialRecord& trial) const {
+std::int64_t Planner::SeedOf(const journal::TrialRecord& trial) const {
   constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
   const auto index = static_cast<std::uint64_t>(trial.kind_index) |
                      (static_cast<std::uint64_t>(trial.attempts - 1) << 48);
@@ -152,27 +155,29 @@ Eigen::VectorXd Planner::NoisePoint() const {
   return center;  // the strategy says that the constraints leave nothing
 }
 
-bool Planner::PlanNoise(std::vector<TrialRecord>& planned) {
-  if (!stop_reason_.empty() || Count(TrialKind::kNoise) >= spec_.noise.replicates) return false;
-  Append(Make(TrialKind::kNoise, {.point = NoisePoint()}), planned);
+bool Planner::PlanNoise(std::vector<journal::TrialRecord>& planned) {
+  if (!stop_reason_.empty() || Count(journal::TrialKind::kNoise) >= spec_.noise.replicates)
+    return false;
+  Append(Make(journal::TrialKind::kNoise, {.point = NoisePoint()}), planned);
   return true;
 }
 
 // A proposal whose replicates are not complete yet.
-bool Planner::PlanReplicate(std::vector<TrialRecord>& planned) {
+bool Planner::PlanReplicate(std::vector<journal::TrialRecord>& planned) {
   if (spec_.replicates == 1) return false;
-  std::map<std::int64_t, std::pair<int, const TrialRecord*>> sets;
-  for (const TrialRecord& trial : trials_) {
-    if (trial.kind != TrialKind::kDesign && trial.kind != TrialKind::kSearch) continue;
+  std::map<std::int64_t, std::pair<int, const journal::TrialRecord*>> sets;
+  for (const journal::TrialRecord& trial : trials_) {
+    if (trial.kind != journal::TrialKind::kDesign && trial.kind != journal::TrialKind::kSearch)
+      continue;
     ++sets[trial.set].first;
     sets[trial.set].second = &trial;
   }
   for (const auto& [set, members] : sets) {
     if (members.first >= spec_.replicates) continue;
-    const TrialRecord& first = *members.second;
-    TrialRecord trial = Make(first.kind, {.point = PointOf(first),
-                                          .experiment = first.experiment,
-                                          .scale_factor = first.scale_factor});
+    const journal::TrialRecord& first = *members.second;
+    journal::TrialRecord trial = Make(first.kind, {.point = PointOf(first),
+                                                   .experiment = first.experiment,
+                                                   .scale_factor = first.scale_factor});
     trial.origin = first.origin;
     trial.set = set;
     Append(std::move(trial), planned);
@@ -182,7 +187,7 @@ bool Planner::PlanReplicate(std::vector<TrialRecord>& planned) {
 }
 
 double Planner::CoreTimeOfSearch() {
-  std::vector<TrialRecord> of_search;
+  std::vector<journal::TrialRecord> of_search;
   std::copy_if(trials_.begin(), trials_.end(), std::back_inserter(of_search), IsOfSearch);
   return core_time_.Of(of_search);
 }
@@ -200,12 +205,12 @@ std::optional<std::string> Planner::WhyBudgetIsUsed() {
     return "the budget of " + std::to_string(most) + " simulations is used";
   }
   if (spec_.budget.core_time && CoreTimeOfSearch() >= *spec_.budget.core_time) {
-    return "the budget of " + DurationText(*spec_.budget.core_time) + " core time is used";
+    return "the budget of " + trials::DurationText(*spec_.budget.core_time) + " core time is used";
   }
   return std::nullopt;
 }
 
-bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
+bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) {
   if (!stop_reason_.empty()) return false;
   if (const auto reason = WhyBudgetIsUsed()) {
     StopSearch(*reason);
@@ -218,8 +223,8 @@ bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
     }
   }
   std::vector<optimizer::Proposal> pending;
-  for (const TrialRecord& trial : trials_) {
-    if (IsOfSearch(trial) && trial.status == TrialStatus::kRunning) {
+  for (const journal::TrialRecord& trial : trials_) {
+    if (IsOfSearch(trial) && trial.status == journal::TrialStatus::kRunning) {
       pending.push_back({.point = PointOf(trial),
                          .experiment = trial.experiment,
                          .scale_factor = trial.scale_factor});
@@ -228,10 +233,11 @@ bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
   const auto proposals = strategy_->AskAt(std::min({count, SetsLeft(), kMostAsked}), pending);
   for (const optimizer::Proposal& proposal : proposals) {
     const bool design = proposal.origin == optimizer::Origin::kDesign;
-    TrialRecord trial = Make(design ? TrialKind::kDesign : TrialKind::kSearch, proposal);
+    journal::TrialRecord trial =
+        Make(design ? journal::TrialKind::kDesign : journal::TrialKind::kSearch, proposal);
     trial.origin = NameOfOrigin(proposal.origin);
     trial.set = 1;  // 0 is the noise's
-    for (const TrialRecord& other : trials_) {
+    for (const journal::TrialRecord& other : trials_) {
       if (IsOfSearch(other)) trial.set = std::max(trial.set, other.set + 1);
     }
     Append(std::move(trial), planned);
@@ -241,8 +247,8 @@ bool Planner::PlanSearch(int count, std::vector<TrialRecord>& planned) {
 }
 
 std::optional<optimizer::Answer> Planner::Recommend() {
-  const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
-    return IsOfSearch(t) && t.status == TrialStatus::kOk && ReferenceOf(t).Value(t);
+  const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
+    return IsOfSearch(t) && t.status == journal::TrialStatus::kOk && ReferenceOf(t).Value(t);
   });
   if (!any) return std::nullopt;
   return strategy_->Recommend();
@@ -269,9 +275,9 @@ std::vector<Eigen::VectorXd> Planner::RankedPoints(const optimizer::Answer& answ
     double mean() const { return sum / count; }
   };
   std::map<std::int64_t, Set> by_number;
-  for (const TrialRecord& trial : trials_) {
+  for (const journal::TrialRecord& trial : trials_) {
     const auto value = ReferenceOf(trial).Value(trial);
-    if (!IsOfSearch(trial) || trial.status != TrialStatus::kOk || !value) continue;
+    if (!IsOfSearch(trial) || trial.status != journal::TrialStatus::kOk || !value) continue;
     Set& set = by_number[trial.set];
     set.sum += *value;
     ++set.count;
@@ -300,10 +306,11 @@ std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer
   return candidates;
 }
 
-bool Planner::PlanConfirmation(std::vector<TrialRecord>& planned) {
-  const bool searching = std::any_of(trials_.begin(), trials_.end(), [](const TrialRecord& t) {
-    return IsOfSearch(t) && t.status == TrialStatus::kRunning;
-  });
+bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
+  const bool searching =
+      std::any_of(trials_.begin(), trials_.end(), [](const journal::TrialRecord& t) {
+        return IsOfSearch(t) && t.status == journal::TrialStatus::kRunning;
+      });
   if (searching || spec_.confirm.candidates == 0) return false;
   if (!candidates_) {
     const auto answer = Recommend();
@@ -312,14 +319,16 @@ bool Planner::PlanConfirmation(std::vector<TrialRecord>& planned) {
   }
   for (std::size_t c = 0; c < candidates_->size(); ++c) {
     for (int e = 0; e < static_cast<int>(references_.size()); ++e) {
-      const auto done = std::count_if(trials_.begin(), trials_.end(), [&](const TrialRecord& t) {
-        return t.kind == TrialKind::kConfirm && t.set == ConfirmSet(c) && t.experiment == e;
-      });
+      const auto done =
+          std::count_if(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
+            return t.kind == journal::TrialKind::kConfirm && t.set == ConfirmSet(c) &&
+                   t.experiment == e;
+          });
       if (done >= spec_.confirm.replicates) continue;
-      TrialRecord trial =
-          Make(TrialKind::kConfirm, {.point = (*candidates_)[c],
-                                     .experiment = e,
-                                     .scale_factor = spec_.confirm.scale_factor.value_or(0)});
+      journal::TrialRecord trial = Make(journal::TrialKind::kConfirm,
+                                        {.point = (*candidates_)[c],
+                                         .experiment = e,
+                                         .scale_factor = spec_.confirm.scale_factor.value_or(0)});
       trial.set = ConfirmSet(c);
       Append(std::move(trial), planned);
       return true;
@@ -328,4 +337,4 @@ bool Planner::PlanConfirmation(std::vector<TrialRecord>& planned) {
   return false;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

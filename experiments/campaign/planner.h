@@ -16,7 +16,7 @@
 #include "experiments/journal/records.h"
 #include "optimizer/strategies/strategy.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 class Planner {
  public:
@@ -25,13 +25,13 @@ class Planner {
           std::unique_ptr<optimizer::Strategy> strategy);
 
   // A trial that is running, started now or by an earlier process.
-  void Started(const TrialRecord& trial);
+  void Started(const journal::TrialRecord& trial);
   // A trial that has finished; the field is empty when it failed or its image is lost.
-  void Finished(const TrialRecord& trial, std::vector<float> field);
+  void Finished(const journal::TrialRecord& trial, std::vector<float> field);
 
   // Up to `count` trials to start now, numbered on from the last. None while the confirmation waits
   // for running ones, and none at the end.
-  std::vector<TrialRecord> Next(int count);
+  std::vector<journal::TrialRecord> Next(int count);
 
   // No more trials of noise and search, because …
   void StopSearch(const std::string& reason);
@@ -45,30 +45,30 @@ class Planner {
   // TrialRecord::set of the trials that confirm a candidate.
   std::int64_t ConfirmSet(std::size_t candidate) const;
 
-  const std::vector<TrialRecord>& trials() const { return trials_; }  // by id
+  const std::vector<journal::TrialRecord>& trials() const { return trials_; }  // by id
   const optimizer::ParameterSpace& space() const { return space_; }
 
   // Processor time of noise and search so far [core seconds], the running ones estimated.
   double CoreTimeOfSearch();
 
   // A fresh seed for each trial and attempt; small enough for any engine.
-  std::int64_t SeedOf(const TrialRecord& trial) const;
+  std::int64_t SeedOf(const journal::TrialRecord& trial) const;
 
  private:
-  bool PlanNoise(std::vector<TrialRecord>& planned);
-  bool PlanReplicate(std::vector<TrialRecord>& planned);
-  bool PlanSearch(int count, std::vector<TrialRecord>& planned);
-  bool PlanConfirmation(std::vector<TrialRecord>& planned);
-  TrialRecord Make(TrialKind kind, const optimizer::Proposal& proposal) const;
-  const Reference& ReferenceOf(const TrialRecord& trial) const {
+  bool PlanNoise(std::vector<journal::TrialRecord>& planned);
+  bool PlanReplicate(std::vector<journal::TrialRecord>& planned);
+  bool PlanSearch(int count, std::vector<journal::TrialRecord>& planned);
+  bool PlanConfirmation(std::vector<journal::TrialRecord>& planned);
+  journal::TrialRecord Make(journal::TrialKind kind, const optimizer::Proposal& proposal) const;
+  const Reference& ReferenceOf(const journal::TrialRecord& trial) const {
     return references_[static_cast<std::size_t>(trial.experiment)];
   }
   std::vector<Eigen::VectorXd> RankedPoints(const optimizer::Answer& answer) const;
   int SetsLeft() const;
   std::optional<std::string> WhyBudgetIsUsed();
-  void Append(TrialRecord trial, std::vector<TrialRecord>& planned);
+  void Append(journal::TrialRecord trial, std::vector<journal::TrialRecord>& planned);
   Eigen::VectorXd NoisePoint() const;
-  int Count(TrialKind kind) const;
+  int Count(journal::TrialKind kind) const;
   int NumOfSearch() const;  // noise included
   void CheckThatSomeSucceed();
 
@@ -77,10 +77,10 @@ class Planner {
   const optimizer::ParameterSpace space_;
   const optimizer::Domain domain_;
   std::unique_ptr<optimizer::Strategy> strategy_;
-  std::vector<TrialRecord> trials_;
+  std::vector<journal::TrialRecord> trials_;
   std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
   std::string stop_reason_;
   CoreTime core_time_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

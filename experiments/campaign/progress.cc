@@ -3,7 +3,7 @@
 #include "experiments/campaign/console.h"
 #include "experiments/trials/simulate/run_log.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 std::string ProgressText(const TrialProgress& trial) {
   std::string text =
@@ -13,7 +13,7 @@ std::string ProgressText(const TrialProgress& trial) {
   }
   if (!trial.experiment.empty()) text += ", " + trial.experiment;
   if (trial.scale_factor) text += " at scale factor " + NumberText4(*trial.scale_factor);
-  if (trial.status == TrialStatus::kFailed) {
+  if (trial.status == journal::TrialStatus::kFailed) {
     text += " failed: " + trial.reason;
   } else if (trial.objective) {
     text += ": " + NumberText4(*trial.objective) + " " + trial.unit;
@@ -21,15 +21,15 @@ std::string ProgressText(const TrialProgress& trial) {
   } else {
     text += ": the objective is not defined";
   }
-  return text + ", " + DurationText(trial.duration);
+  return text + ", " + trials::DurationText(trial.duration);
 }
 
 std::string ProgressText(const CampaignProgress& campaign) {
   std::string text = "trial " + std::to_string(campaign.num_search);
   if (campaign.budget > 0) text += " of " + std::to_string(campaign.budget);
   if (campaign.core_seconds_budget) {
-    text += ", " + DurationText(campaign.core_seconds) + " of " +
-            DurationText(*campaign.core_seconds_budget) + " core time";
+    text += ", " + trials::DurationText(campaign.core_seconds) + " of " +
+            trials::DurationText(*campaign.core_seconds_budget) + " core time";
   }
   text += ", " + std::to_string(campaign.num_running) + " running";
   if (campaign.best) {
@@ -37,9 +37,9 @@ std::string ProgressText(const CampaignProgress& campaign) {
             std::to_string(campaign.best_trial) + ")";
   }
   if (campaign.seconds_left) {
-    text += ", at most " + DurationText(*campaign.seconds_left) + " left";
+    text += ", at most " + trials::DurationText(*campaign.seconds_left) + " left";
   }
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -10,12 +10,12 @@
 #include "base/field.h"
 #include "experiments/journal/records.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct TrialProgress {
   std::int64_t trial = 0;
-  TrialKind kind = TrialKind::kSearch;
-  TrialStatus status = TrialStatus::kRunning;
+  journal::TrialKind kind = journal::TrialKind::kSearch;
+  journal::TrialStatus status = journal::TrialStatus::kRunning;
   std::vector<double> values{};          // native units, in the order of the free parameters
   std::optional<double> scale_factor{};  // where the campaign has several
   std::string experiment{};              // its name, where the campaign has several
@@ -72,4 +72,4 @@ std::string ProgressText(const TrialProgress& trial);
 // "trial 7 of 60, 2 running, best 1.2 mm² (trial 5), at most 3 min left"
 std::string ProgressText(const CampaignProgress& campaign);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr double kSideMargin = 0.15;  // of the plate diameter, on either side of the powder
@@ -39,8 +39,8 @@ imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
 }
 
 // Of an angle of repose, 1 to 3.
-int MethodOf(Objective objective) {
-  return 1 + static_cast<int>(objective) - static_cast<int>(Objective::kAor1);
+int MethodOf(journal::Objective objective) {
+  return 1 + static_cast<int>(objective) - static_cast<int>(journal::Objective::kAor1);
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ imaging::Measured Reference::AngleOf(const imaging::GrayImage& image) const {
   return angle;
 }
 
-std::vector<MetricRecord> Reference::Measure(const imaging::GrayImage& profile) const {
-  std::vector<MetricRecord> records;
+std::vector<journal::MetricRecord> Reference::Measure(const imaging::GrayImage& profile) const {
+  std::vector<journal::MetricRecord> records;
   const imaging::HeapImages heap{.profile = {.image = profile, .frame = frame()}, .parts = {}};
   for (const imaging::Metric& metric : imaging::CompareProfiles(heap, aehp_, options_.metrics)) {
     records.push_back({.name = metric.name,
@@ -79,7 +79,7 @@ std::vector<MetricRecord> Reference::Measure(const imaging::GrayImage& profile) 
   return records;
 }
 
-std::optional<double> Reference::Value(const TrialRecord& trial) const {
+std::optional<double> Reference::Value(const journal::TrialRecord& trial) const {
   const std::optional<double> value = trial.Metric(info().metric);
   if (!value) return value;
   return info().Value(*value, angle_);
@@ -105,7 +105,7 @@ optimizer::FieldObjective Reference::MakeFieldObjective() const {
                                       .sad_scale = pixel_mm * pixel_mm,
                                       .metric = {},
                                       .num_target_heaps = options_.num_heaps};
-  if (options_.objective != Objective::kSad) {
+  if (options_.objective != journal::Objective::kSad) {
     objective.metric = [self = *this](std::span<const float> field) {
       return self.ValueOfField(field);
     };
@@ -136,9 +136,9 @@ double Reference::ValueOfField(std::span<const float> field) const {
     constexpr double kWorst = 90;  // deg: a predicted heap without an angle is as far off as can be
     return angle.defined() ? std::abs(angle.value - angle_) : kWorst;
   }
-  TrialRecord trial;
+  journal::TrialRecord trial;
   trial.metrics = Measure(image);
   return Value(trial).value();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -11,13 +11,13 @@
 #include "imaging/heap/metrics.h"
 #include "optimizer/models/field_objective.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct ReferenceOptions {
   imaging::MetricOptions metrics = {};
-  Objective objective = Objective::kSad;
-  int num_heaps = 1;                       // that the experiment's profile is the mean of
-  std::vector<ScalarRecord> scalars = {};  // what else the experiment has measured
+  journal::Objective objective = journal::Objective::kSad;
+  int num_heaps = 1;                                // that the experiment's profile is the mean of
+  std::vector<journal::ScalarRecord> scalars = {};  // what else the experiment has measured
 };
 
 class Reference {
@@ -26,15 +26,17 @@ class Reference {
   Reference(imaging::Profile aehp, ReferenceOptions options);
 
   const imaging::Frame& frame() const { return aehp_.profile.frame; }
-  const std::vector<ScalarRecord>& scalars() const { return options_.scalars; }
+  const std::vector<journal::ScalarRecord>& scalars() const { return options_.scalars; }
 
   // Every metric of a trial's profile.
-  std::vector<MetricRecord> Measure(const imaging::GrayImage& profile) const;
+  std::vector<journal::MetricRecord> Measure(const imaging::GrayImage& profile) const;
 
   // What is minimised, or nothing where it is not defined.
-  std::optional<double> Value(const TrialRecord& trial) const;
+  std::optional<double> Value(const journal::TrialRecord& trial) const;
 
-  const ObjectiveInfo& info() const { return InfoOf(options_.objective); }  // of Value
+  const journal::ObjectiveInfo& info() const {
+    return journal::InfoOf(options_.objective);
+  }  // of Value
 
   // The part of a profile that matters, 1 = powder: where the experiment has powder, with a margin;
   // never below the plate.
@@ -52,4 +54,4 @@ class Reference {
   double angle_ = 0;  // of the experiment, for an angle objective [deg]
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

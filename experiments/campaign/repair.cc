@@ -10,7 +10,7 @@
 #include "base/json_writer.h"
 #include "experiments/journal/record_json.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 constexpr const char* kTrialFile = "trial.json";
@@ -54,7 +54,7 @@ template <class Record>
 Record ReadRecord(const std::filesystem::path& path) {
   const std::optional<std::string> text = CheckedText(path);
   if (!text) throw base::Error(path.string() + ": is damaged: its checksum is not there");
-  return ParseRecord<Record>(*text, path.string());
+  return journal::ParseRecord<Record>(*text, path.string());
 }
 
 std::string IfThere(const std::filesystem::path& path) {
@@ -94,11 +94,11 @@ std::string WithExperiments(const std::filesystem::path& path) {
   return json.dump();
 }
 
-CampaignRecord KeptCampaign(const CampaignFolder& folder) {
-  auto record =
-      ParseRecord<CampaignRecord>(WithExperiments(folder.campaign()), folder.campaign().string());
+journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
+  auto record = journal::ParseRecord<journal::CampaignRecord>(WithExperiments(folder.campaign()),
+                                                              folder.campaign().string());
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
-    ExperimentRecord& experiment = record.experiments[e];
+    journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
     experiment.aehp_png = base::ReadFile(place / kAehp);
     experiment.aehp_sd_png = IfThere(place / kAehpSd);
@@ -109,8 +109,8 @@ CampaignRecord KeptCampaign(const CampaignFolder& folder) {
   return record;
 }
 
-std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
-  std::vector<TrialRecord> trials;
+std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
+  std::vector<journal::TrialRecord> trials;
   if (!std::filesystem::exists(folder.root / "trials")) return trials;
   for (const auto& entry : std::filesystem::directory_iterator(folder.root / "trials")) {
     const std::filesystem::path file = entry.path() / kTrialFile;
@@ -118,7 +118,7 @@ std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
     // empty one is all that a power cut has left.
     std::error_code absent;
     const auto size = std::filesystem::file_size(file, absent);
-    if (!absent && size > 0) trials.push_back(ReadRecord<TrialRecord>(file));
+    if (!absent && size > 0) trials.push_back(ReadRecord<journal::TrialRecord>(file));
   }
   std::sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return trials;
@@ -126,9 +126,9 @@ std::vector<TrialRecord> KeptTrials(const CampaignFolder& folder) {
 
 }  // namespace
 
-void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record) {
+void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& record) {
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
-    const ExperimentRecord& experiment = record.experiments[e];
+    const journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
     std::filesystem::create_directories(place);
     base::WriteFileAtomically(place / kAehp, experiment.aehp_png);
@@ -142,17 +142,17 @@ void KeepCampaign(const CampaignFolder& folder, const CampaignRecord& record) {
   base::WriteFileAtomically(folder.campaign(), TextWithChecksum(record));
 }
 
-void KeepTrial(const CampaignFolder& folder, const TrialRecord& trial) {
+void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) {
   base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, TextWithChecksum(trial),
                             base::Outlives::kProgram);
 }
 
-Journal RebuildJournal(const CampaignFolder& folder) {
-  const CampaignRecord record = KeptCampaign(folder);
-  const std::vector<TrialRecord> trials = KeptTrials(folder);
-  PutAside(JournalPath(folder.root));
-  Journal journal = Journal::Create(JournalPath(folder.root), record);
-  for (const TrialRecord& trial : trials) {
+journal::Journal RebuildJournal(const CampaignFolder& folder) {
+  const journal::CampaignRecord record = KeptCampaign(folder);
+  const std::vector<journal::TrialRecord> trials = KeptTrials(folder);
+  PutAside(journal::JournalPath(folder.root));
+  journal::Journal journal = journal::Journal::Create(journal::JournalPath(folder.root), record);
+  for (const journal::TrialRecord& trial : trials) {
     // After a gap nothing can be what an unbroken run would have made.
     if (trial.id != journal.CountTrials() + 1) break;
     journal.Start({&trial, 1});
@@ -162,4 +162,4 @@ Journal RebuildJournal(const CampaignFolder& folder) {
   return journal;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -8,7 +8,7 @@
 
 #include "base/field.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // A connected part of the joint 90 % region. Values in the order of the parameters, SI.
 struct ResultBranch {
@@ -69,4 +69,4 @@ struct ResultPosterior {
   }
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

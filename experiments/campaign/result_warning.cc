@@ -2,7 +2,7 @@
 
 #include "experiments/campaign/console.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 std::string TextOf(const ResultWarning& w) {
@@ -43,4 +43,4 @@ ResultWarning Worded(ResultWarning warning) {
   return warning;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -8,7 +8,7 @@
 
 #include "base/field.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 enum class WarningKind {
   kBound,            // `parameter` of the recommended set lies on its `side`
@@ -44,11 +44,11 @@ struct ResultWarning {
 // With its text filled in.
 ResultWarning Worded(ResultWarning warning);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign
 
 template <>
-struct talus::base::Names<talus::experiments::WarningKind> {
-  using K = talus::experiments::WarningKind;
+struct talus::base::Names<talus::campaign::WarningKind> {
+  using K = talus::campaign::WarningKind;
   static constexpr std::array kList{
       std::pair{"bound", K::kBound},
       std::pair{"few_grains", K::kFewGrains},

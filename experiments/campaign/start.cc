@@ -15,11 +15,11 @@
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
-std::vector<ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
-  std::vector<ParameterRecord> records;
+std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
+  std::vector<journal::ParameterRecord> records;
   for (const int i : space.Free()) {
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(i)];
     records.push_back({.name = p.name,
@@ -31,12 +31,12 @@ std::vector<ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space
   return records;
 }
 
-ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
+journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
   const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
   for (const imaging::PhotoWarning& warning : experiment.warnings) {
     std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
   }
-  ExperimentRecord record;
+  journal::ExperimentRecord record;
   record.name = spec.name;
   record.aehp_png = imaging::EncodePng(experiment.aehp.image);
   if (!experiment.standard_deviation.pixels.empty()) {
@@ -65,12 +65,12 @@ ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
 }
 
 // The journal, or a new one from what the folder keeps beside it.
-Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
-  const std::filesystem::path path = JournalPath(folder.root);
+journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
+  const std::filesystem::path path = journal::JournalPath(folder.root);
   std::string damage = "is not there";
   if (std::filesystem::exists(path)) {
     try {
-      return Journal::Open(path);
+      return journal::Journal::Open(path);
     } catch (const base::ConfigError&) {
       throw;  // another program's
     } catch (const base::Error& error) {
@@ -91,7 +91,7 @@ struct SpecChange {
 };
 
 // The spec as it is to be from now on; says what has changed where that is not allowed.
-SpecChange SpecToGoOnWith(const CampaignRecord& record, const ResumeOptions& options) {
+SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const ResumeOptions& options) {
   const bool named = !options.spec.empty();
   const std::filesystem::path path = named ? options.spec : std::filesystem::path(record.spec_path);
   SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
@@ -114,9 +114,10 @@ SpecChange SpecToGoOnWith(const CampaignRecord& record, const ResumeOptions& opt
   return change;
 }
 
-void AddSimulations(Journal& journal, int num_more, SpecChange& change) {
+void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change) {
   int num_search = 0;
-  for (const TrialRecord& trial : journal.Trials()) num_search += trial.kind != TrialKind::kConfirm;
+  for (const journal::TrialRecord& trial : journal.Trials())
+    num_search += trial.kind != journal::TrialKind::kConfirm;
   const bool finished = journal.Progress().state == "finished";
   BudgetOptions& budget = change.spec.budget;
   const int from = finished ? num_search : std::max(num_search, budget.simulations);
@@ -137,7 +138,7 @@ void AddSimulations(Journal& journal, int num_more, SpecChange& change) {
 constexpr std::string_view kMayBeThere[] = {"campaign.lock"};
 
 void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path& shown) {
-  if (std::filesystem::exists(JournalPath(folder.root)) ||
+  if (std::filesystem::exists(journal::JournalPath(folder.root)) ||
       std::filesystem::exists(folder.campaign())) {
     throw base::ConfigError(shown.string() + ": holds a campaign already; `talus resume " +
                             shown.string() +
@@ -151,19 +152,19 @@ void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path&
 
 }  // namespace
 
-std::vector<ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
+std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
   return ParametersOf(SpaceOf(spec));
 }
 
-CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {
-  CampaignRecord record;
+journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {
+  journal::CampaignRecord record;
   record.name = spec.name;
   record.spec_path = std::filesystem::absolute(file.path).lexically_normal().string();
   record.spec_text = base::ReadFile(file.path);
   record.spec_json = SpecText(spec);
   record.spec_hash = base::Hex(base::Checksum(record.spec_json));
   record.talus_version = base::Version() + ", commit " + base::Commit();
-  record.created_utc = UtcNow();
+  record.created_utc = journal::UtcNow();
   record.objective = base::NameOf(spec.objective);
   record.parameters = SearchedParameters(spec);
   for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {
@@ -178,14 +179,14 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   const CampaignSpec spec = ReadCampaignSpec(file);
   const CampaignFolder folder{std::filesystem::absolute(root)};
   RequireNewFolder(folder, root);
-  const CampaignRecord record = MakeRecord(spec, file);
+  const journal::CampaignRecord record = MakeRecord(spec, file);
   std::error_code error;
   std::filesystem::create_directories(folder.root, error);
   if (error) throw base::Error(root.string() + ": cannot be made: " + error.message());
   const CampaignLock lock(folder.root);
   RequireNewFolder(folder, root);  // another process may have begun one meanwhile
   KeepCampaign(folder, record);
-  Journal::Create(JournalPath(folder.root), record);
+  journal::Journal::Create(journal::JournalPath(folder.root), record);
 }
 
 OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptions& options,
@@ -195,13 +196,13 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
     throw base::ConfigError(root.string() + ": is no folder of a campaign");
   }
   if (!std::filesystem::exists(folder.campaign()) &&
-      !std::filesystem::exists(JournalPath(folder.root))) {
+      !std::filesystem::exists(journal::JournalPath(folder.root))) {
     throw base::ConfigError(root.string() +
                             ": holds no campaign; `talus calibrate SPEC` begins one");
   }
   CampaignLock lock(folder.root);
-  Journal journal = OpenOrRebuild(folder, console);
-  const CampaignRecord record = journal.Campaign();
+  journal::Journal journal = OpenOrRebuild(folder, console);
+  const journal::CampaignRecord record = journal.Campaign();
   SpecChange change = SpecToGoOnWith(record, options);
   if (options.add_simulations > 0) AddSimulations(journal, options.add_simulations, change);
   CampaignSpec spec = change.spec;
@@ -218,33 +219,35 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
           .spec = std::move(spec)};
 }
 
-std::vector<Reference> ReferencesOf(const CampaignRecord& record, const CampaignSpec& spec) {
+std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
+                                    const CampaignSpec& spec) {
   const std::vector<ExperimentSpec> specs = ExperimentsOf(spec);
   std::vector<Reference> references;
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
-    const ExperimentRecord& experiment = record.experiments[e];
-    references.emplace_back(
-        imaging::Profile{
-            .image = imaging::DecodeGrayImage(experiment.aehp_png, "the journal's AEHP"),
-            .frame = ParseRecord<imaging::Frame>(experiment.frame_json, "the journal's frame")},
-        ReferenceOptions{.metrics = specs.at(e).images.metrics,
-                         .objective = spec.objective,
-                         .num_heaps = experiment.num_heaps,
-                         .scalars = experiment.scalars});
+    const journal::ExperimentRecord& experiment = record.experiments[e];
+    references.emplace_back(imaging::Profile{.image = imaging::DecodeGrayImage(
+                                                 experiment.aehp_png, "the journal's AEHP"),
+                                             .frame = journal::ParseRecord<imaging::Frame>(
+                                                 experiment.frame_json, "the journal's frame")},
+                            ReferenceOptions{.metrics = specs.at(e).images.metrics,
+                                             .objective = spec.objective,
+                                             .num_heaps = experiment.num_heaps,
+                                             .scalars = experiment.scalars});
   }
   return references;
 }
 
-std::vector<float> StoredField(Journal& journal, const CampaignFolder& folder,
-                               const std::vector<Reference>& references, const TrialRecord& trial) {
-  if (trial.status != TrialStatus::kOk || !IsOfSearch(trial)) return {};
+std::vector<float> StoredField(journal::Journal& journal, const CampaignFolder& folder,
+                               const std::vector<Reference>& references,
+                               const journal::TrialRecord& trial) {
+  if (trial.status != journal::TrialStatus::kOk || !IsOfSearch(trial)) return {};
   const auto profile = StoredProfile(journal, folder, trial.id);
   if (!profile) return {};
   return references[static_cast<std::size_t>(trial.experiment)].Field(*profile);
 }
 
-std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,
-                                                std::int64_t trial) {
+std::optional<imaging::GrayImage> StoredProfile(journal::Journal& journal,
+                                                const CampaignFolder& folder, std::int64_t trial) {
   const std::string png = journal.ProfilePng(trial);
   try {
     if (!png.empty()) return imaging::DecodeGrayImage(png, "a profile of the journal");
@@ -254,4 +257,4 @@ std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const Campaign
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -11,22 +11,22 @@
 #include "experiments/campaign/campaign.h"
 #include "imaging/photos/experiment.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // The free parameters as the journal keeps them.
-std::vector<ParameterRecord> SearchedParameters(const CampaignSpec& spec);
+std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spec);
 
 // Measures the experiment; throws ConfigError where it cannot be used with this spec.
-CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file);
+journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file);
 
 // Makes the folder and the journal of a new campaign. Nothing is written when the spec or the
 // experiment's images are no good.
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder);
 
 struct ResumeOptions {
-  std::filesystem::path spec{};          // a changed spec; empty: the one it began with
-  int add_simulations = 0;               // >= 0
-  std::optional<Objective> objective{};  // searched on with, instead of the spec's
+  std::filesystem::path spec{};                   // a changed spec; empty: the one it began with
+  int add_simulations = 0;                        // >= 0
+  std::optional<journal::Objective> objective{};  // searched on with, instead of the spec's
 };
 
 // Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws
@@ -34,21 +34,23 @@ struct ResumeOptions {
 struct OpenedCampaign {
   CampaignFolder folder;
   CampaignLock lock;
-  Journal journal;
+  journal::Journal journal;
   CampaignSpec spec;
 };
 OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
                             Console& console);
 
 // The experiments as the journal keeps them.
-std::vector<Reference> ReferencesOf(const CampaignRecord& record, const CampaignSpec& spec);
+std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
+                                    const CampaignSpec& spec);
 
 // What a strategy is told of a trial's image: empty when it failed, confirms, or its image is lost.
-std::vector<float> StoredField(Journal& journal, const CampaignFolder& folder,
-                               const std::vector<Reference>& references, const TrialRecord& trial);
+std::vector<float> StoredField(journal::Journal& journal, const CampaignFolder& folder,
+                               const std::vector<Reference>& references,
+                               const journal::TrialRecord& trial);
 
 // A trial's profile: from the journal, or from its folder if the journal's copy is damaged.
-std::optional<imaging::GrayImage> StoredProfile(Journal& journal, const CampaignFolder& folder,
-                                                std::int64_t trial);
+std::optional<imaging::GrayImage> StoredProfile(journal::Journal& journal,
+                                                const CampaignFolder& folder, std::int64_t trial);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

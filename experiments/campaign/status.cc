@@ -13,7 +13,7 @@
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 struct Counts {
@@ -23,12 +23,13 @@ struct Counts {
   double seconds = 0;  // of the finished trials
   int finished = 0;
 
-  explicit Counts(const std::vector<TrialRecord>& trials) {
-    for (const TrialRecord& trial : trials) {
+  explicit Counts(const std::vector<journal::TrialRecord>& trials) {
+    for (const journal::TrialRecord& trial : trials) {
       ++by_kind[static_cast<std::size_t>(trial.kind)];
-      running += trial.status == TrialStatus::kRunning;
-      failed += trial.status == TrialStatus::kFailed;
-      if (trial.status == TrialStatus::kRunning || !std::isfinite(trial.duration_s)) continue;
+      running += trial.status == journal::TrialStatus::kRunning;
+      failed += trial.status == journal::TrialStatus::kFailed;
+      if (trial.status == journal::TrialStatus::kRunning || !std::isfinite(trial.duration_s))
+        continue;
       seconds += trial.duration_s;
       ++finished;
     }
@@ -40,16 +41,17 @@ struct Kind {
   int experiment = 0;
   double scale_factor = 1;
 
-  bool Is(const TrialRecord& trial) const {
+  bool Is(const journal::TrialRecord& trial) const {
     return trial.experiment == experiment && trial.scale_factor == scale_factor;
   }
 };
 
-std::string BestLine(const std::vector<TrialRecord>& trials, const CampaignRecord& campaign,
-                     const Reference& reference, const Kind& kind) {
-  const TrialRecord* best = nullptr;
+std::string BestLine(const std::vector<journal::TrialRecord>& trials,
+                     const journal::CampaignRecord& campaign, const Reference& reference,
+                     const Kind& kind) {
+  const journal::TrialRecord* best = nullptr;
   double best_value = 0;
-  for (const TrialRecord& trial : trials) {
+  for (const journal::TrialRecord& trial : trials) {
     if (!kind.Is(trial) || !IsOfSearch(trial)) continue;
     const auto value = reference.Value(trial);
     if (!value || (best && *value >= best_value)) continue;
@@ -67,8 +69,8 @@ std::string BestLine(const std::vector<TrialRecord>& trials, const CampaignRecor
   return text + "\n";
 }
 
-std::string BestLines(const std::vector<TrialRecord>& trials, const CampaignRecord& campaign,
-                      const CampaignSpec& spec) {
+std::string BestLines(const std::vector<journal::TrialRecord>& trials,
+                      const journal::CampaignRecord& campaign, const CampaignSpec& spec) {
   const std::vector<Reference> references = ReferencesOf(campaign, spec);
   if (!spec.IsJoint()) {
     return "  best so far       " + BestLine(trials, campaign, references.front(),
@@ -78,9 +80,9 @@ std::string BestLines(const std::vector<TrialRecord>& trials, const CampaignReco
   for (std::size_t e = 0; e < references.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       const Kind kind{.experiment = static_cast<int>(e), .scale_factor = factor};
-      const auto count = std::count_if(trials.begin(), trials.end(), [&](const TrialRecord& t) {
-        return kind.Is(t) && IsOfSearch(t);
-      });
+      const auto count =
+          std::count_if(trials.begin(), trials.end(),
+                        [&](const journal::TrialRecord& t) { return kind.Is(t) && IsOfSearch(t); });
       text += "  " + campaign.experiments[e].name + " at scale factor " + NumberText4(factor) +
               ": " + std::to_string(count) + " trials, best " +
               BestLine(trials, campaign, references[e], kind);
@@ -89,10 +91,10 @@ std::string BestLines(const std::vector<TrialRecord>& trials, const CampaignReco
   return text;
 }
 
-std::string FailureLines(const std::vector<TrialRecord>& trials) {
+std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
   std::map<std::string, int> reasons;
-  for (const TrialRecord& trial : trials) {
-    if (trial.status == TrialStatus::kFailed) ++reasons[trial.reason];
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status == journal::TrialStatus::kFailed) ++reasons[trial.reason];
   }
   std::string text;
   for (const auto& [reason, count] : reasons) {
@@ -105,10 +107,10 @@ std::string FailureLines(const std::vector<TrialRecord>& trials) {
 
 std::string StatusText(const std::filesystem::path& root) {
   const CampaignFolder folder{root};
-  Journal journal = Journal::OpenReadOnly(JournalPath(folder.root));
-  const CampaignRecord campaign = journal.Campaign();
-  const ProgressRecord progress = journal.Progress();
-  const std::vector<TrialRecord> trials = journal.Trials();
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
+  const journal::CampaignRecord campaign = journal.Campaign();
+  const journal::ProgressRecord progress = journal.Progress();
+  const std::vector<journal::TrialRecord> trials = journal.Trials();
   const CampaignSpec spec = ParseSpecText(campaign.spec_json);
   const Counts counts(trials);
   const bool alive = IsWorkedOn(folder.root);
@@ -128,18 +130,18 @@ std::string StatusText(const std::filesystem::path& root) {
           (alive ? " running\n" : " to be run again\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
   text += BestLines(trials, campaign, spec);
-  for (const ExperimentRecord& e : campaign.experiments) {
+  for (const journal::ExperimentRecord& e : campaign.experiments) {
     if (!e.noise_mm2) continue;
     text += "  noise floor       " + NumberText4(*e.noise_mm2) + " mm² (" +
             (campaign.experiments.size() > 1 ? e.name : "experiment") + ")\n";
   }
   if (counts.finished > 0) {
-    text += "  a trial takes     " + DurationText(counts.seconds / counts.finished) + "\n";
+    text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
   }
-  text += "  worked on for     " + DurationText(progress.elapsed_s) + "\n";
+  text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
   if (!progress.result_json.empty())
     text += "\n" + ResultSummary(ParseResult(progress.result_json));
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

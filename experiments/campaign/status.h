@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // Readable while it runs.
 std::string StatusText(const std::filesystem::path& folder);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 namespace {
 
 constexpr std::int64_t kCampaign = 0;  // trials count from 1
@@ -101,4 +101,4 @@ std::string BrokenSeal(Database& database) {
   return stored.size() == trials.size() ? "" : "a trial is missing";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

@@ -7,7 +7,7 @@
 
 #include "experiments/journal/database.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 
 // To be called within the transaction that has changed them. A trial is its row with its point and
 // metrics; the campaign is its row with the parameters and the experiment's metrics.
@@ -18,4 +18,4 @@ void SealAll(Database& database);
 // What does not match its checksum, in words; empty when all does.
 std::string BrokenSeal(Database& database);
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 namespace {
 
 [[noreturn]] void Fail(sqlite3* database, const std::string& doing) {
@@ -198,4 +198,4 @@ void Transaction::Commit() {
   if (outlives_ == base::Outlives::kProgram) database_.Execute("PRAGMA synchronous = FULL");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

@@ -13,7 +13,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace talus::experiments {
+namespace talus::journal {
 
 struct Blob {
   std::string_view bytes;
@@ -97,4 +97,4 @@ class Transaction {
   bool done_ = false;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

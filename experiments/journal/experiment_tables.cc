@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace talus::experiments {
+namespace talus::journal {
 namespace {
 
 // The record of a row whose first column is its experiment's position.
@@ -92,4 +92,4 @@ std::vector<ExperimentRecord> ReadExperiments(Database& database) {
   return experiments;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

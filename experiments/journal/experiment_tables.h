@@ -7,7 +7,7 @@
 #include "experiments/journal/database.h"
 #include "experiments/journal/records.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 
 void InsertExperiment(Database& database, std::int64_t position,
                       const ExperimentRecord& experiment);
@@ -15,4 +15,4 @@ void InsertExperiment(Database& database, std::int64_t position,
 // In their order, with their images.
 std::vector<ExperimentRecord> ReadExperiments(Database& database);
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

@@ -14,7 +14,7 @@
 #include "experiments/journal/objective.h"
 #include "experiments/journal/schema.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 namespace {
 
 template <base::NamedEnum Enum>
@@ -416,4 +416,4 @@ std::vector<EventRecord> Journal::Events() {
   return events;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

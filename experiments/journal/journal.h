@@ -12,7 +12,7 @@
 #include "experiments/journal/database.h"
 #include "experiments/journal/records.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 
 // DIR/journal.sqlite
 std::filesystem::path JournalPath(const std::filesystem::path& campaign);
@@ -67,4 +67,4 @@ class Journal {
   Database database_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

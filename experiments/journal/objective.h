@@ -12,7 +12,7 @@
 
 #include "base/field.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 
 enum class Objective { kSad, kRmse, kAor1, kAor2, kAor3 };
 
@@ -54,13 +54,13 @@ constexpr const ObjectiveInfo& InfoOf(Objective objective) {
   return kObjectives.at(static_cast<std::size_t>(objective));
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::journal
 
 template <>
-struct talus::base::Names<talus::experiments::Objective> {
+struct talus::base::Names<talus::journal::Objective> {
   static constexpr auto kList = [] {
-    using talus::experiments::kObjectives;
-    std::array<std::pair<std::string_view, talus::experiments::Objective>, kObjectives.size()> list;
+    using talus::journal::kObjectives;
+    std::array<std::pair<std::string_view, talus::journal::Objective>, kObjectives.size()> list;
     for (std::size_t i = 0; i < list.size(); ++i) {
       list[i] = {kObjectives[i].key, kObjectives[i].objective};
     }

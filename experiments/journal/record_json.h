@@ -6,7 +6,7 @@
 
 #include "base/json_reader.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 
 // What is null was not defined when it was written: the field keeps its default.
 inline void DropNulls(nlohmann::json& value) {
@@ -32,4 +32,4 @@ Record ParseRecord(const std::string& text, const std::string& name) {
   return record;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

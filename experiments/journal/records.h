@@ -11,7 +11,7 @@
 
 #include "base/field.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 
 // Why a trial exists.
 enum class TrialKind {
@@ -23,23 +23,23 @@ enum class TrialKind {
 
 enum class TrialStatus { kRunning, kOk, kFailed };
 
-}  // namespace talus::experiments
+}  // namespace talus::journal
 
 template <>
-struct talus::base::Names<talus::experiments::TrialKind> {
-  using K = talus::experiments::TrialKind;
+struct talus::base::Names<talus::journal::TrialKind> {
+  using K = talus::journal::TrialKind;
   static constexpr std::array kList{std::pair{"noise", K::kNoise}, std::pair{"design", K::kDesign},
                                     std::pair{"search", K::kSearch},
                                     std::pair{"confirm", K::kConfirm}};
 };
 template <>
-struct talus::base::Names<talus::experiments::TrialStatus> {
-  using S = talus::experiments::TrialStatus;
+struct talus::base::Names<talus::journal::TrialStatus> {
+  using S = talus::journal::TrialStatus;
   static constexpr std::array kList{std::pair{"running", S::kRunning}, std::pair{"ok", S::kOk},
                                     std::pair{"failed", S::kFailed}};
 };
 
-namespace talus::experiments {
+namespace talus::journal {
 
 // A calibrated parameter.
 struct ParameterRecord {
@@ -235,4 +235,4 @@ struct EventRecord {
   std::string text;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

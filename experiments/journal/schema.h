@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace talus::experiments {
+namespace talus::journal {
 
 // "talu", so that `file` and we tell a journal from another SQLite file.
 inline constexpr int kJournalApplicationId = 0x74616c75;
@@ -164,4 +164,4 @@ CREATE TABLE checksums (  -- see checksums.h; written again after every step to 
 inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2, kSchemaVersion3,
                                          kSchemaVersion4};
 
-}  // namespace talus::experiments
+}  // namespace talus::journal

@@ -20,7 +20,7 @@
 
 #include "base/error.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 constexpr const char* kGroupFile = ".process_group";
@@ -333,4 +333,4 @@ void LocalRunner::Cancel(std::int64_t id) {
   Stop(found->second, JobEnd::kCancelled, "was cancelled");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

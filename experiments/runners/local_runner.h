@@ -16,7 +16,7 @@
 #include "experiments/runners/process_guard.h"
 #include "experiments/runners/runner.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 struct LocalRunnerOptions {
   int workers = 0;          // at the same time, >= 0; 0: as many as cores
@@ -65,4 +65,4 @@ class LocalRunner : public Runner {
   std::vector<FinishedJob> finished_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -18,7 +18,7 @@
 #include "base/error.h"
 #include "base/file.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 std::string EnvironmentOf(const std::string& pid) {
@@ -126,4 +126,4 @@ void KillMarked(const std::string& mark) {
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

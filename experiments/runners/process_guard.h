@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <string>
 
-namespace talus::experiments {
+namespace talus::runners {
 
 class ProcessGuard {
  public:
@@ -38,4 +38,4 @@ std::string MarkEntry(const std::string& mark);
 // none, for 10 s at most.
 void KillMarked(const std::string& mark);
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

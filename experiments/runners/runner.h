@@ -12,7 +12,7 @@
 
 #include "base/field.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 // A command to run once in its folder; what it prints goes to `log.txt` there.
 struct Job {
@@ -77,11 +77,11 @@ class Runner {
   virtual void Cancel(std::int64_t id) = 0;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::runners
 
 template <>
-struct talus::base::Names<talus::experiments::JobEnd> {
-  using E = talus::experiments::JobEnd;
+struct talus::base::Names<talus::runners::JobEnd> {
+  using E = talus::runners::JobEnd;
   static constexpr std::array kList{std::pair{"exit", E::kExit},
                                     std::pair{"signal", E::kSignal},
                                     std::pair{"time_cap", E::kTimeCap},

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 constexpr const char* kRecord = "#talus ";
@@ -166,4 +166,4 @@ std::optional<TaskEnd> ReadTaskEnd(const std::filesystem::path& folder) {
   return end;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -16,7 +16,7 @@
 #include "experiments/runners/runner.h"
 #include "experiments/runners/slurm_options.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 struct Batch {
   std::int64_t number = 0;  // from 1, in the order of submission
@@ -50,4 +50,4 @@ inline constexpr const char* kTaskEndFile = ".slurm_end";
 // Nothing when there is no such file (yet), or not a whole one.
 std::optional<TaskEnd> ReadTaskEnd(const std::filesystem::path& folder);
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -2,7 +2,7 @@
 
 #include "base/printable.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 void SlurmOptions::Validate(base::Problems& problems) const {
   constexpr double kLongest = 366 * 86400.0;  // [s]
@@ -43,4 +43,4 @@ void SlurmOptions::Validate(base::Problems& problems) const {
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

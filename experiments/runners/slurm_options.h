@@ -8,7 +8,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 struct SlurmOptions {
   std::string partition{};             // "": the cluster's default
@@ -52,4 +52,4 @@ struct SlurmOptions {
   bool operator==(const SlurmOptions&) const = default;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "experiments/runners/tool.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 std::vector<std::string> Columns(const std::string& line) {
@@ -130,4 +130,4 @@ std::string SlurmQueue::Find(const std::string& job_name) const {
 
 void SlurmQueue::Cancel(const std::string& job) const { RunTool({"scancel", job}); }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

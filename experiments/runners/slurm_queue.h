@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus::experiments {
+namespace talus::runners {
 
 // A job's state in Slurm's words: "PENDING", "NODE_FAIL".
 struct SlurmState {
@@ -60,4 +60,4 @@ class SlurmQueue {
 // The job's number in the answer of `sbatch --parsable`, "1234" or "1234;cluster"; "" if none.
 std::string ParseSubmitted(std::string_view output);
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

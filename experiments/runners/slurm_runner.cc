@@ -15,7 +15,7 @@
 #include "base/file_lock.h"
 #include "experiments/runners/slurm_verdict.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 namespace fs = std::filesystem;
@@ -355,4 +355,4 @@ void SlurmRunner::Cancel(std::int64_t id) {
   Report(task, Finished(id, JobEnd::kCancelled, "was cancelled"));
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -18,7 +18,7 @@
 #include "experiments/runners/slurm_options.h"
 #include "experiments/runners/slurm_queue.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 class SlurmRunner : public Runner {
  public:
@@ -78,4 +78,4 @@ class SlurmRunner : public Runner {
   std::vector<FinishedJob> finished_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

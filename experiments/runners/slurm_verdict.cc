@@ -1,6 +1,6 @@
 #include "experiments/runners/slurm_verdict.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 bool SaysOutOfMemory(const std::string& log) {
@@ -69,4 +69,4 @@ Verdict VerdictOf(const SlurmState& state, const std::string& log) {
           .await_result = false};
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -4,7 +4,7 @@
 #include "experiments/runners/runner.h"
 #include "experiments/runners/slurm_queue.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 
 struct Verdict {
   JobEnd end = JobEnd::kExit;
@@ -18,4 +18,4 @@ struct Verdict {
 // job some minutes after its end; the log still tells a limit of time or memory from a lost node.
 Verdict VerdictOf(const SlurmState& state, const std::string& log);
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "experiments/runners/process_guard.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -146,4 +146,4 @@ ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& o
   return result;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace talus::experiments {
+namespace talus::runners {
 
 struct ToolResult {
   int status = 0;      // exit status; 127 when it cannot be run, 128 + n when ended by signal n
@@ -29,4 +29,4 @@ struct ToolOptions {
 // left.
 ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options = {});
 
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -12,13 +12,13 @@
 #include "experiments/campaign/repair.h"
 #include "experiments/journal/journal.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 namespace fs = std::filesystem;
 
-CampaignRecord Campaign() {
-  CampaignRecord record;
+journal::CampaignRecord Campaign() {
+  journal::CampaignRecord record;
   record.name = "flips";
   record.spec_text = "{\"budget\": {\"simulations\": 30}}";
   record.spec_json = record.spec_text;
@@ -26,7 +26,7 @@ CampaignRecord Campaign() {
   record.parameters = {
       {.name = "sliding_friction", .low = 0, .high = 1, .scale = "linear", .unit = ""},
       {.name = "rolling_friction", .low = 0, .high = 1, .scale = "linear", .unit = ""}};
-  ExperimentRecord experiment;
+  journal::ExperimentRecord experiment;
   experiment.name = "heap";
   experiment.reference = {{.name = "nebp_px", .value = 1e4, .unit = "px", .undefined = ""}};
   experiment.aehp_png = std::string(400, 'p');
@@ -35,8 +35,8 @@ CampaignRecord Campaign() {
   return record;
 }
 
-TrialRecord Trial(std::int64_t id) {
-  TrialRecord trial;
+journal::TrialRecord Trial(std::int64_t id) {
+  journal::TrialRecord trial;
   trial.id = id;
   trial.unit = {0.01 * static_cast<double>(id), 0.5};
   trial.native = trial.unit;
@@ -45,9 +45,9 @@ TrialRecord Trial(std::int64_t id) {
   return trial;
 }
 
-void Finish(Journal& journal, std::int64_t id) {
-  TrialRecord trial = Trial(id);
-  trial.status = TrialStatus::kOk;
+void Finish(journal::Journal& journal, std::int64_t id) {
+  journal::TrialRecord trial = Trial(id);
+  trial.status = journal::TrialStatus::kOk;
   trial.duration_s = 1.5;
   trial.metrics = {
       {.name = "sad_mm2", .value = 1.0 / static_cast<double>(id), .unit = "mm2", .undefined = ""}};
@@ -55,11 +55,11 @@ void Finish(Journal& journal, std::int64_t id) {
 }
 
 // All that an answer is made of.
-std::string Content(Journal& journal, bool with_profiles = true) {
+std::string Content(journal::Journal& journal, bool with_profiles = true) {
   std::string content = base::ToJson(journal.Campaign()).dump() +
                         journal.Campaign().experiments.at(0).aehp_png +
                         journal.Progress().result_json + base::ToJson(journal.Trials()).dump();
-  for (const TrialRecord& trial : journal.Trials()) {
+  for (const journal::TrialRecord& trial : journal.Trials()) {
     if (with_profiles) content += journal.ProfilePng(trial.id);
   }
   return content;
@@ -84,12 +84,12 @@ class BitFlips : public testing::Test {
 
 // Of 100 flips 5 were not noticed, and one changed the answer.
 TEST_F(BitFlips, OfTheJournalAreHarmlessOrNoticed) {
-  const fs::path path = JournalPath(folder_);
+  const fs::path path = journal::JournalPath(folder_);
   std::string good;
   {
-    Journal journal = Journal::Create(path, Campaign());
+    journal::Journal journal = journal::Journal::Create(path, Campaign());
     for (std::int64_t id = 1; id <= 12; ++id) {
-      const TrialRecord trial = Trial(id);
+      const journal::TrialRecord trial = Trial(id);
       journal.Start({&trial, 1});
       if (id < 12) Finish(journal, id);
     }
@@ -98,16 +98,16 @@ TEST_F(BitFlips, OfTheJournalAreHarmlessOrNoticed) {
   const std::string bytes = base::ReadFile(path);
   int noticed = 0;
   for (std::uint64_t round = 0; round < 1000; ++round) {
-    const fs::path copy = JournalPath(folder_ / "copy");
+    const fs::path copy = journal::JournalPath(folder_ / "copy");
     for (const char* rest : {"-wal", "-shm"}) fs::remove(copy.string() + rest);
     base::WriteFileAtomically(copy, Flipped(bytes, round), base::Outlives::kProgram);
     try {
-      Journal journal = Journal::Open(copy);
+      journal::Journal journal = journal::Journal::Open(copy);
       // A profile has its own checksum: a damaged one is taken from the trial's folder.
       const bool whole = Content(journal) == good;
       if (!whole) {
         std::string without = Content(journal, false);
-        Journal original = Journal::OpenReadOnly(path);
+        journal::Journal original = journal::Journal::OpenReadOnly(path);
         ASSERT_EQ(without, Content(original, false)) << "round " << round;
       }
       noticed += whole ? 0 : 1;
@@ -121,11 +121,11 @@ TEST_F(BitFlips, OfTheJournalAreHarmlessOrNoticed) {
 // SQLite takes a frame that does not match its checksum for the end of the log: the journal is then
 // as it was after an earlier commit, and what is missing is found in the trials' folders.
 TEST_F(BitFlips, OfTheLogLeaveAnEarlierStateOrAreNoticed) {
-  const fs::path path = JournalPath(folder_);
-  Journal journal = Journal::Create(path, Campaign());
+  const fs::path path = journal::JournalPath(folder_);
+  journal::Journal journal = journal::Journal::Create(path, Campaign());
   std::set<std::string> states{Content(journal)};
   for (std::int64_t id = 1; id <= 12; ++id) {
-    const TrialRecord trial = Trial(id);
+    const journal::TrialRecord trial = Trial(id);
     journal.Start({&trial, 1});
     states.insert(Content(journal));
     Finish(journal, id);
@@ -135,13 +135,13 @@ TEST_F(BitFlips, OfTheLogLeaveAnEarlierStateOrAreNoticed) {
   ASSERT_GT(log.size(), 10000u);
   const std::string main = base::ReadFile(path);
   for (std::uint64_t round = 0; round < 300; ++round) {
-    const fs::path copy = JournalPath(folder_ / "copy");
+    const fs::path copy = journal::JournalPath(folder_ / "copy");
     fs::remove(copy.string() + "-shm");
     base::WriteFileAtomically(copy, main, base::Outlives::kProgram);
     base::WriteFileAtomically(copy.string() + "-wal", Flipped(log, round),
                               base::Outlives::kProgram);
     try {
-      Journal flipped = Journal::Open(copy);
+      journal::Journal flipped = journal::Journal::Open(copy);
       EXPECT_TRUE(states.contains(Content(flipped))) << "round " << round;
     } catch (const base::Error&) {
     }
@@ -156,7 +156,7 @@ TEST_F(BitFlips, OfTheTrialsFoldersAreNoticed) {
   KeepTrial(folder, Trial(1));
   std::string good;
   {
-    Journal journal = RebuildJournal(folder);
+    journal::Journal journal = RebuildJournal(folder);
     good = Content(journal);
   }
   for (const fs::path& file : {folder.campaign(), folder.trial(1) / "trial.json"}) {
@@ -167,23 +167,23 @@ TEST_F(BitFlips, OfTheTrialsFoldersAreNoticed) {
     }
     base::WriteFileAtomically(file, bytes);
   }
-  Journal journal = RebuildJournal(folder);
+  journal::Journal journal = RebuildJournal(folder);
   EXPECT_EQ(Content(journal), good);
 }
 
 // `resume` opened any database for writing, and made it one with a log, before it looked what it
 // was.
 TEST_F(BitFlips, AnotherProgramsDatabaseIsNotTouched) {
-  const fs::path path = JournalPath(folder_);
+  const fs::path path = journal::JournalPath(folder_);
   {
-    Database database(path, Database::Mode::kCreate);
+    journal::Database database(path, journal::Database::Mode::kCreate);
     database.Execute("PRAGMA journal_mode = DELETE; CREATE TABLE thesis (chapter TEXT);");
   }
   const std::string before = base::ReadFile(path);
-  EXPECT_THROW(Journal::Open(path), base::ConfigError);
+  EXPECT_THROW(journal::Journal::Open(path), base::ConfigError);
   EXPECT_EQ(base::ReadFile(path), before);
   EXPECT_FALSE(fs::exists(path.string() + "-wal"));
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -11,7 +11,7 @@
 #include "tests/experiments/fake_heap.h"
 #include "tests/experiments/scratch_folder.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 class CampaignFixture : public ::testing::Test {
  protected:
@@ -21,8 +21,8 @@ class CampaignFixture : public ::testing::Test {
     BeginCampaign(spec, scratch_.path() / name);
     return scratch_.path() / name;
   }
-  static std::vector<TrialRecord> Trials(const std::filesystem::path& folder) {
-    return Journal::OpenReadOnly(JournalPath(folder)).Trials();
+  static std::vector<journal::TrialRecord> Trials(const std::filesystem::path& folder) {
+    return journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Trials();
   }
   static CampaignResult Result(const std::filesystem::path& folder) {
     return ParseResult(base::ReadFile(folder / "result.json"));
@@ -30,4 +30,4 @@ class CampaignFixture : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

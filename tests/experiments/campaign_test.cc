@@ -7,7 +7,7 @@
 #include "experiments/journal/database.h"
 #include "tests/experiments/campaign_fixture.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -33,16 +33,16 @@ TEST_F(CampaignTest, NoiseFirstThenTheSearchThenTheConfirmation) {
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   const auto trials = Trials(folder);
   ASSERT_EQ(trials.size(), 12u + 4u);
-  EXPECT_EQ(trials[0].kind, TrialKind::kNoise);
-  EXPECT_EQ(trials[1].kind, TrialKind::kNoise);
+  EXPECT_EQ(trials[0].kind, journal::TrialKind::kNoise);
+  EXPECT_EQ(trials[1].kind, journal::TrialKind::kNoise);
   EXPECT_EQ(trials[0].unit, trials[1].unit);
   EXPECT_NE(trials[0].seed, trials[1].seed);
-  EXPECT_EQ(trials[2].kind, TrialKind::kDesign);
-  EXPECT_EQ(trials[12].kind, TrialKind::kConfirm);
+  EXPECT_EQ(trials[2].kind, journal::TrialKind::kDesign);
+  EXPECT_EQ(trials[12].kind, journal::TrialKind::kConfirm);
   EXPECT_EQ(trials[12].unit, trials[13].unit);
   EXPECT_NE(trials[12].unit, trials[14].unit);
-  for (const TrialRecord& trial : trials) {
-    EXPECT_EQ(trial.status, TrialStatus::kOk);
+  for (const journal::TrialRecord& trial : trials) {
+    EXPECT_EQ(trial.status, journal::TrialStatus::kOk);
     EXPECT_TRUE(trial.Metric("sad_mm2").has_value());
     EXPECT_TRUE(trial.Metric("rmse_gray").has_value());
     EXPECT_TRUE(fs::exists(
@@ -90,9 +90,10 @@ TEST_F(CampaignTest, FailuresAreRecordedAndTheSearchGoesOn) {
   const fs::path folder = Begin(kSmall);
   EXPECT_EQ(RunFake(folder, {.fail_at_low = true}), CampaignEnd::kFinished);
   int failed = 0;
-  for (const TrialRecord& trial : Trials(folder)) {
-    EXPECT_EQ(trial.status == TrialStatus::kFailed, trial.native[0] < 0.3) << trial.native[0];
-    if (trial.status != TrialStatus::kFailed) continue;
+  for (const journal::TrialRecord& trial : Trials(folder)) {
+    EXPECT_EQ(trial.status == journal::TrialStatus::kFailed, trial.native[0] < 0.3)
+        << trial.native[0];
+    if (trial.status != journal::TrialStatus::kFailed) continue;
     ++failed;
     EXPECT_EQ(trial.reason, "exit status 3: no heap");
     EXPECT_EQ(trial.attempts, 1);
@@ -109,7 +110,7 @@ TEST_F(CampaignTest, AFailedTrialIsTriedOnceMoreWithAnotherSeedIfTheSpecSaysSo) 
   const auto retried = Trials(folder);
   const auto calm = Trials(other);
   for (std::size_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(retried[i].status, TrialStatus::kOk);
+    EXPECT_EQ(retried[i].status, journal::TrialStatus::kOk);
     EXPECT_EQ(retried[i].attempts, 2);
     EXPECT_NE(retried[i].seed, calm[i].seed);
   }
@@ -133,10 +134,10 @@ TEST_F(CampaignTest, AnExtendedCampaignHasTheTrialsOfALongerOne) {
   longer.replace(longer.find("\"simulations\": 12"), 17, "\"simulations\": 17");
   const fs::path other = Begin(longer, "longer");
   RunFake(other, {});
-  const auto search = [](const std::vector<TrialRecord>& trials) {
+  const auto search = [](const std::vector<journal::TrialRecord>& trials) {
     std::vector<std::pair<std::vector<double>, std::int64_t>> list;
-    for (const TrialRecord& t : trials) {
-      if (t.kind != TrialKind::kConfirm) list.emplace_back(t.unit, t.seed);
+    for (const journal::TrialRecord& t : trials) {
+      if (t.kind != journal::TrialKind::kConfirm) list.emplace_back(t.unit, t.seed);
     }
     return list;
   };
@@ -159,7 +160,8 @@ TEST_F(CampaignTest, AChangedSpecIsRefusedWithWhatChangedUnlessItMayChange) {
   std::ofstream(spec) << text;
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   int search = 0;
-  for (const TrialRecord& t : Trials(folder)) search += t.kind != TrialKind::kConfirm;
+  for (const journal::TrialRecord& t : Trials(folder))
+    search += t.kind != journal::TrialKind::kConfirm;
   EXPECT_EQ(search, 14);
 }
 
@@ -167,7 +169,8 @@ TEST_F(CampaignTest, AChangedSpecIsRefusedWithWhatChangedUnlessItMayChange) {
 TEST_F(CampaignTest, ARefusedExtensionChangesNothing) {
   const fs::path folder = Begin(kSmall);
   RunFake(folder, {});
-  const std::string before = Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json;
+  const std::string before =
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json;
   const auto extend = [&](int more) {
     return ErrorOf([&] { RunFake(folder, {}, {.spec = {}, .add_simulations = more}); });
   };
@@ -177,20 +180,23 @@ TEST_F(CampaignTest, ARefusedExtensionChangesNothing) {
   text.replace(text.find("0.5 g"), 5, "0.6 g");
   std::ofstream(spec) << text;
   EXPECT_THAT(extend(5), HasSubstr("powder.mass"));
-  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json, before);
+  EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json,
+            before);
 }
 
 TEST_F(CampaignTest, ADamagedSpecInTheJournalIsRepaired) {
   const fs::path folder = Begin(kSmall);
-  const std::string before = Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json;
+  const std::string before =
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json;
   {
-    Database database(JournalPath(folder), Database::Mode::kReadWrite);
+    journal::Database database(journal::JournalPath(folder), journal::Database::Mode::kReadWrite);
     database.Execute("UPDATE campaign SET spec_json = replace(spec_json, '12', '13')");
   }
-  EXPECT_THAT(ErrorOf([&] { Journal::OpenReadOnly(JournalPath(folder)); }),
+  EXPECT_THAT(ErrorOf([&] { journal::Journal::OpenReadOnly(journal::JournalPath(folder)); }),
               HasSubstr("`talus resume` repairs it"));
   RunFake(folder, {});
-  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Campaign().spec_json, before);
+  EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json,
+            before);
 }
 
 TEST_F(CampaignTest, FilesOfOthersAreNotOverwritten) {
@@ -203,7 +209,7 @@ TEST_F(CampaignTest, FilesOfOthersAreNotOverwritten) {
   const fs::path other = Begin(kSmall, "other");
   RunFake(other, {});
   const std::string result = base::ReadFile(other / "result.json");
-  fs::remove(JournalPath(other));
+  fs::remove(journal::JournalPath(other));
   EXPECT_THAT(ErrorOf([&] { Begin(kSmall, "other"); }), HasSubstr("holds a campaign already"));
   EXPECT_EQ(base::ReadFile(other / "result.json"), result);
 }
@@ -214,9 +220,11 @@ TEST_F(CampaignTest, TrialsThatCannotBeStartedStopTheCampaign) {
   const std::string error = ErrorOf([&] { RunFake(folder, {.no_command = true}); });
   EXPECT_THAT(error, HasSubstr("could not be started"));
   EXPECT_THAT(error, HasSubstr("`talus resume` goes on with the same trial"));
-  for (const TrialRecord& trial : Trials(folder)) EXPECT_EQ(trial.status, TrialStatus::kRunning);
+  for (const journal::TrialRecord& trial : Trials(folder))
+    EXPECT_EQ(trial.status, journal::TrialStatus::kRunning);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
-  for (const TrialRecord& trial : Trials(folder)) EXPECT_EQ(trial.status, TrialStatus::kOk);
+  for (const journal::TrialRecord& trial : Trials(folder))
+    EXPECT_EQ(trial.status, journal::TrialStatus::kOk);
 }
 
 TEST_F(CampaignTest, ASecondProcessIsRefused) {
@@ -239,7 +247,7 @@ TEST_F(CampaignTest, NothingIsBegunTwiceOrWithAnExperimentThatCannotBeUsed) {
 TEST_F(CampaignTest, ExportsOneLineATrialWithUnitsInTheHead) {
   const fs::path folder = Begin(kSmall);
   RunFake(folder, {});
-  ExportCampaign(folder, folder / "export");
+  analysis::ExportCampaign(folder, folder / "export");
   const std::string csv = base::ReadFile(folder / "export" / "trials.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 17);
   EXPECT_THAT(csv, HasSubstr("scale_factor,sliding_friction,rolling_friction,"));
@@ -253,9 +261,10 @@ TEST_F(CampaignTest, SeveralWorkersAndReplicatesMakeEveryTrialOnce) {
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   std::map<std::int64_t, int> sets;
   std::set<std::int64_t> seeds;
-  for (const TrialRecord& t : Trials(folder)) {
+  for (const journal::TrialRecord& t : Trials(folder)) {
     seeds.insert(t.seed);
-    if (t.kind == TrialKind::kDesign || t.kind == TrialKind::kSearch) ++sets[t.set];
+    if (t.kind == journal::TrialKind::kDesign || t.kind == journal::TrialKind::kSearch)
+      ++sets[t.set];
   }
   EXPECT_EQ(seeds.size(), Trials(folder).size());
   EXPECT_EQ(sets.size(), 5u);
@@ -263,4 +272,4 @@ TEST_F(CampaignTest, SeveralWorkersAndReplicatesMakeEveryTrialOnce) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

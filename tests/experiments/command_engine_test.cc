@@ -14,18 +14,18 @@
 #include "experiments/trials/engines/command_result.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-HeapCase SmallCase() {
-  HeapCase heap_case;
+rigs::HeapCase SmallCase() {
+  rigs::HeapCase heap_case;
   heap_case.powder.sizes.kind = engine::SizeKind::kMono;
   heap_case.powder.sizes.diameter = 1e-3;
   heap_case.powder.mass = 1e-4;  // 76 grains
-  heap_case.device.plate = PlateKind::kDisc;
+  heap_case.device.plate = rigs::PlateKind::kDisc;
   heap_case.frame = imaging::Frame{.width = 40,
                                    .height = 30,
                                    .pixel_size = 5e-4,
@@ -53,7 +53,7 @@ class CommandEngineTest : public ::testing::Test {
   std::string Text(const std::string& name) { return base::ReadFile(root_ / name); }
 
   // The whole trial, as a campaign has it run.
-  TrialOutput Run(const HeapCase& heap_case = SmallCase()) {
+  TrialOutput Run(const rigs::HeapCase& heap_case = SmallCase()) {
     SimulateCommandCase({.heap = heap_case, .engine = options_}, root_ / "trial", false);
     return {.profile = imaging::ReadGrayImage(root_ / "trial/profile.png"), .note = {}};
   }
@@ -232,7 +232,7 @@ TEST_F(CommandEngineTest, FolderWithOtherFilesIsLeftAlone) {
 }
 
 TEST(CaseValues, SeedsSuitTheCodesThatTakeThem) {
-  HeapCase heap_case = SmallCase();
+  rigs::HeapCase heap_case = SmallCase();
   std::set<std::string> primes;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     heap_case.seed = seed;
@@ -249,10 +249,10 @@ TEST(CaseValues, SeedsSuitTheCodesThatTakeThem) {
 }
 
 TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
-  HeapCase heap_case = SmallCase();
+  rigs::HeapCase heap_case = SmallCase();
   heap_case.coarse_graining.scale_factor = 2;
   heap_case.powder.material.surface_energy = 1e-4;
-  heap_case.device.plate_material = WallMaterial{.sliding_friction = 0.125};
+  heap_case.device.plate_material = rigs::WallMaterial{.sliding_friction = 0.125};
   TemplateValues values = CaseValues(heap_case);
   EXPECT_EQ(std::stod(values.scalars.at("mean_diameter")), 2e-3);
   EXPECT_EQ(std::stod(values.scalars.at("surface_energy_used")), 2e-4);
@@ -265,4 +265,4 @@ TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::trials

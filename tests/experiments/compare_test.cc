@@ -9,7 +9,7 @@
 #include "experiments/campaign/reference.h"
 #include "tests/experiments/synthetic_campaign.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 using testing::ElementsAre;
@@ -48,11 +48,11 @@ ObjectiveFinding Find(const Evidence& evidence, std::string_view key) {
 }
 
 TEST(Objectives, NameTheirMetricAndTheirValue) {
-  EXPECT_EQ(base::NameOf(Objective::kRmse), "rmse");
-  EXPECT_EQ(InfoOf(Objective::kRmse).ValueKey(), "rmse_gray");
-  EXPECT_EQ(InfoOf(Objective::kAor2).metric, "repose_angle_2_mean_deg");
-  EXPECT_EQ(InfoOf(Objective::kAor2).ValueKey(), "aor2_difference_deg");
-  EXPECT_EQ(InfoOf(Objective::kAor2).Value(31, 34), 3);
+  EXPECT_EQ(base::NameOf(journal::Objective::kRmse), "rmse");
+  EXPECT_EQ(journal::InfoOf(journal::Objective::kRmse).ValueKey(), "rmse_gray");
+  EXPECT_EQ(journal::InfoOf(journal::Objective::kAor2).metric, "repose_angle_2_mean_deg");
+  EXPECT_EQ(journal::InfoOf(journal::Objective::kAor2).ValueKey(), "aor2_difference_deg");
+  EXPECT_EQ(journal::InfoOf(journal::Objective::kAor2).Value(31, 34), 3);
 }
 
 TEST(CompareObjectives, TakesRepeatsAsOneSetWithTheirMean) {
@@ -123,7 +123,7 @@ TEST(CompareObjectives, SaysWhyAnObjectiveHasNoAnswer) {
 TEST(CompareObjectives, LeavesOutTrialsAtAnotherScaleAndFailures) {
   Evidence evidence = OneParameter("sad_mm2", {{0.1, 3}, {0.2, 2}, {0.3, 1}, {0.4, 0.5}});
   evidence.trials[2].scale_factor = 2;
-  evidence.trials[3].state = TrialStatus::kFailed;
+  evidence.trials[3].state = journal::TrialStatus::kFailed;
   EXPECT_THAT(Find(evidence, "sad").from_trials.best[0].trials, ElementsAre(2));
 }
 
@@ -160,4 +160,4 @@ TEST(CompareObjectives, AnAngleOfReposeIsLessUniqueThanSad) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -15,7 +15,7 @@
 #include "experiments/runners/local_runner.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 inline constexpr double kTrueSliding = 0.45;
 inline constexpr double kTrueRolling = 0.2;
@@ -61,12 +61,12 @@ struct FakeEngineOptions {
   bool no_command = false;   // the program is not there
 };
 
-class FakeEngine : public TrialEngine {
+class FakeEngine : public trials::TrialEngine {
  public:
   explicit FakeEngine(const FakeEngineOptions& options) : options_(options) {}
 
-  void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) override {
-    PrepareFolder(folder, "case.json", HeapCaseText(heap_case));
+  void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) override {
+    trials::PrepareFolder(folder, "case.json", rigs::HeapCaseText(heap_case));
     const engine::Material& m = heap_case.powder.material;
     const auto seed = heap_case.seed;
     imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, m.rolling_friction, seed));
@@ -88,8 +88,9 @@ class FakeEngine : public TrialEngine {
   bool IsComplete(const std::filesystem::path& folder) override {
     return std::filesystem::exists(folder / "profile.png");
   }
-  TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) override {
-    const HeapSize size = EstimateHeap(heap_case);
+  trials::TrialOutput Collect(const rigs::HeapCase& heap_case,
+                              const std::filesystem::path& folder) override {
+    const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
     return {.profile = imaging::ReadGrayImage(folder / "profile.png"),
             .num_steps = std::llround(size.simulated_time / size.time_step),
             .num_particles = size.num_grains,
@@ -137,9 +138,9 @@ inline CampaignEnd RunFake(const std::filesystem::path& folder, const FakeEngine
 
 // What two campaigns that did the same have in common: everything of a trial but times and places.
 inline std::string TrialTable(const std::filesystem::path& folder) {
-  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   std::string table;
-  for (const TrialRecord& t : journal.Trials()) {
+  for (const journal::TrialRecord& t : journal.Trials()) {
     table += std::to_string(t.id) + " " + std::string(base::NameOf(t.kind)) + " " + t.origin + " " +
              std::string(base::NameOf(t.status)) + " " + std::to_string(t.seed) + " " +
              std::to_string(t.finish_order);
@@ -154,4 +155,4 @@ inline std::string TrialTable(const std::filesystem::path& folder) {
   return table;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -15,7 +15,7 @@
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 using ::testing::AllOf;
@@ -138,4 +138,4 @@ TEST(HeapCase, TheShippedSchemaIsTheParsers) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -10,7 +10,7 @@
 #include "experiments/rigs/lifted_tube/pouring.h"
 #include "experiments/rigs/lifted_tube/rest.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 // About 150 grains of 1 mm, soft so that a test takes a second.
@@ -305,4 +305,4 @@ TEST(Landing, WithinADiameterOfTheHeapAGrainBelongsToIt) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::rigs

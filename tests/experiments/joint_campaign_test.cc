@@ -16,7 +16,7 @@
 #include "experiments/campaign/status.h"
 #include "tests/experiments/campaign_fixture.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -34,14 +34,15 @@ TEST_F(JointCampaign, TrialsHaveTheScaleFactorsThatTheStrategyAsksForAndConfirmA
   const auto trials = Trials(folder);
   ASSERT_EQ(trials.size(), 16u + 2u);
   std::set<double> factors;
-  for (const TrialRecord& trial : trials) {
-    EXPECT_NE(trial.kind, TrialKind::kNoise);
-    if (trial.kind == TrialKind::kConfirm) {
+  for (const journal::TrialRecord& trial : trials) {
+    EXPECT_NE(trial.kind, journal::TrialKind::kNoise);
+    if (trial.kind == journal::TrialKind::kConfirm) {
       EXPECT_EQ(trial.scale_factor, 1);
     } else {
       factors.insert(trial.scale_factor);
     }
-    const HeapCase heap_case = LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    const rigs::HeapCase heap_case =
+        rigs::LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
     EXPECT_EQ(heap_case.coarse_graining.scale_factor, trial.scale_factor);
   }
   EXPECT_EQ(factors, (std::set<double>{1, 2}));
@@ -52,7 +53,7 @@ TEST_F(JointCampaign, AnInterruptedOneGoesOnAsIfNothingHadHappened) {
   RunFake(whole, {});
   const fs::path cut = Begin(kTwoSizes, "cut");
   RunFake(cut, {});
-  Database(JournalPath(cut), Database::Mode::kReadWrite)
+  journal::Database(journal::JournalPath(cut), journal::Database::Mode::kReadWrite)
       .Execute(
           "DELETE FROM profiles WHERE trial > 7; DELETE FROM metrics WHERE trial > 7;"
           "DELETE FROM points WHERE trial > 7; DELETE FROM trials WHERE id > 7");
@@ -102,10 +103,10 @@ TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
     const auto at = [&](const char* sliding, const char* rolling) {
       return ConsiderSet(folder, {{"sliding_friction", sliding}, {"rolling_friction", rolling}});
     };
-    const auto before = base::ReadFile(JournalPath(folder));
+    const auto before = base::ReadFile(journal::JournalPath(folder));
     const ConsideredSet truth = at("0.45", "0.2");
     const ConsideredSet wrong = at("0.75", "0.45");
-    EXPECT_EQ(base::ReadFile(JournalPath(folder)), before);
+    EXPECT_EQ(base::ReadFile(journal::JournalPath(folder)), before);
     // The wrong set's heap is twice as high and steep, by some thirty times what seeds change.
     EXPECT_LT(truth.credible_level.value(), wrong.credible_level.value());
     EXPECT_GT(wrong.credible_level.value(), 0.9);
@@ -180,22 +181,23 @@ class TwoExperiments : public ::testing::Test {
 TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   const fs::path folder = Begin("run");
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
-  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   const auto trials = journal.Trials();
   ASSERT_EQ(trials.size(), 20u + 4u);
   std::array<int, 2> searched{};
   std::array<int, 2> confirmed{};
-  for (const TrialRecord& trial : trials) {
+  for (const journal::TrialRecord& trial : trials) {
     const auto e = static_cast<std::size_t>(trial.experiment);
-    ++(trial.kind == TrialKind::kConfirm ? confirmed : searched).at(e);
-    const HeapCase heap_case = LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    ++(trial.kind == journal::TrialKind::kConfirm ? confirmed : searched).at(e);
+    const rigs::HeapCase heap_case =
+        rigs::LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
     EXPECT_EQ(heap_case.device.lift_velocity, trial.experiment == 0 ? 0.01 : 0.2);
     EXPECT_TRUE(trial.Metric("mass_fallen_kg").has_value());
   }
   EXPECT_GT(searched[0], 0);
   EXPECT_GT(searched[1], 0);
   EXPECT_EQ(confirmed, (std::array{2, 2}));
-  const CampaignRecord record = journal.Campaign();
+  const journal::CampaignRecord record = journal.Campaign();
   ASSERT_EQ(record.experiments.size(), 2u);
   EXPECT_EQ(record.experiments[1].scalars.at(0).value, 23e-6);
 
@@ -207,21 +209,23 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   EXPECT_EQ(result.posterior.value().experiments.size(), 2u);
   EXPECT_THAT(ResultSummary(result), HasSubstr("mass_fallen_kg"));
   EXPECT_THAT(StatusText(folder), HasSubstr("fast lift at scale factor 2: "));
-  EXPECT_THAT(TrialsCsv(record, trials), HasSubstr(",fast lift,2,"));
+  EXPECT_THAT(analysis::TrialsCsv(record, trials), HasSubstr(",fast lift,2,"));
   // Trials are compared with the experiment that they are of.
-  const Evidence fast = GatherEvidence(folder, "fast lift");
+  const analysis::Evidence fast = analysis::GatherEvidence(folder, "fast lift");
   EXPECT_EQ(fast.trials.size(), static_cast<std::size_t>(searched[1] + confirmed[1]));
-  EXPECT_THROW(GatherEvidence(folder, "slow lift"), base::ConfigError);
+  EXPECT_THROW(analysis::GatherEvidence(folder, "slow lift"), base::ConfigError);
 }
 
 TEST_F(TwoExperiments, ADamagedJournalIsMadeAnewWithBoth) {
   const fs::path folder = Begin("run");
   RunFake(folder, {});
   const std::string table = TrialTable(folder);
-  fs::resize_file(JournalPath(folder), 5000);
+  fs::resize_file(journal::JournalPath(folder), 5000);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(TrialTable(folder), table);
-  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Campaign().experiments.size(), 2u);
+  EXPECT_EQ(
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().experiments.size(),
+      2u);
 }
 
 TEST(PosteriorInWords, ABranchACurveOrAPoint) {
@@ -258,4 +262,4 @@ TEST(ResultText, WarningsOfEarlierVersionsAreRead) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

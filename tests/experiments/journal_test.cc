@@ -14,7 +14,7 @@
 #include "experiments/journal/database.h"
 #include "experiments/journal/schema.h"
 
-namespace talus::experiments {
+namespace talus::journal {
 namespace {
 
 using ::testing::HasSubstr;
@@ -275,4 +275,4 @@ TEST_F(JournalTest, TenThousandTrialsAreReadInASecond) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::journal

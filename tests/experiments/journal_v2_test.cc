@@ -10,7 +10,7 @@
 #include "experiments/journal/database.h"
 #include "tests/experiments/campaign_fixture.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,8 +26,8 @@ class OldCampaign : public ::testing::Test {
   static fs::path data() { return fs::path(TALUS_SOURCE_DIR) / "tests" / "data" / "journal_v2"; }
   fs::path folder() const { return scratch_.path() / "run"; }
 
-  std::vector<TrialRecord> Trials() const {
-    return Journal::OpenReadOnly(JournalPath(folder())).Trials();
+  std::vector<journal::TrialRecord> Trials() const {
+    return journal::Journal::OpenReadOnly(journal::JournalPath(folder())).Trials();
   }
   // As that program exported them, one a line, up to and with the parameters.
   static std::vector<std::string> ExpectedLines() {
@@ -42,7 +42,7 @@ class OldCampaign : public ::testing::Test {
     }
     return lines;
   }
-  static std::string LineOf(const TrialRecord& t) {
+  static std::string LineOf(const journal::TrialRecord& t) {
     std::ostringstream line;
     line.precision(17);
     line << t.id << ',' << base::NameOf(t.kind) << ',' << t.origin << ',' << base::NameOf(t.status)
@@ -67,12 +67,12 @@ TEST_F(OldCampaign, ItsEndIsWhatThatProgramSaid) {
 }
 
 TEST_F(OldCampaign, ItsSearchGoesOnWithTheSameSetsAndSeeds) {
-  Database(JournalPath(folder()), Database::Mode::kReadWrite)
+  journal::Database(journal::JournalPath(folder()), journal::Database::Mode::kReadWrite)
       .Execute(
           "DELETE FROM profiles WHERE trial > 6; DELETE FROM metrics WHERE trial > 6;"
           "DELETE FROM points WHERE trial > 6; DELETE FROM trials WHERE id > 6");
   EXPECT_EQ(RunFake(folder(), {}), CampaignEnd::kFinished);
-  const std::vector<TrialRecord> trials = Trials();
+  const std::vector<journal::TrialRecord> trials = Trials();
   const std::vector<std::string> expected = ExpectedLines();
   ASSERT_EQ(trials.size(), expected.size());
   for (std::size_t i = 0; i < 10; ++i) {  // which sets are confirmed depends on the heaps
@@ -85,9 +85,10 @@ TEST_F(OldCampaign, ItsSearchGoesOnWithTheSameSetsAndSeeds) {
 }
 
 TEST_F(OldCampaign, ItsDamagedJournalIsMadeAnewFromWhatThatProgramKept) {
-  fs::resize_file(JournalPath(folder()), 5000);
+  fs::resize_file(journal::JournalPath(folder()), 5000);
   EXPECT_EQ(RunFake(folder(), {}), CampaignEnd::kFinished);
-  const CampaignRecord record = Journal::OpenReadOnly(JournalPath(folder())).Campaign();
+  const journal::CampaignRecord record =
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder())).Campaign();
   ASSERT_EQ(record.experiments.size(), 1u);
   EXPECT_EQ(record.experiments[0].aehp_png, base::ReadFile(data() / "aehp.png"));
   EXPECT_NEAR(record.experiments[0].nebp_px, 797.6, 1e-9);
@@ -95,4 +96,4 @@ TEST_F(OldCampaign, ItsDamagedJournalIsMadeAnewFromWhatThatProgramKept) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -13,7 +13,7 @@
 
 #include "base/file.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 using ::testing::HasSubstr;
@@ -244,4 +244,4 @@ TEST_F(LocalRunnerTest, TwoHundredTrivialJobsTakeLessThanFourSeconds) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
     std::cerr << "make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running\n";
     return 2;
   }
-  using namespace talus::experiments::test;
+  using namespace talus::test;
   const SyntheticOptions options{.num_trials = std::stoi(argv[2]),
                                  .num_parameters = std::stoi(argv[3]),
                                  .concluded = std::string(argv[4]) == "finished"};

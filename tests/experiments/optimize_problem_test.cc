@@ -8,7 +8,7 @@
 #include "base/json_reader.h"
 #include "base/json_schema.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 TEST(OptimizeProblem, ShippedSchemaIsThatOfTheParser) {
@@ -27,4 +27,4 @@ TEST(OptimizeProblem, ExampleIsRead) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -16,7 +16,7 @@
 #include "tests/experiments/synthetic_campaign.h"
 #include "tests/experiments/synthetic_journal.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 using nlohmann::json;
@@ -151,7 +151,7 @@ TEST_F(Report, JournalGivesBackWhatTheCampaignHas) {
   ASSERT_EQ(read.trials.size(), made.trials.size());
   EXPECT_EQ(read.trials[3].values, made.trials[3].values);
   EXPECT_EQ(read.trials[3].metrics, made.trials[3].metrics);
-  EXPECT_EQ(read.trials[12].state, TrialStatus::kFailed);
+  EXPECT_EQ(read.trials[12].state, journal::TrialStatus::kFailed);
   EXPECT_EQ(read.trials[12].reason, made.trials[12].reason);
   EXPECT_EQ(read.reference.aehp.image, made.reference.aehp.image);
   EXPECT_EQ(read.reference.aehp.frame, made.reference.aehp.frame);
@@ -167,8 +167,8 @@ TEST_F(Report, JournalGivesBackWhatTheCampaignHas) {
   std::filesystem::remove_all(folder);
 }
 
-CampaignResult ResultWithPosterior() {
-  CampaignResult result;
+campaign::CampaignResult ResultWithPosterior() {
+  campaign::CampaignResult result;
   result.objective = "sad_mm2";
   result.parameters.resize(2);
   result.parameters[0].name = "sliding_friction";
@@ -182,25 +182,25 @@ CampaignResult ResultWithPosterior() {
 }
 
 TEST(ConclusionOf, VerdictSaysWhatKindOfAnswerThereIs) {
-  CampaignResult result = ResultWithPosterior();
+  campaign::CampaignResult result = ResultWithPosterior();
   EXPECT_THAT(
-      ConclusionOf(ResultText(result)).verdict,
+      ConclusionOf(campaign::ResultText(result)).verdict,
       StartsWith("The measurements determine a curve, not a point: μ_r falls as μ_t rises"));
   result.correlation = {{1, 0}, {0, 1}};
-  EXPECT_THAT(ConclusionOf(ResultText(result)).verdict, HasSubstr("determine a point"));
+  EXPECT_THAT(ConclusionOf(campaign::ResultText(result)).verdict, HasSubstr("determine a point"));
   result.posterior->branches.push_back(
       {.share = 0.1, .values = {0.8, 0.4}, .low = {0.7, 0.3}, .high = {0.9, 0.5}});
-  const Conclusion conclusion = ConclusionOf(ResultText(result));
+  const Conclusion conclusion = ConclusionOf(campaign::ResultText(result));
   EXPECT_THAT(conclusion.verdict, HasSubstr("2 separate answers"));
   ASSERT_EQ(conclusion.branches.size(), 2u);
   EXPECT_EQ(conclusion.branches[1].values, std::vector<double>({0.8, 0.4}));
   result.posterior.reset();
-  EXPECT_EQ(ConclusionOf(ResultText(result)).verdict, "");
+  EXPECT_EQ(ConclusionOf(campaign::ResultText(result)).verdict, "");
 }
 
 TEST_F(Report, PageHoldsTheVerdictAndItsBranches) {
   ReportData data = Data();
-  data.evidence.conclusion = ConclusionOf(ResultText(ResultWithPosterior()));
+  data.evidence.conclusion = ConclusionOf(campaign::ResultText(ResultWithPosterior()));
   const json headline = json::parse(PageJson(data))["headline"];
   EXPECT_EQ(headline["verdict"], data.evidence.conclusion->verdict);
   EXPECT_EQ(headline["branches"][0]["high"], json({0.4, 0.2}));
@@ -211,4 +211,4 @@ TEST(GatherEvidence, NamesAFolderWithoutACampaign) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -8,7 +8,7 @@
 #include "experiments/campaign/estimate.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using ::testing::ElementsAre;
@@ -143,8 +143,8 @@ TEST(ScaleFactors, CoreTimeTakesThePlaceOfANumberOfSimulations) {
   EXPECT_THAT(ErrorOf(R"("budget": {"core_time": 0})"), HasSubstr("budget.core_time: is 0"));
 }
 
-TrialRecord Trial(double scale_factor, TrialStatus status, double cpu_s) {
-  TrialRecord trial;
+journal::TrialRecord Trial(double scale_factor, journal::TrialStatus status, double cpu_s) {
+  journal::TrialRecord trial;
   trial.scale_factor = scale_factor;
   trial.status = status;
   trial.cpu_s = cpu_s;
@@ -154,16 +154,16 @@ TrialRecord Trial(double scale_factor, TrialStatus status, double cpu_s) {
 TEST(CoreTime, RunningTrialsCountByWhatOthersOfTheirSizeTook) {
   const CampaignSpec spec = Read(R"("coarse_graining": {"scale_factors": [2, 1]})");
   CoreTime time(spec);
-  const std::vector<TrialRecord> trials{Trial(2, TrialStatus::kOk, 10),
-                                        Trial(2, TrialStatus::kFailed, 14),
-                                        Trial(2, TrialStatus::kRunning, 0)};
+  const std::vector<journal::TrialRecord> trials{Trial(2, journal::TrialStatus::kOk, 10),
+                                                 Trial(2, journal::TrialStatus::kFailed, 14),
+                                                 Trial(2, journal::TrialStatus::kRunning, 0)};
   EXPECT_DOUBLE_EQ(time.Of(trials), 10 + 14 + 12);
   // Of another size: by grain steps. f⁻³ grains times f⁻¹ steps, but for rounding to whole grains.
-  std::vector<TrialRecord> finer = trials;
+  std::vector<journal::TrialRecord> finer = trials;
   finer[2].scale_factor = 1;
   EXPECT_NEAR(time.Of(finer), 24 + 12 * 16, 0.5);
   // Before any has ended: by the speed of a usual core.
-  const std::vector<TrialRecord> first{Trial(2, TrialStatus::kRunning, 0)};
+  const std::vector<journal::TrialRecord> first{Trial(2, journal::TrialStatus::kRunning, 0)};
   EXPECT_DOUBLE_EQ(CoreTime(spec).Of(first), GrainStepsOf(spec, 0, 2) / kUsualSpeed);
 }
 
@@ -180,4 +180,4 @@ TEST(Estimate, SaysForEachScaleFactorWhatATrialTakesAndTheBudgetBuys) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -14,7 +14,7 @@
 #include "experiments/runners/slurm_verdict.h"
 #include "experiments/runners/tool.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 namespace fs = std::filesystem;
@@ -394,4 +394,4 @@ TEST(Tool, GivesOutputStatusAndAnEndToWhatHangs) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -8,7 +8,7 @@
 #include "base/json_schema.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -57,7 +57,7 @@ TEST(Spec, AnySubsetOfTheMaterialWithUnitsAndFixedValues) {
   const auto space = SpaceOf(spec);
   ASSERT_EQ(space.Free().size(), 2u);
   const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 1));
-  const HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
+  const rigs::HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
   EXPECT_NEAR(c.powder.material.surface_energy, 2e-5, 1e-15);  // √(1e-6 · 4e-4)
   EXPECT_DOUBLE_EQ(c.powder.material.youngs_modulus, 30e6);
   EXPECT_DOUBLE_EQ(c.powder.material.restitution, 0.6);
@@ -76,7 +76,7 @@ TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
   const auto space = SpaceOf(spec);
   ASSERT_EQ(space.Free().size(), 2u);
   const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 0.5));
-  const HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
+  const rigs::HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
   EXPECT_DOUBLE_EQ(c.powder.material.sliding_friction, 0.3);
   EXPECT_DOUBLE_EQ(c.device.plate_material.value().sliding_friction.value(), 0.5);
   EXPECT_DOUBLE_EQ(c.device.plate_material.value().restitution.value(), 0.4);  // the device's stays
@@ -156,4 +156,4 @@ TEST(Spec, TheShippedSchemaIsTheParsers) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

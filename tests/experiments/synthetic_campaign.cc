@@ -7,7 +7,7 @@
 #include "imaging/heap/metrics.h"
 #include "optimizer/designs/design.h"
 
-namespace talus::experiments::test {
+namespace talus::test {
 namespace {
 
 using optimizer::Scale;
@@ -48,9 +48,9 @@ imaging::Profile DrawHeap(const std::vector<double>& set, std::uint64_t seed) {
   return profile;
 }
 
-ParameterInfo Parameter(const std::string& name, const std::string& symbol, double low,
-                        double high) {
-  ParameterInfo info;
+analysis::ParameterInfo Parameter(const std::string& name, const std::string& symbol, double low,
+                                  double high) {
+  analysis::ParameterInfo info;
   info.range.name = name;
   info.range.low = low;
   info.range.high = high;
@@ -59,10 +59,10 @@ ParameterInfo Parameter(const std::string& name, const std::string& symbol, doub
   return info;
 }
 
-std::vector<ParameterInfo> Parameters(int count) {
-  std::vector<ParameterInfo> all{Parameter("sliding_friction", "μ_t", 0.001, 0.7),
-                                 Parameter("rolling_friction", "μ_r", 0.001, 0.7),
-                                 Parameter("surface_energy", "γ", 1e-6, 4e-4)};
+std::vector<analysis::ParameterInfo> Parameters(int count) {
+  std::vector<analysis::ParameterInfo> all{Parameter("sliding_friction", "μ_t", 0.001, 0.7),
+                                           Parameter("rolling_friction", "μ_r", 0.001, 0.7),
+                                           Parameter("surface_energy", "γ", 1e-6, 4e-4)};
   all[2].range.scale = Scale::kLog;
   all[2].unit = "J/m²";
   all[2].column = "surface_energy_J_per_m2";
@@ -71,7 +71,7 @@ std::vector<ParameterInfo> Parameters(int count) {
 }
 
 double ValueOrNothing(const imaging::Measured& measured) {
-  return measured.defined() ? measured.value : kUndefined;
+  return measured.defined() ? measured.value : analysis::kUndefined;
 }
 
 // Where trial `i` lies: six repeats of one set first, then an even design, then ever closer to the
@@ -102,10 +102,10 @@ std::vector<double> FullSet(std::vector<double> values) {
   return values;
 }
 
-TrialEvidence MakeTrial(int i, const Evidence& evidence, const SyntheticOptions& options,
-                        const Eigen::VectorXd& point) {
+analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
+                                  const SyntheticOptions& options, const Eigen::VectorXd& point) {
   base::Random random(3, base::Stream("synthetic times"), static_cast<std::uint64_t>(i));
-  TrialEvidence trial;
+  analysis::TrialEvidence trial;
   trial.id = i + 1;
   trial.purpose = PurposeOf(i, options.num_trials);
   trial.point = point;
@@ -116,9 +116,9 @@ TrialEvidence MakeTrial(int i, const Evidence& evidence, const SyntheticOptions&
   trial.seed = 1000 + i;
   trial.seconds = 40 + 15 * random.Uniform();
   trial.cpu_seconds = 0.97 * trial.seconds;
-  trial.metrics.assign(evidence.metrics.size(), kUndefined);
+  trial.metrics.assign(evidence.metrics.size(), analysis::kUndefined);
   if (i % options.every_failed == options.every_failed - 1) {
-    trial.state = TrialStatus::kFailed;
+    trial.state = journal::TrialStatus::kFailed;
     trial.reason = i % 2 == 0 ? "a velocity is not finite at step 81000"
                               : "the heap is lost: 71 % of the grains left the plate";
     return trial;
@@ -131,20 +131,22 @@ TrialEvidence MakeTrial(int i, const Evidence& evidence, const SyntheticOptions&
   return trial;
 }
 
-Conclusion MakeConclusion(const Evidence& evidence, const Eigen::VectorXd& truth) {
-  Conclusion conclusion{.predicted = 1.52,
-                        .predicted_sd = 0.08,
-                        .confirmed = 1.61,
-                        .num_confirmed = 3,
-                        .noise_sd = 0.21,
-                        .tied_volume = 0.034,
-                        .warnings = {"μ_t and μ_r act on this heap alike (correlation -0.91): only "
-                                     "their combination is well known."},
-                        .conditions = {"surface energies that belong to Young's modulus 26.25 MPa, "
-                                       "adhesion range f = 0.1 and lift velocity 1 cm/s"},
-                        .model =
-                            "Gaussian process of 8 image modes; leave-one-out error 0.19 mm² "
-                            "(0.9 × the scatter of one simulation)."};
+analysis::Conclusion MakeConclusion(const analysis::Evidence& evidence,
+                                    const Eigen::VectorXd& truth) {
+  analysis::Conclusion conclusion{
+      .predicted = 1.52,
+      .predicted_sd = 0.08,
+      .confirmed = 1.61,
+      .num_confirmed = 3,
+      .noise_sd = 0.21,
+      .tied_volume = 0.034,
+      .warnings = {"μ_t and μ_r act on this heap alike (correlation -0.91): only "
+                   "their combination is well known."},
+      .conditions = {"surface energies that belong to Young's modulus 26.25 MPa, "
+                     "adhesion range f = 0.1 and lift velocity 1 cm/s"},
+      .model =
+          "Gaussian process of 8 image modes; leave-one-out error 0.19 mm² "
+          "(0.9 × the scatter of one simulation)."};
   for (Eigen::Index k = 0; k < truth.size(); ++k) {
     const auto& range = evidence.parameters[static_cast<std::size_t>(k)].range;
     conclusion.values.push_back({range.ToNative(truth(k)),
@@ -160,8 +162,8 @@ Conclusion MakeConclusion(const Evidence& evidence, const Eigen::VectorXd& truth
 
 std::vector<double> SyntheticTruth() { return {0.32, 0.21, 3e-5}; }
 
-Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
-  Evidence evidence;
+analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
+  analysis::Evidence evidence;
   evidence.name = "Ti6Al4V 45–111 µm";
   evidence.objective = "sad";
   evidence.strategy = "surrogate";
@@ -208,4 +210,4 @@ Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   return evidence;
 }
 
-}  // namespace talus::experiments::test
+}  // namespace talus::test

@@ -4,7 +4,7 @@
 
 #include "experiments/analysis/compare/evidence.h"
 
-namespace talus::experiments::test {
+namespace talus::test {
 
 struct SyntheticOptions {
   int num_trials = 60;
@@ -16,6 +16,6 @@ struct SyntheticOptions {
 // The set that the reference heap is drawn with: μ_t, μ_r and γ, SI.
 std::vector<double> SyntheticTruth();
 
-Evidence MakeSyntheticCampaign(const SyntheticOptions& options = {});
+analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options = {});
 
-}  // namespace talus::experiments::test
+}  // namespace talus::test

@@ -5,13 +5,14 @@
 #include "experiments/journal/journal.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments::test {
+namespace talus::test {
 namespace {
 
-std::vector<MetricRecord> RecordsOf(const Evidence& evidence, const std::vector<double>& values) {
-  std::vector<MetricRecord> records;
+std::vector<journal::MetricRecord> RecordsOf(const analysis::Evidence& evidence,
+                                             const std::vector<double>& values) {
+  std::vector<journal::MetricRecord> records;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    const MetricInfo& info = evidence.metrics[k];
+    const analysis::MetricInfo& info = evidence.metrics[k];
     const bool defined = std::isfinite(values[k]);
     records.push_back({.name = info.name,
                        .value = values[k],
@@ -21,8 +22,8 @@ std::vector<MetricRecord> RecordsOf(const Evidence& evidence, const std::vector<
   return records;
 }
 
-CampaignRecord CampaignOf(const Evidence& evidence) {
-  CampaignRecord record;
+journal::CampaignRecord CampaignOf(const analysis::Evidence& evidence) {
+  journal::CampaignRecord record;
   record.name = evidence.name;
   record.spec_path = "/somewhere/spec.json";
   record.spec_text = evidence.spec;
@@ -32,14 +33,14 @@ CampaignRecord CampaignOf(const Evidence& evidence) {
   record.talus_version = "0.1.0";
   record.created_utc = "2026-01-31T12:00:00Z";
   record.objective = evidence.objective;
-  for (const ParameterInfo& p : evidence.parameters) {
+  for (const analysis::ParameterInfo& p : evidence.parameters) {
     record.parameters.push_back({.name = p.range.name,
                                  .low = p.range.low,
                                  .high = p.range.high,
                                  .scale = std::string(base::NameOf(p.range.scale)),
                                  .unit = p.unit == "J/m²" ? "J/m^2" : p.unit});
   }
-  ExperimentRecord experiment;
+  journal::ExperimentRecord experiment;
   experiment.name = "heap";
   experiment.reference = RecordsOf(evidence, evidence.reference.metrics);
   experiment.aehp_png = imaging::EncodePng(evidence.reference.aehp.image);
@@ -49,36 +50,37 @@ CampaignRecord CampaignOf(const Evidence& evidence) {
   return record;
 }
 
-TrialKind KindOf(const std::string& purpose) {
-  for (const auto& [name, kind] : base::Names<TrialKind>::kList) {
+journal::TrialKind KindOf(const std::string& purpose) {
+  for (const auto& [name, kind] : base::Names<journal::TrialKind>::kList) {
     if (name == purpose) return kind;
   }
-  return TrialKind::kSearch;
+  return journal::TrialKind::kSearch;
 }
 
-std::string ResultOf(const Evidence& evidence, const Conclusion& conclusion) {
-  CampaignResult result{.name = evidence.name,
-                        .talus_version = "0.1.0",
-                        .stop_reason = evidence.stop_reason,
-                        .objective = "sad_mm2",
-                        .objective_unit = "mm²",
-                        .predicted = conclusion.predicted,
-                        .predicted_sd = conclusion.predicted_sd,
-                        .noise_sd = conclusion.noise_sd,
-                        .noise_floor = evidence.reference.noise_floor,
-                        .tied_volume = conclusion.tied_volume,
-                        .model = conclusion.model,
-                        .conditions = {.youngs_modulus = 26.25e6,
-                                       .lift_velocity = 0.01,
-                                       .adhesion = "jkr",
-                                       .rolling = "epsd"},
-                        .cost = {}};
+std::string ResultOf(const analysis::Evidence& evidence, const analysis::Conclusion& conclusion) {
+  campaign::CampaignResult result{.name = evidence.name,
+                                  .talus_version = "0.1.0",
+                                  .stop_reason = evidence.stop_reason,
+                                  .objective = "sad_mm2",
+                                  .objective_unit = "mm²",
+                                  .predicted = conclusion.predicted,
+                                  .predicted_sd = conclusion.predicted_sd,
+                                  .noise_sd = conclusion.noise_sd,
+                                  .noise_floor = evidence.reference.noise_floor,
+                                  .tied_volume = conclusion.tied_volume,
+                                  .model = conclusion.model,
+                                  .conditions = {.youngs_modulus = 26.25e6,
+                                                 .lift_velocity = 0.01,
+                                                 .adhesion = "jkr",
+                                                 .rolling = "epsd"},
+                                  .cost = {}};
   for (const std::string& text : conclusion.warnings) {
-    result.warnings.push_back({.kind = WarningKind::kOther, .text = text});
+    result.warnings.push_back({.kind = campaign::WarningKind::kOther, .text = text});
   }
-  ResultCandidate confirmed{.num_trials = conclusion.num_confirmed, .mean = conclusion.confirmed};
+  campaign::ResultCandidate confirmed{.num_trials = conclusion.num_confirmed,
+                                      .mean = conclusion.confirmed};
   for (std::size_t k = 0; k < conclusion.values.size(); ++k) {
-    const RecommendedValue& v = conclusion.values[k];
+    const analysis::RecommendedValue& v = conclusion.values[k];
     result.parameters.push_back({.name = evidence.parameters[k].range.name,
                                  .unit = evidence.parameters[k].unit,
                                  .value = v.value,
@@ -89,16 +91,18 @@ std::string ResultOf(const Evidence& evidence, const Conclusion& conclusion) {
     confirmed.values.push_back(v.value);
   }
   result.confirmed.push_back(confirmed);
-  return ResultText(result);
+  return campaign::ResultText(result);
 }
 
 }  // namespace
 
-void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path& folder) {
+void WriteSyntheticJournal(const analysis::Evidence& evidence,
+                           const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  Journal journal = Journal::Create(JournalPath(folder), CampaignOf(evidence));
-  for (const TrialEvidence& t : evidence.trials) {
-    TrialRecord record;
+  journal::Journal journal =
+      journal::Journal::Create(journal::JournalPath(folder), CampaignOf(evidence));
+  for (const analysis::TrialEvidence& t : evidence.trials) {
+    journal::TrialRecord record;
     record.id = t.id;
     record.kind = KindOf(t.purpose);
     record.kind_index = t.id;
@@ -113,7 +117,7 @@ void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path
     record.duration_s = t.seconds;
     record.cpu_s = t.cpu_seconds;
     record.finished_utc = "2026-01-31T12:01:00Z";
-    const bool done = t.state == TrialStatus::kOk;
+    const bool done = t.state == journal::TrialStatus::kOk;
     if (done) record.metrics = RecordsOf(evidence, t.metrics);
     journal.Finish(record, done ? imaging::EncodePng(evidence.profile(t.id)->image) : "");
   }
@@ -124,4 +128,4 @@ void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path
                                                           : std::string()});
 }
 
-}  // namespace talus::experiments::test
+}  // namespace talus::test

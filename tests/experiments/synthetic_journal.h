@@ -5,8 +5,8 @@
 
 #include "experiments/analysis/compare/evidence.h"
 
-namespace talus::experiments::test {
+namespace talus::test {
 
-void WriteSyntheticJournal(const Evidence& evidence, const std::filesystem::path& folder);
+void WriteSyntheticJournal(const analysis::Evidence& evidence, const std::filesystem::path& folder);
 
-}  // namespace talus::experiments::test
+}  // namespace talus::test

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 using ::testing::ElementsAre;
@@ -70,4 +70,4 @@ TEST(TextTemplate, NumbersAreReadBackAsTheSame) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -18,8 +18,6 @@
 namespace talus::fuzz {
 namespace {
 
-using namespace experiments;
-
 // Read and validated as any file is, but for what opens the files that it names.
 template <class Options>
 void Load(std::string_view bytes) {
@@ -28,8 +26,8 @@ void Load(std::string_view bytes) {
 
 void Template(std::string_view bytes) {
   Expect([&] {
-    const TextTemplate text(bytes, "deck");
-    const TemplateValues values{.scalars = {{"a", "1"}}, .tables = {}};
+    const trials::TextTemplate text(bytes, "deck");
+    const trials::TemplateValues values{.scalars = {{"a", "1"}}, .tables = {}};
     base::Problems problems;
     text.Check(values, problems);
     if (problems.empty()) text.Fill(values);
@@ -37,7 +35,7 @@ void Template(std::string_view bytes) {
 }
 
 void TrialFile(std::string_view bytes) {
-  Expect([&] { ParseRecord<TrialRecord>(std::string(bytes), "trial.json"); });
+  Expect([&] { journal::ParseRecord<journal::TrialRecord>(std::string(bytes), "trial.json"); });
 }
 
 void JournalFile(std::string_view bytes) {
@@ -45,7 +43,7 @@ void JournalFile(std::string_view bytes) {
       std::filesystem::path("/dev/shm") / ("talus_fuzz_" + std::to_string(::getpid()) + ".sqlite");
   Expect([&] {
     base::WriteFileAtomically(file, bytes, base::Outlives::kProgram);
-    Journal journal = Journal::OpenReadOnly(file);
+    journal::Journal journal = journal::Journal::OpenReadOnly(file);
     journal.Campaign();
     journal.Progress();
     journal.Trials();
@@ -55,16 +53,16 @@ void JournalFile(std::string_view bytes) {
 }
 
 void Slurm(std::string_view bytes) {
-  const SlurmStates states = ParseSqueue(bytes);
-  VerdictOf(StateOf(states, "1", 0), std::string(bytes));
-  ParseSacct(bytes);
-  ParseSubmitted(bytes);
-  ParseBatch(std::string(bytes));
+  const runners::SlurmStates states = runners::ParseSqueue(bytes);
+  runners::VerdictOf(runners::StateOf(states, "1", 0), std::string(bytes));
+  runners::ParseSacct(bytes);
+  runners::ParseSubmitted(bytes);
+  runners::ParseBatch(std::string(bytes));
 }
 
-constexpr Target kTargets[] = {{"spec", Load<CampaignSpec>},
-                               {"case", Load<HeapCase>},
-                               {"problem", Load<OptimizeProblem>},
+constexpr Target kTargets[] = {{"spec", Load<campaign::CampaignSpec>},
+                               {"case", Load<rigs::HeapCase>},
+                               {"problem", Load<trials::OptimizeProblem>},
                                {"template", Template},
                                {"trial_file", TrialFile},
                                {"journal", JournalFile},

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""check_includes.py SOURCE_DIR: includes follow the arrows between folders, and each third-party
-library stays behind its fence."""
+"""check_includes.py SOURCE_DIR: includes follow the arrows between folders, each folder and floor has
+one namespace, and each third-party library stays behind its fence."""
 import pathlib
 import re
 import sys
@@ -38,6 +38,12 @@ def upward(name: str, target: str) -> bool:
     return own != other and FLOORS[own] <= FLOORS[other]
 
 
+def namespace_of(name: str) -> str:
+    """The namespace of a folder, or of a floor of experiments/."""
+    parts = name.split("/")
+    return "talus::" + (parts[1] if parts[0] == "experiments" else parts[0])
+
+
 def main() -> int:
     root = pathlib.Path(sys.argv[1])
     wrong = []
@@ -48,6 +54,9 @@ def main() -> int:
                 continue
             name = path.relative_to(root).as_posix()
             for number, line in enumerate(path.read_text().splitlines(), 1):
+                opened = re.match(r"namespace (talus[\w:]*) \{", line)
+                if opened and not (opened[1] + "::").startswith(namespace_of(name) + "::"):
+                    wrong.append(f"{name}:{number}: its namespace is {namespace_of(name)}")
                 if re.match(r"\s*#\s*pragma\s+omp", line):
                     wrong.append(f"{name}:{number}: OpenMP, whose threads spin; see engine/team.h")
                 found = INCLUDE.match(line)

@@ -18,7 +18,7 @@
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/system/jumping_clock.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -116,7 +116,8 @@ TEST_F(CampaignFaults, SigtermStopsAtOnceAndResumeGoesOn) {
   while (NumTrials(folder) < 2) Pause(0.02);
   ::kill(child, SIGTERM);
   EXPECT_EQ(WaitForExit(child), static_cast<int>(CampaignEnd::kInterrupted));
-  EXPECT_EQ(Journal::OpenReadOnly(JournalPath(folder)).Progress().state, "interrupted");
+  EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress().state,
+            "interrupted");
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
 }
@@ -127,8 +128,9 @@ TEST_F(CampaignFaults, CtrlCDrainsSoThatNothingRunsAfterwards) {
   while (NumTrials(folder) < 2) Pause(0.02);
   ::kill(child, SIGINT);
   EXPECT_EQ(WaitForExit(child), static_cast<int>(CampaignEnd::kInterrupted));
-  for (const TrialRecord& t : Journal::OpenReadOnly(JournalPath(folder)).Trials()) {
-    EXPECT_EQ(t.status, TrialStatus::kOk) << t.id;
+  for (const journal::TrialRecord& t :
+       journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Trials()) {
+    EXPECT_EQ(t.status, journal::TrialStatus::kOk) << t.id;
   }
 }
 
@@ -172,7 +174,8 @@ TEST_F(CampaignFaults, FullFileSystemStopsTheCampaignAndResumeGoesOnWhenThereIsR
   const fs::path folder = Begin("disk/full");
   EXPECT_EQ(WaitForExit(StartSession(folder)), kThrew);
   EXPECT_LT(NumTrials(folder), 22u);
-  for (const TrialRecord& trial : Trials(folder)) EXPECT_NE(trial.status, TrialStatus::kFailed);
+  for (const journal::TrialRecord& trial : Trials(folder))
+    EXPECT_NE(trial.status, journal::TrialStatus::kFailed);
   ASSERT_TRUE(disk.Enlarge());
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
@@ -181,7 +184,7 @@ TEST_F(CampaignFaults, FullFileSystemStopsTheCampaignAndResumeGoesOnWhenThereIsR
 // Root may write everywhere, so that under root the session gives up its rights first.
 TEST_F(CampaignFaults, ReadOnlyFolderIsSaidAndChangesNothing) {
   const fs::path folder = Begin("read_only");
-  const auto before = fs::last_write_time(JournalPath(folder));
+  const auto before = fs::last_write_time(journal::JournalPath(folder));
   fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
                               fs::perms::others_exec);
   const pid_t child = ::fork();
@@ -203,7 +206,7 @@ TEST_F(CampaignFaults, ReadOnlyFolderIsSaidAndChangesNothing) {
   EXPECT_EQ(WaitForExit(child), kThrew);
   fs::permissions(folder, fs::perms::owner_all);
   EXPECT_EQ(NumTrials(folder), 0u);
-  EXPECT_EQ(fs::last_write_time(JournalPath(folder)), before);
+  EXPECT_EQ(fs::last_write_time(journal::JournalPath(folder)), before);
 }
 
 // The wall clock may be set while a campaign runs; only the times that people read may follow it.
@@ -237,7 +240,8 @@ TEST_F(ClockChange, ChangesNeitherTrialsNorResultNorEndsByTheTimeBudget) {
     const int year_before = std::stoi(Trials(folder).front().finished_utc);
     EXPECT_NEAR(year - year_before, jump > 0 ? 1 : -1, 1) << "the clock was not set";
     EXPECT_NE(year, year_before) << "the clock was not set";
-    EXPECT_LT(Journal::OpenReadOnly(JournalPath(folder)).Progress().elapsed_s, 3600);
+    EXPECT_LT(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress().elapsed_s,
+              3600);
     Set(0, false);
   }
 }
@@ -251,7 +255,7 @@ TEST_F(ClockChange, EvenBetweenAnyTwoReadings) {
   EXPECT_GT(clock_readings, 100);
   ExpectCalm(folder, calm);
   // What is measured is measured by a clock that only goes forwards.
-  for (const TrialRecord& trial : Trials(folder)) {
+  for (const journal::TrialRecord& trial : Trials(folder)) {
     EXPECT_GE(trial.duration_s, 0) << trial.id;
     EXPECT_LT(trial.duration_s, 3600) << trial.id;
   }
@@ -264,8 +268,8 @@ TEST_F(CampaignFaults, ATruncatedJournalIsMadeAnewFromTheTrials) {
   while (NumTrials(folder) < 8) Pause(0.02);
   ::kill(child, SIGKILL);
   WaitForExit(child);
-  { Journal::Open(JournalPath(folder)); }  // moves its log into the file
-  fs::resize_file(JournalPath(folder), fs::file_size(JournalPath(folder)) / 2);
+  { journal::Journal::Open(journal::JournalPath(folder)); }  // moves its log into the file
+  fs::resize_file(journal::JournalPath(folder), fs::file_size(journal::JournalPath(folder)) / 2);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
   EXPECT_TRUE(fs::exists(folder / "journal.sqlite.damaged1"));
@@ -278,8 +282,8 @@ TEST_F(CampaignFaults, ALostLogOfTheJournalLosesNoTrialAndRunsNoneTwice) {
   while (NumTrials(folder) < 8) Pause(0.02);
   ::kill(child, SIGKILL);
   WaitForExit(child);
-  fs::resize_file(JournalPath(folder).string() + "-wal",
-                  fs::file_size(JournalPath(folder).string() + "-wal") / 2);
+  fs::resize_file(journal::JournalPath(folder).string() + "-wal",
+                  fs::file_size(journal::JournalPath(folder).string() + "-wal") / 2);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
 }
@@ -300,4 +304,4 @@ TEST_F(CampaignFaults, TruncatedImagesOfFinishedTrialsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

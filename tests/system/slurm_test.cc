@@ -12,7 +12,7 @@
 #include "experiments/runners/slurm_runner.h"
 #include "experiments/runners/tool.h"
 
-namespace talus::experiments {
+namespace talus::runners {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,4 +207,4 @@ TEST_F(SlurmTest, NodeFailureIsFollowedByAnotherRun) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::runners

@@ -14,7 +14,7 @@
 #include "imaging/spheres/projection.h"
 #include "tests/experiments/scratch_folder.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ TEST(TwinCalibration, KnownParametersLieInsideTheStatedRanges) {
 }
 
 }  // namespace
-}  // namespace talus::experiments
+}  // namespace talus::campaign

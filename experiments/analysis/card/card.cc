@@ -10,7 +10,7 @@
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 bool Same(const engine::Material& a, const engine::Material& b) {
@@ -18,24 +18,24 @@ bool Same(const engine::Material& a, const engine::Material& b) {
 }
 
 Card ReadCampaignCard(const std::filesystem::path& folder) {
-  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   const std::string text = journal.Progress().result_json;
   if (text.empty()) {
     throw base::ConfigError(folder.string() +
                             ": has no result yet; `talus status` says where the campaign stands");
   }
-  const CampaignResult result = ParseResult(text);
-  const CampaignRecord record = journal.Campaign();
-  const CampaignSpec spec = ParseSpecText(record.spec_json);
+  const campaign::CampaignResult result = campaign::ParseResult(text);
+  const journal::CampaignRecord record = journal.Campaign();
+  const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
   std::vector<double> values;
-  for (const ResultParameter& p : result.parameters) values.push_back(p.value);
-  const HeapCase heap_case =
-      CaseOf(spec, {.values = values, .scale_factor = result.conditions.scale_factor},
-             ReferencesOf(record, spec).front().frame());
+  for (const campaign::ResultParameter& p : result.parameters) values.push_back(p.value);
+  const rigs::HeapCase heap_case =
+      campaign::CaseOf(spec, {.values = values, .scale_factor = result.conditions.scale_factor},
+                       campaign::ReferencesOf(record, spec).front().frame());
   Card card = CardOf(heap_case);
   card.title = result.name;
-  for (const ResultWarning& warning : result.warnings) card.notes.push_back(warning.text);
-  for (const ResultParameter& p : result.parameters) {
+  for (const campaign::ResultWarning& warning : result.warnings) card.notes.push_back(warning.text);
+  for (const campaign::ResultParameter& p : result.parameters) {
     card.ranges.push_back({.name = p.name,
                            .unit = p.unit,
                            .value = p.value,
@@ -47,10 +47,10 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Card CardOf(const HeapCase& heap_case) {
-  const HeapSize size = EstimateHeap(heap_case);
-  const engine::Material powder = UsedMaterial(heap_case);
-  const Device& device = heap_case.device;
+Card CardOf(const rigs::HeapCase& heap_case) {
+  const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
+  const engine::Material powder = rigs::UsedMaterial(heap_case);
+  const rigs::Device& device = heap_case.device;
   Card card{.title = "one case",
             .materials = {{.name = "powder", .material = powder}},
             .models = heap_case.models,
@@ -62,8 +62,8 @@ Card CardOf(const HeapCase& heap_case) {
             .lift_velocity = device.lift_velocity,
             .plate_diameter = device.plate_diameter,
             .tube_inner_diameter = device.tube_inner_diameter};
-  const auto add = [&](const char* name, const std::optional<WallMaterial>& wall) {
-    const engine::Material material = wall.value_or(WallMaterial()).Over(powder);
+  const auto add = [&](const char* name, const std::optional<rigs::WallMaterial>& wall) {
+    const engine::Material material = wall.value_or(rigs::WallMaterial()).Over(powder);
     if (!Same(material, powder)) card.materials.push_back({.name = name, .material = material});
   };
   add("tube", device.tube_material);
@@ -73,7 +73,7 @@ Card CardOf(const HeapCase& heap_case) {
 
 Card ReadCard(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return ReadCampaignCard(path);
-  Card card = CardOf(LoadHeapCase(path));
+  Card card = CardOf(rigs::LoadHeapCase(path));
   card.title = path.filename().string();
   return card;
 }
@@ -114,4 +114,4 @@ std::string CardText(const Card& card, CardFormat format) {
   return {};
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

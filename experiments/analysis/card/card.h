@@ -12,7 +12,7 @@
 #include "engine/scene/material.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 struct CardMaterial {
   std::string name;           // "powder", "tube", "plate"
@@ -44,7 +44,7 @@ struct Card {
   std::vector<std::string> notes{};  // of the campaign: what is doubtful
 };
 
-Card CardOf(const HeapCase& heap_case);
+Card CardOf(const rigs::HeapCase& heap_case);
 
 // Of a campaign's folder (its recommended set, at the scale factor that it holds for) or of a
 // case.json. Throws ConfigError when the campaign has no result yet.
@@ -63,11 +63,11 @@ TypicalContact TypicalContactOf(const Card& card);
 enum class CardFormat { kTable, kJson, kLethe, kLiggghts, kLammps, kYade, kMercuryDpm };
 std::string CardText(const Card& card, CardFormat format);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis
 
 template <>
-struct talus::base::Names<talus::experiments::CardFormat> {
-  using enum talus::experiments::CardFormat;
+struct talus::base::Names<talus::analysis::CardFormat> {
+  using enum talus::analysis::CardFormat;
   static constexpr std::array kList{
       std::pair{"table", kTable},          std::pair{"json", kJson},     std::pair{"lethe", kLethe},
       std::pair{"liggghts", kLiggghts},    std::pair{"lammps", kLammps}, std::pair{"yade", kYade},

@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/card/card.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::string TableCard(const Card& card);
 std::string JsonCard(const Card& card);
@@ -27,4 +27,4 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
 double TsujiAlpha(double restitution);
 double TsujiRestitution(double restitution);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

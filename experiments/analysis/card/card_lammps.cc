@@ -10,7 +10,7 @@
 
 #include "experiments/analysis/card/card_formats.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 // The pair's own Young's modulus and Poisson's ratio: LAMMPS makes E* and G* of one pair of values.
@@ -114,4 +114,4 @@ std::string LammpsCard(const Card& card) {
   return text.str();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 
 #include "experiments/analysis/card/card_formats.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 struct Key {
@@ -77,4 +77,4 @@ std::string LetheCard(const Card& card) {
   return text.str();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 
 #include "experiments/analysis/card/card_formats.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::string PerType(const Card& card, const std::string& property, double engine::Material::*part) {
@@ -77,4 +77,4 @@ std::string LiggghtsCard(const Card& card) {
   return text.str();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -8,7 +8,7 @@
 
 #include "experiments/analysis/card/card_formats.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::string MercuryDpmCard(const Card& card) {
   const engine::Material& powder = card.materials.front().material;
@@ -47,4 +47,4 @@ std::string MercuryDpmCard(const Card& card) {
   return text.str();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 #include "base/json_writer.h"
 #include "experiments/analysis/card/card_formats.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::string CardNumber(double value) {
   char text[32];
@@ -77,4 +77,4 @@ std::string JsonCard(const Card& card) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -11,7 +11,7 @@
 
 #include "experiments/analysis/card/card_formats.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::string YadeCard(const Card& card) {
   const engine::Material& powder = card.materials.front().material;
@@ -54,4 +54,4 @@ std::string YadeCard(const Card& card) {
   return text.str();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 // Characters, not bytes: units and symbols are not ASCII.
@@ -32,4 +32,4 @@ std::string Aligned(const std::vector<TextRow>& rows) {
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 constexpr int kVolumeSample = 4096;  // a share of 1 % is then known to ± 0.2 %
@@ -17,7 +17,7 @@ struct Measurement {
 std::vector<Measurement> MeasurementsOf(const Evidence& evidence, std::size_t column) {
   std::vector<Measurement> found;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state != TrialStatus::kOk || std::isnan(trial.metrics[column])) continue;
+    if (trial.state != journal::TrialStatus::kOk || std::isnan(trial.metrics[column])) continue;
     if (trial.scale_factor != evidence.scale_factor) continue;  // another simulation of the set
     found.push_back({&trial, trial.metrics[column]});
   }
@@ -26,7 +26,7 @@ std::vector<Measurement> MeasurementsOf(const Evidence& evidence, std::size_t co
 
 // Best first; sets that are equal stay in the order of their first trial.
 std::vector<ComparedSet> RankedSets(const std::vector<Measurement>& measured,
-                                    const ObjectiveInfo& info, double reference) {
+                                    const journal::ObjectiveInfo& info, double reference) {
   std::map<std::vector<double>, std::size_t> index;
   std::vector<ComparedSet> sets;
   for (const Measurement& m : measured) {
@@ -122,7 +122,7 @@ ModelFinding FindFromModel(const Evidence& evidence, ObjectiveModel model,
 }
 
 // Why an objective cannot be judged; empty when it can.
-std::string WhyAbsent(const ObjectiveInfo& info, double reference, bool has_column,
+std::string WhyAbsent(const journal::ObjectiveInfo& info, double reference, bool has_column,
                       bool has_measurement) {
   if (!has_column) return "the trials were not measured by it";
   if (info.is_angle && std::isnan(reference))
@@ -131,7 +131,7 @@ std::string WhyAbsent(const ObjectiveInfo& info, double reference, bool has_colu
   return "";
 }
 
-ObjectiveFinding FindFor(const Evidence& evidence, const ObjectiveInfo& info) {
+ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo& info) {
   ObjectiveFinding finding{.info = info, .absent = {}, .from_trials = {}, .from_model = {}};
   const auto column = MetricColumn(evidence, info.metric);
   if (column && info.is_angle && *column < evidence.reference.metrics.size()) {
@@ -170,8 +170,9 @@ std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_vi
 
 std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence) {
   std::vector<ObjectiveFinding> findings;
-  for (const ObjectiveInfo& info : kObjectives) findings.push_back(FindFor(evidence, info));
+  for (const journal::ObjectiveInfo& info : journal::kObjectives)
+    findings.push_back(FindFor(evidence, info));
   return findings;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

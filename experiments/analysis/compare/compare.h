@@ -14,7 +14,7 @@
 #include "experiments/analysis/compare/objective_model.h"
 #include "experiments/journal/objective.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 inline constexpr double kTieMargin = 1;
 inline constexpr std::size_t kNumBest = 10;
@@ -44,7 +44,7 @@ struct ModelFinding {
 };
 
 struct ObjectiveFinding {
-  ObjectiveInfo info;
+  journal::ObjectiveInfo info;
   double reference = kUndefined;        // the experiment's angle
   double reference_error = kUndefined;  // its standard error, of several runs
   double noise_sd = kUndefined;         // scatter of one evaluation of the quantity
@@ -58,4 +58,4 @@ struct ObjectiveFinding {
 // Findings for kObjectives, in their order.
 std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

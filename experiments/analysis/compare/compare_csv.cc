@@ -1,7 +1,7 @@
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/csv.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 void ParameterHeads(Csv& csv, const Evidence& evidence) {
@@ -50,4 +50,4 @@ std::string TenBestCsv(const ComparedCampaign& compared) {
   return csv.Take();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -3,7 +3,7 @@
 
 #include "experiments/analysis/compare/compare_tables.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -65,4 +65,4 @@ std::string ComparisonJson(const ComparedCampaign& compared) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/compare/compare.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 struct ComparedCampaign {
   const Evidence& evidence;
@@ -18,4 +18,4 @@ std::string ComparisonJson(const ComparedCampaign& compared);
 std::string ObjectivesCsv(const ComparedCampaign& compared);  // a line an objective and source
 std::string TenBestCsv(const ComparedCampaign& compared);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 #include "experiments/analysis/compare/aligned.h"
 #include "experiments/analysis/compare/compare_tables.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::string Number(double x, int digits = 4) {
@@ -106,4 +106,4 @@ std::string ComparisonText(const ComparedCampaign& compared) {
   return text + "\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

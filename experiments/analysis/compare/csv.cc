@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 Csv& Csv::Cell(std::string_view text) {
   Separate();
@@ -40,4 +40,4 @@ void Csv::Separate() {
   first_ = false;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

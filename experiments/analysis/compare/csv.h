@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 class Csv {
  public:
@@ -22,4 +22,4 @@ class Csv {
   bool first_ = true;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

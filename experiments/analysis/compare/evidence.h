@@ -16,7 +16,7 @@
 #include "imaging/heap/profile.h"
 #include "optimizer/space/parameter_space.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
@@ -34,7 +34,7 @@ struct MetricInfo {
 
 struct TrialEvidence {
   int id = 0;
-  TrialStatus state = TrialStatus::kOk;
+  journal::TrialStatus state = journal::TrialStatus::kOk;
   std::string purpose;         // why it was run: "noise", "design", "search", "confirm"
   Eigen::VectorXd point;       // unit cube
   std::vector<double> values;  // in the order of Evidence::parameters, SI
@@ -120,4 +120,4 @@ struct Evidence {
 // Column of a metric; nothing when no trial has it.
 std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_view metric);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -9,39 +9,39 @@
 #include "experiments/campaign/describe_posterior.h"
 #include "experiments/journal/objective.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
-std::vector<std::string> ConditionTexts(const ResultConditions& c) {
+std::vector<std::string> ConditionTexts(const campaign::ResultConditions& c) {
   std::vector<std::string> texts{
-      "Young's modulus of the grains " + NumberText4(c.youngs_modulus / 1e6) + " MPa",
-      "lift velocity " + NumberText4(c.lift_velocity * 100) + " cm/s",
+      "Young's modulus of the grains " + campaign::NumberText4(c.youngs_modulus / 1e6) + " MPa",
+      "lift velocity " + campaign::NumberText4(c.lift_velocity * 100) + " cm/s",
       "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
   texts.push_back(c.scale_factor == 1
                       ? "grains at their true size"
-                      : "grains " + NumberText4(c.scale_factor) +
+                      : "grains " + campaign::NumberText4(c.scale_factor) +
                             " times their true size, surface energy scaled with exponent " +
-                            NumberText4(c.surface_energy_exponent));
+                            campaign::NumberText4(c.surface_energy_exponent));
   return texts;
 }
 
 // A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
 std::string ObjectiveKey(const std::string& result_key) {
-  for (const ObjectiveInfo& info : kObjectives) {
+  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
     if (result_key == info.ValueKey()) return std::string(info.key);
   }
   throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
 }
 
 // The report's first line: what kind of answer the posterior is.
-void AddVerdict(const CampaignResult& result, Conclusion& conclusion) {
+void AddVerdict(const campaign::CampaignResult& result, Conclusion& conclusion) {
   if (!result.posterior) return;
   std::vector<std::string> names;
-  for (const ResultParameter& p : result.parameters) names.push_back(SymbolOf(p.name));
-  conclusion.verdict = PosteriorSentence(*result.posterior, names, result.correlation);
+  for (const campaign::ResultParameter& p : result.parameters) names.push_back(SymbolOf(p.name));
+  conclusion.verdict = campaign::PosteriorSentence(*result.posterior, names, result.correlation);
   conclusion.verdict.front() = static_cast<char>(std::toupper(conclusion.verdict.front()));
   conclusion.verdict += ".";
-  for (const ResultBranch& branch : result.posterior->branches) {
+  for (const campaign::ResultBranch& branch : result.posterior->branches) {
     conclusion.branches.push_back(
         {.share = branch.share, .values = branch.values, .low = branch.low, .high = branch.high});
   }
@@ -50,7 +50,7 @@ void AddVerdict(const CampaignResult& result, Conclusion& conclusion) {
 }  // namespace
 
 Conclusion ConclusionOf(const std::string& result_json) {
-  const CampaignResult result = ParseResult(result_json);
+  const campaign::CampaignResult result = campaign::ParseResult(result_json);
   Conclusion conclusion{.objective = ObjectiveKey(result.objective),
                         .predicted = result.predicted,
                         .predicted_sd = result.predicted_sd,
@@ -59,8 +59,9 @@ Conclusion ConclusionOf(const std::string& result_json) {
                         .conditions = ConditionTexts(result.conditions),
                         .model = result.model};
   AddVerdict(result, conclusion);
-  for (const ResultWarning& warning : result.warnings) conclusion.warnings.push_back(warning.text);
-  for (const ResultParameter& p : result.parameters) {
+  for (const campaign::ResultWarning& warning : result.warnings)
+    conclusion.warnings.push_back(warning.text);
+  for (const campaign::ResultParameter& p : result.parameters) {
     conclusion.values.push_back({p.value, p.credible_low, p.credible_high});
     if (std::isnan(p.sobol_total)) continue;
     conclusion.sobol_first.push_back(p.sobol_first);
@@ -73,4 +74,4 @@ Conclusion ConclusionOf(const std::string& result_json) {
   return conclusion;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -18,10 +18,10 @@
 #include "experiments/journal/journal.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
-ParameterInfo InfoOf(const ParameterRecord& record) {
+ParameterInfo InfoOf(const journal::ParameterRecord& record) {
   ParameterInfo info;
   info.range.name = record.name;
   info.range.low = record.low;
@@ -29,12 +29,12 @@ ParameterInfo InfoOf(const ParameterRecord& record) {
   info.range.scale = record.scale == "log" ? optimizer::Scale::kLog : optimizer::Scale::kLinear;
   info.symbol = SymbolOf(record.name);
   info.unit = PrettyUnit(record.unit);
-  info.column = ColumnName(record);
+  info.column = journal::ColumnName(record);
   return info;
 }
 
 // The value of each known metric, in their order; new ones are added to the list.
-std::vector<double> InColumns(const std::vector<MetricRecord>& records,
+std::vector<double> InColumns(const std::vector<journal::MetricRecord>& records,
                               std::vector<MetricInfo>& columns) {
   std::vector<double> values(columns.size(), kUndefined);
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -53,7 +53,7 @@ std::vector<double> InColumns(const std::vector<MetricRecord>& records,
   return values;
 }
 
-TrialEvidence EvidenceOf(const TrialRecord& record, std::vector<MetricInfo>& columns) {
+TrialEvidence EvidenceOf(const journal::TrialRecord& record, std::vector<MetricInfo>& columns) {
   TrialEvidence trial;
   trial.id = static_cast<int>(record.id);
   trial.state = record.status;
@@ -64,15 +64,15 @@ TrialEvidence EvidenceOf(const TrialRecord& record, std::vector<MetricInfo>& col
   trial.seed = record.seed;
   trial.scale_factor = record.scale_factor;
   trial.metrics = InColumns(record.metrics, columns);
-  if (trial.state == TrialStatus::kFailed) trial.reason = record.reason;
-  if (trial.state != TrialStatus::kRunning) {
+  if (trial.state == journal::TrialStatus::kFailed) trial.reason = record.reason;
+  if (trial.state != journal::TrialStatus::kRunning) {
     trial.seconds = record.duration_s;
     trial.cpu_seconds = record.cpu_s;
   }
   return trial;
 }
 
-imaging::Profile ReadReference(const ExperimentRecord& record) {
+imaging::Profile ReadReference(const journal::ExperimentRecord& record) {
   imaging::Profile aehp;
   base::Problems problems("the journal's frame", {});
   base::ReadOptions(base::ParseJson(record.frame_json, "frame").root, aehp.frame, {problems, {}});
@@ -82,26 +82,26 @@ imaging::Profile ReadReference(const ExperimentRecord& record) {
 }
 
 // The finest scale factor of the search: what others say of a set is biased by their grains.
-double FinestOfSearch(const std::vector<TrialRecord>& trials) {
+double FinestOfSearch(const std::vector<journal::TrialRecord>& trials) {
   double finest = std::numeric_limits<double>::infinity();
-  for (const TrialRecord& t : trials) {
-    if (t.kind != TrialKind::kConfirm) finest = std::min(finest, t.scale_factor);
+  for (const journal::TrialRecord& t : trials) {
+    if (t.kind != journal::TrialKind::kConfirm) finest = std::min(finest, t.scale_factor);
   }
   return std::isfinite(finest) ? finest : 1;
 }
 
-void AddTrials(Evidence& evidence, const ExperimentRecord& record,
-               const std::vector<TrialRecord>& trials) {
+void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
+               const std::vector<journal::TrialRecord>& trials) {
   evidence.reference.metrics = InColumns(record.reference, evidence.metrics);
-  for (const TrialRecord& trial : trials) {
+  for (const journal::TrialRecord& trial : trials) {
     evidence.trials.push_back(EvidenceOf(trial, evidence.metrics));
   }
   for (TrialEvidence& trial : evidence.trials) {
     trial.metrics.resize(evidence.metrics.size(), kUndefined);
   }
   evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
-  std::vector<MetricRecord> errors = record.reference;
-  for (MetricRecord& metric : errors) metric.value = metric.standard_error;
+  std::vector<journal::MetricRecord> errors = record.reference;
+  for (journal::MetricRecord& metric : errors) metric.value = metric.standard_error;
   evidence.reference.errors = InColumns(errors, evidence.metrics);
   evidence.scale_factor = FinestOfSearch(trials);
 }
@@ -110,7 +110,7 @@ void AddTimes(Evidence& evidence, double elapsed) {
   double wall = 0;
   double cpu = 0;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state == TrialStatus::kRunning) continue;
+    if (trial.state == journal::TrialStatus::kRunning) continue;
     wall += trial.seconds;
     cpu += trial.cpu_seconds;
   }
@@ -119,7 +119,7 @@ void AddTimes(Evidence& evidence, double elapsed) {
                      {"their processor time", cpu}};
 }
 
-void AddSpec(Evidence& evidence, const CampaignRecord& record) {
+void AddSpec(Evidence& evidence, const journal::CampaignRecord& record) {
   evidence.spec = record.spec_text;
   const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
   if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
@@ -139,7 +139,7 @@ std::string SeedsText(const std::vector<TrialEvidence>& trials) {
   return std::to_string(trials.size()) + " trials, each with its own in tables/trials.csv";
 }
 
-std::size_t ExperimentNamed(const CampaignRecord& record, const std::string& name) {
+std::size_t ExperimentNamed(const journal::CampaignRecord& record, const std::string& name) {
   if (name.empty()) return 0;
   std::string names;
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
@@ -152,14 +152,15 @@ std::size_t ExperimentNamed(const CampaignRecord& record, const std::string& nam
 }  // namespace
 
 Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment) {
-  if (!std::filesystem::exists(JournalPath(campaign))) {
+  if (!std::filesystem::exists(journal::JournalPath(campaign))) {
     throw base::ConfigError(campaign.string() + ": holds no campaign (" +
-                            JournalPath(campaign).filename().string() +
+                            journal::JournalPath(campaign).filename().string() +
                             " is missing); name the folder that `talus calibrate` wrote");
   }
-  const auto journal = std::make_shared<Journal>(Journal::OpenReadOnly(JournalPath(campaign)));
-  const CampaignRecord record = journal->Campaign();
-  const ProgressRecord progress = journal->Progress();
+  const auto journal = std::make_shared<journal::Journal>(
+      journal::Journal::OpenReadOnly(journal::JournalPath(campaign)));
+  const journal::CampaignRecord record = journal->Campaign();
+  const journal::ProgressRecord progress = journal->Progress();
 
   Evidence evidence;
   evidence.name = record.name;
@@ -167,13 +168,13 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   evidence.stop_reason = progress.stop_reason;
   evidence.objective = record.objective;
   AddSpec(evidence, record);
-  for (const ParameterRecord& parameter : record.parameters) {
+  for (const journal::ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
   const std::size_t index = ExperimentNamed(record, experiment);
-  const ExperimentRecord& compared_with = record.experiments.at(index);
-  std::vector<TrialRecord> trials = journal->Trials();
-  std::erase_if(trials, [&](const TrialRecord& t) {
+  const journal::ExperimentRecord& compared_with = record.experiments.at(index);
+  std::vector<journal::TrialRecord> trials = journal->Trials();
+  std::erase_if(trials, [&](const journal::TrialRecord& t) {
     return static_cast<std::size_t>(t.experiment) != index;
   });
   AddTrials(evidence, compared_with, trials);
@@ -190,7 +191,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
                        {"its compiler", base::Compiler()},
                        {"instruction set here", engine::ChooseKernels().name},
                        {"machine", MachineText()},
-                       {"written", UtcNow()},
+                       {"written", journal::UtcNow()},
                        {"started", record.created_utc},
                        {"strategy", evidence.strategy},
                        {"spec", record.spec_path},
@@ -205,4 +206,4 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   return evidence;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/compare/evidence.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // Reads the journal, also while a process is writing it: the trials of one experiment, the first
 // where none is named. Throws ConfigError when there is no such campaign or experiment.
@@ -15,4 +15,4 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
 // From the text of result.json.
 Conclusion ConclusionOf(const std::string& result_json);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "optimizer/designs/design.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 constexpr std::size_t kMaxFitted = 150;   // points that the hyper-parameters are found from
@@ -60,7 +60,7 @@ Eigen::MatrixXd EvenSample(int num_points, Eigen::Index num_parameters) {
 }
 
 ObjectiveModel ObjectiveModel::Fit(std::span<const ModelPoint> points, const Eigen::VectorXd& best,
-                                   const ObjectiveInfo& info, double reference) {
+                                   const journal::ObjectiveInfo& info, double reference) {
   const auto fitted = FitProcess(Capped(points, best, kMaxFitted), {});
   if (points.size() <= kMaxFitted) return {fitted, info, reference};
   surrogate::GaussianProcessOptions frozen;
@@ -111,4 +111,4 @@ Eigen::VectorXd ObjectiveModel::Minimiser(const Eigen::VectorXd& start) const {
 
 double ObjectiveModel::noise_sd() const { return std::sqrt(process_.noise_variance()); }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -12,7 +12,7 @@
 #include "experiments/journal/objective.h"
 #include "surrogate/process/gaussian_process.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 struct ModelPoint {
   Eigen::VectorXd point;  // unit cube
@@ -32,7 +32,7 @@ class ObjectiveModel {
   // Needs at least kFewestPoints points.
   static constexpr std::size_t kFewestPoints = 6;
   static ObjectiveModel Fit(std::span<const ModelPoint> points, const Eigen::VectorXd& best,
-                            const ObjectiveInfo& info, double reference);
+                            const journal::ObjectiveInfo& info, double reference);
 
   // One point a row.
   std::vector<ObjectivePrediction> Predict(const Eigen::MatrixXd& points) const;
@@ -43,15 +43,16 @@ class ObjectiveModel {
   double noise_sd() const;  // scatter of one evaluation of the quantity
 
  private:
-  ObjectiveModel(surrogate::GaussianProcess process, const ObjectiveInfo& info, double reference)
+  ObjectiveModel(surrogate::GaussianProcess process, const journal::ObjectiveInfo& info,
+                 double reference)
       : process_(std::move(process)), info_(info), reference_(reference) {}
 
   surrogate::GaussianProcess process_;
-  ObjectiveInfo info_;
+  journal::ObjectiveInfo info_;
   double reference_ = 0;
 };
 
 // Sobol's points of the unit cube, one a row.
 Eigen::MatrixXd EvenSample(int num_points, Eigen::Index num_parameters);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

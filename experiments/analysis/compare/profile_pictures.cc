@@ -7,7 +7,7 @@
 #include "imaging/heap/difference_map.h"
 #include "imaging/photos/canvas.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 constexpr int kTitleHeight = 26;  // [px]
@@ -68,7 +68,7 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
     add(finding.from_trials.best.front().trials.front(), "best by " + title, ", " + title);
   }
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.purpose == "confirm" && trial.state == TrialStatus::kOk) {
+    if (trial.purpose == "confirm" && trial.state == journal::TrialStatus::kOk) {
       add(trial.id, "a confirming trial", ", a confirming trial");
       break;
     }
@@ -113,4 +113,4 @@ Picture SideBySide(const Evidence& evidence, const std::vector<ShownTrial>& show
   return MakePicture("side_by_side", "Experiment, best simulations and their differences", sheet);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/compare/compare.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // A trial worth a look, and why.
 struct ShownTrial {
@@ -34,4 +34,4 @@ std::vector<Picture> ProfilePictures(const Evidence& evidence,
 // AEHP, ANHPs and differences on one sheet, with titles; no PNG when no trial has an image.
 Picture SideBySide(const Evidence& evidence, const std::vector<ShownTrial>& shown);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "experiments/analysis/compare/csv.h"
 #include "experiments/journal/objective.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::string Number(double x) {
@@ -35,20 +35,21 @@ void RequireSameTask(const Evidence& first, const Evidence& other, const std::st
   }
 }
 
-const ObjectiveInfo& InfoOf(const std::string& key) {
-  for (const ObjectiveInfo& info : kObjectives) {
+const journal::ObjectiveInfo& InfoOf(const std::string& key) {
+  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
     if (info.key == key) return info;
   }
   throw base::Error("\"" + key + "\" is no objective");
 }
 
-StrategyRun RunOf(const std::string& name, const Evidence& evidence, const ObjectiveInfo& info) {
+StrategyRun RunOf(const std::string& name, const Evidence& evidence,
+                  const journal::ObjectiveInfo& info) {
   StrategyRun run{.campaign = name, .strategy = evidence.strategy, .best = {}};
   const auto column = MetricColumn(evidence, info.metric);
   double best = kUndefined;
   for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state == TrialStatus::kRunning || trial.purpose == "confirm") continue;
-    if (trial.state == TrialStatus::kOk && column) {
+    if (trial.state == journal::TrialStatus::kRunning || trial.purpose == "confirm") continue;
+    if (trial.state == journal::TrialStatus::kOk && column) {
       const double value = info.Value(trial.metrics[*column], evidence.reference.metrics[*column]);
       best = std::isnan(value) ? best : std::fmin(best, value);
     }
@@ -69,7 +70,7 @@ std::string SimulationsTo(const StrategyRun& run, double limit) {
 
 std::vector<StrategyRun> CompareStrategies(const std::vector<std::string>& campaigns,
                                            const std::vector<Evidence>& evidence) {
-  const ObjectiveInfo& info = InfoOf(evidence.front().objective);
+  const journal::ObjectiveInfo& info = InfoOf(evidence.front().objective);
   std::vector<StrategyRun> runs;
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     RequireSameTask(evidence.front(), evidence[i], campaigns[i]);
@@ -117,4 +118,4 @@ std::string StrategiesCsv(const std::vector<StrategyRun>& runs) {
   return csv.Take();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/compare/evidence.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 struct StrategyRun {
   std::string campaign;      // folder
@@ -24,4 +24,4 @@ std::vector<StrategyRun> CompareStrategies(const std::vector<std::string>& campa
 std::string StrategiesText(const std::vector<StrategyRun>& runs, double margin);
 std::string StrategiesCsv(const std::vector<StrategyRun>& runs);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

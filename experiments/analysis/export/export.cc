@@ -9,7 +9,7 @@
 #include "base/json_writer.h"
 #include "base/output_folder.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 // Shortest text that reads back to the same number; nothing for what is not a number.
@@ -26,23 +26,24 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-std::vector<std::string> MetricNames(const std::vector<TrialRecord>& trials) {
+std::vector<std::string> MetricNames(const std::vector<journal::TrialRecord>& trials) {
   std::set<std::string> names;
-  for (const TrialRecord& trial : trials) {
-    for (const MetricRecord& metric : trial.metrics) names.insert(metric.name);
+  for (const journal::TrialRecord& trial : trials) {
+    for (const journal::MetricRecord& metric : trial.metrics) names.insert(metric.name);
   }
   return {names.begin(), names.end()};
 }
 
 }  // namespace
 
-std::string TrialsCsv(const CampaignRecord& campaign, const std::vector<TrialRecord>& trials) {
+std::string TrialsCsv(const journal::CampaignRecord& campaign,
+                      const std::vector<journal::TrialRecord>& trials) {
   const std::vector<std::string> metrics = MetricNames(trials);
   std::string csv = "trial,kind,origin,status,seed,experiment,scale_factor";
-  for (const ParameterRecord& p : campaign.parameters) csv += "," + ColumnName(p);
+  for (const journal::ParameterRecord& p : campaign.parameters) csv += "," + journal::ColumnName(p);
   for (const std::string& metric : metrics) csv += "," + metric;
   csv += ",duration_s,cpu_s,num_steps,num_particles,attempts,finish_order,host,reason\n";
-  for (const TrialRecord& t : trials) {
+  for (const journal::TrialRecord& t : trials) {
     csv += std::to_string(t.id) + "," + std::string(base::NameOf(t.kind)) + "," + t.origin + "," +
            std::string(base::NameOf(t.status)) + "," + std::to_string(t.seed) + "," +
            Quoted(campaign.experiments.at(static_cast<std::size_t>(t.experiment)).name) + "," +
@@ -56,7 +57,8 @@ std::string TrialsCsv(const CampaignRecord& campaign, const std::vector<TrialRec
   return csv;
 }
 
-std::string TrialsJson(const CampaignRecord& campaign, const std::vector<TrialRecord>& trials) {
+std::string TrialsJson(const journal::CampaignRecord& campaign,
+                       const std::vector<journal::TrialRecord>& trials) {
   nlohmann::ordered_json json;
   json["campaign"] = base::ToJson(campaign);
   json["trials"] = base::ToJson(trials);
@@ -64,12 +66,12 @@ std::string TrialsJson(const CampaignRecord& campaign, const std::vector<TrialRe
 }
 
 void ExportCampaign(const std::filesystem::path& folder, const std::filesystem::path& out) {
-  Journal journal = Journal::OpenReadOnly(JournalPath(folder));
-  const CampaignRecord campaign = journal.Campaign();
-  const std::vector<TrialRecord> trials = journal.Trials();
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
+  const journal::CampaignRecord campaign = journal.Campaign();
+  const std::vector<journal::TrialRecord> trials = journal.Trials();
   base::ClaimOutputFolder(out, "export");
   base::WriteFileAtomically(out / "trials.csv", TrialsCsv(campaign, trials));
   base::WriteFileAtomically(out / "trials.json", TrialsJson(campaign, trials));
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,15 +6,17 @@
 
 #include "experiments/journal/journal.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // One line a trial; the head names each column with its unit. What is not defined is empty.
-std::string TrialsCsv(const CampaignRecord& campaign, const std::vector<TrialRecord>& trials);
+std::string TrialsCsv(const journal::CampaignRecord& campaign,
+                      const std::vector<journal::TrialRecord>& trials);
 
 // The same with the campaign, its reference metrics and the reasons where a metric is undefined.
-std::string TrialsJson(const CampaignRecord& campaign, const std::vector<TrialRecord>& trials);
+std::string TrialsJson(const journal::CampaignRecord& campaign,
+                       const std::vector<journal::TrialRecord>& trials);
 
 // trials.csv and trials.json into `out`; readable while the campaign runs.
 void ExportCampaign(const std::filesystem::path& folder, const std::filesystem::path& out);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

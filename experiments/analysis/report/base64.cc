@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::string Base64(std::string_view bytes) {
   static constexpr std::string_view kDigits =
@@ -23,4 +23,4 @@ std::string Base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

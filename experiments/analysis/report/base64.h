@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::string Base64(std::string_view bytes);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

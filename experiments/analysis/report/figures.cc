@@ -7,7 +7,7 @@
 
 #include "experiments/analysis/report/svg_chart.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::string WithUnit(std::string_view title, std::string_view unit) {
@@ -31,14 +31,14 @@ std::vector<Valued> ValuedTrials(const ReportData& data) {
   const auto column = MetricColumn(data.evidence, data.own().info.metric);
   if (!column) return valued;
   for (const TrialEvidence& t : data.evidence.trials) {
-    if (t.state != TrialStatus::kOk || std::isnan(t.metrics[*column])) continue;
+    if (t.state != journal::TrialStatus::kOk || std::isnan(t.metrics[*column])) continue;
     valued.push_back({&t, data.own().info.Value(t.metrics[*column], data.own().reference)});
   }
   return valued;
 }
 
 std::string Convergence(const ReportData& data, const std::vector<Valued>& valued) {
-  const ObjectiveInfo& info = data.own().info;
+  const journal::ObjectiveInfo& info = data.own().info;
   double top = 0;
   for (const Valued& v : valued) top = std::max(top, v.objective);
   const double last = data.evidence.trials.back().id;
@@ -67,7 +67,7 @@ std::string Convergence(const ReportData& data, const std::vector<Valued>& value
   }
   chart.Line(best, {.width = 2}, "best so far");
   const double floor = data.evidence.reference.noise_floor;
-  if (info.objective == Objective::kSad && std::isfinite(floor)) {
+  if (info.objective == journal::Objective::kSad && std::isfinite(floor)) {
     chart.Line({{0, floor}, {last, floor}}, {.color = "#55626d", .dashed = true},
                "noise floor of the experiment");
   }
@@ -100,7 +100,7 @@ std::string Outlines(const ReportData& data) {
 
 std::string Slice(const ReportData& data, const ModelSlice& slice) {
   const ParameterInfo& parameter = data.evidence.parameters[slice.parameter];
-  const ObjectiveInfo& info = data.own().info;
+  const journal::ObjectiveInfo& info = data.own().info;
   std::vector<SvgPoint> mean, low, high;
   double top = 0;
   for (std::size_t i = 0; i < slice.x.size(); ++i) {
@@ -156,7 +156,7 @@ std::string Scatter(const ReportData& data, const PairChance& pair) {
                  AxisOf(data.evidence.parameters[pair.j]));
   std::vector<SvgPoint> all;
   for (const TrialEvidence& t : data.evidence.trials) {
-    if (t.state == TrialStatus::kOk) all.push_back({t.values[pair.i], t.values[pair.j]});
+    if (t.state == journal::TrialStatus::kOk) all.push_back({t.values[pair.i], t.values[pair.j]});
   }
   chart.Points(all, {.color = "#9aa5ad", .width = 5}, "trials");
   for (std::size_t k = 0; k < data.findings.size(); ++k) {
@@ -192,4 +192,4 @@ std::vector<NamedText> ReportFigures(const ReportData& data) {
   return figures;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

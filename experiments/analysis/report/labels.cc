@@ -5,7 +5,7 @@
 
 #include "experiments/journal/objective.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 using Entry = std::pair<std::string_view, std::string_view>;
@@ -40,7 +40,7 @@ std::string SymbolOf(std::string_view parameter) {
 }
 
 std::string MetricTitle(std::string_view metric) {
-  for (const ObjectiveInfo& info : kObjectives) {
+  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
     if (info.metric == metric) return std::string(info.title);
   }
   static constexpr std::array kTitles{
@@ -69,4 +69,4 @@ std::string PrettyUnit(std::string_view unit) {
   return Find(kUnits, unit);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // "sliding_friction" → "μ_t"; a name without a symbol of its own stays as it is.
 std::string SymbolOf(std::string_view parameter);
@@ -15,4 +15,4 @@ std::string MetricTitle(std::string_view metric);
 // "mm2" → "mm²", "deg" → "°", "J/m^2" → "J/m²", "-" → "".
 std::string PrettyUnit(std::string_view unit);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

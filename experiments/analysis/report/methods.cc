@@ -5,7 +5,7 @@
 
 #include "experiments/campaign/console.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::string Spaced(std::string name) {
@@ -14,7 +14,7 @@ std::string Spaced(std::string name) {
 }
 
 std::string WithUnit(double value, const std::string& unit) {
-  return NumberText4(value) + (unit.empty() ? "" : " " + unit);
+  return campaign::NumberText4(value) + (unit.empty() ? "" : " " + unit);
 }
 
 // "a, b and c"
@@ -31,8 +31,8 @@ std::string Searched(const Evidence& evidence) {
   std::vector<std::string> words;
   for (const ParameterInfo& p : evidence.parameters) {
     words.push_back(
-        Spaced(p.range.name) + " " + p.symbol + " in [" + NumberText4(p.range.low) + ", " +
-        WithUnit(p.range.high, p.unit) + "]" +
+        Spaced(p.range.name) + " " + p.symbol + " in [" + campaign::NumberText4(p.range.low) +
+        ", " + WithUnit(p.range.high, p.unit) + "]" +
         (p.range.scale == optimizer::Scale::kLog ? " (searched on a logarithmic scale)" : ""));
   }
   return Listed(words);
@@ -45,8 +45,8 @@ std::string Answered(const Evidence& evidence, const ObjectiveFinding& own) {
     const ParameterInfo& p = evidence.parameters[k];
     std::string word = p.symbol + " = " + WithUnit(c.values[k].value, p.unit);
     if (std::isfinite(c.values[k].low)) {
-      word += " (90 % credible range " + NumberText4(c.values[k].low) + " to " +
-              NumberText4(c.values[k].high) + ")";
+      word += " (90 % credible range " + campaign::NumberText4(c.values[k].low) + " to " +
+              campaign::NumberText4(c.values[k].high) + ")";
     }
     words.push_back(word);
   }
@@ -68,25 +68,26 @@ std::string StartedWith(const Evidence& evidence) {
 
 std::string MethodsText(const ReportData& data) {
   const Evidence& e = data.evidence;
-  const auto count = [&](TrialStatus state, bool confirming) {
+  const auto count = [&](journal::TrialStatus state, bool confirming) {
     return std::ranges::count_if(e.trials, [&](const TrialEvidence& t) {
       return t.state == state && (t.purpose == "confirm") == confirming;
     });
   };
-  const auto failed = count(TrialStatus::kFailed, false) + count(TrialStatus::kFailed, true);
+  const auto failed =
+      count(journal::TrialStatus::kFailed, false) + count(journal::TrialStatus::kFailed, true);
   std::string text = "The contact parameters were calibrated with talus " + StartedWith(e) +
                      ". Simulated heaps were projected into the frame of the experiment's average "
                      "heap profile and compared with it by the ";
   text += data.own().info.title;
   text += ". Calibrated were " + Searched(e) + ". The strategy \"" + e.strategy + "\" chose " +
-          std::to_string(count(TrialStatus::kOk, false)) + " simulations that gave a heap";
+          std::to_string(count(journal::TrialStatus::kOk, false)) + " simulations that gave a heap";
   text += failed > 0 ? "; " + std::to_string(failed) + " failed." : ".";
   if (std::isfinite(e.reference.noise_floor)) {
     text += " The experiment's runs differ from the mean of the others by " +
-            NumberText4(e.reference.noise_floor) + " mm² (leave-one-run-out SAD).";
+            campaign::NumberText4(e.reference.noise_floor) + " mm² (leave-one-run-out SAD).";
   }
   if (e.conclusion) text += Answered(e, data.own());
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

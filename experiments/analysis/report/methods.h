@@ -5,9 +5,9 @@
 
 #include "experiments/analysis/report/report_data.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // Says only what the journal knows; ends before the result where there is none yet.
 std::string MethodsText(const ReportData& data);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 constexpr int kSlicePoints = 61;
@@ -89,4 +89,4 @@ std::vector<PairChance> PairChances(const Evidence& evidence, const ObjectiveFin
   return pairs;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

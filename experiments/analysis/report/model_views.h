@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/compare/compare.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // Along one parameter, the others held.
 struct ModelSlice {
@@ -31,4 +31,4 @@ std::vector<ModelSlice> SliceModel(const Evidence& evidence, const ModelFinding&
 // Every pair of parameters. `margin` as in ObjectiveFinding.
 std::vector<PairChance> PairChances(const Evidence& evidence, const ObjectiveFinding& finding);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 
 #include "page_files.h"  // made by talus_embed
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 void Replace(std::string& text, std::string_view what, std::string_view with) {
@@ -63,4 +63,4 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
   return page;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 
 #include "experiments/analysis/report/report_data.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 struct PageOptions {
   int reload =
@@ -17,4 +17,4 @@ std::string ReportPage(const ReportData& data, const PageOptions& options = {});
 // What the page's scripts draw from, as JSON.
 std::string PageJson(const ReportData& data);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 #include "experiments/analysis/report/methods.h"
 #include "experiments/analysis/report/page.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -79,7 +79,8 @@ Json CampaignJson(const ReportData& data) {
   for (const TrialEvidence& t : e.trials) cpu += std::isfinite(t.cpu_seconds) ? t.cpu_seconds : 0;
   const ObjectiveFinding& own = data.own();
   // The noise floor is a SAD: no other objective can be held against it.
-  const double floor = own.info.objective == Objective::kSad ? e.reference.noise_floor : kUndefined;
+  const double floor =
+      own.info.objective == journal::Objective::kSad ? e.reference.noise_floor : kUndefined;
   return {{"name", e.name},
           {"state", e.state},
           {"stop_reason", e.stop_reason},
@@ -231,4 +232,4 @@ std::string PageJson(const ReportData& data) {
   return page.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -3,7 +3,7 @@
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "imaging/heap/outline.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 // The highest powder of each column, from foot to foot.
@@ -43,4 +43,4 @@ void AddProfileViews(ReportData& data) {
   data.pictures = ProfilePictures(data.evidence, shown);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -3,10 +3,10 @@
 
 #include "experiments/analysis/report/report_data.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // Fills the report's measures, outlines and pictures: the experiment's and those of the best set by
 // each objective, each trial once.
 void AddProfileViews(ReportData& data);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 
 #include "experiments/analysis/report/profile_views.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::size_t IndexOf(const std::vector<ObjectiveFinding>& findings, std::string_view key) {
@@ -43,4 +43,4 @@ ReportData MakeReportData(Evidence evidence) {
   return data;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

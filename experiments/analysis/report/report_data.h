@@ -9,7 +9,7 @@
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/model_views.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // The outline of a profile at half intensity.
 struct OutlineCurve {
@@ -40,4 +40,4 @@ struct ReportData {
 
 ReportData MakeReportData(Evidence evidence);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

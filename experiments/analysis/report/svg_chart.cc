@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 // [px]
@@ -199,4 +199,4 @@ std::string SvgChart::Text() const {
          "</g>\n" + AxesText() + "</g>\n</svg>\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

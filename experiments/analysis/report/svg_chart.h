@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 struct SvgAxis {
   std::string title;
@@ -69,4 +69,4 @@ class SvgChart {
 // "#0072B2", …: Okabe and Ito's colours, as in the page.
 const std::string& SvgColor(std::size_t index);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -3,7 +3,7 @@
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/csv.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 namespace {
 
 std::string Trials(const Evidence& evidence) {
@@ -52,4 +52,4 @@ std::vector<NamedText> ReportTables(const ReportData& data) {
           {"outlines", Outlines(data)}};
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

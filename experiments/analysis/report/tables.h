@@ -5,9 +5,9 @@
 
 #include "experiments/analysis/report/report_data.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // {name of the file without ending, content}: trials, objectives, ten_best, measures, outlines.
 std::vector<NamedText> ReportTables(const ReportData& data);
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

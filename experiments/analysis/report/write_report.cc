@@ -6,7 +6,7 @@
 #include "experiments/analysis/report/page.h"
 #include "experiments/analysis/report/tables.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder,
                                   const PageOptions& page) {
@@ -26,4 +26,4 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
   return folder / "report.html";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

@@ -6,11 +6,11 @@
 #include "experiments/analysis/report/page.h"
 #include "experiments/analysis/report/report_data.h"
 
-namespace talus::experiments {
+namespace talus::analysis {
 
 // report.html, figures/*.svg and *.png, and tables/*.csv under `folder`, each written atomically.
 // Returns the page's path.
 std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder,
                                   const PageOptions& page = {});
 
-}  // namespace talus::experiments
+}  // namespace talus::analysis

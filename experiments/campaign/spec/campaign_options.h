@@ -6,7 +6,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct BudgetOptions {
   static constexpr int kMostSimulations = 1000000;
@@ -77,4 +77,4 @@ struct ConfirmOptions {
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -10,7 +10,7 @@
 #include "experiments/trials/engines/command_engine.h"
 #include "imaging/spheres/projection.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using nlohmann::ordered_json;
@@ -58,16 +58,17 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
     values.push_back(parameter.fixed.value_or(parameter.low));
     if (!parameter.fixed) calibrated.push_back(parameter.name);
   }
-  const HeapCase heap_case = CaseOf(
+  const rigs::HeapCase heap_case = CaseOf(
       spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
   problems.Within("engine", [&] {
-    CheckCommand(spec.engine.command,
-                 {.heap_case = heap_case,
-                  .calibrated = calibrated,
-                  .elsewhere = spec.runner.kind != RunnerKind::kLocal},
-                 problems);
+    trials::CheckCommand(spec.engine.command,
+                         {.heap_case = heap_case,
+                          .calibrated = calibrated,
+                          .elsewhere = spec.runner.kind != RunnerKind::kLocal},
+                         problems);
   });
-  spec.engine.command.templates_hash = TemplateFolder(*spec.engine.command.templates).Hash();
+  spec.engine.command.templates_hash =
+      trials::TemplateFolder(*spec.engine.command.templates).Hash();
 }
 
 }  // namespace
@@ -115,10 +116,11 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
-      const HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
+      const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
       heap_case.Validate(problems);
       if (!problems.empty()) return;  // the same for every scale factor
-      const double across = heap_case.device.plate_diameter / EstimateHeap(heap_case).mean_diameter;
+      const double across =
+          heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
       problems.Require(across >= kFewestAcross, "coarse_graining",
                        "leaves " + std::to_string(across).substr(0, 4) +
                            " grains across the plate of \"" + experiments[e].name +
@@ -218,7 +220,7 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
 }
 
 CampaignSpec ParseSpecText(const std::string& text) {
-  return ParseRecord<CampaignSpec>(text, "the journal's spec");
+  return journal::ParseRecord<CampaignSpec>(text, "the journal's spec");
 }
 
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
@@ -258,9 +260,9 @@ optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec) {
   return space;
 }
 
-HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
-                const imaging::Frame& frame) {
-  HeapCase heap_case;
+rigs::HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
+                      const imaging::Frame& frame) {
+  rigs::HeapCase heap_case;
   heap_case.powder = spec.powder;
   const ExperimentSpec experiment =
       ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
@@ -284,11 +286,11 @@ HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   return heap_case;
 }
 
-HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor) {
+rigs::HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor) {
   const optimizer::ParameterSpace space = SpaceOf(spec);
   const auto num_free = static_cast<Eigen::Index>(space.Free().size());
   const std::vector<double> values = space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
-  HeapCase heap_case = CaseOf(
+  rigs::HeapCase heap_case = CaseOf(
       spec,
       {.values = values, .seed = spec.seed, .scale_factor = scale_factor, .experiment = experiment},
       {});
@@ -310,4 +312,4 @@ std::vector<std::string> ForbiddenChanges(const std::string& old_text,
   return changes;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

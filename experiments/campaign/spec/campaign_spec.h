@@ -18,24 +18,25 @@
 #include "imaging/photos/experiment.h"
 #include "optimizer/strategies/make_strategy.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct CampaignSpec {
   std::string name;
-  Powder powder;
-  Device device;
+  rigs::Powder powder;
+  rigs::Device device;
   engine::ContactModels models;
   GrainSizes coarse_graining;
-  FillingRule filling;
-  HeapRules rules;
-  double gravity = 9.81;                             // [m/s²], > 0
-  double rayleigh_fraction = kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
+  rigs::FillingRule filling;
+  rigs::HeapRules rules;
+  double gravity = 9.81;  // [m/s²], > 0
+  double rayleigh_fraction =
+      rigs::kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
   std::optional<imaging::ExperimentOptions> experiment{};  // of a campaign with one only
   std::optional<std::vector<ExperimentSpec>> experiments{};
   int num_views = 16;  // of a simulated profile, >= 1
   std::optional<ParameterRanges> parameters{};
   std::vector<optimizer::LinearConstraint> constraints{};
-  Objective objective = Objective::kSad;
+  journal::Objective objective = journal::Objective::kSad;
   optimizer::StrategyOptions strategy;
   BudgetOptions budget;
   NoiseOptions noise;
@@ -122,14 +123,14 @@ struct TrialSettings {
   double scale_factor = 1;
   int experiment = 0;
 };
-HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
-                const imaging::Frame& frame);
+rigs::HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
+                      const imaging::Frame& frame);
 
 // A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
-HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);
+rigs::HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);
 
 // What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
 // what a running campaign may change is left out.
 std::vector<std::string> ForbiddenChanges(const std::string& old_text, const std::string& new_text);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

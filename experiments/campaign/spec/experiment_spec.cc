@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 void MeasuredMass::Validate(base::Problems& problems) const {
   problems.Require(value >= 0 && std::isfinite(value), "value", value, "must not be negative");
@@ -27,4 +27,4 @@ std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment) {
   return scalars;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

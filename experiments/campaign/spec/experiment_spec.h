@@ -12,7 +12,7 @@
 #include "experiments/rigs/lifted_tube/heap_rules.h"
 #include "imaging/photos/experiment.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 // A mass from a balance, with the error of what is given (of the mean, where it is a mean).
 struct MeasuredMass {
@@ -35,8 +35,8 @@ struct MeasuredMass {
 struct ExperimentSpec {
   std::string name;
   imaging::ExperimentOptions images;
-  std::optional<Device> device{};    // default: the campaign's
-  std::optional<HeapRules> rules{};  // default: the campaign's
+  std::optional<rigs::Device> device{};    // default: the campaign's
+  std::optional<rigs::HeapRules> rules{};  // default: the campaign's
   std::optional<MeasuredMass> mass_on_plate{};
   std::optional<MeasuredMass> mass_fallen{};
 
@@ -60,4 +60,4 @@ struct ScalarSpec {
 };
 std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 std::vector<double> GrainSizes::Levels() const {
   std::vector<double> levels = scale_factors.value_or(std::vector<double>{});
@@ -43,4 +43,4 @@ void GrainSizes::Validate(base::Problems& problems) const {
                    "than the target is of no use to it");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -8,7 +8,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 struct GrainSizes {
   double scale_factor = 1;                             // f [-], >= 1; the least of scale_factors
@@ -38,4 +38,4 @@ struct GrainSizes {
   bool AreSeveral() const { return Levels().size() > 1 || Target() < Levels().back(); }
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

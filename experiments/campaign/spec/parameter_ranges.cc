@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace talus::experiments {
+namespace talus::campaign {
 namespace {
 
 using base::FieldInfo;
@@ -68,9 +68,9 @@ struct Parameter {
   }
 };
 
-void SetOnWall(std::optional<WallMaterial>& wall, const std::string& property, double value) {
+void SetOnWall(std::optional<rigs::WallMaterial>& wall, const std::string& property, double value) {
   if (!wall) wall.emplace();
-  WallMaterial::Visit(*wall, PropertySetter{property, value});
+  rigs::WallMaterial::Visit(*wall, PropertySetter{property, value});
 }
 
 // The material with the property at `value` must be one that can be simulated. A wall's other
@@ -125,7 +125,7 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
   return base::ParseQuantity(text, DimensionOf(Parameter(parameter).property));
 }
 
-void SetParameter(HeapCase& heap_case, const std::string& parameter, double value) {
+void SetParameter(rigs::HeapCase& heap_case, const std::string& parameter, double value) {
   const auto [body, property] = Parameter(parameter);
   switch (body) {
     case Body::kPowder:
@@ -166,4 +166,4 @@ void ValidateRanges(const ParameterRanges& ranges, const engine::Material& mater
                    "parameters are searched, must be 1 to 6");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

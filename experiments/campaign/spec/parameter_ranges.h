@@ -10,7 +10,7 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "optimizer/space/parameter_space.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 template <base::Dimension kDimension>
 struct ParameterRange {
@@ -90,10 +90,10 @@ std::string UnitOf(const std::string& parameter);
 double ParseProperty(const std::string& parameter, const std::string& text);
 
 // Sets a parameter by its name above: the powder's, the plate's or the tube's.
-void SetParameter(HeapCase& heap_case, const std::string& parameter, double value);
+void SetParameter(rigs::HeapCase& heap_case, const std::string& parameter, double value);
 
 // What is wrong with a range, or with the powder at one of its ends, under the range's name.
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,
                     base::Problems& problems);
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -1,12 +1,12 @@
 #include "experiments/campaign/spec/where_options.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 void EngineOptions::Validate(base::Problems& problems) const {
   if (kind == EngineKind::kCommand) {
     command.Validate(problems);
   } else {
-    problems.Require(command == CommandOptions(), "kind",
+    problems.Require(command == trials::CommandOptions(), "kind",
                      "is talus, for which the other keys say nothing; set it to command or leave "
                      "them out");
   }
@@ -16,10 +16,10 @@ void RunnerOptions::Validate(base::Problems& problems) const {
   if (kind == RunnerKind::kSlurm) {
     slurm.Validate(problems);
   } else {
-    problems.Require(slurm == SlurmOptions(), "kind",
+    problems.Require(slurm == runners::SlurmOptions(), "kind",
                      "is local, for which the other keys say nothing; set it to slurm or leave "
                      "them out");
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign

@@ -9,20 +9,20 @@
 #include "experiments/runners/slurm_options.h"
 #include "experiments/trials/engines/command_options.h"
 
-namespace talus::experiments {
+namespace talus::campaign {
 
 enum class EngineKind { kTalus, kCommand };
 
 struct EngineOptions {
   EngineKind kind = EngineKind::kTalus;
-  CommandOptions command;
+  trials::CommandOptions command;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("kind", self.kind,
           {.doc = "talus: the engine of this program; command: another one, where the other keys "
                   "hold"});
-    CommandOptions::Visit(self.command, visit);
+    trials::CommandOptions::Visit(self.command, visit);
   }
   void Validate(base::Problems& problems) const;
 };
@@ -31,7 +31,7 @@ enum class RunnerKind { kLocal, kSlurm };
 
 struct RunnerOptions {
   RunnerKind kind = RunnerKind::kLocal;
-  SlurmOptions slurm;
+  runners::SlurmOptions slurm;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -39,21 +39,21 @@ struct RunnerOptions {
         "kind", self.kind,
         {.doc = "local: processes of this machine; slurm: jobs of a cluster, where the other keys "
                 "hold"});
-    SlurmOptions::Visit(self.slurm, visit);
+    runners::SlurmOptions::Visit(self.slurm, visit);
   }
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::campaign
 
 template <>
-struct talus::base::Names<talus::experiments::EngineKind> {
-  using E = talus::experiments::EngineKind;
+struct talus::base::Names<talus::campaign::EngineKind> {
+  using E = talus::campaign::EngineKind;
   static constexpr std::array kList{std::pair{"talus", E::kTalus},
                                     std::pair{"command", E::kCommand}};
 };
 template <>
-struct talus::base::Names<talus::experiments::RunnerKind> {
-  using R = talus::experiments::RunnerKind;
+struct talus::base::Names<talus::campaign::RunnerKind> {
+  using R = talus::campaign::RunnerKind;
   static constexpr std::array kList{std::pair{"local", R::kLocal}, std::pair{"slurm", R::kSlurm}};
 };

@@ -5,7 +5,7 @@
 
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 constexpr std::int64_t WallId(int wall) { return -1 - wall; }
@@ -61,4 +61,4 @@ Connectivity Connect(std::span<const engine::Particle> particles,
   return result;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -7,7 +7,7 @@
 
 #include "engine/simulation.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 struct Connectivity {
   std::vector<bool> on_plate;      // of each particle: a chain of contacts leads to the plate
@@ -22,4 +22,4 @@ std::size_t IndexOf(std::span<const engine::Particle> particles, std::int64_t id
 Connectivity Connect(std::span<const engine::Particle> particles,
                      std::span<const engine::ContactInfo> contacts);
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -8,7 +8,7 @@
 #include "base/problems.h"
 #include "engine/scene/material.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // Properties of a wall that differ from the powder's; what is not given is the powder's.
 struct WallMaterial {
@@ -75,11 +75,11 @@ struct Device {
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs
 
 template <>
-struct talus::base::Names<talus::experiments::PlateKind> {
-  using P = talus::experiments::PlateKind;
+struct talus::base::Names<talus::rigs::PlateKind> {
+  using P = talus::rigs::PlateKind;
   static constexpr std::array kList{std::pair{"solid_cylinder", P::kSolidCylinder},
                                     std::pair{"disc", P::kDisc}};
 };

@@ -7,7 +7,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // kDense: placed at rest, at a solid fraction of 0.55, in no simulated time. kPour: from the mouth
 // of a funnel, grain by grain.
@@ -61,10 +61,10 @@ struct FillingRule {
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs
 
 template <>
-struct talus::base::Names<talus::experiments::FillingKind> {
-  using F = talus::experiments::FillingKind;
+struct talus::base::Names<talus::rigs::FillingKind> {
+  using F = talus::rigs::FillingKind;
   static constexpr std::array kList{std::pair{"dense", F::kDense}, std::pair{"pour", F::kPour}};
 };

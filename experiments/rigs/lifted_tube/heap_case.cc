@@ -9,7 +9,7 @@
 #include "experiments/rigs/lifted_tube/pouring.h"
 #include "imaging/spheres/projection.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 constexpr double kLargestPlate = 2;  // [m]
@@ -172,4 +172,4 @@ HeapSize EstimateHeap(const HeapCase& c) {
   return size;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -19,7 +19,7 @@
 #include "experiments/rigs/lifted_tube/powder.h"
 #include "imaging/heap/profile.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 struct HeapOutputs {
   bool vtp = true;              // heap.vtp
@@ -101,4 +101,4 @@ struct HeapSize {
 };
 HeapSize EstimateHeap(const HeapCase& heap_case);
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -2,7 +2,7 @@
 #include "base/json_writer.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 HeapCase LoadHeapCase(const std::filesystem::path& path) {
   return LoadHeapCase(base::ReadJsonFile(path));
@@ -22,4 +22,4 @@ std::string HeapCaseText(const HeapCase& heap_case) {
   return base::ToJson(heap_case).dump(2) + "\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -10,7 +10,7 @@
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/lifted_tube/landing.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 using nlohmann::ordered_json;
@@ -180,4 +180,4 @@ std::uint64_t HeapCaseHash(const HeapCase& heap_case) {
   return base::Checksum(HeapCaseText(relevant));
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -10,7 +10,7 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "experiments/rigs/lifted_tube/heap_rig.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // The grains that a chain of contacts connects with the plate or that are about to land on these or
 // on it, by id.
@@ -29,4 +29,4 @@ HeapState ParseHeapState(const std::string& line);
 // checkpoint interval) is left out.
 std::uint64_t HeapCaseHash(const HeapCase& heap_case);
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

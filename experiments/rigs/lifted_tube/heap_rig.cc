@@ -9,7 +9,7 @@
 #include "engine/wall_motion.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 using engine::Particle;
@@ -291,4 +291,4 @@ void HeapRig::Say(const std::string& message) { messages_.push_back(message); }
 
 std::vector<std::string> HeapRig::TakeMessages() { return std::exchange(messages_, {}); }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

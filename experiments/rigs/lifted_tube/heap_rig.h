@@ -17,7 +17,7 @@
 #include "experiments/rigs/lifted_tube/heap_state.h"
 #include "experiments/rigs/lifted_tube/rest.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 class HeapRig {
  public:
@@ -72,4 +72,4 @@ class HeapRig {
   std::vector<std::string> messages_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -6,7 +6,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // When a phase ends: at rest, or at the cap, which the result then says.
 struct RestRule {
@@ -54,4 +54,4 @@ struct HeapRules {
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -9,7 +9,7 @@
 #include "imaging/formats/image_file.h"
 #include "imaging/spheres/projection.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 std::vector<base::Sphere> Spheres(const std::vector<engine::Particle>& particles) {
@@ -75,4 +75,4 @@ void HeapRun::WriteResults(const engine::RunTiming& timing) const {
   base::WriteFileAtomically(folder_ / "result.json", HeapResultText(case_, rig_, heap, timing));
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -12,7 +12,7 @@
 #include "engine/run/state_writer.h"
 #include "experiments/rigs/lifted_tube/heap_rig.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 class HeapRun : public engine::Run {
  public:
@@ -35,4 +35,4 @@ class HeapRun : public engine::Run {
   engine::StateWriter states_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -8,7 +8,7 @@
 #include "engine/scene/scene_warnings.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 std::vector<engine::Material> Materials(const HeapCase& c) {
@@ -117,4 +117,4 @@ std::vector<std::string> HeapWarnings(const HeapCase& c) {
   return warnings;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -9,7 +9,7 @@
 #include "engine/scene/scene.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // Indices into the scene's walls.
 inline constexpr int kTube = 0;
@@ -32,4 +32,4 @@ std::vector<std::string> HeapWarnings(const HeapCase& heap_case);
 // Of the first grains of a filling, in their order [m³].
 double FilledVolume(const HeapCase& heap_case, std::int64_t num_grains);
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

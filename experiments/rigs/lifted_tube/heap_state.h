@@ -10,7 +10,7 @@
 #include "engine/run/bed.h"
 #include "engine/scene/pour.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 enum class HeapPhase { kPouring, kSettling, kTapping, kLifting, kResting, kEnded };
 
@@ -75,19 +75,19 @@ struct HeapState {
   }
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs
 
 template <>
-struct talus::base::Names<talus::experiments::HeapPhase> {
-  using P = talus::experiments::HeapPhase;
+struct talus::base::Names<talus::rigs::HeapPhase> {
+  using P = talus::rigs::HeapPhase;
   static constexpr std::array kList{
       std::pair{"pouring", P::kPouring},        std::pair{"settling", P::kSettling},
       std::pair{"tapping", P::kTapping},        std::pair{"lifting", P::kLifting},
       std::pair{"coming to rest", P::kResting}, std::pair{"ended", P::kEnded}};
 };
 template <>
-struct talus::base::Names<talus::experiments::PhaseEnd> {
-  using E = talus::experiments::PhaseEnd;
+struct talus::base::Names<talus::rigs::PhaseEnd> {
+  using E = talus::rigs::PhaseEnd;
   static constexpr std::array kList{
       std::pair{"none", E::kNone},       std::pair{"poured", E::kPoured},
       std::pair{"tapped", E::kTapped},   std::pair{"at_rest", E::kAtRest},

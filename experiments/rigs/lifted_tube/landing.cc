@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 using engine::Particle;
@@ -42,4 +42,4 @@ void AddLanding(std::span<const Particle> particles, double plate_radius,
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -10,11 +10,11 @@
 
 #include "engine/scene/scene.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // Marks in `on_heap` (one for each particle) those that are about to land. The plate's top is z =
 // 0.
 void AddLanding(std::span<const engine::Particle> particles, double plate_radius,
                 std::vector<bool>& on_heap);
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

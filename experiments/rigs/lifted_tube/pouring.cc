@@ -7,7 +7,7 @@
 #include "engine/laws/pair_constants.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 namespace {
 
 constexpr double kFollowed = 0.5;  // solid fraction that the mouth rises with
@@ -81,4 +81,4 @@ double ImpactShare(const HeapCase& c) {
                    share(c.device.tube_material.value_or(same).Over(powder), 1)});
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -7,7 +7,7 @@
 #include "engine/scene/pour.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // Radii of the scaled grains, in the order in which they come [m].
 std::vector<double> DrawRadii(const HeapCase& heap_case);
@@ -31,4 +31,4 @@ double ImpactShare(const HeapCase& heap_case);
 // is that of a larger one.
 inline constexpr double kMaxImpactShare = 0.3;
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -6,7 +6,7 @@
 #include "engine/scene/material.h"
 #include "engine/scene/size_distribution.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 struct Powder {
   engine::Material material;
@@ -39,4 +39,4 @@ struct CoarseGraining {
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 using engine::Particle;
 using engine::Vec3;
@@ -106,4 +106,4 @@ std::vector<std::int64_t> CanOnlyFall(std::span<const Particle> particles,
   return ids;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -9,7 +9,7 @@
 #include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/device.h"
 
-namespace talus::experiments {
+namespace talus::rigs {
 
 // Mean kinetic energy of a grain over its m g d: Σ E / Σ m g d, weighted by mass.
 class EnergyRatio {
@@ -47,4 +47,4 @@ std::vector<std::int64_t> CanOnlyFall(std::span<const engine::Particle> particle
                                       const Connectivity& connected, const Device& device,
                                       double gravity);
 
-}  // namespace talus::experiments
+}  // namespace talus::rigs

@@ -6,7 +6,7 @@
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 // LAMMPS and LIGGGHTS refuse seeds from 900 million on, and 0.
@@ -35,8 +35,8 @@ void AddMaterial(const std::string& prefix, const engine::Material& material, Sc
   });
 }
 
-void AddDevice(const HeapCase& c, Scalars& scalars) {
-  const Device& device = c.device;
+void AddDevice(const rigs::HeapCase& c, Scalars& scalars) {
+  const rigs::Device& device = c.device;
   const std::pair<const char*, double> kLengths[] = {
       {"tube_inner_diameter", device.tube_inner_diameter},
       {"tube_inner_radius", device.tube_inner_diameter / 2},
@@ -46,15 +46,15 @@ void AddDevice(const HeapCase& c, Scalars& scalars) {
       {"lift_velocity", device.lift_velocity}};
   for (const auto& [name, value] : kLengths) scalars[name] = NumberText(value);
   const engine::Material& powder = c.powder.material;
-  AddMaterial("tube_", device.tube_material.value_or(WallMaterial{}).Over(powder), scalars);
-  AddMaterial("plate_", device.plate_material.value_or(WallMaterial{}).Over(powder), scalars);
+  AddMaterial("tube_", device.tube_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
+  AddMaterial("plate_", device.plate_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
 }
 
 // The powder as it is simulated: scaled, and counted.
-void AddSizes(const HeapCase& c, Scalars& scalars) {
+void AddSizes(const rigs::HeapCase& c, Scalars& scalars) {
   const double factor = c.coarse_graining.scale_factor;
   const engine::SizeCurve curve(c.powder.sizes);
-  const HeapSize size = EstimateHeap(c);
+  const rigs::HeapSize size = rigs::EstimateHeap(c);
   scalars["scale_factor"] = NumberText(factor);
   scalars["smallest_diameter"] = NumberText(factor * curve.smallest());
   scalars["largest_diameter"] = NumberText(factor * curve.largest());
@@ -71,11 +71,11 @@ void AddSizes(const HeapCase& c, Scalars& scalars) {
 
 }  // namespace
 
-TemplateValues CaseValues(const HeapCase& c) {
+TemplateValues CaseValues(const rigs::HeapCase& c) {
   TemplateValues values;
   Scalars& scalars = values.scalars;
   AddMaterial("", c.powder.material, scalars);
-  scalars["surface_energy_used"] = NumberText(UsedMaterial(c).surface_energy);
+  scalars["surface_energy_used"] = NumberText(rigs::UsedMaterial(c).surface_energy);
   scalars["full_mobilisation_damping"] = NumberText(c.models.full_mobilisation_damping);
   scalars["adhesion_cutoff"] = NumberText(c.models.adhesion_cutoff);
   scalars["rayleigh_fraction"] = NumberText(c.rayleigh_fraction);
@@ -92,11 +92,11 @@ TemplateValues CaseValues(const HeapCase& c) {
   return values;
 }
 
-void AddGrains(const HeapCase& c, TemplateValues& values) {
+void AddGrains(const rigs::HeapCase& c, TemplateValues& values) {
   TemplateTable& table = values.tables.at("grains");
-  HeapCase dense = c;  // another engine gets its grains in place
+  rigs::HeapCase dense = c;  // another engine gets its grains in place
   dense.filling = {};
-  const HeapScene made = MakeHeapScene(dense);
+  const rigs::HeapScene made = rigs::MakeHeapScene(dense);
   // The exact number, which the estimate may miss by one.
   values.scalars["num_grains"] = std::to_string(made.scene.particles.size());
   for (const engine::Particle& p : made.scene.particles) {
@@ -106,4 +106,4 @@ void AddGrains(const HeapCase& c, TemplateValues& values) {
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

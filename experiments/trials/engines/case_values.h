@@ -6,13 +6,13 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "experiments/trials/engines/template_text.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // Every value, in SI. The table `grains` has its columns but no rows: see AddGrains.
-TemplateValues CaseValues(const HeapCase& heap_case);
+TemplateValues CaseValues(const rigs::HeapCase& heap_case);
 
 // The rows of `grains`: the powder as our own engine fills it into the tube for this seed. Takes a
 // while for many grains, so only where a template asks for it.
-void AddGrains(const HeapCase& heap_case, TemplateValues& values);
+void AddGrains(const rigs::HeapCase& heap_case, TemplateValues& values);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -19,7 +19,7 @@
 #include "imaging/formats/sphere_files.h"
 #include "imaging/spheres/projection.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ constexpr const char* kDone = ".command_done";
 // The filled command, as a list.
 constexpr const char* kCommandFile = ".command.json";
 
-std::string CaseText(const HeapCase& heap_case, const CommandOptions& options) {
+std::string CaseText(const rigs::HeapCase& heap_case, const CommandOptions& options) {
   const CommandCase command_case{.heap = heap_case, .engine = options};
   return base::ToJson(command_case).dump(2) + "\n";
 }
@@ -40,12 +40,12 @@ struct Measured {
   imaging::GrayImage profile;
   std::size_t num_spheres = 0;  // in the file
   std::size_t num_grains = 0;   // of the heap
-  std::vector<MetricRecord> scalars{};
+  std::vector<journal::MetricRecord> scalars{};
 };
 
 // The mass that is filled in is the case's, whatever the other engine's grains come to.
-std::vector<MetricRecord> MassesOf(const HeapCase& heap_case,
-                                   const std::vector<base::Sphere>& heap) {
+std::vector<journal::MetricRecord> MassesOf(const rigs::HeapCase& heap_case,
+                                            const std::vector<base::Sphere>& heap) {
   double volume = 0;
   for (const base::Sphere& s : heap) {
     volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
@@ -65,7 +65,7 @@ void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
   base::WriteFileAtomically(path, engine::VtpOf(particles, 0), Outlives::kProgram);
 }
 
-Measured MeasureSpheres(const CommandOptions& options, const HeapCase& heap_case,
+Measured MeasureSpheres(const CommandOptions& options, const rigs::HeapCase& heap_case,
                         const fs::path& file, const fs::path& folder) {
   const auto spheres =
       OnOurPlate(options, imaging::ReadSpheres(file, {.length_unit = options.length_unit}));
@@ -86,7 +86,8 @@ Measured MeasureSpheres(const CommandOptions& options, const HeapCase& heap_case
           .scalars = MassesOf(heap_case, heap)};
 }
 
-Measured MeasureImage(const HeapCase& heap_case, const fs::path& file, const fs::path& folder) {
+Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
+                      const fs::path& folder) {
   Measured measured{.profile = imaging::ReadGrayImage(file)};
   const imaging::Frame& frame = heap_case.frame.value();
   if (measured.profile.width != frame.width || measured.profile.height != frame.height) {
@@ -100,7 +101,8 @@ Measured MeasureImage(const HeapCase& heap_case, const fs::path& file, const fs:
   return measured;
 }
 
-std::string ResultText(const HeapCase& heap_case, const Measured& measured, const fs::path& file) {
+std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured,
+                       const fs::path& file) {
   nlohmann::ordered_json result;
   result["kind"] = kKind;
   result["status"] = "ok";
@@ -118,12 +120,12 @@ std::string ResultText(const HeapCase& heap_case, const Measured& measured, cons
 }
 
 void RunCommand(CommandEngine& engine, int threads, const fs::path& folder) {
-  LocalRunner runner({.workers = 1, .threads_per_job = threads});
-  Job job;
+  runners::LocalRunner runner({.workers = 1, .threads_per_job = threads});
+  runners::Job job;
   job.folder = fs::absolute(folder);
   job.command = engine.Command(folder);
   runner.Submit({&job, 1});
-  std::vector<FinishedJob> finished;
+  std::vector<runners::FinishedJob> finished;
   while (finished.empty()) finished = runner.Wait(3600);
   if (finished.front().ok()) return;
   const std::string log = LastLogLines(folder);
@@ -142,7 +144,7 @@ CommandEngine::CommandEngine(const CommandOptions& options)
   }
 }
 
-void CommandEngine::Prepare(const HeapCase& heap_case, const fs::path& folder) {
+void CommandEngine::Prepare(const rigs::HeapCase& heap_case, const fs::path& folder) {
   PrepareFolder(folder, "case.json", CaseText(heap_case, options_));
   if (IsComplete(folder)) return;
   RemoveResults(options_, folder);
@@ -169,7 +171,7 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
 
 bool CommandEngine::IsComplete(const fs::path& folder) { return fs::exists(folder / kDone); }
 
-TrialOutput CommandEngine::Collect(const HeapCase& heap_case, const fs::path& folder) {
+TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::path& folder) {
   const fs::path file = FindResult(options_, folder, kCommandFile);
   const Measured measured = file.extension() == ".png"
                                 ? MeasureImage(heap_case, file, folder)
@@ -233,4 +235,4 @@ void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

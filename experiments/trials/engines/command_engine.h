@@ -10,17 +10,18 @@
 #include "experiments/trials/engines/template_folder.h"
 #include "experiments/trials/engines/trial_engine.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 class CommandEngine : public TrialEngine {
  public:
   // Throws ConfigError when the templates cannot be read or are not those of `options`' hash.
   explicit CommandEngine(const CommandOptions& options);
 
-  void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) override;
+  void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
-  TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) override;
+  TrialOutput Collect(const rigs::HeapCase& heap_case,
+                      const std::filesystem::path& folder) override;
 
  private:
   CommandOptions options_;
@@ -30,7 +31,7 @@ class CommandEngine : public TrialEngine {
 // What can be known to be wrong before anything runs: unknown placeholders, ones of `calibrated`
 // that nothing uses, and, unless `elsewhere` (a cluster's nodes), a program that is not there.
 struct CommandCheck {
-  const HeapCase& heap_case;  // any of the campaign
+  const rigs::HeapCase& heap_case;  // any of the campaign
   std::vector<std::string> calibrated;
   bool elsewhere = false;
 };
@@ -39,12 +40,12 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
 
 // A case.json of such an engine: that of a heap test with one more key, `engine`.
 struct CommandCase {
-  HeapCase heap;
+  rigs::HeapCase heap;
   CommandOptions engine;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    HeapCase::Visit(self.heap, visit);
+    rigs::HeapCase::Visit(self.heap, visit);
     visit("engine", self.engine,
           {.required = true, .doc = "another engine: its templates, command and result"});
   }
@@ -59,4 +60,4 @@ CommandCase LoadCommandCase(const base::JsonFile& file);
 void SimulateCommandCase(const CommandCase& command_case, const std::filesystem::path& folder,
                          bool fresh);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace talus::experiments {
+namespace talus::trials {
 
 namespace {
 
@@ -33,4 +33,4 @@ void CommandOptions::Validate(base::Problems& problems) const {
                    "must be positive");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -12,7 +12,7 @@
 #include "base/problems.h"
 #include "base/vec3.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // The direction in the engine's own coordinates that points away from the plate.
 enum class UpAxis { kX, kY, kZ };
@@ -47,11 +47,11 @@ struct CommandOptions {
   bool operator==(const CommandOptions&) const = default;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::trials
 
 template <>
-struct talus::base::Names<talus::experiments::UpAxis> {
-  using U = talus::experiments::UpAxis;
+struct talus::base::Names<talus::trials::UpAxis> {
+  using U = talus::trials::UpAxis;
   static constexpr std::array kList{std::pair{"x", U::kX}, std::pair{"y", U::kY},
                                     std::pair{"z", U::kZ}};
 };

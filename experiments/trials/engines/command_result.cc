@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "experiments/trials/engines/trial_engine.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
   return spheres;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

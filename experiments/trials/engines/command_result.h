@@ -8,7 +8,7 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "experiments/trials/engines/command_options.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // The file that `engine.result` means: of several the last in natural order (heap_9 < heap_10).
 // One older than `started`, a file of the trial's start, is none of this trial. Throws base::Error,
@@ -29,4 +29,4 @@ std::vector<base::Sphere> OnOurPlate(const CommandOptions& engine,
 // Whether "heap_9" comes before "heap_10".
 bool NaturalLess(const std::string& a, const std::string& b);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

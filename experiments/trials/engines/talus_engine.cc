@@ -8,13 +8,13 @@
 #include "base/json_file.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 namespace {
 
 // Results of earlier versions have none.
-std::vector<MetricRecord> ScalarsOf(const nlohmann::json& result) {
-  std::vector<MetricRecord> scalars;
+std::vector<journal::MetricRecord> ScalarsOf(const nlohmann::json& result) {
+  std::vector<journal::MetricRecord> scalars;
   if (!result.contains("observables")) return scalars;
   for (const auto& [name, value] : result["observables"].items()) {
     scalars.push_back({.name = name,
@@ -33,8 +33,8 @@ std::filesystem::path TalusEngine::ThisProgram() {
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 
-void TalusEngine::Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) {
-  PrepareFolder(folder, "case.json", HeapCaseText(heap_case));
+void TalusEngine::Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) {
+  PrepareFolder(folder, "case.json", rigs::HeapCaseText(heap_case));
 }
 
 std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {
@@ -45,7 +45,8 @@ bool TalusEngine::IsComplete(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "result.json");
 }
 
-TrialOutput TalusEngine::Collect(const HeapCase& heap_case, const std::filesystem::path& folder) {
+TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
+                                 const std::filesystem::path& folder) {
   const auto result = nlohmann::json::parse(base::ReadFile(folder / "result.json"), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   const std::string reason = base::TextAt(result, "reason");
@@ -64,4 +65,4 @@ TrialOutput TalusEngine::Collect(const HeapCase& heap_case, const std::filesyste
   return output;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

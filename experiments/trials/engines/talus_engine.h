@@ -7,17 +7,18 @@
 
 #include "experiments/trials/engines/trial_engine.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 class TalusEngine : public TrialEngine {
  public:
   // `program` is the talus to run; this one itself by default.
   explicit TalusEngine(std::filesystem::path program = ThisProgram());
 
-  void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) override;
+  void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
-  TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) override;
+  TrialOutput Collect(const rigs::HeapCase& heap_case,
+                      const std::filesystem::path& folder) override;
 
   static std::filesystem::path ThisProgram();
 
@@ -25,4 +26,4 @@ class TalusEngine : public TrialEngine {
   std::filesystem::path program_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -11,7 +11,7 @@
 #include "base/file.h"
 #include "experiments/trials/engines/command_result.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +145,4 @@ fs::path FindProgram(const CommandOptions& engine) {
   return {};
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -11,7 +11,7 @@
 #include "experiments/trials/engines/command_options.h"
 #include "experiments/trials/engines/template_text.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // The folder's files, read once.
 class TemplateFolder {
@@ -49,4 +49,4 @@ std::vector<std::string> FilledCommand(const CommandOptions& engine, const Templ
 // Empty when it is not found or not executable.
 std::filesystem::path FindProgram(const CommandOptions& engine);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 constexpr std::string_view kOpening = "{{";
@@ -173,4 +173,4 @@ std::string NumberText(double value) {
   return std::string(text, end);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -13,7 +13,7 @@
 
 #include "base/problems.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct TemplateTable {
   std::vector<std::string> columns;
@@ -60,4 +60,4 @@ class TextTemplate {
 // A number as a deck needs it: the shortest text that reads back to the same double.
 std::string NumberText(double value);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/file.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 std::string TextOf(const std::filesystem::path& path) {
@@ -40,4 +40,4 @@ std::string LastLogLines(const std::filesystem::path& folder) {
   return text;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -11,13 +11,13 @@
 #include "experiments/rigs/lifted_tube/heap_case.h"
 #include "imaging/gray_image.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct TrialOutput {
   imaging::GrayImage profile;  // ANHP in the case's frame
   std::int64_t num_steps = 0;  // 0 when not known
   std::int64_t num_particles = 0;
-  std::vector<MetricRecord> scalars{};  // what was measured beside the image
+  std::vector<journal::MetricRecord> scalars{};  // what was measured beside the image
   std::string note;  // how it ended, such as a phase that met its time cap; may be empty
 };
 
@@ -27,7 +27,7 @@ class TrialEngine {
 
   // Makes the folder ready for the command. A folder that was made ready for the same case keeps
   // what is in it, a finished result or a checkpoint; any other is cleared first.
-  virtual void Prepare(const HeapCase& heap_case, const std::filesystem::path& folder) = 0;
+  virtual void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) = 0;
 
   // To be run in the folder.
   virtual std::vector<std::string> Command(const std::filesystem::path& folder) = 0;
@@ -37,7 +37,8 @@ class TrialEngine {
 
   // What a complete folder holds. Throws base::Error with the reason when it is no good: the trial
   // has failed then.
-  virtual TrialOutput Collect(const HeapCase& heap_case, const std::filesystem::path& folder) = 0;
+  virtual TrialOutput Collect(const rigs::HeapCase& heap_case,
+                              const std::filesystem::path& folder) = 0;
 };
 
 // The folder with nothing in it but `key_file` = `text`; untouched when that is so already, other
@@ -48,4 +49,4 @@ void PrepareFolder(const std::filesystem::path& folder, const std::string& key_f
 // Why a command has failed, from the end of its log.txt; "" when that says nothing.
 std::string LastLogLines(const std::filesystem::path& folder);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -8,7 +8,7 @@
 
 #include "base/json_writer.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 using nlohmann::ordered_json;
@@ -163,4 +163,4 @@ std::string ViewsCsv(const imaging::Experiment& experiment) {
   return csv;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -8,7 +8,7 @@
 #include "imaging/heap/metrics.h"
 #include "imaging/photos/experiment.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // {"sad_mm2": {"value": …, "standard_error": …, "unit": …, "reference": …}, …}; what is not defined
 // has "not_defined" with the reason in place of a value.
@@ -29,4 +29,4 @@ std::string ViewsCsv(const imaging::Experiment& experiment);
 // Fields with a comma, a quote or a line break are quoted [rfc4180].
 std::string CsvField(const std::string& text);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

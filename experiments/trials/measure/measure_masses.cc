@@ -15,7 +15,7 @@
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/heap/mass_study.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -183,4 +183,4 @@ void MeasureMasses(const MeasureRequest& request, std::ostream& print) {
   print << "written to " << request.out.string() << "/\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

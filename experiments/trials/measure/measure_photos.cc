@@ -11,7 +11,7 @@
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -153,4 +153,4 @@ void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {
   print << "written to " << request.out.string() << "/ (look at overlays/*.png)\n";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

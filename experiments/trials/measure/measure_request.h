@@ -9,7 +9,7 @@
 
 #include "imaging/photos/experiment.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct MeasureRequest {
   std::vector<std::filesystem::path> inputs;
@@ -32,4 +32,4 @@ void MeasureSpheres(const MeasureRequest& request, std::ostream& print);
 void SetSource(const std::vector<std::filesystem::path>& inputs, bool is_map,
                imaging::ExperimentOptions& options);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

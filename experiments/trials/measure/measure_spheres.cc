@@ -14,7 +14,7 @@
 #include "imaging/heap/difference_map.h"
 #include "imaging/spheres/projection.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ void MeasureSpheres(const MeasureRequest& request, std::ostream& print) {
   }
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "imaging/formats/image_file.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 std::string_view Trimmed(std::string_view text) {
@@ -86,4 +86,4 @@ std::string ToCsv(std::span<const float> field, int width) {
   return csv;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

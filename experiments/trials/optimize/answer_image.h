@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // Row by row from the top, in [0, 1] with 1 = powder.
 struct AnswerImage {
@@ -25,4 +25,4 @@ AnswerImage FromRows(const std::vector<std::vector<double>>& rows, const std::st
 // As ReadAnswerImage reads it, to the bit.
 std::string ToCsv(std::span<const float> field, int width);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "experiments/runners/tool.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 std::string Excerpt(const std::string& text) {
@@ -46,7 +46,7 @@ std::string Evaluator::InputOf(const Eigen::VectorXd& point, std::uint64_t seed)
 
 Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed) const {
   Evaluated evaluated{.observation = {.point = point}, .failure = {}};
-  const ToolResult result = RunTool(
+  const runners::ToolResult result = runners::RunTool(
       command_, {.time_cap = problem_.time_cap, .output_file = {}, .input = InputOf(point, seed)});
   if (result.status == 127) {
     throw base::Error("the command cannot be run: " + Excerpt(result.errors));
@@ -106,4 +106,4 @@ std::string Evaluator::TakeImage(AnswerImage image, optimizer::Observation& obse
   return "";
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -12,7 +12,7 @@
 #include "optimizer/models/field_objective.h"
 #include "optimizer/strategies/strategy.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct Evaluated {
   optimizer::Observation observation;
@@ -45,4 +45,4 @@ class Evaluator {
   std::optional<optimizer::FieldObjective> field_;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -12,7 +12,7 @@
 #include "experiments/trials/optimize/optimize_result_json.h"
 #include "optimizer/space/domain.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -138,4 +138,4 @@ std::string Optimize(const OptimizeProblem& problem, const std::vector<std::stri
   return Loop(problem, command, output).Run();
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -7,7 +7,7 @@
 
 #include "experiments/trials/optimize/optimize_problem.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct OptimizeOutput {
   // Log, images and result; a search that was killed goes on from there. Nothing is kept when
@@ -20,4 +20,4 @@ struct OptimizeOutput {
 std::string Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
                      const OptimizeOutput& output);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -15,7 +15,7 @@
 #include "base/file_lock.h"
 #include "base/json_writer.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -158,4 +158,4 @@ void OptimizeFolder::WriteResult(const std::string& json) const {
   base::WriteFileAtomically(root_ / "result.json", json);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

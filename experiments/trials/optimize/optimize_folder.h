@@ -15,7 +15,7 @@
 
 #include "experiments/trials/optimize/evaluator.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 class OptimizeFolder {
  public:
@@ -50,4 +50,4 @@ class OptimizeFolder {
   int log_ = -1;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

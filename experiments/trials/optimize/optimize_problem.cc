@@ -1,6 +1,6 @@
 #include "experiments/trials/optimize/optimize_problem.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 void OptimizeTarget::Validate(base::Problems& problems) const {
   problems.Require(profile.empty() != field.empty(), "profile",
@@ -32,4 +32,4 @@ void OptimizeProblem::Validate(base::Problems& problems) const {
   problems.Require(time_cap > 0, "time_cap", time_cap, "must be positive");
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -11,7 +11,7 @@
 #include "optimizer/space/parameter_space.h"
 #include "optimizer/strategies/make_strategy.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // The image the command's images are compared with: one of the two.
 struct OptimizeTarget {
@@ -51,4 +51,4 @@ struct OptimizeProblem {
   void Validate(base::Problems& problems) const;
 };
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -74,4 +74,4 @@ json OptimizeResult(const OptimizeProblem& problem, const optimizer::Answer& ans
   return result;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -9,7 +9,7 @@
 #include "experiments/trials/optimize/optimize_problem.h"
 #include "optimizer/strategies/strategy.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct SearchTally {
   int num_evaluations = 0;
@@ -25,4 +25,4 @@ nlohmann::ordered_json OptimizeResult(const OptimizeProblem& problem,
                                       const optimizer::Answer& answer, const SearchTally& tally,
                                       const std::string& stopped);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -15,7 +15,7 @@
 #include "base/version.h"
 #include "experiments/trials/simulate/run_log.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 namespace fs = std::filesystem;
@@ -203,4 +203,4 @@ void DriveRun(const RunJob& job, const RunFolderOptions& options) {
   fs::remove(folder / kCheckpoint, gone);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

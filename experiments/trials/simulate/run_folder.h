@@ -11,7 +11,7 @@
 
 #include "engine/run/run.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 struct RunJob {
   std::string kind;                // as result.json has it
@@ -34,4 +34,4 @@ struct RunFolderOptions {
 // when the run fails, which result.json then says; ConfigError before anything is written.
 void DriveRun(const RunJob& job, const RunFolderOptions& options);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

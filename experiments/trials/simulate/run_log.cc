@@ -9,7 +9,7 @@
 
 #include "base/printable.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 constexpr double kTerminalPeriod = 0.25;  // [s]
@@ -84,4 +84,4 @@ void RunLog::Progress(const engine::RunProgress& p) {
   progress_shown_ = true;
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

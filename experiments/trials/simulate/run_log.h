@@ -9,7 +9,7 @@
 
 #include "engine/run/run.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 class RunLog {
  public:
@@ -41,4 +41,4 @@ class RunLog {
 // "45 s", "12 min", "3 h 20 min"
 std::string DurationText(double seconds);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -9,7 +9,7 @@
 #include "experiments/rigs/lifted_tube/heap_run.h"
 #include "experiments/trials/engines/command_engine.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 namespace {
 
 void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
@@ -34,18 +34,19 @@ void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
 }
 
 void SimulateHeap(base::JsonFile input, const RunFolderOptions& options) {
-  const HeapCase heap_case = LoadHeapCase(input);
-  const RunJob job{.kind = "heap",
-                   .input_hash = HeapCaseHash(heap_case),
-                   .source = input.path,
-                   .input_name = "case.json",
-                   .input = HeapCaseText(heap_case),
-                   .checkpoint_interval = heap_case.checkpoint_interval,
-                   .start = [&] { return std::make_unique<HeapRun>(heap_case, options.folder); },
-                   .go_on =
-                       [&](const engine::RunCheckpoint& checkpoint) {
-                         return std::make_unique<HeapRun>(heap_case, options.folder, checkpoint);
-                       }};
+  const rigs::HeapCase heap_case = rigs::LoadHeapCase(input);
+  const RunJob job{
+      .kind = "heap",
+      .input_hash = rigs::HeapCaseHash(heap_case),
+      .source = input.path,
+      .input_name = "case.json",
+      .input = rigs::HeapCaseText(heap_case),
+      .checkpoint_interval = heap_case.checkpoint_interval,
+      .start = [&] { return std::make_unique<rigs::HeapRun>(heap_case, options.folder); },
+      .go_on =
+          [&](const engine::RunCheckpoint& checkpoint) {
+            return std::make_unique<rigs::HeapRun>(heap_case, options.folder, checkpoint);
+          }};
   DriveRun(job, options);
 }
 
@@ -73,4 +74,4 @@ void Simulate(const std::filesystem::path& input, const RunFolderOptions& option
   throw base::ConfigError(input.string() + ": is nothing that can be simulated: " + known);
 }
 
-}  // namespace talus::experiments
+}  // namespace talus::trials

@@ -7,7 +7,7 @@
 #include "base/json_file.h"
 #include "experiments/trials/simulate/run_folder.h"
 
-namespace talus::experiments {
+namespace talus::trials {
 
 // One kind of input: a top-level key that only it has, and what runs it. A new kind: a line in the
 // list in simulate.cc.
@@ -20,4 +20,4 @@ struct InputKind {
 // Reads the file's kind from its keys and runs it; throws ConfigError for an unknown kind.
 void Simulate(const std::filesystem::path& input, const RunFolderOptions& options);
 
-}  // namespace talus::experiments
+}  // namespace talus::trials
