@@ -92,6 +92,14 @@ std::string PosteriorLines(const CampaignResult& result) {
   for (const ResultStanding& e : p.experiments) {
     text += "  " + Padded(e.name, 18) + "implausibility " + NumberText4(e.implausibility) + "\n";
   }
+  for (const ResultAlone& a : p.alone) {
+    text += "  " + a.name + " alone:";
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+      text += (i == 0 ? " " : ", ") + names[i] + " " + NumberText4(a.values[i]) + " (" +
+              NumberText4(a.low[i]) + " to " + NumberText4(a.high[i]) + ")";
+    }
+    text += "\n";
+  }
   return text + "  coverage          of 90 % regions, leave-one-out over " +
          std::to_string(p.num_left_out) + " trials: " + NumberText4(100 * p.raw_coverage) +
          " % raw, " + NumberText4(100 * p.tempered_coverage) + " % tempered\n";

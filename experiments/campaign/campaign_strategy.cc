@@ -34,18 +34,23 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
   return targets;
 }
 
-std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
-                                                       const journal::CampaignRecord& record,
-                                                       const std::vector<Reference>& references) {
+std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategyFor(
+    const CampaignSpec& spec, std::vector<optimizer::ExperimentTarget> targets) {
   const PosteriorOptions posterior = spec.posterior.value_or(PosteriorOptions{});
-  return optimizer::MakeFidelityStrategy({.scale_factors = spec.coarse_graining.Levels(),
-                                          .target = spec.coarse_graining.Target(),
-                                          .num_initial = spec.strategy.num_initial,
-                                          .model_error = posterior.model_error,
-                                          .stop_share = posterior.stop_share,
-                                          .seed = spec.seed},
-                                         SpaceOf(spec).MakeDomain(),
-                                         TargetsOf(spec, record, references));
+  const optimizer::FidelityOptions options{.scale_factors = spec.coarse_graining.Levels(),
+                                           .target = spec.coarse_graining.Target(),
+                                           .num_initial = spec.strategy.num_initial,
+                                           .model_error = posterior.model_error,
+                                           .stop_share = posterior.stop_share,
+                                           .seed = spec.seed};
+  return std::make_unique<optimizer::FidelityStrategy>(options, SpaceOf(spec).MakeDomain(),
+                                                       std::move(targets));
+}
+
+std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategy(
+    const CampaignSpec& spec, const journal::CampaignRecord& record,
+    const std::vector<Reference>& references) {
+  return MakeJointStrategyFor(spec, TargetsOf(spec, record, references));
 }
 
 std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(

@@ -8,6 +8,7 @@
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
+#include "optimizer/fidelity/fidelity_strategy.h"
 #include "optimizer/strategies/strategy.h"
 
 namespace talus::campaign {
@@ -23,9 +24,14 @@ std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(const CampaignSpec& sp
                                                           const std::vector<Reference>& references);
 
 // The one over all scale factors and experiments, also where there is one of each only.
-std::unique_ptr<optimizer::Strategy> MakeJointStrategy(const CampaignSpec& spec,
-                                                       const journal::CampaignRecord& record,
-                                                       const std::vector<Reference>& references);
+std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategy(
+    const CampaignSpec& spec, const journal::CampaignRecord& record,
+    const std::vector<Reference>& references);
+
+// One over other targets at the campaign's scale factors: some of its experiments, or a test that
+// has not been made.
+std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategyFor(
+    const CampaignSpec& spec, std::vector<optimizer::ExperimentTarget> targets);
 
 // Whether a strategy is told of it: all but the confirming ones are.
 inline bool IsOfSearch(const journal::TrialRecord& trial) {

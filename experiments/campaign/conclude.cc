@@ -7,6 +7,7 @@
 
 #include "base/version.h"
 #include "experiments/campaign/describe_posterior.h"
+#include "experiments/campaign/hold_out.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
@@ -202,6 +203,33 @@ void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
   }
 }
 
+// Where experiments disagree, what each alone would say: it tells which of them is the odd one.
+void AddAloneAnswers(const Planner& planner, const Evidenced& of, CampaignResult& result) {
+  const bool disagree =
+      std::any_of(result.warnings.begin(), result.warnings.end(),
+                  [](const ResultWarning& w) { return w.kind == WarningKind::kImplausible; });
+  if (!disagree || of.references.size() < 2) return;
+  JointView view{.folder = {},
+                 .spec = of.spec,
+                 .record = of.campaign,
+                 .references = of.references,
+                 .space = planner.space(),
+                 .trials = planner.trials()};
+  for (const journal::TrialRecord& trial : InOrderOfFinish(view.trials)) {
+    if (!IsOfSearch(trial)) continue;
+    const Reference& reference = of.references[static_cast<std::size_t>(trial.experiment)];
+    const auto profile = of.profile(trial.id);
+    view.observations.push_back(ObservationOf(
+        trial, reference, profile ? reference.Field(*profile) : std::vector<float>{}));
+  }
+  for (const PartialAnswer& answer : AnswersAlone(view)) {
+    result.posterior->alone.push_back({.name = answer.experiments.front(),
+                                       .values = answer.values,
+                                       .low = answer.low,
+                                       .high = answer.high});
+  }
+}
+
 void AddWarnings(const optimizer::Answer& answer, const CampaignSpec& spec,
                  CampaignResult& result) {
   for (const optimizer::BoundWarning& bound : answer.warnings) {
@@ -247,6 +275,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
     result.posterior = DescribePosterior(*answer->posterior, planner.space());
   }
   AddWarnings(*answer, of.spec, result);
+  AddAloneAnswers(planner, of, result);
   std::vector<double> noise;
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.kind != journal::TrialKind::kNoise) continue;

@@ -7,10 +7,9 @@
 #include "base/json_writer.h"
 #include "base/nearest.h"
 #include "base/problems.h"
-#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/console.h"
 #include "experiments/campaign/describe_posterior.h"
-#include "experiments/campaign/start.h"
+#include "experiments/campaign/joint_view.h"
 
 namespace talus::campaign {
 namespace {
@@ -81,31 +80,16 @@ std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
 
 ConsideredSet ConsiderSet(const std::filesystem::path& root,
                           const std::map<std::string, std::string>& set) {
-  const CampaignFolder folder{root};
-  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
-  const journal::CampaignRecord record = journal.Campaign();
-  const CampaignSpec spec = ParseSpecText(record.spec_json);
-  const std::vector<Reference> references = ReferencesOf(record, spec);
-  const optimizer::ParameterSpace space = SpaceOf(spec);
-  const Eigen::VectorXd point = ReadSet(space, set);
-  const auto strategy = MakeJointStrategy(spec, record, references);
-  const std::vector<journal::TrialRecord> trials = journal.Trials();
-  for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
-    if (!IsOfSearch(trial)) continue;
-    strategy->Tell(ObservationOf(trial, references[static_cast<std::size_t>(trial.experiment)],
-                                 StoredField(journal, folder, references, trial)));
-  }
-  ConsideredSet considered{.parameters = record.parameters,
-                           .values = {},
-                           .target_scale_factor = spec.coarse_graining.Target(),
+  const JointView view = ReadJointView(root);
+  const Eigen::VectorXd point = ReadSet(view.space, set);
+  const auto strategy = StrategyOf(view, view.All());
+  ConsideredSet considered{.parameters = view.record.parameters,
+                           .values = FreeValues(view.space, point),
+                           .target_scale_factor = view.spec.coarse_graining.Target(),
                            .credible_level = {},
                            .experiments = {},
-                           .nearest = NearestTrials(trials, references, point),
-                           .objective_unit = std::string(references.front().info().unit)};
-  const std::vector<double> native = space.ToNative(point);
-  for (const int i : space.Free()) {
-    considered.values.push_back(native[static_cast<std::size_t>(i)]);
-  }
+                           .nearest = NearestTrials(view.trials, view.references, point),
+                           .objective_unit = std::string(view.references.front().info().unit)};
   if (const auto standing = strategy->Consider(point)) {
     considered.credible_level = standing->credible_level;
     considered.experiments = StandingsOf(standing->experiments);

@@ -42,6 +42,22 @@ struct ResultStanding {
   }
 };
 
+// What one experiment answers by itself. Values in the order of the parameters, SI.
+struct ResultAlone {
+  std::string name;
+  std::vector<double> values{};
+  std::vector<double> low{};  // joint 90 % ranges
+  std::vector<double> high{};
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("values", self.values);
+    visit("low", self.low);
+    visit("high", self.high);
+  }
+};
+
 struct ResultPosterior {
   double target_scale_factor = 1;
   bool is_extrapolated = false;             // no simulation at the target scale factor
@@ -53,6 +69,7 @@ struct ResultPosterior {
   int num_left_out = 0;                     // trials that the two are made of
   std::vector<double> unlearnt_levels{};    // scale factors whose bias is not known yet
   std::vector<ResultStanding> experiments;  // at the recommended set
+  std::vector<ResultAlone> alone{};         // where experiments disagree only
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -66,6 +83,7 @@ struct ResultPosterior {
     visit("num_left_out", self.num_left_out);
     visit("unlearnt_scale_factors", self.unlearnt_levels);
     visit("experiments", self.experiments);
+    visit("alone", self.alone);
   }
 };
 

@@ -80,6 +80,7 @@ ExperimentModel::ExperimentModel(const Setup& setup, const ExperimentData& data,
   }
   FitOutputs(data, frozen);
   measured_ = Eigen::VectorXd::Zero(num_outputs());
+  error_ = Eigen::VectorXd::Ones(num_outputs());
   open_ = Eigen::VectorXd::Ones(num_outputs());
   if (has_image()) MeasureImages();
   MeasureScalars();
@@ -175,6 +176,7 @@ void ExperimentModel::MeasureImages() {
     heaps = num_runs;
   }
   const double model_error = setup_.model_error * setup_.model_error;
+  error_.head(num_modes) = std::max(0.25, factor) / heaps * noise;
   open_.head(num_modes) = (1 / heaps + model_error) * std::max(0.25, factor) * noise;
   Eigen::VectorXd element = modes_.basis.cwiseAbs2() * noise;
   // Of n heaps, a share 1 - 1/n of the variance lies among them and 1/n is their mean's.
@@ -189,6 +191,7 @@ void ExperimentModel::MeasureScalars() {
     const double error = CompressionSlope(scalars[s]) * scalars[s].standard_error;
     const double model_error = setup_.model_error * setup_.model_error;
     measured_[k] = Compress(scalars[s], scalars[s].value);
+    error_[k] = error * error;
     open_[k] = error * error + model_error * TargetNoise(static_cast<std::size_t>(k));
   }
 }
@@ -207,9 +210,31 @@ OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
   return misfit;
 }
 
-double ExperimentModel::Implausibility(const Eigen::VectorXd& x) const {
-  return std::sqrt(MisfitOf(x.transpose()).residual.row(0).squaredNorm() /
-                   static_cast<double>(num_outputs()));
+OutputPredictions ExperimentModel::Predict(const Eigen::MatrixXd& points) const {
+  OutputPredictions predictions{.mean = Eigen::MatrixXd(points.rows(), num_outputs()),
+                                .variance = Eigen::MatrixXd(points.rows(), num_outputs()),
+                                .measured = error_,
+                                .model = open_ - error_,
+                                .single = Eigen::VectorXd(num_outputs())};
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const auto output = static_cast<std::size_t>(k);
+    const surrogate::Predictions all = outputs_[output].Predict(points, 0);
+    predictions.mean.col(k) = all.mean;
+    predictions.variance.col(k) = kCaution * kCaution * all.variance;
+    predictions.single[k] = TargetNoise(output);
+  }
+  return predictions;
+}
+
+double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
+  const Eigen::RowVectorXd residual = MisfitOf(x.transpose()).residual.row(0);
+  const Eigen::Index num_modes = modes_.basis.cols();
+  double most = 0;
+  if (num_modes > 0) most = std::sqrt(residual.head(num_modes).array().square().mean());
+  for (Eigen::Index k = num_modes; k < residual.size(); ++k) {
+    most = std::max(most, std::abs(residual[k]));
+  }
+  return most;
 }
 
 Eigen::MatrixXd ExperimentModel::LeaveOneOut() const {
@@ -314,16 +339,36 @@ double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
 }
 
 ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
-  ExperimentStanding standing{.name = setup_.target->name,
-                              .predicted_objective = kUndefined,
-                              .predicted_sd = kUndefined,
-                              .implausibility = Implausibility(x)};
+  ExperimentStanding standing{
+      .name = setup_.target->name, .predicted_objective = kUndefined, .predicted_sd = kUndefined};
   if (has_image()) {
     const Moments moments = Objective(x.transpose());
     standing.predicted_objective = moments.mean[0];
     standing.predicted_sd = moments.sd[0];
   }
   return standing;
+}
+
+std::vector<Moments> ExperimentModel::Scalars(const Eigen::MatrixXd& points) const {
+  const auto& scalars = setup_.target->scalars;
+  const std::size_t first = outputs_.size() - scalars.size();
+  std::vector<Moments> all;
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    const surrogate::Predictions at = outputs_[first + s].Predict(points, 0);
+    const double scale = std::abs(scalars[s].value) + scalars[s].standard_error;
+    all.push_back({.mean = scale * at.mean.array().sinh(),
+                   .sd = scale * at.mean.array().cosh() * at.variance.array().sqrt()});
+  }
+  return all;
+}
+
+std::vector<float> ExperimentModel::MeanImage(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd coefficients(modes_.basis.cols());
+  for (Eigen::Index k = 0; k < coefficients.size(); ++k) {
+    coefficients[k] = outputs_[static_cast<std::size_t>(k)].Predict(x.transpose(), 0).mean[0];
+  }
+  return setup_.code->Decode(
+      setup_.code->MeanOfImages(modes_.mean + modes_.basis * coefficients, blur_));
 }
 
 }  // namespace talus::optimizer

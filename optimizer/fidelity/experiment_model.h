@@ -39,6 +39,15 @@ struct OutputMisfit {
   Eigen::VectorXd log_sd;    // Σ ln sd over the outputs, not inflated
 };
 
+// The outputs at the target scale factor, and every variance that hides the truth from them.
+struct OutputPredictions {
+  Eigen::MatrixXd mean;      // one point a row, one output a column
+  Eigen::MatrixXd variance;  // the surrogate's, inflated as in OutputMisfit
+  Eigen::VectorXd measured;  // variance of what the experiment has measured, of each output
+  Eigen::VectorXd model;     // what no simulation can match (FidelityOptions::model_error)
+  Eigen::VectorXd single;    // of one heap about the mean of many
+};
+
 class ExperimentModel {
  public:
   struct Setup {
@@ -54,8 +63,9 @@ class ExperimentModel {
   ExperimentState state() const;
 
   OutputMisfit MisfitOf(const Eigen::MatrixXd& points) const;
-  // √(mean squared residual) at x [standard deviations].
-  double Implausibility(const Eigen::VectorXd& x) const;
+  OutputPredictions Predict(const Eigen::MatrixXd& points) const;
+  // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
+  double Misfit(const Eigen::VectorXd& x) const;
 
   // Of each evaluation, predicted from the others, in their sd: one evaluation a row.
   Eigen::MatrixXd LeaveOneOut() const;
@@ -77,7 +87,14 @@ class ExperimentModel {
   Moments Objective(const Eigen::MatrixXd& points) const;
   double ObjectiveNoise(const Eigen::VectorXd& x) const;  // sd of one heap's at the target
 
+  // Without the implausibility, which wants the posterior's temper.
   ExperimentStanding StandingAt(const Eigen::VectorXd& x) const;
+
+  // Each scalar at the target, expected and its surrogate's sd, in its own unit; one a column.
+  std::vector<Moments> Scalars(const Eigen::MatrixXd& points) const;
+
+  // The mean image at the target, as FieldObjective's; wants an image.
+  std::vector<float> MeanImage(const Eigen::VectorXd& x) const;
 
  private:
   // The coefficients of the images and the scalars, one evaluation a row; NaN where undefined.
@@ -95,6 +112,7 @@ class ExperimentModel {
   std::vector<std::vector<Eigen::Index>> evaluations_;  // rows of the data that each has
   Eigen::Index num_evaluations_ = 0;
   Eigen::VectorXd measured_;  // of each output
+  Eigen::VectorXd error_;     // variance of `measured_`
   Eigen::VectorXd open_;      // B: variance that experiment and model leave, of each output
   Eigen::VectorXd blur_;      // variance of each image element among the target's heaps
 };

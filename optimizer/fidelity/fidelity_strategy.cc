@@ -341,9 +341,7 @@ void FidelityStrategy::Summarise(Answer& answer) {
                            .unlearnt_levels = UnlearntLevels(),
                            .experiments = {}};
   answer.point = summary.branches.front().point;
-  for (const ExperimentModel& model : posterior.models()) {
-    summary.experiments.push_back(model.StandingAt(answer.point));
-  }
+  summary.experiments = posterior.StandingsAt(answer.point);
   answer.posterior = std::move(summary);
 }
 
@@ -388,9 +386,7 @@ std::optional<Standing> FidelityStrategy::Consider(const Eigen::VectorXd& point)
   if (!CanModel()) return std::nullopt;
   Standing standing;
   standing.credible_level = Sample().CredibleLevel(Model().LogDensity(point.transpose())[0]);
-  for (const ExperimentModel& model : Model().models()) {
-    standing.experiments.push_back(model.StandingAt(point));
-  }
+  standing.experiments = Model().StandingsAt(point);
   return standing;
 }
 

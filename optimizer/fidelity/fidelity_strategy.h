@@ -32,6 +32,12 @@ class FidelityStrategy : public Strategy {
   Answer Recommend() override;
   std::optional<Standing> Consider(const Eigen::VectorXd& point) override;
 
+  // Whether enough was told for the two below.
+  bool CanModel() const;
+  // Of all that was told.
+  const Posterior& Model();
+  const PosteriorSample& Sample();
+
  private:
   // What was told of one experiment; images in both codes until it shows which one serves.
   struct Told {
@@ -58,10 +64,7 @@ class FidelityStrategy : public Strategy {
   std::optional<Proposal> TooFewAt(const Eigen::VectorXd& point,
                                    std::span<const Proposal> asked) const;
   double CostOf(std::size_t experiment, int level) const;
-  bool CanModel() const;
-  const Posterior& Model();
   Posterior MakePosterior();
-  const PosteriorSample& Sample();
   std::vector<double> UnlearntLevels() const;
   void Summarise(Answer& answer);
 

@@ -14,7 +14,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kFreedom = 8;  // ν of the Student-t misfit
 constexpr double kMostTemper = 6;
 constexpr double kRegion = 0.9;       // probability of the joint region
 constexpr double kSharedError = 0.5;  // correlation of two tests' residuals, where nothing tells it
@@ -68,7 +67,8 @@ double ExpectedQuantile(Eigen::Index num_outputs, double probability) {
   };
   std::vector<double> draws(kDraws);
   for (double& draw : draws) {
-    draw = chi_square(static_cast<double>(num_outputs)) / (chi_square(kFreedom) / kFreedom);
+    draw = chi_square(static_cast<double>(num_outputs)) /
+           (chi_square(kMisfitFreedom) / kMisfitFreedom);
   }
   const auto at = draws.begin() + static_cast<std::ptrdiff_t>(probability * kDraws);
   std::nth_element(draws.begin(), at, draws.end());
@@ -237,8 +237,8 @@ Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double soft
   }
   const Eigen::ArrayXd squared =
       (residual * inverse_root_.transpose()).rowwise().squaredNorm().array();
-  const double exponent = 0.5 * (kFreedom + static_cast<double>(residual.cols()));
-  return -log_sd.array() - exponent * (1 + squared / (kFreedom * temper_ * softness)).log();
+  const double exponent = 0.5 * (kMisfitFreedom + static_cast<double>(residual.cols()));
+  return -log_sd.array() - exponent * (1 + squared / (kMisfitFreedom * temper_ * softness)).log();
 }
 
 PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,
@@ -301,6 +301,19 @@ double PosteriorSample::RegionVolume() const {
 Eigen::MatrixXd PosteriorSample::Draws(int count, std::uint64_t seed) const {
   base::Random random(seed, base::Stream("equally likely draws"));
   return points(Resample(weight, count, random), Eigen::all);
+}
+
+double Posterior::Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const {
+  return models_[experiment].Misfit(x) / std::sqrt(temper_);
+}
+
+std::vector<ExperimentStanding> Posterior::StandingsAt(const Eigen::VectorXd& x) const {
+  std::vector<ExperimentStanding> standings;
+  for (std::size_t e = 0; e < models_.size(); ++e) {
+    standings.push_back(models_[e].StandingAt(x));
+    standings.back().implausibility = Implausibility(e, x);
+  }
+  return standings;
 }
 
 }  // namespace talus::optimizer

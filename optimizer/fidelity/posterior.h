@@ -18,6 +18,8 @@
 
 namespace talus::optimizer {
 
+inline constexpr double kMisfitFreedom = 8;  // ν of the Student-t misfit
+
 // Coverage of nominal 90 % regions of the outputs, each evaluation left out in turn.
 struct LeaveOneOutCoverage {
   int count = 0;  // evaluations
@@ -54,6 +56,11 @@ class Posterior {
   // posterior may be curved and have several branches.
   PosteriorSample Sample(const Domain& domain, int num_start, double softness,
                          std::uint64_t seed) const;
+
+  // Misfit of an experiment over √T at x [standard deviations].
+  double Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const;
+  // Of each experiment at x.
+  std::vector<ExperimentStanding> StandingsAt(const Eigen::VectorXd& x) const;
 
   std::vector<ExperimentModel>& models() { return models_; }
   const std::vector<ExperimentModel>& models() const { return models_; }

@@ -19,7 +19,7 @@ struct ExperimentStanding {
   std::string name;
   double predicted_objective = 0;  // of the mean image at the target scale factor; NaN without one
   double predicted_sd = 0;
-  double implausibility = 0;  // √(misfit² / degrees of freedom) in standard deviations [-]
+  double implausibility = 0;  // Posterior::Implausibility [standard deviations]
 };
 
 // Where a given set stands in the posterior.

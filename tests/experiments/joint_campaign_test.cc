@@ -15,6 +15,7 @@
 #include "experiments/campaign/describe_posterior.h"
 #include "experiments/campaign/status.h"
 #include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
 namespace {
@@ -151,32 +152,6 @@ TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
   EXPECT_NEAR(found->value.value(), 12.5, 1e-9);
   EXPECT_THAT(ResultSummary(result), HasSubstr("only 12.5 grains across the plate of \"heap\""));
 }
-
-// The same powder by two tests: a map of a heap, and another with what fell beside it.
-class TwoExperiments : public ::testing::Test {
- protected:
-  fs::path Begin(const std::string& name) const {
-    const fs::path in = scratch_.path() / (name + "_in");
-    WriteFakeSpec(in, "");
-    const std::string map = R"("map": "map.png", "plate_diameter": "10 mm",
-      "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
-                "baseline_px": 76, "plate_diameter": "10 mm"})";
-    std::ofstream(in / "spec.json") << R"({
-      "experiments": [
-        {"name": "heap", )" << map << R"(},
-        {"name": "fast lift", )" << map
-                                    << R"(, "device": {"lift_velocity": "20 cm/s"},
-         "mass_fallen": {"value": "23 mg", "sd": "1 mg"}}],
-      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
-      "coarse_graining": {"scale_factor": 2},
-      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
-                     "rolling_friction": {"min": 0.05, "max": 0.5}},
-      "budget": {"simulations": 20}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1})";
-    BeginCampaign(in / "spec.json", scratch_.path() / name);
-    return scratch_.path() / name;
-  }
-  ScratchFolder scratch_;
-};
 
 TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   const fs::path folder = Begin("run");

@@ -1,0 +1,29 @@
+// What one more measurement is expected to teach about the parameters.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace talus::optimizer {
+
+// A measurement that has not been made, as draws of the posterior predict it.
+struct PredictedMeasurement {
+  Eigen::MatrixXd mean;      // one draw a row, one output a column; no columns: nothing is measured
+  Eigen::VectorXd variance;  // of each output once measured: its error and the model's, > 0
+};
+
+struct ExpectedLearning {
+  double bits = 0;        // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
+  Eigen::VectorXd width;  // of each parameter's joint 90 % range afterwards, expected, unit cube
+  // Two draws that it separates most, rows.
+  Eigen::Index first = 0;
+  Eigen::Index second = 0;
+};
+
+// `draws`: equally likely, one a row, as many as the measurement's rows and two at least. Each of
+// some of them is taken for the truth in turn, its measurement drawn, and the others weighted by
+// it, with the posterior's own heavy tails.
+ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
+                       std::uint64_t seed);
+
+}  // namespace talus::optimizer

@@ -1,0 +1,68 @@
+#include "optimizer/information/expected_learning.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+
+namespace talus::optimizer {
+namespace {
+
+Eigen::MatrixXd Even(Eigen::Index count) {
+  base::Random random(5, base::Stream("even draws"));
+  Eigen::MatrixXd draws(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i) draws.row(i) << random.Uniform(), random.Uniform();
+  return draws;
+}
+
+TEST(ExpectedLearning, NothingMeasuredTeachesNothing) {
+  const ExpectedLearning learning =
+      Learn(Even(500), {.mean = Eigen::MatrixXd(500, 0), .variance = {}}, 1);
+  EXPECT_EQ(learning.bits, 0);
+  EXPECT_GT(learning.width.minCoeff(), 0.9);
+}
+
+TEST(ExpectedLearning, BitsAreThoseOfALinearGaussianMeasurement) {
+  // Cov of one uniform parameter is 1/12; 5 % is over twice the error of a variance of 4000 draws.
+  const Eigen::MatrixXd draws = Even(4000);
+  const double variance = 0.01;
+  const ExpectedLearning learning =
+      Learn(draws, {.mean = draws.col(0), .variance = Eigen::VectorXd::Constant(1, variance)}, 1);
+  EXPECT_NEAR(learning.bits, 0.5 * std::log2(1 + 1 / (12 * variance)), 0.05);
+}
+
+TEST(ExpectedLearning, NarrowsWhatItMeasuresAndNothingElse) {
+  const Eigen::MatrixXd draws = Even(2000);
+  const double sd = 0.03;
+  const ExpectedLearning learning =
+      Learn(draws, {.mean = draws.col(0), .variance = Eigen::VectorXd::Constant(1, sd * sd)}, 1);
+  // A joint 90 % range of two parameters covers about 95 % of each: ± 2 to 2.5 sd with heavy tails;
+  // the other keeps its own 95 %.
+  EXPECT_GT(learning.width[0], 3.5 * sd);
+  EXPECT_LT(learning.width[0], 5.5 * sd);
+  EXPECT_GT(learning.width[1], 0.85);
+}
+
+TEST(ExpectedLearning, BetterMeasurementsTeachMore) {
+  const Eigen::MatrixXd draws = Even(1000);
+  const auto learn = [&](double sd) {
+    return Learn(draws, {.mean = draws, .variance = Eigen::VectorXd::Constant(2, sd * sd)}, 1);
+  };
+  EXPECT_GT(learn(0.05).bits, learn(0.1).bits + 1.5);  // each parameter nearly one bit more
+  EXPECT_LT(learn(0.05).width.sum(), learn(0.1).width.sum());
+}
+
+TEST(ExpectedLearning, NamesTheTwoDrawsThatItTellsApartBest) {
+  Eigen::MatrixXd draws = Even(100);
+  draws(17, 0) = -1;
+  draws(42, 0) = 2;
+  const ExpectedLearning learning =
+      Learn(draws, {.mean = draws.col(0), .variance = Eigen::VectorXd::Ones(1)}, 1);
+  EXPECT_EQ(learning.first, 17);
+  EXPECT_EQ(learning.second, 42);
+}
+
+}  // namespace
+}  // namespace talus::optimizer
