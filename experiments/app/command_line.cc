@@ -38,6 +38,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddResumeCommand(app);
   AddStatusCommand(app);
   AddConsiderCommand(app);
+  AddNextCommand(app);
   AddCompareCommand(app);
   AddReportCommand(app);
   AddCardCommand(app);

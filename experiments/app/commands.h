@@ -14,6 +14,7 @@ void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
 void AddCalibrateCommand(CLI::App& app);
 void AddConsiderCommand(CLI::App& app);
+void AddNextCommand(CLI::App& app);
 void AddExportCommand(CLI::App& app);
 void AddOptimizeCommand(CLI::App& app);
 void AddResumeCommand(CLI::App& app);

@@ -41,12 +41,13 @@ class Reference {
   // The part of a profile that matters, 1 = powder: where the experiment has powder, with a margin;
   // never below the plate.
   std::vector<float> Field(const imaging::GrayImage& profile) const;
+  // A whole image with this part, and no powder elsewhere.
+  imaging::GrayImage ImageOf(std::span<const float> field) const;
   optimizer::FieldObjective MakeFieldObjective() const;
 
  private:
   double ValueOfField(std::span<const float> field) const;
   imaging::Measured AngleOf(const imaging::GrayImage& image) const;  // in degrees
-  imaging::GrayImage ImageOf(std::span<const float> field) const;
 
   imaging::HeapImages aehp_;
   ReferenceOptions options_;

@@ -1,0 +1,115 @@
+#include "experiments/analysis/next/next_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/campaign/console.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::NumberText4;
+
+// A range's width as people read it: "0.12", or "× 3" of a logarithmic one.
+std::string WidthText(const NextTable& table, std::size_t parameter, double width) {
+  const journal::ParameterRecord& p = table.parameters[parameter];
+  char text[32];
+  if (table.scales[parameter] == optimizer::Scale::kLog) {
+    std::snprintf(text, sizeof text, "× %.2g", std::pow(p.high / p.low, width));
+  } else {
+    std::snprintf(text, sizeof text, "%.2g", width * (p.high - p.low));
+  }
+  return text;
+}
+
+std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
+  std::string text;
+  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + table.parameters[i].name + " " +
+            WidthText(table, i, width[static_cast<Eigen::Index>(i)]);
+  }
+  return text;
+}
+
+std::string SetText(const std::vector<double>& values) {
+  std::string text = "(";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + NumberText4(values[i]);
+  }
+  return text + ")";
+}
+
+std::string CostText(const NextCandidate& c) {
+  if (c.num_simulations == 0) return "no simulations";
+  return std::to_string(c.num_simulations) + " simulations, " + trials::DurationText(c.core_time) +
+         " of core time";
+}
+
+const char* KindName(NextKind kind) {
+  switch (kind) {
+    case NextKind::kMoreRuns:
+      return "more_runs";
+    case NextKind::kMoreSimulations:
+      return "more_simulations";
+    case NextKind::kNumber:
+      return "number";
+    case NextKind::kTest:
+      return "test";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string NextText(const NextTable& table) {
+  std::string text = "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";
+  bool unknown = false;
+  for (const NextCandidate& c : table.candidates) {
+    unknown |= !c.learning;
+    if (!c.learning) {
+      text += "   ?  bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n";
+      continue;
+    }
+    char bits[16];
+    std::snprintf(bits, sizeof bits, "%5.2f", c.learning->bits);
+    text += std::string(bits) + " bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n" +
+            "            expected to leave " + WidthsText(table, c.learning->width) + "\n";
+    if (!c.picture.empty()) {
+      text += "            tells apart best " + SetText(c.apart[0]) + " and " +
+              SetText(c.apart[1]) + ": " + c.picture.string() + "\n";
+    }
+  }
+  if (unknown) text += "--simulate runs the few simulations that tell what a test would teach\n";
+  return text;
+}
+
+std::string NextJson(const NextTable& table) {
+  const auto widths = [&](const Eigen::VectorXd& width) {
+    nlohmann::ordered_json json;
+    for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+      json[table.parameters[i].name] = width[static_cast<Eigen::Index>(i)];
+    }
+    return json;
+  };
+  nlohmann::ordered_json json{{"width_90", widths(table.width)}};
+  json["candidates"] = nlohmann::ordered_json::array();
+  for (const NextCandidate& c : table.candidates) {
+    nlohmann::ordered_json candidate{{"kind", KindName(c.kind)},
+                                     {"name", c.name},
+                                     {"what", c.what},
+                                     {"num_simulations", c.num_simulations},
+                                     {"core_time_s", c.core_time}};
+    candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
+    candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;
+    if (!c.picture.empty()) {
+      candidate["told_apart"] = c.apart;
+      candidate["picture"] = c.picture.string();
+    }
+    json["candidates"].push_back(std::move(candidate));
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace talus::analysis

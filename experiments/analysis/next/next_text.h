@@ -1,0 +1,13 @@
+// The table of what to do next, for people and for programs.
+#pragma once
+
+#include <string>
+
+#include "experiments/analysis/next/rank_next.h"
+
+namespace talus::analysis {
+
+std::string NextText(const NextTable& table);
+std::string NextJson(const NextTable& table);
+
+}  // namespace talus::analysis

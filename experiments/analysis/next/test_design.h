@@ -1,0 +1,38 @@
+// The few simulations that a test needs before it can be said what it would teach: one at each of
+// some draws of the posterior, as coarse as the campaign allows. They are kept in DIR/next/NAME and
+// not made twice.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "experiments/analysis/next/test_candidate.h"
+#include "experiments/campaign/campaign.h"
+#include "experiments/journal/records.h"
+#include "imaging/gray_image.h"
+
+namespace talus::analysis {
+
+struct DesignTrial {
+  Eigen::VectorXd point;  // unit cube
+  imaging::GrayImage profile;
+  std::vector<journal::MetricRecord> scalars;
+};
+
+struct TestDesign {
+  double scale_factor = 1;
+  imaging::Frame frame;
+  std::vector<DesignTrial> trials{};  // those that succeeded
+  int num_simulations = 0;            // of the design
+};
+
+// The design that was made; nothing where none was, or one of another device.
+std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const TestCandidate& test,
+                                       trials::TrialEngine& engine);
+
+// Simulates what of it is missing at points spread over `draws` of the posterior (one a row).
+// Throws base::Interrupted when the user ends it; what has ended is kept.
+TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& test,
+                          const Eigen::MatrixXd& draws, const campaign::CampaignParts& parts);
+
+}  // namespace talus::analysis
