@@ -1,7 +1,6 @@
 #include "optimizer/fidelity/posterior.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,14 +8,14 @@
 
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
+#include "optimizer/fidelity/residual_correlation.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
 namespace {
 
 constexpr double kMostTemper = 6;
-constexpr double kRegion = 0.9;       // probability of the joint region
-constexpr double kSharedError = 0.5;  // correlation of two tests' residuals, where nothing tells it
+constexpr double kRegion = 0.9;  // probability of the joint region
 
 // Residuals of all experiments side by side: a row for each set and scale factor, NaN where an
 // experiment was not simulated there. Replicates go to rows of their own.
@@ -152,49 +151,15 @@ Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<Expe
   Temper(stacked);
 }
 
-// Pairwise, shrunk towards none within a test and towards kSharedError / K between tests, as far as
-// there are few residuals.
 void Posterior::Correlate(const Eigen::MatrixXd& stacked) {
-  constexpr double kPrior = 12;  // residuals that the shrinkage is worth
-  constexpr double kLeastEigenvalue = 0.05;
-  const Eigen::Index size = stacked.cols();
-  std::vector<int> test(static_cast<std::size_t>(size));
-  Eigen::Index k = 0;
+  std::vector<int> test;
   for (std::size_t e = 0; e < models_.size(); ++e) {
-    for (int i = 0; i < models_[e].num_outputs(); ++i)
-      test[static_cast<std::size_t>(k++)] = static_cast<int>(e);
+    test.insert(test.end(), static_cast<std::size_t>(models_[e].num_outputs()),
+                static_cast<int>(e));
   }
-  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(size, size);
-  for (Eigen::Index a = 0; a < size; ++a) {
-    for (Eigen::Index b = 0; b < a; ++b) {
-      double ab = 0;
-      double aa = 1e-12;
-      double bb = 1e-12;
-      double count = 0;
-      for (Eigen::Index i = 0; i < stacked.rows(); ++i) {
-        const double u = stacked(i, a);
-        const double v = stacked(i, b);
-        if (!std::isfinite(u) || !std::isfinite(v)) continue;
-        ab += u * v;
-        aa += u * u;
-        bb += v * v;
-        count += 1;
-      }
-      const bool same = test[static_cast<std::size_t>(a)] == test[static_cast<std::size_t>(b)];
-      const double prior = same ? 0 : kSharedError / static_cast<double>(size);
-      correlation(a, b) = (count * ab / std::sqrt(aa * bb) + kPrior * prior) / (count + kPrior);
-      correlation(b, a) = correlation(a, b);
-    }
-  }
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly)
-          .eigenvalues()[0];
-  if (least < kLeastEigenvalue) {
-    const double share = (kLeastEigenvalue - least) / (1 - least);
-    correlation = (1 - share) * correlation + share * Eigen::MatrixXd::Identity(size, size);
-  }
-  const Eigen::MatrixXd lower = correlation.llt().matrixL();
-  inverse_root_ = lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
+  const Eigen::MatrixXd lower = ResidualCorrelation(stacked, test).llt().matrixL();
+  inverse_root_ = lower.triangularView<Eigen::Lower>().solve(
+      Eigen::MatrixXd::Identity(stacked.cols(), stacked.cols()));
 }
 
 // A residual that is not there counts as the mean of those that are.
