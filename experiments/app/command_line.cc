@@ -36,6 +36,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddValidateCommand(app);
   AddCalibrateCommand(app);
   AddResumeCommand(app);
+  AddAddExperimentCommand(app);
   AddStatusCommand(app);
   AddConsiderCommand(app);
   AddNextCommand(app);

@@ -13,6 +13,7 @@ void AddCompareCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
 void AddCalibrateCommand(CLI::App& app);
+void AddAddExperimentCommand(CLI::App& app);
 void AddConsiderCommand(CLI::App& app);
 void AddNextCommand(CLI::App& app);
 void AddExportCommand(CLI::App& app);

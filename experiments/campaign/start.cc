@@ -31,39 +31,6 @@ std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpa
   return records;
 }
 
-journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
-  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
-  for (const imaging::PhotoWarning& warning : experiment.warnings) {
-    std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
-  }
-  journal::ExperimentRecord record;
-  record.name = spec.name;
-  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
-  if (!experiment.standard_deviation.pixels.empty()) {
-    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
-  }
-  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
-  record.nebp_px = imaging::Nebp(experiment.aehp.image);
-  record.num_heaps =
-      experiment.runs.empty() ? spec.images.map_heaps : static_cast<int>(experiment.runs.size());
-  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
-  for (const imaging::Metric& metric : experiment.metrics) {
-    record.reference.push_back({.name = metric.name,
-                                .value = metric.value.value,
-                                .unit = metric.unit,
-                                .undefined = metric.value.not_defined,
-                                .standard_error = metric.value.standard_error});
-  }
-  for (const imaging::MeasuredRun& run : experiment.runs) {
-    record.runs.push_back({.name = run.name, .png = imaging::EncodePng(run.profile.image)});
-  }
-  for (const ScalarSpec& scalar : ScalarsOf(spec)) {
-    record.scalars.push_back(
-        {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
-  }
-  return record;
-}
-
 // The journal, or a new one from what the folder keeps beside it.
 journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   const std::filesystem::path path = journal::JournalPath(folder.root);
@@ -154,6 +121,39 @@ void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path&
 
 std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
   return ParametersOf(SpaceOf(spec));
+}
+
+journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
+  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
+  for (const imaging::PhotoWarning& warning : experiment.warnings) {
+    std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
+  }
+  journal::ExperimentRecord record;
+  record.name = spec.name;
+  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
+  if (!experiment.standard_deviation.pixels.empty()) {
+    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
+  }
+  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
+  record.nebp_px = imaging::Nebp(experiment.aehp.image);
+  record.num_heaps =
+      experiment.runs.empty() ? spec.images.map_heaps : static_cast<int>(experiment.runs.size());
+  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
+  for (const imaging::Metric& metric : experiment.metrics) {
+    record.reference.push_back({.name = metric.name,
+                                .value = metric.value.value,
+                                .unit = metric.unit,
+                                .undefined = metric.value.not_defined,
+                                .standard_error = metric.value.standard_error});
+  }
+  for (const imaging::MeasuredRun& run : experiment.runs) {
+    record.runs.push_back({.name = run.name, .png = imaging::EncodePng(run.profile.image)});
+  }
+  for (const ScalarSpec& scalar : ScalarsOf(spec)) {
+    record.scalars.push_back(
+        {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
+  }
+  return record;
 }
 
 journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {

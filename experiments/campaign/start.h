@@ -19,6 +19,9 @@ std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spe
 // Measures the experiment; throws ConfigError where it cannot be used with this spec.
 journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file);
 
+// Measures one experiment; throws ConfigError where its images are no good.
+journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec);
+
 // Makes the folder and the journal of a new campaign. Nothing is written when the spec or the
 // experiment's images are no good.
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder);

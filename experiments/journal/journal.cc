@@ -103,25 +103,7 @@ TrialRecord ReadTrial(const Statement& row) {
   return trial;
 }
 
-// "J/m^2" → "J_per_m2": a unit as part of a column's name.
-std::string UnitInName(const std::string& unit) {
-  std::string name;
-  for (const char c : unit) {
-    if (c == '/') {
-      name += "_per_";
-    } else if (c != '^') {
-      name += c;
-    }
-  }
-  return name;
-}
-
 }  // namespace
-
-std::string ColumnName(const ParameterRecord& parameter) {
-  return parameter.unit.empty() ? parameter.name
-                                : parameter.name + "_" + UnitInName(parameter.unit);
-}
 
 std::filesystem::path JournalPath(const std::filesystem::path& campaign) {
   return campaign / "journal.sqlite";
@@ -193,97 +175,6 @@ Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
     throw base::Error(path.string() + ": is damaged: " + broken + "; `talus resume` repairs it");
   }
   return Journal(std::move(database));
-}
-
-void Journal::InsertCampaign(const CampaignRecord& c) {
-  database_
-      .Prepare(
-          "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', 0, '')")
-      .Bind(c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
-            c.created_utc, c.objective)
-      .Finish();
-  for (std::size_t i = 0; i < c.parameters.size(); ++i) {
-    const ParameterRecord& p = c.parameters[i];
-    database_.Prepare("INSERT INTO parameters VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
-        .Bind(static_cast<std::int64_t>(i), p.name, p.low, p.high, p.scale, p.unit)
-        .Finish();
-  }
-  for (std::size_t i = 0; i < c.experiments.size(); ++i) {
-    InsertExperiment(database_, static_cast<std::int64_t>(i), c.experiments[i]);
-  }
-}
-
-// One row a trial with parameters and the usual metrics side by side: what people want to see.
-void Journal::CreateView(const CampaignRecord& campaign) {
-  std::string columns = "SELECT t.id, t.kind, t.status";
-  for (std::size_t i = 0; i < campaign.parameters.size(); ++i) {
-    const ParameterRecord& p = campaign.parameters[i];
-    columns +=
-        ",\n (SELECT value FROM points WHERE trial = t.id AND position = " + std::to_string(i) +
-        ") AS " + ColumnName(p);
-  }
-  for (const ObjectiveInfo& objective : kObjectives) {
-    const std::string metric(objective.metric);
-    columns += ",\n (SELECT value FROM metrics WHERE trial = t.id AND name = '" + metric +
-               "') AS " + metric;
-  }
-  database_.Execute("CREATE VIEW results AS " + columns +
-                    ",\n t.scale_factor, (SELECT name FROM experiments WHERE position = "
-                    "t.experiment) AS experiment,"
-                    "\n t.duration_s, t.seed, t.reason FROM trials t ORDER BY t.id");
-}
-
-CampaignRecord Journal::Campaign() {
-  Statement row = database_.Prepare(
-      "SELECT name, spec_path, spec_text, spec_json, spec_hash, talus_version, created_utc, "
-      "objective FROM campaign");
-  if (!row.Step()) throw base::Error("the journal holds no campaign");
-  CampaignRecord c;
-  int column = 0;
-  for (std::string* text : {&c.name, &c.spec_path, &c.spec_text, &c.spec_json, &c.spec_hash,
-                            &c.talus_version, &c.created_utc, &c.objective}) {
-    *text = row.Bytes(column++);
-  }
-  Statement list =
-      database_.Prepare("SELECT name, low, high, scale, unit FROM parameters ORDER BY position");
-  while (list.Step()) {
-    c.parameters.push_back({.name = list.Text(0),
-                            .low = list.Real(1),
-                            .high = list.Real(2),
-                            .scale = list.Text(3),
-                            .unit = list.Text(4)});
-  }
-  c.experiments = ReadExperiments(database_);
-  return c;
-}
-
-ProgressRecord Journal::Progress() {
-  Statement row =
-      database_.Prepare("SELECT state, stop_reason, elapsed_s, result_json FROM campaign");
-  if (!row.Step()) throw base::Error("the journal holds no campaign");
-  return {.state = row.Text(0),
-          .stop_reason = row.Text(1),
-          .elapsed_s = row.Real(2),
-          .result_json = row.Text(3)};
-}
-
-void Journal::SetProgress(const ProgressRecord& progress) {
-  Transaction transaction(database_);
-  database_
-      .Prepare("UPDATE campaign SET state = ?1, stop_reason = ?2, elapsed_s = ?3, result_json = ?4")
-      .Bind(progress.state, progress.stop_reason, progress.elapsed_s, progress.result_json)
-      .Finish();
-  SealCampaign(database_);
-  transaction.Commit();
-}
-
-void Journal::SetSpec(std::string_view spec_text, std::string_view spec_json) {
-  Transaction transaction(database_);
-  database_.Prepare("UPDATE campaign SET spec_text = ?1, spec_json = ?2")
-      .Bind(spec_text, spec_json)
-      .Finish();
-  SealCampaign(database_);
-  transaction.Commit();
 }
 
 std::int64_t Journal::CountTrials() {

@@ -36,6 +36,8 @@ class Journal {
   void SetProgress(const ProgressRecord& progress);
   // The spec after an allowed change.
   void SetSpec(std::string_view spec_text, std::string_view spec_json);
+  // A further one, after the others, together with the spec that has it.
+  void AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json);
 
   // By id, with their metrics, without their images.
   std::vector<TrialRecord> Trials();

@@ -21,6 +21,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr int kFewest = 6;        // evaluations of an experiment that a model can stand on
+constexpr int kOfAddedTest = 8;   // of the design, for an experiment that is added later
 constexpr int kFewestFiner = 3;   // of a finer scale factor, before gain alone decides
 constexpr double kGrowth = 1.15;  // of the evaluations, from one fit to the next
 constexpr double kEdgeError =
@@ -199,9 +200,21 @@ Proposal FidelityStrategy::Next(std::span<const Proposal> asked) {
           .scale_factor = levels_.factor(0)};
 }
 
+// Whether the model has chosen a simulation already. An experiment without its design was added
+// later then: a few evaluations all over the ranges are enough, since what the others say tells
+// where more of them matter.
+bool FidelityStrategy::IsUnderWay() const {
+  return std::any_of(observations_.begin(), observations_.end(), [&](const Observation& told) {
+    return std::none_of(design_.rowwise().begin(), design_.rowwise().end(),
+                        [&](const auto& row) { return SamePoint(told.point, row.transpose()); });
+  });
+}
+
 // Every experiment at the same points: what their residuals share is part of the posterior.
 std::optional<Proposal> FidelityStrategy::FromDesign(std::span<const Proposal> asked) const {
-  for (Eigen::Index i = 0; i < design_.rows(); ++i) {
+  const Eigen::Index size =
+      IsUnderWay() ? std::min<Eigen::Index>(kOfAddedTest, design_.rows()) : design_.rows();
+  for (Eigen::Index i = 0; i < size; ++i) {
     const Eigen::VectorXd point = design_.row(i);
     for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
       const auto is_it = [&](const auto& other) {

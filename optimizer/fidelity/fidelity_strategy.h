@@ -55,6 +55,7 @@ class FidelityStrategy : public Strategy {
   };
 
   Proposal Next(std::span<const Proposal> asked);
+  bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);
   // Which of the points, for which experiment and how coarse, narrows the misfit most a core

@@ -15,7 +15,7 @@ namespace talus::campaign {
 // A map of a heap, and another with what fell beside it: 23 mg of powder as the drawn heaps'
 // balance shows for their true sliding friction.
 class TwoExperiments : public ::testing::Test {
- protected:
+ public:
   std::filesystem::path Begin(const std::string& name, const std::string& fallen = "23 mg",
                               int simulations = 20) const {
     const std::filesystem::path in = scratch_.path() / (name + "_in");

@@ -248,6 +248,11 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   return spec;
 }
 
+void CheckSpec(const CampaignSpec& spec, base::Problems& problems) {
+  base::TreeValidator(problems).Check(spec);
+  if (problems.empty()) ValidateCases(spec, problems);
+}
+
 CampaignSpec LoadCampaignSpec(const std::filesystem::path& path) {
   return ReadCampaignSpec(base::ReadJsonFile(path));
 }

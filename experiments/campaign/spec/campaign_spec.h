@@ -106,6 +106,9 @@ struct CampaignSpec {
 CampaignSpec LoadCampaignSpec(const std::filesystem::path& path);
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
 
+// A spec that was not read from one file: every problem of it.
+void CheckSpec(const CampaignSpec& spec, base::Problems& problems);
+
 // The spec with all its defaults and absolute paths, as JSON that reads back to the same.
 std::string SpecText(const CampaignSpec& spec);
 CampaignSpec ParseSpecText(const std::string& text);

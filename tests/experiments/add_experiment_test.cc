@@ -1,0 +1,105 @@
+#include "experiments/campaign/add_experiment.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/error.h"
+#include "experiments/campaign/campaign_strategy.h"
+#include "tests/experiments/campaign_fixture.h"
+#include "tests/experiments/two_experiments.h"
+
+namespace talus::campaign {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class AddExperimentTest : public CampaignFixture {
+ protected:
+  // A campaign with one experiment that has ended.
+  fs::path Ended(const std::string& name = "run") const {
+    const fs::path folder = Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]},
+      "budget": {"simulations": 16}, "confirm": {"candidates": 1, "replicates": 2},
+      "workers": 1)",
+                                  name);
+    RunFake(folder, {});
+    return folder;
+  }
+  // An entry of `experiments` beside the campaign's own input.
+  fs::path Write(const std::string& text) const {
+    const fs::path file = scratch_.path() / "run_in" / "second.json";
+    std::ofstream(file) << text;
+    return file;
+  }
+  static void Add(const fs::path& folder, const fs::path& file, const AddOptions& options = {}) {
+    Console console(folder / "campaign.log", Console::Output::kQuiet);
+    AddExperiment(folder, file, options, console);
+  }
+  static int Count(const fs::path& folder, int experiment) {
+    const auto trials = Trials(folder);
+    return static_cast<int>(std::count_if(trials.begin(), trials.end(), [&](const auto& t) {
+      return t.experiment == experiment && IsOfSearch(t);
+    }));
+  }
+};
+
+TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
+  const fs::path folder = Ended();
+  const auto before = Trials(folder);
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")));
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const auto after = Trials(folder);
+  ASSERT_GT(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(after[i].experiment, 0);
+    EXPECT_EQ(after[i].unit, before[i].unit);
+  }
+  EXPECT_GE(Count(folder, 1), 8);
+  const CampaignResult result = Result(folder);
+  ASSERT_EQ(result.posterior.value().experiments.size(), 2u);
+  EXPECT_EQ(result.posterior->experiments[0].name, "heap");
+  EXPECT_EQ(result.posterior->experiments[1].name, "fast lift");
+  EXPECT_EQ(result.confirmed.at(0).experiments.value().size(), 2u);
+}
+
+TEST_F(AddExperimentTest, ItIsStillThereInAJournalThatIsMadeAnew) {
+  const fs::path folder = Ended();
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")));
+  RunFake(folder, {});
+  const std::string table = TrialTable(folder);
+  fs::resize_file(journal::JournalPath(folder), 5000);
+  RunFake(folder, {});
+  EXPECT_EQ(TrialTable(folder), table);
+}
+
+TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
+  const fs::path folder = Ended();
+  const std::string spec =
+      journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json;
+  const std::string kept = base::ReadFile(folder / "campaign.json");
+  const auto refuses = [&](const std::string& text, const std::string& reason,
+                           const AddOptions& options = {}) {
+    try {
+      Add(folder, Write(text), options);
+      ADD_FAILURE() << "took " << text;
+    } catch (const base::ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(reason));
+    }
+  };
+  std::string same = TwoExperiments::FastLift("23 mg");
+  same.replace(same.find("fast lift"), 9, "heap");
+  refuses(same, "stands there twice");
+  refuses(R"({"name": "no data"})", "needs exactly one of");
+  refuses(R"({"name": "gone", "map": "gone.png", "plate_diameter": "10 mm"})", "gone.png");
+  refuses(TwoExperiments::FastLift("23 mg"), "--core-time", {.core_time = -1});
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
+  EXPECT_EQ(journal.Campaign().spec_json, spec);
+  EXPECT_EQ(journal.Campaign().experiments.size(), 1u);
+  EXPECT_EQ(base::ReadFile(folder / "campaign.json"), kept);
+}
+
+}  // namespace
+}  // namespace talus::campaign
