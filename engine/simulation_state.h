@@ -31,6 +31,7 @@ struct SimulationState {
   Vec3 gravity;  // now [m/s²]
   std::vector<TurnStep> gravity_turns;
   double dt = 0;  // Δt [s]
+  Units units;    // of the kernels
   std::int64_t step = 0;
   double reference_speed = 0;  // what the start can make of itself, see blow_up.h [m/s]
   double speed_limit = 0;      // [m/s]
@@ -42,8 +43,9 @@ struct SimulationState {
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
   double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
 
-  std::vector<PairConstants> constants;  // of materials a, b at a · materials.size() + b
-  double adhesion_gap = 0;               // largest of them [m]
+  std::vector<PairConstants> constants;           // of materials a, b at a · materials.size() + b
+  std::vector<KernelConstants> kernel_constants;  // the same
+  double adhesion_gap = 0;                        // largest of them [m]
 
   double time() const { return static_cast<double>(step) * dt; }
   StepView View();
@@ -54,6 +56,9 @@ struct SimulationState {
 
   // After a change of materials.
   void SetConstants();
+
+  // After a change of motions that is not the step's own.
+  void RoundMotion();
 
   // Makes the list of the particles at `alive`; the other particles leave.
   void Rebuild(std::span<const std::int32_t> alive);

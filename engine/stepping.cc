@@ -22,10 +22,13 @@ void Add(const MotionCheck& part, MotionCheck& all) {
 StepView SimulationState::View() {
   return {.motion = particles.motion.data(),
           .spin = particles.spin.data(),
-          .constants = constants.data(),
+          .single = particles.single.data(),
+          .spot = particles.spot.data(),
+          .constants = kernel_constants.data(),
           .walls = walls.views().data(),
           .gravity = {gravity.x, gravity.y, gravity.z},
           .time_step = dt,
+          .units = units,
           .speed_limit = speed_limit};
 }
 
@@ -39,13 +42,20 @@ void SimulationState::SetThreads(int num_threads) {
 
 void SimulationState::SetConstants() {
   constants.clear();
+  kernel_constants.clear();
   adhesion_gap = 0;
   for (const Material& a : materials) {
     for (const Material& b : materials) {
       constants.push_back(MakePairConstants(a, b, models));
-      adhesion_gap = std::max(adhesion_gap, constants.back().adhesion_gap);
+      const PairConstants& pair = constants.back();
+      kernel_constants.push_back({ToUnits(pair, units), pair.adhesion_gap});
+      adhesion_gap = std::max(adhesion_gap, pair.adhesion_gap);
     }
   }
+}
+
+void SimulationState::RoundMotion() {
+  kernels->round_motion(View(), 0, static_cast<std::int64_t>(particles.single.size() / 8));
 }
 
 void SimulationState::RebuildAll() {
@@ -68,6 +78,7 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
   } catch (const base::Error& error) {
     throw base::Error(StepText(*this) + error.what());
   }
+  RoundMotion();
   const ListCounts counts = list.counts();
   tuner.Rebuilt(particles.num, counts.pairs, counts.touching);
   wall_moved = 0;

@@ -69,19 +69,19 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
     const std::int32_t b = second < 0 ? second : new_of_old_[second];
     if (a < 0 || (second >= 0 && b < 0)) return;
     if (second >= 0 && b < a) {
-      use(b, a, -1.0);
+      use(b, a, -1.0f);
     } else {
-      use(a, b, 1.0);
+      use(a, b, 1.0f);
     }
   };
   AssignWithRoom(old_start_, static_cast<std::int64_t>(order.size()) + 1, 0);
   VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock&, int) {
-    renamed(first, second, [&](std::int32_t a, std::int32_t, double) { ++old_start_[a + 1]; });
+    renamed(first, second, [&](std::int32_t a, std::int32_t, float) { ++old_start_[a + 1]; });
   });
   for (std::size_t i = 0; i < order.size(); ++i) old_start_[i + 1] += old_start_[i];
   old_.resize(old_start_.back());
   VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock& block, int lane) {
-    renamed(first, second, [&](std::int32_t a, std::int32_t b, double sign) {
+    renamed(first, second, [&](std::int32_t a, std::int32_t b, float sign) {
       OldContact& contact = old_[old_start_[a]++];
       contact.second = b;
       for (int c = 0; c < 3; ++c) {
@@ -238,7 +238,7 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Sc
       last = std::max<std::int64_t>(last, candidate.second);
       if (list != &scratch.touching) continue;
       Remember(block, lane, candidate);
-      chunk.touching[place / kBlock] |= static_cast<std::uint8_t>(1 << lane);
+      chunk.touching[place / kBlock] |= static_cast<std::uint16_t>(1 << lane);
     }
   }
   panel.window_end = RoundUp(last + 1);

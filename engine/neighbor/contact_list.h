@@ -38,7 +38,7 @@ struct Chunk {
   std::int64_t begin = 0, end = 0, window_end = 0;  // as of a panel
   std::vector<Panel> panels;
   AlignedVector<PairBlock> blocks;
-  std::vector<std::uint8_t> touching;
+  std::vector<std::uint16_t> touching;
   std::vector<PairRun> runs;
   double* forces = nullptr;         // rows of [begin, window_end), zero between two steps
   std::vector<Overhang> overhangs;  // of the chunks before
@@ -81,7 +81,7 @@ class ContactList {
  private:
   struct OldContact {
     std::int32_t second;  // new index, or -1 - wall
-    double memory[6];     // spring and moment
+    float memory[6];      // spring and moment
   };
   struct Candidate {
     std::int32_t first;
