@@ -17,6 +17,22 @@ void Add(const MotionCheck& part, MotionCheck& all) {
   all.sound = all.sound && part.sound;
 }
 
+Scales ScalesOf(const Units& units, double time_step) {
+  const double per_length = 1 / units.length, per_speed = 1 / units.Speed();
+  return {.length = static_cast<float>(per_length),
+          .length_squared = static_cast<float>(per_length * per_length),
+          .speed = static_cast<float>(per_speed),
+          .spin = static_cast<float>(units.time),
+          .time_step = static_cast<float>(time_step / units.time),
+          .motion_speed = per_speed,
+          .motion_spin = units.time,
+          .inverse_mass = units.mass,
+          .inverse_inertia = units.Inertia(),
+          .position = per_length,
+          .force = units.Force(),
+          .torque = units.Torque()};
+}
+
 }  // namespace
 
 StepView SimulationState::View() {
@@ -28,7 +44,7 @@ StepView SimulationState::View() {
           .walls = walls.views().data(),
           .gravity = {gravity.x, gravity.y, gravity.z},
           .time_step = dt,
-          .units = units,
+          .scales = ScalesOf(units, dt),
           .speed_limit = speed_limit};
 }
 

@@ -75,12 +75,12 @@ TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
   const FloatMask active = part.valid & Join(a.reached, b.reached);
   if (Bits(active) == 0) return part.Clear();
 
-  const Floats per_length(1 / step.units.length), per_speed(1 / step.units.Speed());
+  const Floats per_length(step.scales.length), per_speed(step.scales.speed);
   const Body<Floats> i =
       LoadBody(step, part.first(), per_length * Narrow(a.sphere.radius, b.sphere.radius));
   const Floats zero(0.0f);
   const Vector<Floats> none{zero, zero, zero};
-  const Floats spin(kAny && wall.turns ? step.units.time : 0.0);
+  const Floats spin(kAny && wall.turns ? step.scales.spin : 0.0f);
   const Body<Floats> j{zero, zero, zero, per_speed * Narrow(a.velocity, b.velocity),
                        kAny ? spin * Broadcast<Floats>(wall.angular_velocity) : none};
   const Contact<Floats> contact = MakeContact(Narrow(a.nearest.normal, b.nearest.normal),
@@ -129,12 +129,18 @@ class Ahead {
   TALUS_INLINE void Rows(std::int64_t first) {
     const std::int64_t wanted = first + (panel_.window_end - panel_.end) + kRowsAhead;
     const std::int64_t last = wanted < panel_.window_end ? wanted : panel_.window_end;
-    for (; next_row_ < last; ++next_row_) {
-      _mm_prefetch(reinterpret_cast<const char*>(step_.motion + 8 * next_row_), _MM_HINT_T0);
-      _mm_prefetch(reinterpret_cast<const char*>(step_.single + 8 * next_row_), _MM_HINT_T0);
-      _mm_prefetch(reinterpret_cast<const char*>(step_.spot + 4 * next_row_), _MM_HINT_T0);
-      _mm_prefetch(reinterpret_cast<const char*>(panel_.forces + 8 * (next_row_ - panel_.begin)),
-                   _MM_HINT_T0);
+    // Four rows share a line of spots, and two one of single rows.
+    for (; next_row_ < last; next_row_ += 4) {
+      const auto fetch = [](const void* line) __attribute__((always_inline)) {
+        _mm_prefetch(static_cast<const char*>(line), _MM_HINT_T0);
+      };
+      for (std::int64_t row = next_row_; row < next_row_ + 4; ++row) {
+        fetch(step_.motion + 8 * row);
+        fetch(panel_.forces + 8 * (row - panel_.begin));
+      }
+      fetch(step_.single + 8 * next_row_);
+      fetch(step_.single + 8 * next_row_ + 16);
+      fetch(step_.spot + 4 * next_row_);
     }
   }
 

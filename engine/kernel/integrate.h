@@ -22,11 +22,11 @@ TALUS_INLINE void ClearForces(double* rows) {
 
 TALUS_INLINE void StoreSingle(const StepView& step, std::int64_t at, const Quads& x, const Quads& v,
                               const Quads& w) {
-  const Lanes speed(1 / step.units.Speed()), spin(step.units.time);
-  StoreRounded({speed * v.x, speed * v.y, speed * v.z, Lanes(step.units.mass) * v.w},
-               {spin * w.x, spin * w.y, spin * w.z, Lanes(step.units.Inertia()) * w.w},
+  const Lanes speed(step.scales.motion_speed), spin(step.scales.motion_spin);
+  StoreRounded({speed * v.x, speed * v.y, speed * v.z, Lanes(step.scales.inverse_mass) * v.w},
+               {spin * w.x, spin * w.y, spin * w.z, Lanes(step.scales.inverse_inertia) * w.w},
                step.single + 8 * at);
-  StoreSpots(x, 1 / step.units.length, step.spot + 4 * at);
+  StoreSpots(x, step.scales.position, step.spot + 4 * at);
 }
 
 // The single rows and spots of all particles [begin, end), for motions that Integrate has not made.
@@ -49,8 +49,8 @@ TALUS_INLINE Lanes Advance(const StepView& step, std::int64_t at, const Load6& l
   Quads v = LoadQuads(motion + 4, 8, index);
   Quads w = LoadQuads(spin, 4, index);
   const Lanes dt_if_real = Select(v.w > Lanes(0.0), dt, Lanes(0.0));
-  const Lanes per_mass = Lanes(step.units.Force()) * v.w;
-  const Lanes turn = Lanes(step.units.Torque() * step.time_step) * w.w;
+  const Lanes per_mass = Lanes(step.scales.force) * v.w;
+  const Lanes turn = Lanes(step.scales.torque * step.time_step) * w.w;
   v.x = v.x + (load.force.x * per_mass + Lanes(step.gravity[0])) * dt_if_real;
   v.y = v.y + (load.force.y * per_mass + Lanes(step.gravity[1])) * dt_if_real;
   v.z = v.z + (load.force.z * per_mass + Lanes(step.gravity[2])) * dt_if_real;
@@ -67,8 +67,9 @@ TALUS_INLINE Lanes Advance(const StepView& step, std::int64_t at, const Load6& l
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-MotionCheck Integrate(const StepView& step, const PanelView& panel, const Overhang* overhangs,
+MotionCheck Integrate(const StepView& view, const PanelView& panel, const Overhang* overhangs,
                       std::int64_t num_overhangs) {
+  const StepView step = view;  // a copy, which no store can change
   const std::int32_t index[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   const Lanes limit(step.speed_limit * step.speed_limit);
   Lanes fastest(0.0);

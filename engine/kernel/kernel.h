@@ -72,6 +72,14 @@ struct KernelConstants {
   double adhesion_gap;  // as in `law`, but in [m]
 };
 
+// What numbers in SI units are multiplied by to be in the kernels' units, and, of forces, back.
+struct Scales {
+  float length, length_squared, speed, spin;
+  float time_step;  // in the kernels' units
+  double motion_speed, motion_spin, inverse_mass, inverse_inertia, position;  // of rounded motions
+  double force, torque;  // from the kernels' units to SI units
+};
+
 struct StepView {
   double* motion;
   double* spin;
@@ -81,7 +89,7 @@ struct StepView {
   const WallView* walls;
   double gravity[3];  // [m/s²]
   double time_step;   // Δt [s]
-  Units units;
+  Scales scales;
   double speed_limit;  // [m/s]
 };
 

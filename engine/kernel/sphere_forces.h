@@ -12,7 +12,7 @@ TALUS_INLINE Response<Floats> Answer(const SingleConstants& constants, const Ste
                                      const Memory& memory) {
   History<Floats> history;
   memory.Load(history);
-  const Floats dt(step.time_step / step.units.time);
+  const Floats dt(step.scales.time_step);
   const Response<Floats> response = Respond<NormalLaw, RollingLaw>(constants, contact, dt, history);
   const FloatMask touches = active & (contact.overlap > Floats(0.0f));
   history.spring = OrZero(touches, history.spring);
@@ -56,8 +56,7 @@ TALUS_INLINE Pairs LoadPairs(const StepView& step, double adhesion_gap, const st
   const Distances a = LoadDistances(step, adhesion_gap, first, second);
   const Distances b =
       LoadDistances(step, adhesion_gap, first + Lanes::kWidth, second + Lanes::kWidth);
-  const double per_length = 1 / step.units.length;
-  const Floats scale(per_length), square_scale(per_length * per_length);
+  const Floats scale(step.scales.length), square_scale(step.scales.length_squared);
   return {scale * Narrow(a.radius_i, b.radius_i),
           scale * Narrow(a.radius_j, b.radius_j),
           scale * Narrow(a.offset, b.offset),
