@@ -122,29 +122,15 @@ void ContactList::CutChunks(std::int64_t num_particles) {
 
 void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch) {
   const ParticleStore& p = input.particles;
-  const CloudView cloud{p.old_x.data(), p.old_y.data(), p.old_z.data(), p.radius.data()};
   const std::int64_t num_materials = input.num_materials;
   for (std::int64_t i = panel.begin; i < std::min(panel.end, p.num); ++i) {
-    const auto ranges = grid_.LaterNeighbors(i);
-    std::int64_t room = kBlock;
-    for (const IndexRange& range : ranges)
-      room += std::max<std::int64_t>(range.end - range.begin, 0);
-    if (static_cast<std::int64_t>(scratch.found_near.size()) < room) {
-      scratch.found_near.resize(2 * room);
-      scratch.found_touching.resize(2 * room);
-    }
-    SearchLists lists{scratch.found_touching.data(), scratch.found_near.data(), 0, 0};
-    for (const IndexRange& range : ranges) {
-      if (range.begin >= range.end) continue;
-      input.kernels.search(cloud, {i, range.begin, range.end, input.reach}, lists);
-    }
+    search_.FindLater(input.kernels, p, i, scratch.found);
     const auto add = [&](std::int32_t j, std::vector<Candidate>& to) {
       const auto [a, b] = std::minmax(p.materials[i], p.materials[j]);
       to.push_back(
           {static_cast<std::int32_t>(i), j, static_cast<std::int32_t>(a * num_materials + b)});
     };
-    for (std::int64_t k = 0; k < lists.num_touching; ++k) {
-      const std::int32_t j = lists.touching[k];
+    for (const std::int32_t j : scratch.found.touching) {
       const double limit = (1 - kMaxOverlapShare) * (p.Radius(i) + p.Radius(j));
       const Vec3 offset = p.Position(j) - p.Position(i);
       if (!(base::Dot(offset, offset) > limit * limit)) {
@@ -153,7 +139,7 @@ void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scr
       }
       add(j, scratch.touching);
     }
-    for (std::int64_t k = 0; k < lists.num_near; ++k) add(lists.near[k], scratch.near);
+    for (const std::int32_t j : scratch.found.near) add(j, scratch.near);
   }
 }
 
@@ -319,11 +305,10 @@ void ContactList::FindAll(const RebuildInput& input) {
 
 void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_t> alive) {
   ParticleStore& p = input.particles;
-  double largest = 0;
-  for (const std::int32_t i : alive) largest = std::max(largest, p.Radius(i));
-  grid_.Build(p.motion.data(), 8, alive, 2 * largest + input.reach);
-  SaveContacts(grid_.order(), p.num);
-  p.Reorder(grid_.order());
+  search_.Sort(p, alive, input.reach);
+  SaveContacts(search_.order(), p.num);
+  p.Reorder(search_.order());
+  search_.NoteLarge(p);
   CutChunks(p.num);
   FindAll(input);
   PrepareForces(input.team.size());

@@ -14,7 +14,7 @@
 
 #include "engine/aligned.h"
 #include "engine/kernel/kernel.h"
-#include "engine/neighbor/grid.h"
+#include "engine/neighbor/pair_search.h"
 #include "engine/particle_store.h"
 #include "engine/team.h"
 #include "engine/wall_set.h"
@@ -89,7 +89,7 @@ class ContactList {
     std::int32_t key;     // run it belongs to
   };
   struct Scratch {
-    std::vector<std::int32_t> found_touching, found_near;  // of one particle
+    NearSpheres found;  // of one particle
     std::vector<Candidate> touching, near;
     std::vector<double> gaps;
     std::vector<std::int64_t> count_of_key, next_of_key;
@@ -108,7 +108,7 @@ class ContactList {
   void Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Scratch& scratch);
   void Remember(PairBlock& block, int lane, const Candidate& candidate) const;
 
-  Grid grid_;
+  PairSearch search_;
   std::vector<Chunk> chunks_;
   ListCounts counts_;
   std::vector<std::int32_t> new_of_old_;
