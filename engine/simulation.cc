@@ -125,6 +125,10 @@ ListStatistics Simulation::Statistics() const {
           .kernels = state_->kernels->name};
 }
 
+ScalingEstimate Simulation::Scaling() const {
+  return state_->scaling.Estimate(state_->step - state_->first_step);
+}
+
 void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {
   Wall changed = Walls().at(wall);
   changed.motion = std::move(motion);

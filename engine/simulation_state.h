@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/neighbor/contact_list.h"
 #include "engine/neighbor/skin_tuner.h"
 #include "engine/particle_store.h"
+#include "engine/scaling.h"
 #include "engine/simulation.h"
 #include "engine/team.h"
 #include "engine/wall_set.h"
@@ -41,7 +43,11 @@ struct SimulationState {
   ContactList list;
   SkinTuner tuner;
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
-  double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
+  ScalingProbe scaling;                     // of this process; not part of a checkpoint
+  double list_seconds = 0;                  // CPU time of making lists, in this thread [s]
+  std::vector<ChunkTimes> chunk_times;
+  std::int64_t first_step = 0;  // of this process
+  double wall_moved = 0;        // farthest way of any wall since the rebuild [m]
 
   std::vector<PairConstants> constants;           // of materials a, b at a · materials.size() + b
   std::vector<KernelConstants> kernel_constants;  // the same
@@ -66,6 +72,9 @@ struct SimulationState {
 
   void Advance();       // one step
   MotionCheck Sweep();  // forces and motion of all chunks
+  std::span<const ChunkTimes> Times();
+  void TakeTimes(double after_sweep);  // of a sampled step
+  void AddListTimes(double seconds);   // of making a list
   void Move(const StepView& view, Chunk& chunk, const PanelView& panel);
   void TurnGravity();            // as prescribed for the step that has been made
   void Watch(double max_speed);  // rebuilds the list when something may have moved too far

@@ -288,8 +288,10 @@ void ContactList::FindAll(const RebuildInput& input) {
   input.team.Run([&](int member) {
     const auto [begin, end] = input.team.ShareOf(member, num_chunks);
     for (std::int64_t c = begin; c < end; ++c) {
+      const double start = ThreadSeconds();
       try {
         Find(input, chunks_[c], scratch_[member]);
+        chunks_[c].times.search = ThreadSeconds() - start;
       } catch (const base::Error&) {
         errors_[c] = std::current_exception();
       }

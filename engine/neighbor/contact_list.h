@@ -16,6 +16,7 @@
 #include "engine/kernel/kernel.h"
 #include "engine/neighbor/pair_search.h"
 #include "engine/particle_store.h"
+#include "engine/scaling.h"
 #include "engine/team.h"
 #include "engine/wall_set.h"
 
@@ -44,6 +45,7 @@ struct Chunk {
   std::vector<Overhang> overhangs;  // of the chunks before
   ListCounts counts;
   MotionCheck check{0, true};  // of the last step
+  ChunkTimes times;            // when last taken
 
   PanelView View(const Panel& panel);
 };

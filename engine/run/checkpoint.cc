@@ -174,6 +174,7 @@ Simulation Simulation::Restore(std::string_view bytes, int num_threads) {
   ByteReader reader(bytes);
   VisitState(reader, *state);
   if (!reader.AtEnd()) throw base::Error("the checkpoint is damaged");
+  state->first_step = state->step;
   state->SetThreads(num_threads);
   state->list.PrepareForces(state->team->size());
   state->SetConstants();
