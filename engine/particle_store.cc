@@ -16,12 +16,14 @@ void ParticleStore::Resize(std::int64_t count) {
   num = count;
   motion.assign(8 * Padded(count), 0.0);
   spin.assign(4 * Padded(count), 0.0);
+  single.assign(8 * Padded(count), 0.0f);
+  spot.assign(4 * Padded(count), 0.0f);
   ids.resize(count);
   materials.resize(count);
 }
 
 void ParticleStore::NotePositions() {
-  // A search looks at whole vectors, up to seven points beyond a range.
+  // A search looks at whole vectors, up to a block beyond a range.
   for (auto* list : {&old_x, &old_y, &old_z, &radius}) list->resize(Padded(num) + kBlock);
   for (std::int64_t i = 0; i < Padded(num); ++i) {
     old_x[i] = motion[8 * i];
@@ -52,6 +54,8 @@ void ParticleStore::Append(std::span<const Particle> particles, std::span<const 
   num += static_cast<std::int64_t>(particles.size());
   motion.resize(8 * Padded(num), 0.0);
   spin.resize(4 * Padded(num), 0.0);
+  single.resize(8 * Padded(num), 0.0f);
+  spot.resize(4 * Padded(num), 0.0f);
   ids.resize(num);
   materials.resize(num);
   for (std::int64_t i = before; i < num; ++i) Put(i, particles[i - before]);

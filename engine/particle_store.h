@@ -15,6 +15,8 @@ struct ParticleStore {
   std::int64_t num = 0;
   AlignedVector<double> motion;  // 8 a particle
   AlignedVector<double> spin;    // 4 a particle
+  AlignedVector<float> single;   // 8 a particle; follows from the others, as do
+  AlignedVector<float> spot;     // 4 a particle
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> materials;
 

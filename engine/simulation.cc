@@ -32,6 +32,7 @@ void StepBackHalf(SimulationState& state) {
     std::copy_n(velocity, 3, &p.motion[8 * i + 4]);
     std::copy_n(spin, 3, &p.spin[4 * i]);
   }
+  state.RoundMotion();
 }
 
 std::unique_ptr<SimulationState> Start(const Scene& scene) {
@@ -45,6 +46,7 @@ std::unique_ptr<SimulationState> Start(const Scene& scene) {
   state->gravity = scene.gravity;
   state->gravity_turns = scene.gravity_turns;
   state->dt = TimeStep(scene);
+  state->units = UnitsOf(state->materials, state->dt);
   state->SetConstants();
   state->particles.Assign(scene.particles, scene.materials);
   state->walls = WallSet(scene.walls);
@@ -121,6 +123,10 @@ ListStatistics Simulation::Statistics() const {
           .num_contacts = counts.touching,
           .num_chunks = static_cast<std::int64_t>(state_->list.chunks().size()),
           .kernels = state_->kernels->name};
+}
+
+ScalingEstimate Simulation::Scaling() const {
+  return state_->scaling.Estimate(state_->step - state_->first_step);
 }
 
 void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {

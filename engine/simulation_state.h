@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/neighbor/contact_list.h"
 #include "engine/neighbor/skin_tuner.h"
 #include "engine/particle_store.h"
+#include "engine/scaling.h"
 #include "engine/simulation.h"
 #include "engine/team.h"
 #include "engine/wall_set.h"
@@ -31,6 +33,7 @@ struct SimulationState {
   Vec3 gravity;  // now [m/s²]
   std::vector<TurnStep> gravity_turns;
   double dt = 0;  // Δt [s]
+  Units units;    // of the kernels
   std::int64_t step = 0;
   double reference_speed = 0;  // what the start can make of itself, see blow_up.h [m/s]
   double speed_limit = 0;      // [m/s]
@@ -40,10 +43,15 @@ struct SimulationState {
   ContactList list;
   SkinTuner tuner;
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
-  double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
+  ScalingProbe scaling;                     // of this process; not part of a checkpoint
+  double list_seconds = 0;                  // CPU time of making lists, in this thread [s]
+  std::vector<ChunkTimes> chunk_times;
+  std::int64_t first_step = 0;  // of this process
+  double wall_moved = 0;        // farthest way of any wall since the rebuild [m]
 
-  std::vector<PairConstants> constants;  // of materials a, b at a · materials.size() + b
-  double adhesion_gap = 0;               // largest of them [m]
+  std::vector<PairConstants> constants;           // of materials a, b at a · materials.size() + b
+  std::vector<KernelConstants> kernel_constants;  // the same
+  double adhesion_gap = 0;                        // largest of them [m]
 
   double time() const { return static_cast<double>(step) * dt; }
   StepView View();
@@ -55,12 +63,18 @@ struct SimulationState {
   // After a change of materials.
   void SetConstants();
 
+  // After a change of motions that is not the step's own.
+  void RoundMotion();
+
   // Makes the list of the particles at `alive`; the other particles leave.
   void Rebuild(std::span<const std::int32_t> alive);
   void RebuildAll();
 
   void Advance();       // one step
   MotionCheck Sweep();  // forces and motion of all chunks
+  std::span<const ChunkTimes> Times();
+  void TakeTimes(double after_sweep);  // of a sampled step
+  void AddListTimes(double seconds);   // of making a list
   void Move(const StepView& view, Chunk& chunk, const PanelView& panel);
   void TurnGravity();            // as prescribed for the step that has been made
   void Watch(double max_speed);  // rebuilds the list when something may have moved too far

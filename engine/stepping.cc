@@ -17,15 +17,43 @@ void Add(const MotionCheck& part, MotionCheck& all) {
   all.sound = all.sound && part.sound;
 }
 
+// Calls `work`, and adds its time if asked to.
+template <class Work>
+void Timed(bool timed, double& seconds, const Work& work) {
+  if (!timed) return work();
+  const double start = ThreadSeconds();
+  work();
+  seconds += ThreadSeconds() - start;
+}
+
+Scales ScalesOf(const Units& units, double time_step) {
+  const double per_length = 1 / units.length, per_speed = 1 / units.Speed();
+  return {.length = static_cast<float>(per_length),
+          .length_squared = static_cast<float>(per_length * per_length),
+          .speed = static_cast<float>(per_speed),
+          .spin = static_cast<float>(units.time),
+          .time_step = static_cast<float>(time_step / units.time),
+          .motion_speed = per_speed,
+          .motion_spin = units.time,
+          .inverse_mass = units.mass,
+          .inverse_inertia = units.Inertia(),
+          .position = per_length,
+          .force = units.Force(),
+          .torque = units.Torque()};
+}
+
 }  // namespace
 
 StepView SimulationState::View() {
   return {.motion = particles.motion.data(),
           .spin = particles.spin.data(),
-          .constants = constants.data(),
+          .single = particles.single.data(),
+          .spot = particles.spot.data(),
+          .constants = kernel_constants.data(),
           .walls = walls.views().data(),
           .gravity = {gravity.x, gravity.y, gravity.z},
           .time_step = dt,
+          .scales = ScalesOf(units, dt),
           .speed_limit = speed_limit};
 }
 
@@ -39,13 +67,20 @@ void SimulationState::SetThreads(int num_threads) {
 
 void SimulationState::SetConstants() {
   constants.clear();
+  kernel_constants.clear();
   adhesion_gap = 0;
   for (const Material& a : materials) {
     for (const Material& b : materials) {
       constants.push_back(MakePairConstants(a, b, models));
-      adhesion_gap = std::max(adhesion_gap, constants.back().adhesion_gap);
+      const PairConstants& pair = constants.back();
+      kernel_constants.push_back({ToUnits(pair, units), pair.adhesion_gap});
+      adhesion_gap = std::max(adhesion_gap, pair.adhesion_gap);
     }
   }
+}
+
+void SimulationState::RoundMotion() {
+  kernels->round_motion(View(), 0, static_cast<std::int64_t>(particles.single.size() / 8));
 }
 
 void SimulationState::RebuildAll() {
@@ -55,6 +90,7 @@ void SimulationState::RebuildAll() {
 }
 
 void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
+  const double start = ThreadSeconds();
   tuner.Retune();
   speed_limit = SpeedLimit(*this);
   try {
@@ -68,9 +104,26 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
   } catch (const base::Error& error) {
     throw base::Error(StepText(*this) + error.what());
   }
+  RoundMotion();
   const ListCounts counts = list.counts();
   tuner.Rebuilt(particles.num, counts.pairs, counts.touching);
   wall_moved = 0;
+  list_seconds += ThreadSeconds() - start;
+  AddListTimes(ThreadSeconds() - start);
+}
+
+std::span<const ChunkTimes> SimulationState::Times() {
+  chunk_times.clear();
+  for (const Chunk& chunk : list.chunks()) chunk_times.push_back(chunk.times);
+  return chunk_times;
+}
+
+// Of the time of this thread, which made the list, its own chunks' search was shared.
+void SimulationState::AddListTimes(double seconds) {
+  const std::span<const ChunkTimes> times = Times();
+  const auto own = team->ShareOf(0, static_cast<std::int64_t>(times.size()));
+  for (std::int64_t c = own.begin; c < own.end; ++c) seconds -= times[c].search;
+  scaling.AddList(times, std::max(seconds, 0.0));
 }
 
 void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& panel) {
@@ -84,6 +137,7 @@ void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& 
 MotionCheck SimulationState::Sweep() {
   const StepView view = View();
   const ForcesFunction forces = Forces();
+  const bool timed = ScalingProbe::Samples(step);
   std::vector<Chunk>& chunks = list.chunks();
   team->Run([&](int member) {
     const auto [begin, end] = team->ShareOf(member, static_cast<std::int64_t>(chunks.size()));
@@ -91,17 +145,22 @@ MotionCheck SimulationState::Sweep() {
     const Panel* last = begin < end ? &chunks[end - 1].panels.back() : nullptr;
     for (std::int64_t c = begin; c < end; ++c) {
       chunks[c].check = {0, true};
+      if (timed) chunks[c].times.forces = chunks[c].times.motion = 0;
       for (const Panel& part : chunks[c].panels) {
         const PanelView panel = chunks[c].View(part);
-        forces(view, panel);
+        Timed(timed, chunks[c].times.forces, [&] { forces(view, panel); });
         if (&part == last) team->FinishFirstPart(member);
-        if (c >= moves_from) Move(view, chunks[c], panel);
+        if (c >= moves_from) {
+          Timed(timed, chunks[c].times.motion, [&] { Move(view, chunks[c], panel); });
+        }
       }
     }
     if (last == nullptr) team->FinishFirstPart(member);
     team->AwaitFirstPartsBefore(member);
     for (std::int64_t c = begin; c < moves_from; ++c) {
-      for (const Panel& part : chunks[c].panels) Move(view, chunks[c], chunks[c].View(part));
+      for (const Panel& part : chunks[c].panels) {
+        Timed(timed, chunks[c].times.motion, [&] { Move(view, chunks[c], chunks[c].View(part)); });
+      }
     }
   });
   MotionCheck all{0, true};
@@ -130,8 +189,17 @@ void SimulationState::TurnGravity() {
   gravity *= strength / base::Norm(gravity);
 }
 
+// What this thread did after the sweep nobody shared; lists count by themselves.
+void SimulationState::TakeTimes(double after_sweep) {
+  const double alone = ThreadSeconds() - after_sweep - list_seconds;
+  scaling.AddStep(Times(), list.reach(), alone);
+}
+
 void SimulationState::Advance() {
+  const bool timed = ScalingProbe::Samples(step);
   const MotionCheck check = Sweep();
+  const double after_sweep = timed ? ThreadSeconds() : 0;
+  list_seconds = 0;
   walls.Move(dt);
   TurnGravity();
   ++step;
@@ -139,6 +207,7 @@ void SimulationState::Advance() {
   Watch(std::sqrt(check.max_speed_squared));
   if (walls.RemoveDue(time(), dt)) RebuildAll();
   walls.SetTime(time(), dt);
+  if (timed) TakeTimes(after_sweep);
 }
 
 }  // namespace talus::engine

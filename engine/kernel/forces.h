@@ -1,4 +1,4 @@
-// Forces of one panel: eight pairs at a time, all of one run with the same two materials.
+// Forces of one panel: sixteen pairs at a time, all of one run with the same two materials.
 //
 // Each block is loaded, answered by the law and added to the force rows in an order that follows
 // from the list and the positions, so that the sums do not depend on who computes what. Pairs out
@@ -11,43 +11,83 @@
 
 namespace talus::engine::TALUS_TARGET {
 
-// Parts with more lanes in reach than this are answered where they are.
-inline constexpr int kFewLanes = Lanes::kWidth / 2 - 1;
+// Parts with more lanes touching than this are answered where they are.
+inline constexpr int kFewLanes = Floats::kWidth / 2 - 1;
+
+// The lanes that may be in reach, and more only by what single precision loses of the places: two
+// roundings of each coordinate, less than 2⁻²³ of it and of the distance.
+TALUS_INLINE FloatMask MayBeClose(const StepView& step, const SingleConstants& constants,
+                                  const Part& part) {
+  const FloatQuads i = LoadSpots(step.spot, part.first());
+  const FloatQuads j = LoadSpots(step.spot, part.second());
+  const Vector<Floats> offset{j.x - i.x, j.y - i.y, j.z - i.z};
+  const Floats radii = i.w + j.w + Floats(constants.adhesion_gap);
+  const Floats lost = Floats(0x1p-20f) * (Abs(i.x) + Abs(i.y) + Abs(i.z) + radii);
+  const Floats reach = radii + lost;
+  return part.valid & (Dot(offset, offset) < reach * reach);
+}
 
 template <class NormalLaw, class RollingLaw>
 TALUS_INLINE void SpherePart(const StepView& step, const PanelView& panel,
-                             const PairConstants& constants, const Part& part,
+                             const KernelConstants& constants, const Part& part,
                              Batch<NormalLaw, RollingLaw>& batch) {
-  const Pairs pairs(step, constants, part.first(), part.second(), part.valid);
-  const unsigned active = Bits(pairs.active);
-  if (active == 0) return part.Clear();
-  if (__builtin_popcount(active) > kFewLanes) {
-    SphereForces<NormalLaw, RollingLaw>(step, panel, constants, pairs, part);
+  const unsigned touching = (part.touching >> part.lane) & part.mask();
+  if (__builtin_popcount(touching) > kFewLanes) {
+    const Pairs pairs =
+        LoadPairs(step, constants.adhesion_gap, part.first(), part.second(), part.valid);
+    SphereForces<NormalLaw, RollingLaw>(step, panel, constants.law, pairs, part);
     return;
   }
-  batch.Add(part, active);
+  const unsigned close = Bits(MayBeClose(step, constants.law, part));
+  if (close == 0) return part.Clear();
+  batch.Add(part, close);
   if (batch.full()) batch.Flush();
 }
 
+// Where a wall is nearest to each sphere.
+struct Nearby {
+  Positions sphere;
+  NearestPoint<Lanes> nearest;
+  Vector<Lanes> velocity;  // of the wall there
+  Lanes overlap;
+  Mask reached;
+};
+
 // `kAny` of all shapes and motions; else of the few shapes that do not turn.
-template <class NormalLaw, class RollingLaw, bool kAny>
-TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
-                           const PairConstants& constants, const WallView& wall, const Part& part) {
-  const Positions p = LoadPositions(step, part.first());
+template <bool kAny>
+TALUS_INLINE Nearby LoadNearby(const StepView& step, double adhesion_gap, const WallView& wall,
+                               const std::int32_t* first) {
+  const Positions p = LoadPositions(step, first);
   const NearestPoint<Lanes> nearest = kAny ? Nearest(wall, p.at) : NearestOfFew(wall, p.at);
   const Lanes overlap = p.radius - nearest.distance;
-  const Mask active = part.valid & (overlap > Lanes(-constants.adhesion_gap));
+  const Vector<Lanes> velocity =
+      kAny ? WallBody(wall, p.at, nearest).velocity : Broadcast<Lanes>(wall.velocity);
+  return {p, nearest, velocity, overlap, overlap > Lanes(-adhesion_gap)};
+}
+
+template <class NormalLaw, class RollingLaw, bool kAny>
+TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
+                           const KernelConstants& constants, const WallView& wall,
+                           const Part& part) {
+  const double gap = constants.adhesion_gap;
+  const Nearby a = LoadNearby<kAny>(step, gap, wall, part.first());
+  const Nearby b = LoadNearby<kAny>(step, gap, wall, part.first() + Lanes::kWidth);
+  const FloatMask active = part.valid & Join(a.reached, b.reached);
   if (Bits(active) == 0) return part.Clear();
 
-  const Body<Lanes> i = LoadBody(step, part.first(), p.radius);
-  const Lanes zero(0.0);
-  const Vector<Lanes> none{zero, zero, zero};
-  const Body<Lanes> j = kAny ? WallBody(wall, p.at, nearest)
-                             : Body<Lanes>{zero, zero, zero, Broadcast<Lanes>(wall.velocity), none};
-  const Contact<Lanes> contact =
-      MakeContact(nearest.normal, overlap, i.radius, i.radius * i.angular_velocity, i, j);
-  const Response<Lanes> on_i =
-      Answer<NormalLaw, RollingLaw>(constants, step, contact, active, part);
+  const Floats per_length(step.scales.length), per_speed(step.scales.speed);
+  const Body<Floats> i =
+      LoadBody(step, part.first(), per_length * Narrow(a.sphere.radius, b.sphere.radius));
+  const Floats zero(0.0f);
+  const Vector<Floats> none{zero, zero, zero};
+  const Floats spin(kAny && wall.turns ? step.scales.spin : 0.0f);
+  const Body<Floats> j{zero, zero, zero, per_speed * Narrow(a.velocity, b.velocity),
+                       kAny ? spin * Broadcast<Floats>(wall.angular_velocity) : none};
+  const Contact<Floats> contact = MakeContact(Narrow(a.nearest.normal, b.nearest.normal),
+                                              per_length * Narrow(a.overlap, b.overlap), i.radius,
+                                              i.radius * i.angular_velocity, i, j);
+  const Response<Floats> on_i =
+      Answer<NormalLaw, RollingLaw>(constants.law, step, contact, active, part);
   AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, part.first(),
                    panel.begin);
 }
@@ -61,16 +101,16 @@ struct Place {
 
 TALUS_INLINE Part PartAt(const PanelView& panel, const PairRun& run, std::int64_t b, int lane) {
   const std::int64_t at = run.first_block + b;
-  const auto left = static_cast<double>(run.num_pairs - b * kBlock - lane);
-  return {panel.blocks[at], panel.touching[at], lane, Lanes::Iota() < Lanes(left)};
+  const auto left = static_cast<float>(run.num_pairs - b * kBlock - lane);
+  return {panel.blocks[at], panel.touching[at], lane, Floats::Iota() < Floats(left)};
 }
 
 // Not inlined: scenes without such walls must not pay for them.
 template <class NormalLaw, class RollingLaw>
 [[gnu::noinline]] void AnyWallPart(const StepView& step, const PanelView& panel, Place place) {
   const PairRun& run = *place.run;
-  PairConstants constants = step.constants[run.constants];
-  constants.keeps_spring = false;  // between spheres only
+  KernelConstants constants = step.constants[run.constants];
+  constants.law.keeps_spring = false;  // between spheres only
   WallPart<NormalLaw, RollingLaw, true>(step, panel, constants, step.walls[run.wall],
                                         PartAt(panel, run, place.block, place.lane));
 }
@@ -89,11 +129,18 @@ class Ahead {
   TALUS_INLINE void Rows(std::int64_t first) {
     const std::int64_t wanted = first + (panel_.window_end - panel_.end) + kRowsAhead;
     const std::int64_t last = wanted < panel_.window_end ? wanted : panel_.window_end;
-    for (; next_row_ < last; ++next_row_) {
-      _mm_prefetch(reinterpret_cast<const char*>(step_.motion + 8 * next_row_), _MM_HINT_T0);
-      _mm_prefetch(reinterpret_cast<const char*>(step_.spin + 4 * next_row_), _MM_HINT_T0);
-      _mm_prefetch(reinterpret_cast<const char*>(panel_.forces + 8 * (next_row_ - panel_.begin)),
-                   _MM_HINT_T0);
+    // Four rows share a line of spots, and two one of single rows.
+    for (; next_row_ < last; next_row_ += 4) {
+      const auto fetch = [](const void* line) __attribute__((always_inline)) {
+        _mm_prefetch(static_cast<const char*>(line), _MM_HINT_T0);
+      };
+      for (std::int64_t row = next_row_; row < next_row_ + 4; ++row) {
+        fetch(step_.motion + 8 * row);
+        fetch(panel_.forces + 8 * (row - panel_.begin));
+      }
+      fetch(step_.single + 8 * next_row_);
+      fetch(step_.single + 8 * next_row_ + 16);
+      fetch(step_.spot + 4 * next_row_);
     }
   }
 
@@ -109,15 +156,15 @@ void Forces(const StepView& step, const PanelView& panel) {
   Ahead ahead(step, panel);
   for (std::int64_t r = 0; r < panel.num_runs; ++r) {
     const PairRun run = panel.runs[r];
-    PairConstants constants = step.constants[run.constants];
-    constants.keeps_spring = constants.keeps_spring && run.wall < 0;
+    KernelConstants constants = step.constants[run.constants];
+    constants.law.keeps_spring = constants.law.keeps_spring && run.wall < 0;
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
     Batch<NormalLaw, RollingLaw> batch(step, panel, constants);
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;
       ahead.Block(panel.blocks + at + 3);
       ahead.Rows(panel.blocks[at].first[0]);
-      for (int lane = 0; lane < kBlock; lane += Lanes::kWidth) {
+      for (int lane = 0; lane < kBlock; lane += Floats::kWidth) {
         const Part part = PartAt(panel, run, b, lane);
         if (run.wall < 0) {
           SpherePart<NormalLaw, RollingLaw>(step, panel, constants, part, batch);

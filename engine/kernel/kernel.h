@@ -5,23 +5,31 @@
 //
 // A particle i owns three rows of four doubles:
 //   motion[8 i] = {x, y, z, R, vx, vy, vz, 1/m}      spin[4 i] = {ωx, ωy, ωz, 1/I}
-// Positions are at the full step, velocities half a step behind (M3).
+// Positions are at the full step, velocities half a step behind (M3). For the contacts there is a
+// second row of what they need of the motion:
+//   single[8 i] = {vx, vy, vz, 1/m, ωx, ωy, ωz, 1/I}
+// and, so that pairs out of reach cost little, a rough place:
+//   spot[4 i] = {x, y, z, R}
+//
+// Overlaps come from positions in double precision. All else of a contact is single precision, in
+// the units of engine/laws/units.h; forces are added up and motions integrated in double precision.
 #pragma once
 
 #include <cstdint>
 
 #include "engine/laws/law_list.h"
+#include "engine/laws/units.h"
 
 namespace talus::engine {
 
-inline constexpr int kBlock = 8;  // pairs in a block, for every width of vector
+inline constexpr int kBlock = 16;  // pairs in a block, for every width of vector
 
-// Eight pairs with what they remember. `second` is a particle, or unused in contacts with a wall.
+// Sixteen pairs with what they remember. `second` is a particle, or unused in contacts with a wall.
 struct alignas(64) PairBlock {
   std::int32_t first[kBlock];
   std::int32_t second[kBlock];
-  double spring[3][kBlock];  // δ_t [m] (K4), as `first` sees it
-  double moment[3][kBlock];  // M [N m] (R2), as `first` sees it
+  float spring[3][kBlock];  // δ_t [units] (K4), as `first` sees it
+  float moment[3][kBlock];  // M [units] (R2), as `first` sees it
 };
 
 enum class ShapeKind : std::int32_t {
@@ -58,23 +66,40 @@ struct PairRun {
   std::int32_t wall;       // index into StepView::walls, -1 between spheres
 };
 
+// Of two materials.
+struct KernelConstants {
+  SingleConstants law;
+  double adhesion_gap;  // as in `law`, but in [m]
+};
+
+// What numbers in SI units are multiplied by to be in the kernels' units, and, of forces, back.
+struct Scales {
+  float length, length_squared, speed, spin;
+  float time_step;  // in the kernels' units
+  double motion_speed, motion_spin, inverse_mass, inverse_inertia, position;  // of rounded motions
+  double force, torque;  // from the kernels' units to SI units
+};
+
 struct StepView {
   double* motion;
   double* spin;
-  const PairConstants* constants;
+  float* single;
+  float* spot;
+  const KernelConstants* constants;
   const WallView* walls;
-  double gravity[3];   // [m/s²]
-  double time_step;    // Δt [s]
+  double gravity[3];  // [m/s²]
+  double time_step;   // Δt [s]
+  Scales scales;
   double speed_limit;  // [m/s]
 };
 
 // The particles [begin, end) and the pairs whose first particle is among them. Force rows
-// {fx, fy, fz, 0, tx, ty, tz, 0} exist for [begin, window_end), which holds all second ones; those
-// before `fresh` have been in use a moment ago.
+// {fx, fy, fz, 0, tx, ty, tz, 0} in those units exist for [begin, window_end), which holds all
+// second ones; those before `fresh` have been in use a moment ago.
 struct PanelView {
   std::int64_t begin, end, window_end, fresh;
   PairBlock* blocks;
-  std::uint8_t* touching;  // of each block: lanes with δ > 0 at the last evaluation
+  std::uint16_t* touching;  // of each block: lanes with δ > 0 at the last evaluation
   const PairRun* runs;
   std::int64_t num_runs;
   double* forces;
@@ -101,7 +126,7 @@ struct CloudView {
 };
 
 // Particles of [begin, end) nearer to particle i than radii plus `reach`; `touching` those nearer
-// than the radii. The lists must have room for end − begin more, and 7 beyond.
+// than the radii. The lists must have room for end − begin more, and a block beyond.
 struct SearchQuery {
   std::int64_t i, begin, end;
   double reach;  // [m]
@@ -125,6 +150,8 @@ struct KernelTable {
   int width;  // doubles in a vector
   ForcesFunction forces[kNumNormalLaws][kNumRollingLaws];
   MotionCheck (*integrate)(const StepView&, const PanelView&, const Overhang*, std::int64_t);
+  // The single rows and spots of particles [begin, end), whole blocks, from their motion.
+  void (*round_motion)(const StepView&, std::int64_t begin, std::int64_t end);
   void (*search)(const CloudView&, const SearchQuery&, SearchLists&);
   Displacements (*displacements)(const CloudView&, const double* motion, std::int64_t begin,
                                  std::int64_t end);

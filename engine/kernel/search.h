@@ -39,7 +39,7 @@ void Search(const CloudView& cloud, const SearchQuery& query, SearchLists& lists
 // Both maxima over all lanes; a NaN counts as none, the speed limit has caught it before.
 Displacements LargestDisplacements(const CloudView& cloud, const double* motion, std::int64_t begin,
                                    std::int64_t end) {
-  const std::int32_t index[kBlock] = {0, 1, 2, 3, 4, 5, 6, 7};
+  const std::int32_t index[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   Lanes first(0.0), second(0.0);
   for (std::int64_t at = begin; at < end; at += Lanes::kWidth) {
     const Quads now = LoadQuads(motion + 8 * at, 8, index);
@@ -49,9 +49,9 @@ Displacements LargestDisplacements(const CloudView& cloud, const double* motion,
     second = Max(second, Min(first, square));
     first = Max(first, square);
   }
-  double lanes[2 * kBlock] = {};
+  double lanes[2 * Lanes::kWidth] = {};
   first.Store(lanes);
-  second.Store(lanes + kBlock);
+  second.Store(lanes + Lanes::kWidth);
   Displacements found{0, 0};
   for (double square : lanes) {
     if (square > found.largest_squared) {
@@ -66,7 +66,7 @@ Displacements LargestDisplacements(const CloudView& cloud, const double* motion,
 
 void WallGaps(const StepView& step, std::int64_t wall, std::int64_t begin, std::int64_t end,
               double* gap) {
-  const std::int32_t index[kBlock] = {0, 1, 2, 3, 4, 5, 6, 7};
+  const std::int32_t index[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   const WallView view = step.walls[wall];
   for (std::int64_t at = begin; at < end; at += Lanes::kWidth) {
     const Quads q = LoadQuads(step.motion + 8 * at, 8, index);

@@ -24,6 +24,7 @@ constexpr KernelTable MakeTable(const char* name) {
   table.width = Lanes::kWidth;
   FillRows(table, NormalLaws{});
   table.integrate = Integrate;
+  table.round_motion = RoundMotion;
   table.search = Search;
   table.displacements = LargestDisplacements;
   table.wall_gaps = WallGaps;

@@ -34,8 +34,8 @@ struct NormalForce {
   V rolling;   // and rolling torque (R4) [N]
 };
 
-template <class V>
-TALUS_INLINE V HertzForce(const PairConstants& p, const Contact<V>& c,
+template <class V, class T>
+TALUS_INLINE V HertzForce(const PairConstantsOf<T>& p, const Contact<V>& c,
                           const ContactArea<V>& area) {  // N5
   const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
   return V(p.normal_stiffness) * area.s * c.overlap + damping * c.closing_speed;
@@ -43,8 +43,8 @@ TALUS_INLINE V HertzForce(const PairConstants& p, const Contact<V>& c,
 
 // The friction on i is minus the result. Advances the spring (K4) and shortens it when the contact
 // slides (T2), unless it is kept (A7).
-template <class V>
-TALUS_INLINE Vector<V> Friction(const PairConstants& p, const Contact<V>& c,
+template <class V, class T>
+TALUS_INLINE Vector<V> Friction(const PairConstantsOf<T>& p, const Contact<V>& c,
                                 const ContactArea<V>& area, const V& limiting, const V& dt,
                                 Vector<V>& spring) {
   spring = spring + dt * c.sliding;
@@ -58,7 +58,7 @@ TALUS_INLINE Vector<V> Friction(const PairConstants& p, const Contact<V>& c,
   const V scale = Select(slides, limit * Rsqrt(square), V(1.0));
   const Vector<V> force = scale * trial;
   if (p.keeps_spring) return force;
-  const V compliance = area.inverse_s * V(1 / p.shear_stiffness);
+  const V compliance = area.inverse_s * V(p.shear_compliance);
   spring = Select(slides, compliance * (force - dashpot), spring);
   return force;
 }

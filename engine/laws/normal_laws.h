@@ -8,8 +8,8 @@ namespace talus::engine {
 
 // Hertz alone.
 struct NoAdhesion {
-  template <class V>
-  static TALUS_INLINE NormalForce<V> Force(const PairConstants& p, const Contact<V>& c,
+  template <class V, class T>
+  static TALUS_INLINE NormalForce<V> Force(const PairConstantsOf<T>& p, const Contact<V>& c,
                                            const ContactArea<V>& area) {
     const V force = HertzForce(p, c, area);
     return {force, force, force};
@@ -20,8 +20,8 @@ struct NoAdhesion {
 //   F_po for δ ≥ δ₀;  A R*/(6δ²) for δ_c < δ < δ₀.
 // The pull is there for δ ≤ 0 too, where Hertz is not; the loop knows from adhesion_gap.
 struct DmtAdhesion {
-  template <class V>
-  static TALUS_INLINE NormalForce<V> Force(const PairConstants& p, const Contact<V>& c,
+  template <class V, class T>
+  static TALUS_INLINE NormalForce<V> Force(const PairConstantsOf<T>& p, const Contact<V>& c,
                                            const ContactArea<V>& area) {
     const auto touches = c.overlap > V(0.0);
     const V hertz = Select(touches, HertzForce(p, c, area), V(0.0));
@@ -59,8 +59,8 @@ struct JkrAdhesion {
     return t;
   }
 
-  template <class V>
-  static TALUS_INLINE NormalForce<V> Force(const PairConstants& p, const Contact<V>& c,
+  template <class V, class T>
+  static TALUS_INLINE NormalForce<V> Force(const PairConstantsOf<T>& p, const Contact<V>& c,
                                            const ContactArea<V>& area) {
     const V b = V(p.pull_off / p.y_star) * c.r_star * c.r_star;  // B = 2πγ*R*²/Y*
     const V cube_root_r = CubeRootBound(c.r_star);

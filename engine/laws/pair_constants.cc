@@ -55,6 +55,7 @@ PairConstants MakePairConstants(const Material& a, const Material& b, const Cont
   pair.y_star = EffectiveModulus(a, b);
   pair.normal_stiffness = 4.0 / 3.0 * pair.y_star;
   pair.shear_stiffness = 8 * EffectiveShearModulus(a, b);
+  pair.shear_compliance = 1 / pair.shear_stiffness;
   const double beta = DampingRatio(HarmonicMean(a.restitution, b.restitution));
   const double damping = 2 * std::sqrt(5.0 / 6.0) * beta;
   pair.normal_damping = damping * std::sqrt(1.5 * pair.normal_stiffness);

@@ -15,8 +15,8 @@ struct Response {
 
 // Advances the history by dt and gives the forces now. In the gap (δ ≤ 0) only adhesion acts, and
 // the history is zero.
-template <class NormalLaw, class RollingLaw, class V>
-TALUS_INLINE Response<V> Respond(const PairConstants& p, const Contact<V>& c, const V& dt,
+template <class NormalLaw, class RollingLaw, class V, class T>
+TALUS_INLINE Response<V> Respond(const PairConstantsOf<T>& p, const Contact<V>& c, const V& dt,
                                  History<V>& history) {
   const ContactArea<V> area = MakeContactArea(c);
   const NormalForce<V> normal = NormalLaw::Force(p, c, area);

@@ -29,8 +29,9 @@ TALUS_INLINE Vector<V> Direction(const Vector<V>& a) {
 
 struct NoRolling {
   static constexpr bool kHasMoment = false;
-  template <class V>
-  static TALUS_INLINE Vector<V> Torque(const PairConstants&, const RollingState<V>&, Vector<V>&) {
+  template <class V, class T>
+  static TALUS_INLINE Vector<V> Torque(const PairConstantsOf<T>&, const RollingState<V>&,
+                                       Vector<V>&) {
     return {V(0.0), V(0.0), V(0.0)};
   }
 };
@@ -38,8 +39,8 @@ struct NoRolling {
 // T_r = −μ_r R* |F_n| ω_p/|ω_p|
 struct ConstantRolling {
   static constexpr bool kHasMoment = false;
-  template <class V>
-  static TALUS_INLINE Vector<V> Torque(const PairConstants& p, const RollingState<V>& s,
+  template <class V, class T>
+  static TALUS_INLINE Vector<V> Torque(const PairConstantsOf<T>& p, const RollingState<V>& s,
                                        Vector<V>&) {
     const V limit = V(p.rolling_friction) * s.contact.r_star * Abs(s.limiting);
     return -limit * Direction(RollingSpin(s.contact));
@@ -49,11 +50,11 @@ struct ConstantRolling {
 // The same times |Rᵢωᵢ×n + Rⱼωⱼ×n|, in m/s.
 struct ViscousRolling {
   static constexpr bool kHasMoment = false;
-  template <class V>
-  static TALUS_INLINE Vector<V> Torque(const PairConstants& p, const RollingState<V>& s,
+  template <class V, class T>
+  static TALUS_INLINE Vector<V> Torque(const PairConstantsOf<T>& p, const RollingState<V>& s,
                                        Vector<V>& moment) {
     const Vector<V> slip = Cross(s.contact.surface, s.contact.normal);
-    return Sqrt(Dot(slip, slip)) * ConstantRolling::Torque(p, s, moment);
+    return V(p.rolling_per_speed) * Sqrt(Dot(slip, slip)) * ConstantRolling::Torque(p, s, moment);
   }
 };
 
@@ -63,8 +64,8 @@ struct ViscousRolling {
 // come to lie along it and drive twist, which nothing resists: energy from nowhere.
 struct EpsdRolling {
   static constexpr bool kHasMoment = true;
-  template <class V>
-  static TALUS_INLINE Vector<V> Torque(const PairConstants& p, const RollingState<V>& s,
+  template <class V, class T>
+  static TALUS_INLINE Vector<V> Torque(const PairConstantsOf<T>& p, const RollingState<V>& s,
                                        Vector<V>& moment) {
     const Contact<V>& c = s.contact;
     const Vector<V> omega = RollingSpin(c);

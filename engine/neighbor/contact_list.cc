@@ -69,19 +69,19 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
     const std::int32_t b = second < 0 ? second : new_of_old_[second];
     if (a < 0 || (second >= 0 && b < 0)) return;
     if (second >= 0 && b < a) {
-      use(b, a, -1.0);
+      use(b, a, -1.0f);
     } else {
-      use(a, b, 1.0);
+      use(a, b, 1.0f);
     }
   };
   AssignWithRoom(old_start_, static_cast<std::int64_t>(order.size()) + 1, 0);
   VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock&, int) {
-    renamed(first, second, [&](std::int32_t a, std::int32_t, double) { ++old_start_[a + 1]; });
+    renamed(first, second, [&](std::int32_t a, std::int32_t, float) { ++old_start_[a + 1]; });
   });
   for (std::size_t i = 0; i < order.size(); ++i) old_start_[i + 1] += old_start_[i];
   old_.resize(old_start_.back());
   VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock& block, int lane) {
-    renamed(first, second, [&](std::int32_t a, std::int32_t b, double sign) {
+    renamed(first, second, [&](std::int32_t a, std::int32_t b, float sign) {
       OldContact& contact = old_[old_start_[a]++];
       contact.second = b;
       for (int c = 0; c < 3; ++c) {
@@ -122,29 +122,15 @@ void ContactList::CutChunks(std::int64_t num_particles) {
 
 void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch) {
   const ParticleStore& p = input.particles;
-  const CloudView cloud{p.old_x.data(), p.old_y.data(), p.old_z.data(), p.radius.data()};
   const std::int64_t num_materials = input.num_materials;
   for (std::int64_t i = panel.begin; i < std::min(panel.end, p.num); ++i) {
-    const auto ranges = grid_.LaterNeighbors(i);
-    std::int64_t room = kBlock;
-    for (const IndexRange& range : ranges)
-      room += std::max<std::int64_t>(range.end - range.begin, 0);
-    if (static_cast<std::int64_t>(scratch.found_near.size()) < room) {
-      scratch.found_near.resize(2 * room);
-      scratch.found_touching.resize(2 * room);
-    }
-    SearchLists lists{scratch.found_touching.data(), scratch.found_near.data(), 0, 0};
-    for (const IndexRange& range : ranges) {
-      if (range.begin >= range.end) continue;
-      input.kernels.search(cloud, {i, range.begin, range.end, input.reach}, lists);
-    }
+    search_.FindLater(input.kernels, p, i, scratch.found);
     const auto add = [&](std::int32_t j, std::vector<Candidate>& to) {
       const auto [a, b] = std::minmax(p.materials[i], p.materials[j]);
       to.push_back(
           {static_cast<std::int32_t>(i), j, static_cast<std::int32_t>(a * num_materials + b)});
     };
-    for (std::int64_t k = 0; k < lists.num_touching; ++k) {
-      const std::int32_t j = lists.touching[k];
+    for (const std::int32_t j : scratch.found.touching) {
       const double limit = (1 - kMaxOverlapShare) * (p.Radius(i) + p.Radius(j));
       const Vec3 offset = p.Position(j) - p.Position(i);
       if (!(base::Dot(offset, offset) > limit * limit)) {
@@ -153,7 +139,7 @@ void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scr
       }
       add(j, scratch.touching);
     }
-    for (std::int64_t k = 0; k < lists.num_near; ++k) add(lists.near[k], scratch.near);
+    for (const std::int32_t j : scratch.found.near) add(j, scratch.near);
   }
 }
 
@@ -238,7 +224,7 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Sc
       last = std::max<std::int64_t>(last, candidate.second);
       if (list != &scratch.touching) continue;
       Remember(block, lane, candidate);
-      chunk.touching[place / kBlock] |= static_cast<std::uint8_t>(1 << lane);
+      chunk.touching[place / kBlock] |= static_cast<std::uint16_t>(1 << lane);
     }
   }
   panel.window_end = RoundUp(last + 1);
@@ -302,8 +288,10 @@ void ContactList::FindAll(const RebuildInput& input) {
   input.team.Run([&](int member) {
     const auto [begin, end] = input.team.ShareOf(member, num_chunks);
     for (std::int64_t c = begin; c < end; ++c) {
+      const double start = ThreadSeconds();
       try {
         Find(input, chunks_[c], scratch_[member]);
+        chunks_[c].times.search = ThreadSeconds() - start;
       } catch (const base::Error&) {
         errors_[c] = std::current_exception();
       }
@@ -319,11 +307,10 @@ void ContactList::FindAll(const RebuildInput& input) {
 
 void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_t> alive) {
   ParticleStore& p = input.particles;
-  double largest = 0;
-  for (const std::int32_t i : alive) largest = std::max(largest, p.Radius(i));
-  grid_.Build(p.motion.data(), 8, alive, 2 * largest + input.reach);
-  SaveContacts(grid_.order(), p.num);
-  p.Reorder(grid_.order());
+  search_.Sort(p, alive, input.reach);
+  SaveContacts(search_.order(), p.num);
+  p.Reorder(search_.order());
+  search_.NoteLarge(p);
   CutChunks(p.num);
   FindAll(input);
   PrepareForces(input.team.size());

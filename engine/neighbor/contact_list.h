@@ -14,8 +14,9 @@
 
 #include "engine/aligned.h"
 #include "engine/kernel/kernel.h"
-#include "engine/neighbor/grid.h"
+#include "engine/neighbor/pair_search.h"
 #include "engine/particle_store.h"
+#include "engine/scaling.h"
 #include "engine/team.h"
 #include "engine/wall_set.h"
 
@@ -38,12 +39,13 @@ struct Chunk {
   std::int64_t begin = 0, end = 0, window_end = 0;  // as of a panel
   std::vector<Panel> panels;
   AlignedVector<PairBlock> blocks;
-  std::vector<std::uint8_t> touching;
+  std::vector<std::uint16_t> touching;
   std::vector<PairRun> runs;
   double* forces = nullptr;         // rows of [begin, window_end), zero between two steps
   std::vector<Overhang> overhangs;  // of the chunks before
   ListCounts counts;
   MotionCheck check{0, true};  // of the last step
+  ChunkTimes times;            // when last taken
 
   PanelView View(const Panel& panel);
 };
@@ -81,7 +83,7 @@ class ContactList {
  private:
   struct OldContact {
     std::int32_t second;  // new index, or -1 - wall
-    double memory[6];     // spring and moment
+    float memory[6];      // spring and moment
   };
   struct Candidate {
     std::int32_t first;
@@ -89,7 +91,7 @@ class ContactList {
     std::int32_t key;     // run it belongs to
   };
   struct Scratch {
-    std::vector<std::int32_t> found_touching, found_near;  // of one particle
+    NearSpheres found;  // of one particle
     std::vector<Candidate> touching, near;
     std::vector<double> gaps;
     std::vector<std::int64_t> count_of_key, next_of_key;
@@ -108,7 +110,7 @@ class ContactList {
   void Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Scratch& scratch);
   void Remember(PairBlock& block, int lane, const Candidate& candidate) const;
 
-  Grid grid_;
+  PairSearch search_;
   std::vector<Chunk> chunks_;
   ListCounts counts_;
   std::vector<std::int32_t> new_of_old_;

@@ -57,12 +57,15 @@ std::int64_t Grid::SetCells(double cell_size) {
 std::int64_t Grid::CellOf(const double* row) const {
   std::int64_t cell = 0;
   for (int a = 2; a >= 0; --a) {
-    const Axis& axis = axes_[a];
-    const double at = (row[axis.component] - axis.low) * inverse_size_;
-    const auto last = static_cast<double>(axis.num_cells - 1);
-    cell = cell * axis.num_cells + static_cast<std::int64_t>(std::clamp(at, 0.0, last));
+    cell = cell * axes_[a].num_cells + CellAlong(axes_[a], row[axes_[a].component]);
   }
   return cell;
+}
+
+std::int64_t Grid::CellAlong(const Axis& axis, double coordinate) const {
+  const double at = (coordinate - axis.low) * inverse_size_;
+  const auto last = static_cast<double>(axis.num_cells - 1);
+  return static_cast<std::int64_t>(std::clamp(at, 0.0, last));
 }
 
 void Grid::Build(const double* rows, std::int64_t stride, std::span<const std::int32_t> alive,

@@ -31,6 +31,26 @@ class Grid {
   // The points after the i-th sorted one that may be nearer to it than `reach`.
   std::array<IndexRange, 5> LaterNeighbors(std::int64_t i) const;
 
+  std::int64_t num_cells() const { return static_cast<std::int64_t>(start_.size()) - 1; }
+  std::int64_t CellOfSorted(std::int64_t i) const { return cell_of_[i]; }
+
+  // Calls visit(cell) for every cell that a cube of half width `half` around `point` meets.
+  template <class Visitor>
+  void VisitBox(const double* point, double half, Visitor&& visit) const {
+    VisitRows(point, half, [&](std::int64_t row_start, std::int64_t from, std::int64_t to) {
+      for (std::int64_t c = from; c <= to; ++c) visit(row_start + c);
+    });
+  }
+
+  // Calls visit(range) for the points in those cells that may come after the i-th sorted one.
+  template <class Visitor>
+  void VisitLaterInBox(std::int64_t i, const double* point, double half, Visitor&& visit) const {
+    VisitRows(point, half, [&](std::int64_t row_start, std::int64_t from, std::int64_t to) {
+      const IndexRange range = Cells(row_start, from, to);
+      if (range.end > i + 1) visit(range);
+    });
+  }
+
  private:
   struct Axis {
     int component = 0;  // 0, 1, 2 for x, y, z
@@ -43,6 +63,24 @@ class Grid {
   void TrimOutliers(const double* rows, std::int64_t stride, std::span<const std::int32_t> alive);
   std::int64_t SetCells(double cell_size);
   std::int64_t CellOf(const double* row) const;
+  std::int64_t CellAlong(const Axis& axis, double coordinate) const;
+
+  // Calls visit(row_start, from, to) for each row of cells along the first axis that the cube
+  // meets.
+  template <class Visitor>
+  void VisitRows(const double* point, double half, Visitor&& visit) const {
+    std::array<std::int64_t, 3> from{}, to{};
+    for (int a = 0; a < 3; ++a) {
+      const double at = point[axes_[a].component];
+      from[a] = CellAlong(axes_[a], at - half * (1 + 1e-9));
+      to[a] = CellAlong(axes_[a], at + half * (1 + 1e-9));
+    }
+    for (std::int64_t c2 = from[2]; c2 <= to[2]; ++c2) {
+      for (std::int64_t c1 = from[1]; c1 <= to[1]; ++c1) {
+        visit((c2 * axes_[1].num_cells + c1) * axes_[0].num_cells, from[0], to[0]);
+      }
+    }
+  }
   IndexRange Cells(std::int64_t row_start, std::int64_t from, std::int64_t to) const;
 
   std::array<Axis, 3> axes_;  // the first runs fastest

@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 3;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 4;  // raised with every change of what is written
 
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};
@@ -123,6 +123,7 @@ void VisitState(Archive& archive, SimulationState& state) {
   archive(state.gravity);
   archive(state.gravity_turns);
   archive(state.dt);
+  archive(state.units);
   archive(state.step);
   archive(state.reference_speed);
   archive(state.speed_limit);
@@ -173,9 +174,13 @@ Simulation Simulation::Restore(std::string_view bytes, int num_threads) {
   ByteReader reader(bytes);
   VisitState(reader, *state);
   if (!reader.AtEnd()) throw base::Error("the checkpoint is damaged");
+  state->first_step = state->step;
   state->SetThreads(num_threads);
   state->list.PrepareForces(state->team->size());
   state->SetConstants();
+  state->particles.single.resize(state->particles.motion.size());
+  state->particles.spot.resize(state->particles.motion.size() / 2);
+  state->RoundMotion();
   state->walls.SetTime(state->time(), state->dt);
   return Simulation(std::move(state));
 }

@@ -48,9 +48,11 @@ Contact<double> WallContact(const ParticleStore& p, std::int64_t i, const WallVi
                      a.radius * a.angular_velocity, a, b);
 }
 
-History<double> HistoryOf(const PairBlock& block, int lane) {
-  return {{block.spring[0][lane], block.spring[1][lane], block.spring[2][lane]},
-          {block.moment[0][lane], block.moment[1][lane], block.moment[2][lane]}};
+History<double> HistoryOf(const PairBlock& block, int lane, const Units& units) {
+  const auto in_si = [&](const float(&of)[3][kBlock], double unit) {
+    return Vector<double>{unit * of[0][lane], unit * of[1][lane], unit * of[2][lane]};
+  };
+  return {in_si(block.spring, units.length), in_si(block.moment, units.Torque())};
 }
 
 }  // namespace
@@ -67,8 +69,8 @@ std::vector<Load> SimulationState::Loads() {
     chunk.touching = touching;
     for (std::int64_t i = chunk.begin; i < chunk.window_end; ++i) {
       double* row = chunk.forces + 8 * (i - chunk.begin);
-      loads[i].force += Vec3{row[0], row[1], row[2]};
-      loads[i].torque += Vec3{row[4], row[5], row[6]};
+      loads[i].force += units.Force() * Vec3{row[0], row[1], row[2]};
+      loads[i].torque += units.Torque() * Vec3{row[4], row[5], row[6]};
       std::fill_n(row, 8, 0.0);
     }
   }
@@ -110,7 +112,7 @@ std::vector<WallLoad> SimulationState::WallLoads() const {
         const std::int32_t i = block.first[lane];
         const Contact<double> contact = WallContact(particles, i, wall);
         if (!(contact.overlap > -constants[run.constants].adhesion_gap)) continue;
-        History<double> history = HistoryOf(block, lane);
+        History<double> history = HistoryOf(block, lane, units);
         const Vec3 on_wall = -ToVec3(law(constants[run.constants], contact, dt, history).force);
         const double distance = particles.Radius(i) - contact.overlap;
         const Vec3 place = particles.Position(i) + distance * ToVec3(contact.normal);
@@ -135,7 +137,7 @@ std::vector<ContactInfo> SimulationState::Contacts() const {
                                             ? SphereContact(particles, i, j)
                                             : WallContact(particles, i, walls.views()[run.wall]);
         if (!(contact.overlap > 0)) continue;
-        History<double> history = HistoryOf(block, lane);
+        History<double> history = HistoryOf(block, lane, units);
         PairConstants pair = constants[run.constants];
         pair.keeps_spring = pair.keeps_spring && run.wall < 0;
         const Vec3 force = ToVec3(law(pair, contact, dt, history).force);

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "engine/run/scaling_json.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/scene_json.h"
 #include "engine/scene/scene_warnings.h"
@@ -213,7 +214,8 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
   result["timing"] = {{"wall_time_s", timing.wall_time},
                       {"cpu_time_s", timing.cpu_time},
                       {"particle_steps", state_.particle_steps},
-                      {"threads", spec_.threads}};
+                      {"threads", spec_.threads},
+                      {"scaling", ScalingJson(simulation_.Scaling())}};
   base::WriteFileAtomically(folder_ / "result.json", result.dump(2) + "\n");
 }
 

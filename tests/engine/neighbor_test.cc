@@ -5,7 +5,9 @@
 #include <numeric>
 #include <set>
 
+#include "engine/kernel/dispatch.h"
 #include "engine/neighbor/grid.h"
+#include "engine/neighbor/pair_search.h"
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
@@ -155,6 +157,55 @@ TEST(ContactList, MissesNothingWhenSpheresMoveFast) {
   }
   EXPECT_GT(seen, 1000u);
   EXPECT_GT(simulation.Statistics().num_rebuilds, 10);
+}
+
+// Spheres at random, most of them small: radii from 1 to `ratio` mm with density r⁻³, as in a
+// powder with much fine grain.
+ParticleStore SpheresUpTo(double ratio) {
+  std::vector<Particle> spheres;
+  for (int i = 0; i < 1200; ++i) {
+    base::Random random(3, base::Stream("sizes"), i);
+    const double share = random.Uniform(0, 1);
+    const double radius = 1e-3 / std::sqrt(1 - share * (1 - 1 / (ratio * ratio)));
+    const auto any = [&] { return random.Uniform(0, 0.06); };
+    spheres.push_back({.id = i, .radius = radius, .position = {any(), any(), any()}});
+  }
+  ParticleStore store;
+  store.Assign(spheres, std::vector<Material>{testing::Glass()});
+  return store;
+}
+
+// Each once, by the one that comes first. From a ratio of about six on, large ones are looked up
+// in lists.
+TEST(PairSearch, FindsEveryPairOnceWhateverTheSizes) {
+  constexpr double kReach = 2e-4;
+  for (const double ratio : {1.0, 3.0, 5.0, 10.0, 30.0}) {
+    for (const KernelTable* kernels : AvailableKernels()) {
+      SCOPED_TRACE(::testing::Message() << ratio << ", " << kernels->name);
+      ParticleStore store = SpheresUpTo(ratio);
+      std::vector<std::int32_t> all(store.num);
+      std::iota(all.begin(), all.end(), 0);
+      PairSearch search;
+      search.Sort(store, all, kReach);
+      store.Reorder(search.order());
+      search.NoteLarge(store);
+      Pairs touching, near, expected_touching, expected_near;
+      for (std::int64_t i = 0; i < store.num; ++i) {
+        NearSpheres found;
+        search.FindLater(*kernels, store, i, found);
+        for (const std::int32_t j : found.touching) EXPECT_TRUE(touching.insert({i, j}).second);
+        for (const std::int32_t j : found.near) EXPECT_TRUE(near.insert({i, j}).second);
+        for (std::int64_t j = i + 1; j < store.num; ++j) {
+          const double gap =
+              base::Norm(store.Position(j) - store.Position(i)) - store.Radius(i) - store.Radius(j);
+          if (gap < kReach) (gap < 0 ? expected_touching : expected_near).insert({i, j});
+        }
+      }
+      EXPECT_EQ(touching, expected_touching);
+      EXPECT_EQ(near, expected_near);
+      EXPECT_GT(near.size(), 20u);
+    }
+  }
 }
 
 // One sphere that is small and fast among large ones at rest; sizes 1 : 8.

@@ -7,7 +7,9 @@ namespace talus::engine {
 namespace {
 
 // 27 spheres fall into a small box and come to rest; then nothing may move for 1e5 steps. Creep of
-// a bad tangential spring is micrometres; a contact's own overlap here is 1e-7 m.
+// a bad tangential spring is micrometres; a contact's own overlap here is 1e-7 m. Springs in single
+// precision may lose 6e-8 of themselves a step, 6e-3 in all: some 1e-9 m, and more where a few add
+// up.
 TEST(Block, AtRestStaysAtRestForAHundredThousandSteps) {
   Scene scene = testing::EmptySpace(testing::Glass());
   scene.models.rolling = Rolling::kEpsd;
@@ -21,7 +23,7 @@ TEST(Block, AtRestStaysAtRestForAHundredThousandSteps) {
   simulation.Advance(100000);
   const auto after = simulation.Particles();
   for (std::size_t i = 0; i < before.size(); ++i) {
-    EXPECT_LT(base::Norm(after[i].position - before[i].position), 1e-9) << i;
+    EXPECT_LT(base::Norm(after[i].position - before[i].position), 1e-8) << i;
   }
 }
 
@@ -48,7 +50,8 @@ struct TurnWall {
   }
 };
 
-// Round-off grows by collisions, about tenfold each; each sphere has a few in this time.
+// Round-off of single precision (1e-8 m/s here) grows by collisions, about tenfold each; each
+// sphere has a few in this time.
 TEST(Rotation, TurningTheSceneTurnsTheResult) {
   Scene scene = testing::EmptySpace(testing::Glass());
   scene.models.rolling = Rolling::kEpsd;
@@ -75,13 +78,13 @@ TEST(Rotation, TurningTheSceneTurnsTheResult) {
   Simulation straight(scene), other(turned);
   straight.Advance(20);
   EXPECT_GT(straight.Contacts().size(), 10u);
-  straight.Advance(580);
-  other.Advance(600);
+  straight.Advance(180);
+  other.Advance(200);
   const auto a = straight.Particles(), b = other.Particles();
   for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_LT(base::Norm(Turned(a[i].position) - b[i].position), 1e-12) << i;
-    EXPECT_LT(base::Norm(Turned(a[i].velocity) - b[i].velocity), 1e-9) << i;
-    EXPECT_LT(1e-3 * base::Norm(Turned(a[i].angular_velocity) - b[i].angular_velocity), 1e-8) << i;
+    EXPECT_LT(base::Norm(Turned(a[i].position) - b[i].position), 1e-8) << i;
+    EXPECT_LT(base::Norm(Turned(a[i].velocity) - b[i].velocity), 3e-6) << i;
+    EXPECT_LT(1e-3 * base::Norm(Turned(a[i].angular_velocity) - b[i].angular_velocity), 1e-5) << i;
   }
 }
 

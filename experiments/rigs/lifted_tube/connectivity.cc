@@ -26,22 +26,25 @@ class Sets {
 
 }  // namespace
 
-std::size_t IndexOf(std::span<const engine::Particle> particles, std::int64_t id) {
-  const auto found =
-      std::lower_bound(particles.begin(), particles.end(), id,
-                       [](const engine::Particle& p, std::int64_t value) { return p.id < value; });
-  return static_cast<std::size_t>(found - particles.begin());
+PlaceOfId::PlaceOfId(std::span<const engine::Particle> particles) {
+  if (particles.empty()) return;
+  first_id_ = particles.front().id;
+  places_.resize(particles.back().id - first_id_ + 1);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    places_[particles[i].id - first_id_] = static_cast<std::uint32_t>(i);
+  }
 }
 
 Connectivity Connect(std::span<const engine::Particle> particles,
                      std::span<const engine::ContactInfo> contacts) {
   const std::size_t n = particles.size();
+  const PlaceOfId place_of(particles);
   Sets sets(n);
   std::vector<bool> touches_plate(n, false);
   std::vector<bool> touches_tube(n, false);
   for (const engine::ContactInfo& contact : contacts) {
-    const std::size_t i = IndexOf(particles, contact.first);
-    if (contact.second >= 0) sets.Merge(i, IndexOf(particles, contact.second));
+    const std::size_t i = place_of(contact.first);
+    if (contact.second >= 0) sets.Merge(i, place_of(contact.second));
     if (contact.second == WallId(kPlate)) touches_plate[i] = true;
     if (contact.second == WallId(kTube)) touches_tube[i] = true;
   }

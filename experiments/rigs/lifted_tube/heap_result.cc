@@ -7,6 +7,7 @@
 #include "base/json_reader.h"
 #include "base/json_writer.h"
 #include "base/version.h"
+#include "engine/run/scaling_json.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/lifted_tube/landing.h"
 
@@ -151,7 +152,8 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
   result["timing"] = {{"wall_time_s", timing.wall_time},
                       {"cpu_time_s", timing.cpu_time},
                       {"particle_steps", state.particle_steps},
-                      {"threads", c.threads}};
+                      {"threads", c.threads},
+                      {"scaling", engine::ScalingJson(simulation.Scaling())}};
   std::vector<std::string> warnings = HeapWarnings(c);
   if (state.heap.reason == PhaseEnd::kTimeCap) {
     warnings.push_back("the heap had not come to rest at rules.heap.max_time");

@@ -203,9 +203,17 @@ HeapRig::View HeapRig::LookWithoutFallen() {
     if (p.position.z + p.radius < leave_height_) fallen.push_back(p.id);
   }
   std::sort(fallen.begin(), fallen.end());
-  const std::int64_t num_fallen = Remove(fallen, simulation_);
-  state_.num_fallen += num_fallen;
-  return num_fallen > 0 ? Look() : view;
+  if (fallen.empty()) return view;
+  state_.num_fallen += Remove(fallen, simulation_);
+  const auto gone = [&](std::int64_t id) {
+    return std::binary_search(fallen.begin(), fallen.end(), id);
+  };
+  std::erase_if(view.particles, [&](const Particle& p) { return gone(p.id); });
+  std::erase_if(view.contacts, [&](const engine::ContactInfo& contact) {
+    return gone(contact.first) || gone(contact.second);
+  });
+  view.connected = Connect(view.particles, view.contacts);
+  return view;
 }
 
 // Without friction nothing resists any spin, so that it does not count.

@@ -37,14 +37,15 @@ double EnergyRatio::ValueWithoutFastest(double share) const {
 
 std::vector<Vec3> ResistedSpins(std::span<const Particle> particles,
                                 std::span<const engine::ContactInfo> contacts) {
+  const PlaceOfId place_of(particles);
   std::vector<int> num_contacts(particles.size(), 0);
   std::vector<Vec3> normal(particles.size());
   for (const engine::ContactInfo& contact : contacts) {
-    const std::size_t i = IndexOf(particles, contact.first);
+    const std::size_t i = place_of(contact.first);
     ++num_contacts[i];
     normal[i] = contact.normal;
     if (contact.second < 0) continue;
-    const std::size_t j = IndexOf(particles, contact.second);
+    const std::size_t j = place_of(contact.second);
     ++num_contacts[j];
     normal[j] = contact.normal;
   }
