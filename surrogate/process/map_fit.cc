@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "surrogate/nlopt_minimize.h"
 #include "surrogate/process/gaussian_process.h"
@@ -43,7 +44,8 @@ void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) 
 }
 
 std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& task,
-                               const HyperLayout& layout, const GaussianProcessOptions& options) {
+                               const HyperLayout& layout, const GaussianProcessOptions& options,
+                               double work) {
   const Eigen::VectorXd median = PriorMedian(options.priors, layout);
   std::vector<Eigen::VectorXd> thetas;
   if (options.start) thetas.push_back(layout.Pack(*options.start));
@@ -56,11 +58,13 @@ std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& tas
     for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += sd[k] * random.Normal();
     thetas.push_back(theta);
   }
-  std::vector<Start> starts;
-  for (Eigen::VectorXd& theta : thetas) {
-    theta = theta.cwiseMax(task.lower).cwiseMin(task.upper);
-    starts.push_back({theta, cost(theta, nullptr)});
-  }
+  std::vector<Start> starts(thetas.size());
+  base::ParallelFor({.num_items = static_cast<std::int64_t>(thetas.size()), .item_work = work},
+                    [&](std::int64_t i) {
+                      const auto k = static_cast<std::size_t>(i);
+                      starts[k].theta = thetas[k].cwiseMax(task.lower).cwiseMin(task.upper);
+                      starts[k].cost = cost(starts[k].theta, nullptr);
+                    });
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& a, const Start& b) { return a.cost < b.cost; });
   return starts;
@@ -99,16 +103,24 @@ MapFit FitHyperparameters(const PooledData& all, const HyperLayout& layout,
                   .max_evaluations = options.max_evaluations,
                   .relative_tolerance = 1e-7};
   SetBounds(layout, options.noise_floor, task);
-  const std::vector<Start> starts = TrialStarts(cost, task, layout, options);
+  const auto size = static_cast<double>(data.values.size());
+  const double work = size * size * (size / 3 + 20);  // of one likelihood
+  const std::vector<Start> starts = TrialStarts(cost, task, layout, options, work);
   Start best = starts.front();
   const bool many = data.values.size() > kManyPoints;
   if (many) task.max_evaluations = std::min(task.max_evaluations, kShortSearch);
   const int num_searches =
       std::min<int>(many ? 1 : options.num_starts, static_cast<int>(starts.size()));
-  for (int i = 0; i < num_searches; ++i) {
-    task.start = starts[static_cast<std::size_t>(i)].theta;
-    const Minimum found = Minimize(cost, task);
-    if (found.value < best.cost) best = {found.point, found.value};
+  std::vector<Minimum> found(static_cast<std::size_t>(num_searches));
+  base::ParallelFor({.num_items = num_searches, .item_work = task.max_evaluations * work},
+                    [&](std::int64_t i) {
+                      const auto k = static_cast<std::size_t>(i);
+                      SearchTask own = task;
+                      own.start = starts[k].theta;
+                      found[k] = Minimize(cost, own);
+                    });
+  for (const Minimum& one : found) {
+    if (one.value < best.cost) best = {one.point, one.value};
   }
   return {.theta = best.theta, .log_prior = LogPrior(options.priors, layout, best.theta, nullptr)};
 }
