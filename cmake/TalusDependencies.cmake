@@ -21,6 +21,13 @@ talus_find(nlohmann_json nlohmann-json3-dev)
 talus_find(SQLite3 libsqlite3-dev)
 talus_find(CLI11 libcli11-dev)
 talus_find(Threads libc6-dev)
+# The thread sanitizer takes what OpenMP's threads share for races, and clang's OpenMP is another
+# package: there every loop has one thread.
+set(talus_openmp "")
+if(NOT TALUS_THREAD_SANITIZER AND NOT TALUS_FUZZ)
+  talus_find(OpenMP "g++" COMPONENTS CXX)
+  set(talus_openmp OpenMP::OpenMP_CXX)
+endif()
 talus_find(pugixml libpugixml-dev)
 talus_find(ZLIB zlib1g-dev)
 talus_find(PkgConfig pkg-config)

@@ -1,13 +1,16 @@
-// Prints the processor time of one proposal, and of one answer, after many noisy evaluations.
+// Prints the processor time of one proposal, and of one answer, after many noisy evaluations; and,
+// after a slash, the time that passed.
 //
-//   optimizer_proposal_time [200]
+//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp or field]
 //
 // The evaluations are those of the problem `heap`, its images enlarged to 400 x 200 px; half of the
 // points are spread over the cube, half lie near the optimum, as those of a search do.
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string>
 
 #include "base/random.h"
 #include "bench/optimizers/problems.h"
@@ -30,9 +33,21 @@ std::vector<float> Enlarged(const Image& image) {
   return pixels;
 }
 
-double Seconds(std::clock_t start) {
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
+// "processor time/time passed [s]" since it was made.
+class Stopwatch {
+ public:
+  std::string Read() const {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - wall_;
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f/%.2f",
+                  static_cast<double>(std::clock() - processor_) / CLOCKS_PER_SEC, passed.count());
+    return text;
+  }
+
+ private:
+  std::clock_t processor_ = std::clock();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
 
 void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
   const auto problem = MakeProblem("heap", 1);
@@ -47,13 +62,13 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
   double lowest = 0;
   Optimum(*problem, best, lowest);
   base::Random random(1, base::Stream("proposal time"));
-  std::vector<double> proposals;
+  std::vector<std::string> proposals;
   Vec point{};
   for (int i = 0; i < num_trials + 3; ++i) {
     if (i >= num_trials) {
-      const std::clock_t start = std::clock();
+      const Stopwatch watch;
       strategy->Ask(1, {});
-      proposals.push_back(Seconds(start));
+      proposals.push_back(watch.Read());
     }
     for (std::size_t k = 0; k < point.size() && i != 1; ++k) {  // 1 repeats 0: it scatters
       point[k] =
@@ -65,11 +80,12 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
                     .value = field.Value(pixels),
                     .field = pixels});
   }
-  const std::clock_t start = std::clock();
+  const Stopwatch watch;
   strategy->Recommend();
   // The first proposal fits everything, the next ones start from what it found.
-  std::printf("%-6s after %d trials: proposals %.2f, %.2f, %.2f s, answer %.2f s\n", name,
-              num_trials, proposals[0], proposals[1], proposals[2], Seconds(start));
+  std::printf("%-6s after %d trials: proposals %s, %s, %s s, answer %s s\n", name, num_trials,
+              proposals[0].c_str(), proposals[1].c_str(), proposals[2].c_str(),
+              watch.Read().c_str());
 }
 
 }  // namespace
@@ -77,6 +93,8 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
 
 int main(int argc, char** argv) {
   const int num_trials = argc > 1 ? std::atoi(argv[1]) : 200;
-  talus::bench::Time(talus::optimizer::StrategyKind::kGp, "gp", num_trials);
-  talus::bench::Time(talus::optimizer::StrategyKind::kField, "field", num_trials);
+  const std::string only = argc > 2 ? argv[2] : "";
+  using Kind = talus::optimizer::StrategyKind;
+  if (only != "field") talus::bench::Time(Kind::kGp, "gp", num_trials);
+  if (only != "gp") talus::bench::Time(Kind::kField, "field", num_trials);
 }

@@ -1,5 +1,7 @@
 // The program `talus`.
 #include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/printable.h"
@@ -25,6 +28,16 @@ void LetReadersGo() {
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
   sigaction(SIGPIPE, &action, nullptr);
+}
+
+// Between two loops OpenMP's threads (base/parallel_for.h) spin beside trials that need the cores,
+// unless the environment forbids it. The library reads that before main does, hence the new start.
+void WaitAsleep(char** argv) {
+  if (getenv("OMP_WAIT_POLICY") != nullptr || getenv("GOMP_SPINCOUNT") != nullptr) return;
+  std::error_code unknown;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (unknown || setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
+  execv(self.c_str(), argv);  // returns only if it fails; then the threads spin
 }
 
 int Run(int argc, char** argv) {
@@ -60,6 +73,7 @@ std::string InWords(const std::exception& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  WaitAsleep(argv);
   LetReadersGo();
   // Names, logs and messages of others are shown, never obeyed.
   const talus::base::PrintableStream output(std::cout);

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "experiments/campaign/campaign_strategy.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -210,12 +211,21 @@ std::optional<std::string> Planner::WhyBudgetIsUsed() {
   return std::nullopt;
 }
 
+void Planner::LeaveCoresToTrials() const {
+  const auto num_running =
+      std::count_if(trials_.begin(), trials_.end(), [](const journal::TrialRecord& trial) {
+        return trial.status == journal::TrialStatus::kRunning;
+      });
+  base::SetMostLoopThreads(most_threads_ - static_cast<int>(num_running) * spec_.threads);
+}
+
 bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) {
   if (!stop_reason_.empty()) return false;
   if (const auto reason = WhyBudgetIsUsed()) {
     StopSearch(*reason);
     return false;
   }
+  LeaveCoresToTrials();
   if (NumOfSearch() >= spec_.budget.min_simulations) {
     if (const auto reason = strategy_->StopReason()) {
       StopSearch(*reason);
@@ -251,6 +261,7 @@ std::optional<optimizer::Answer> Planner::Recommend() {
     return IsOfSearch(t) && t.status == journal::TrialStatus::kOk && ReferenceOf(t).Value(t);
   });
   if (!any) return std::nullopt;
+  LeaveCoresToTrials();
   return strategy_->Recommend();
 }
 

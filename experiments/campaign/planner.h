@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "experiments/campaign/core_time.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -66,6 +67,7 @@ class Planner {
   std::vector<Eigen::VectorXd> RankedPoints(const optimizer::Answer& answer) const;
   int SetsLeft() const;
   std::optional<std::string> WhyBudgetIsUsed();
+  void LeaveCoresToTrials() const;  // of those that the loops of the strategy may use
   void Append(journal::TrialRecord trial, std::vector<journal::TrialRecord>& planned);
   Eigen::VectorXd NoisePoint() const;
   int Count(journal::TrialKind kind) const;
@@ -81,6 +83,7 @@ class Planner {
   std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
   std::string stop_reason_;
   CoreTime core_time_;
+  const int most_threads_ = base::MostLoopThreads();
 };
 
 }  // namespace talus::campaign

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "base/error.h"
 #include "imaging/formats/image_file.h"
@@ -128,22 +130,39 @@ void WarnOfDisagreement(const std::vector<MeasuredRun>& runs, std::vector<PhotoW
   }
 }
 
+struct MeasuredPhoto {
+  MeasuredView view;
+  GrayImage silhouette;
+  std::vector<PhotoWarning> warnings;
+};
+
+MeasuredPhoto MeasurePhoto(const Photo& photo, const PlatePose& pose, const Placement& placement,
+                           const ExperimentOptions& options) {
+  const GrayImage image = ReadGrayImage(photo.path);
+  const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
+  MeasuredPhoto measured;
+  measured.silhouette = MakeSilhouette(flat, pose, placement.photo_pixel, placement.frame);
+  measured.view = MeasureView(measured.silhouette, photo, pose, placement, options);
+  WarnOfView(photo, image, measured.silhouette, placement.frame, measured.warnings);
+  return measured;
+}
+
 void MeasureRuns(const ExperimentOptions& options, const PhotoCollection& collection,
                  const Placement& placement, Experiment& result) {
   std::vector<std::vector<GrayImage>> silhouettes(collection.runs.size());
   for (const std::string& name : collection.runs) {
     result.runs.push_back({.name = name, .profile = {{}, placement.frame}, .views = {}});
   }
-  for (std::size_t i = 0; i < collection.photos.size(); ++i) {
-    const Photo& photo = collection.photos[i];
-    const GrayImage image = ReadGrayImage(photo.path);
-    const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
-    GrayImage silhouette =
-        MakeSilhouette(flat, placement.poses[i], placement.photo_pixel, placement.frame);
-    MeasuredView view = MeasureView(silhouette, photo, placement.poses[i], placement, options);
-    WarnOfView(photo, image, silhouette, placement.frame, result.warnings);
-    result.runs[photo.run].views.push_back(std::move(view));
-    silhouettes[photo.run].push_back(std::move(silhouette));
+  std::vector<MeasuredPhoto> measured(collection.photos.size());
+  ForEachPhoto(measured.size(), [&](std::size_t i) {
+    measured[i] = MeasurePhoto(collection.photos[i], placement.poses[i], placement, options);
+  });
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const std::size_t run = collection.photos[i].run;
+    std::move(measured[i].warnings.begin(), measured[i].warnings.end(),
+              std::back_inserter(result.warnings));
+    result.runs[run].views.push_back(std::move(measured[i].view));
+    silhouettes[run].push_back(std::move(measured[i].silhouette));
   }
   for (std::size_t run = 0; run < result.runs.size(); ++run) {
     if (silhouettes[run].empty()) continue;

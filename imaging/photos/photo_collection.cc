@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
+#include "base/parallel_for.h"
 #include "imaging/formats/image_file.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/overlay.h"
@@ -61,9 +64,33 @@ std::string Size(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
+// What one photograph shows by itself.
+struct Reading {
+  int width = 0;   // [px]; 0: unreadable
+  int height = 0;  // [px]
+  PlateEdges edges;
+  bool front_lit = false;
+  std::string fault;  // "": none
+};
+
+Reading Read(const ExperimentOptions& options, const Photo& photo) {
+  Reading reading;
+  try {
+    const GrayImage image = ReadGrayImage(photo.path);
+    reading.width = image.width;
+    reading.height = image.height;
+    const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
+    reading.front_lit = flat.negative;
+    if (!options.frame) reading.edges = FindPlateEdges(flat, photo.path.string());
+  } catch (const base::ConfigError& error) {
+    reading.fault = error.what();
+  }
+  return reading;
+}
+
 // The size that most photographs have is not known before all are read; the first readable one
 // stands for it.
-void CheckSize(const GrayImage& image, const Photo& photo, PhotoCollection& collection) {
+void CheckSize(const Reading& image, const Photo& photo, PhotoCollection& collection) {
   if (collection.width == 0) {
     collection.width = image.width;
     collection.height = image.height;
@@ -92,15 +119,18 @@ std::string KeepPicture(const ExperimentOptions& options, const Photo& photo,
 // Reads every photograph once; one that cannot be used becomes a fault.
 void FindPlates(const ExperimentOptions& options, const PictureSink& keep,
                 PhotoCollection& collection) {
+  std::vector<Reading> readings(collection.photos.size());
+  ForEachPhoto(readings.size(),
+               [&](std::size_t i) { readings[i] = Read(options, collection.photos[i]); });
   DroppedPhotos bad(collection.photos.size(), false);
   for (std::size_t i = 0; i < collection.photos.size(); ++i) {
     Photo& photo = collection.photos[i];
+    Reading& reading = readings[i];
     try {
-      const GrayImage image = ReadGrayImage(photo.path);
-      CheckSize(image, photo, collection);
-      const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
-      photo.front_lit = flat.negative;
-      if (!options.frame) photo.edges = FindPlateEdges(flat, photo.path.string());
+      if (reading.width > 0) CheckSize(reading, photo, collection);
+      if (!reading.fault.empty()) throw base::ConfigError(reading.fault);
+      photo.front_lit = reading.front_lit;
+      photo.edges = std::move(reading.edges);
     } catch (const base::ConfigError& error) {
       collection.faults.push_back(
           {.photo = photo.path,
@@ -156,6 +186,12 @@ void SettleFaults(const ExperimentOptions& options, const PictureSink& keep,
 }
 
 }  // namespace
+
+void ForEachPhoto(std::size_t num_photos, const std::function<void(std::size_t)>& body) {
+  constexpr double kPhotoWork = 1e9;
+  base::ParallelFor({.num_items = static_cast<std::int64_t>(num_photos), .item_work = kPhotoWork},
+                    [&](std::int64_t i) { body(static_cast<std::size_t>(i)); });
+}
 
 PhotoCollection CollectPhotos(const ExperimentOptions& options, const PictureSink& keep,
                               std::vector<PhotoWarning>& warnings) {

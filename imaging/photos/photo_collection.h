@@ -2,7 +2,9 @@
 // that is wrong with them.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,5 +37,8 @@ struct PhotoCollection {
 // `allow_missing_views`, become warnings. The faulty photographs that can be drawn go to `keep`.
 PhotoCollection CollectPhotos(const ExperimentOptions& options, const PictureSink& keep,
                               std::vector<PhotoWarning>& warnings);
+
+// Calls body(i) for each of the photographs, several at once.
+void ForEachPhoto(std::size_t num_photos, const std::function<void(std::size_t)>& body);
 
 }  // namespace talus::imaging

@@ -2,21 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/parallel_for.h"
 
 namespace talus::imaging {
 namespace {
 
 constexpr int kWordBits = 64;
+constexpr std::size_t kViewsAtOnce = 4;  // by one thread, which cuts each sphere into rows once
 
 // The silhouettes of all views, one bit a pixel: word (view, row, column / 64).
 class Silhouettes {
  public:
   Silhouettes(const Frame& frame, int num_views)
-      : frame_(frame),
-        words_((frame.width + kWordBits - 1) / kWordBits),
+      : words_((frame.width + kWordBits - 1) / kWordBits),
         view_words_(static_cast<std::size_t>(words_) * static_cast<std::size_t>(frame.height)),
         bits_(view_words_ * static_cast<std::size_t>(num_views)) {}
 
@@ -42,21 +45,13 @@ class Silhouettes {
     return (word >> (column % kWordBits) & 1) != 0;
   }
 
-  // Calls body(pixel index, whether it is powder) for every pixel of a view.
-  template <class Body>
-  void ForEachPixel(std::size_t view, Body&& body) const {
-    std::size_t pixel = 0;
-    for (int row = 0; row < frame_.height; ++row) {
-      for (int column = 0; column < frame_.width; ++column) body(pixel++, Get(view, row, column));
-    }
-  }
-
  private:
-  const Frame& frame_;
   int words_;  // a row
   std::size_t view_words_;
   std::vector<std::uint64_t> bits_;
 };
+
+constexpr double kSphereWork = 500;  // multiplications to draw one in a few views
 
 struct Direction {
   double cosine = 1;
@@ -124,6 +119,22 @@ void Draw(std::size_t view, double center, const RowSpan& span, int width, Silho
   if (first <= last) images.Set(view, span.row, first, last);
 }
 
+// Views `first` … `last` - 1.
+void DrawViews(std::span<const base::Sphere> spheres, const Frame& frame,
+               std::span<const Direction> directions, std::size_t first, Silhouettes& images) {
+  const std::size_t last = std::min(first + kViewsAtOnce, directions.size());
+  std::vector<RowSpan> spans;
+  for (const base::Sphere& sphere : spheres) {
+    CutIntoRows(sphere, frame, spans);
+    for (std::size_t view = first; view < last; ++view) {
+      const auto [cosine, sine] = directions[view];
+      const double across = sphere.position.x * cosine + sphere.position.y * sine;
+      const double center = frame.center_x + across / frame.pixel_size - 0.5;
+      for (const RowSpan& span : spans) Draw(view, center, span, frame.width, images);
+    }
+  }
+}
+
 Silhouettes Render(std::span<const base::Sphere> spheres, const Frame& frame, int num_views) {
   base::Problems problems;
   frame.Validate(problems);
@@ -132,16 +143,13 @@ Silhouettes Render(std::span<const base::Sphere> spheres, const Frame& frame, in
   problems.ThrowIfAny();
   const std::vector<Direction> directions = Directions(num_views);
   Silhouettes images(frame, num_views);
-  std::vector<RowSpan> spans;
-  for (const base::Sphere& sphere : spheres) {
-    CutIntoRows(sphere, frame, spans);
-    for (std::size_t view = 0; view < directions.size(); ++view) {
-      const auto [cosine, sine] = directions[view];
-      const double across = sphere.position.x * cosine + sphere.position.y * sine;
-      const double center = frame.center_x + across / frame.pixel_size - 0.5;
-      for (const RowSpan& span : spans) Draw(view, center, span, frame.width, images);
-    }
-  }
+  const std::size_t num_items = (directions.size() + kViewsAtOnce - 1) / kViewsAtOnce;
+  base::ParallelFor({.num_items = static_cast<std::int64_t>(num_items),
+                     .item_work = kSphereWork * static_cast<double>(spheres.size())},
+                    [&](std::int64_t item) {
+                      const std::size_t first = kViewsAtOnce * static_cast<std::size_t>(item);
+                      DrawViews(spheres, frame, directions, first, images);
+                    });
   return images;
 }
 
@@ -150,6 +158,15 @@ GrayImage WhiteImage(int width, int height) {
           .height = height,
           .pixels = std::vector<std::uint8_t>(
               static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255)};
+}
+
+std::size_t FirstPixel(const Frame& frame, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width);
+}
+
+void ForEachRow(const Frame& frame, int num_views, const std::function<void(int)>& body) {
+  base::ParallelFor({.num_items = frame.height, .item_work = 2.0 * frame.width * num_views},
+                    [&](std::int64_t row) { body(static_cast<int>(row)); });
 }
 
 // 255 (1 - n / N), rounded.
@@ -164,25 +181,30 @@ std::vector<GrayImage> ProjectViews(std::span<const base::Sphere> spheres, const
   const Silhouettes silhouettes = Render(spheres, frame, num_views);
   std::vector<GrayImage> views(static_cast<std::size_t>(num_views),
                                WhiteImage(frame.width, frame.height));
-  for (std::size_t view = 0; view < views.size(); ++view) {
-    silhouettes.ForEachPixel(view, [&](std::size_t pixel, bool powder) {
-      if (powder) views[view].pixels[pixel] = 0;
-    });
-  }
+  ForEachRow(frame, num_views, [&](int row) {
+    std::size_t pixel = FirstPixel(frame, row);
+    for (int column = 0; column < frame.width; ++column, ++pixel) {
+      for (std::size_t view = 0; view < views.size(); ++view) {
+        if (silhouettes.Get(view, row, column)) views[view].pixels[pixel] = 0;
+      }
+    }
+  });
   return views;
 }
 
 Profile ProjectHeap(std::span<const base::Sphere> spheres, const Frame& frame, int num_views) {
   const Silhouettes silhouettes = Render(spheres, frame, num_views);
   Profile profile{.image = WhiteImage(frame.width, frame.height), .frame = frame};
-  std::vector<int> count(profile.image.pixels.size());
-  for (int view = 0; view < num_views; ++view) {
-    silhouettes.ForEachPixel(static_cast<std::size_t>(view),
-                             [&](std::size_t pixel, bool powder) { count[pixel] += powder; });
-  }
-  for (std::size_t i = 0; i < count.size(); ++i) {
-    profile.image.pixels[i] = Level(count[i], num_views);
-  }
+  ForEachRow(frame, num_views, [&](int row) {
+    std::size_t pixel = FirstPixel(frame, row);
+    for (int column = 0; column < frame.width; ++column, ++pixel) {
+      int num_powder = 0;
+      for (std::size_t view = 0; view < static_cast<std::size_t>(num_views); ++view) {
+        num_powder += silhouettes.Get(view, row, column) ? 1 : 0;
+      }
+      profile.image.pixels[pixel] = Level(num_powder, num_views);
+    }
+  });
   return profile;
 }
 

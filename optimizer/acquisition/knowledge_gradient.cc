@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/space/point_rows.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr int kNumDraws = 64;
 constexpr int kNumEven = 200;  // candidates of the minimisers, over the cube
 constexpr int kNumNear = 200;  // and near the best points
+
+constexpr double kDropWork = 1e4;  // multiplications of one expected drop of the minimum
 
 // φ(z) - |z| Φ(-|z|): what a line that crosses another one at z adds to the expected maximum.
 double Crossing(double z) {
@@ -97,10 +100,10 @@ KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProc
   const auto gains = [&](const Eigen::MatrixXd& points) {
     const surrogate::Covariances at = process.PosteriorCovariances(anchors, points);
     Eigen::VectorXd result(points.rows());
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    base::ParallelFor({.num_items = points.rows(), .item_work = kDropWork}, [&](Eigen::Index i) {
       const double sd = std::sqrt(at.variance[i] + noise2);
       result[i] = ExpectedDropOfMinimum(mean, at.between.col(i) / sd);
-    }
+    });
     return result;
   };
   const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
@@ -110,7 +113,8 @@ KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProc
   const auto value = [&](const Eigen::VectorXd& x, Eigen::VectorXd*) {
     return values(x.transpose())[0];
   };
-  const Found found = SearchCube({values, value}, view.domain, minimisers,
+  const double work = kDropWork + view.model.PredictionWork();
+  const Found found = SearchCube({values, value, work}, view.domain, minimisers,
                                  {.num_candidates = 400,
                                   .num_local = 2,
                                   .max_evaluations = 60,

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/space/point_rows.h"
@@ -69,6 +70,21 @@ std::vector<surrogate::SearchTask> LocalSearches(const SearchOptions& options, i
   return tasks;
 }
 
+Found Climb(const surrogate::SearchFunction& function, const Domain& domain,
+            const Eigen::VectorXd& start, const SearchOptions& options) {
+  Found best{{}, std::numeric_limits<double>::infinity()};
+  Eigen::VectorXd from = start;
+  for (surrogate::SearchTask& task : LocalSearches(options, domain.num_parameters)) {
+    task.start = from;
+    const surrogate::Minimum found = surrogate::Minimize(function, task);
+    from = found.point;
+    if (found.value < best.value || best.point.size() == 0) {
+      best = {domain.levels.empty() ? found.point : domain.Snap(found.point), found.value};
+    }
+  }
+  return best;
+}
+
 Found BestOfList(const CheapFunction& function, const Domain& domain) {
   const Eigen::VectorXd values = function.values(domain.candidates);
   Eigen::Index best = 0;
@@ -94,20 +110,18 @@ Found SearchCube(const CheapFunction& function, const Domain& domain,
     }
     return value;
   };
-  Found best{{}, std::numeric_limits<double>::infinity()};
-  for (const Eigen::Index start : Starts(candidates, values, options.num_local)) {
-    Eigen::VectorXd from = candidates.row(start);
-    for (surrogate::SearchTask& task : LocalSearches(options, domain.num_parameters)) {
-      task.start = from;
-      const surrogate::Minimum found = domain.levels.empty() ? surrogate::Minimize(inside, task)
-                                                             : surrogate::Minimize(at_levels, task);
-      from = found.point;
-      if (found.value < best.value || best.point.size() == 0) {
-        best = {domain.levels.empty() ? found.point : domain.Snap(found.point), found.value};
-      }
-    }
-  }
-  return best;
+  const surrogate::SearchFunction whole =
+      domain.levels.empty() ? surrogate::SearchFunction(inside) : at_levels;
+  const std::vector<Eigen::Index> starts = Starts(candidates, values, options.num_local);
+  std::vector<Found> found(starts.size());
+  base::ParallelFor({.num_items = static_cast<std::int64_t>(starts.size()),
+                     .item_work = options.max_evaluations * function.work},
+                    [&](std::int64_t i) {
+                      const auto k = static_cast<std::size_t>(i);
+                      found[k] = Climb(whole, domain, candidates.row(starts[k]), options);
+                    });
+  return *std::min_element(found.begin(), found.end(),
+                           [](const Found& a, const Found& b) { return a.value < b.value; });
 }
 
 }  // namespace talus::optimizer

@@ -19,12 +19,13 @@ struct SearchOptions {
   std::uint64_t seed = 1;
 };
 
-// To be minimised.
+// To be minimised; called for several points at once.
 struct CheapFunction {
   // One value a row of points.
   std::function<Eigen::VectorXd(const Eigen::MatrixXd&)> values;
   // One value, with the gradient where not null. Never asked for a gradient when kinked.
   std::function<double(const Eigen::VectorXd&, Eigen::VectorXd*)> value_and_gradient;
+  double work = 0;  // about how many multiplications one value takes
 };
 
 struct Found {

@@ -13,10 +13,10 @@ constexpr int kNumCenters = 5;
 
 // A function of one point that is computed for many at once, without gradient.
 CheapFunction WithoutGradient(
-    const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values) {
-  return {values, [values](const Eigen::VectorXd& x, Eigen::VectorXd*) {
-            return values(x.transpose())[0];
-          }};
+    const ModelView& view, const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values) {
+  return {values,
+          [values](const Eigen::VectorXd& x, Eigen::VectorXd*) { return values(x.transpose())[0]; },
+          view.model.PredictionWork()};
 }
 
 // Minus an acquisition, a function of mean and standard deviation, plus the penalty for the risk to
@@ -43,7 +43,7 @@ CheapFunction Negative(const ModelView& view, const Score& score, double feasibi
     }
     return -acquisition.value - feasibility_weight * penalty;
   };
-  return {values, value_and_gradient};
+  return {values, value_and_gradient, view.model.PredictionWork()};
 }
 
 Eigen::VectorXd Search(const ModelView& view, const CheapFunction& function,
@@ -71,7 +71,7 @@ Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& 
       return -view.model.LogImprovement(points, incumbent.value, incumbent.noise) -
              view.feasibility.Penalty(points);
     };
-    return Search(view, WithoutGradient(values), centers, view.searches.improvement);
+    return Search(view, WithoutGradient(view, values), centers, view.searches.improvement);
   }
   const auto score = [&](double mean, double sd) {
     return AugmentedLogExpectedImprovement(mean, sd, incumbent.value, incumbent.noise);
@@ -86,7 +86,7 @@ Eigen::VectorXd LowestMean(const ModelView& view) {
     const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
       return view.model.Means(points) - view.failure_cost * view.feasibility.Penalty(points);
     };
-    return Search(view, WithoutGradient(values), centers, view.searches.mean);
+    return Search(view, WithoutGradient(view, values), centers, view.searches.mean);
   }
   const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, 0); };
   return Search(view, Negative(view, score, view.failure_cost), centers, view.searches.mean);
@@ -97,7 +97,7 @@ double LowestBound(const ModelView& view, const Eigen::MatrixXd& centers) {
   options.seed = view.seed;
   const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, kBoundSds); };
   CheapFunction function = Negative(view, score, 0);
-  if (options.kinked) function = WithoutGradient(function.values);
+  if (options.kinked) function = WithoutGradient(view, function.values);
   return SearchCube(function, view.domain, centers, options).value;
 }
 

@@ -22,15 +22,6 @@ struct Record {
   double Share() const { return (improvements + kExpectedShare) / (steps + 1); }
 };
 
-// What an improvement must at least be. Of the first values alone, so that it stays the same.
-double LeastGain(const Eigen::VectorXd& values, int num_before) {
-  if (values.size() == 0) return 0;
-  std::vector<double> first(values.begin(),
-                            values.begin() + std::min<Eigen::Index>(num_before, values.size()));
-  std::sort(first.begin(), first.end());
-  return kLeastGain * (first[first.size() / 2] - first.front());
-}
-
 // The largest share; of equals the first after `last`, in turn.
 int MostPromising(const std::array<Record, kNumKinds>& records, int last) {
   int best = (last + 1) % kNumKinds;
@@ -45,6 +36,15 @@ int MostPromising(const std::array<Record, kNumKinds>& records, int last) {
 }
 
 }  // namespace
+
+// Of the first values alone, so that it stays the same.
+double LeastGain(const Eigen::VectorXd& values, int num_before) {
+  if (values.size() == 0) return 0;
+  std::vector<double> first(values.begin(),
+                            values.begin() + std::min<Eigen::Index>(num_before, values.size()));
+  std::sort(first.begin(), first.end());
+  return kLeastGain * (first[first.size() / 2] - first.front());
+}
 
 Step NextStep(const Eigen::VectorXd& values, int num_before, int num_pending) {
   std::array<Record, kNumKinds> records;

@@ -20,4 +20,7 @@ enum class Step {
 // steps are not told but inferred by the same rule; `num_pending` steps under way count as vain.
 Step NextStep(const Eigen::VectorXd& values, int num_before, int num_pending);
 
+// The least gain on the best value that is one: a millionth of the spread of the first values.
+double LeastGain(const Eigen::VectorXd& values, int num_before);
+
 }  // namespace talus::optimizer

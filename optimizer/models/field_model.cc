@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/acquisition/acquisition.h"
 #include "surrogate/standard_deviation.h"
@@ -118,6 +119,24 @@ double FieldModel::Value(const Eigen::VectorXd& vector) const {
   return objective_.sad_scale * code_->Sad(vector);
 }
 
+void FieldModel::ForEachPoint(Eigen::Index count, double num_images,
+                              const std::function<void(Eigen::Index)>& body) const {
+  base::ParallelFor({.num_items = count, .item_work = num_images * ImageWork()}, body);
+}
+
+double FieldModel::ImageWork() const {
+  constexpr double kElementWork = 30;
+  const Eigen::Index size = objective_.metric
+                                ? static_cast<Eigen::Index>(objective_.width) * objective_.height
+                                : modes_.modes().basis.rows();
+  return kElementWork * static_cast<double>(size);
+}
+
+double FieldModel::PredictionWork() const {
+  const auto size = static_cast<double>(residuals_.rows());
+  return num_modes() * size * (size / 2 + 40) + kNumDraws * ImageWork();
+}
+
 double FieldModel::Expected(const At& at, const Eigen::VectorXd& noise) const {
   if (objective_.metric) return ValuesOfDraws(at).mean();
   Eigen::VectorXd variance = modes_.modes().basis.cwiseAbs2() * at.variance;
@@ -150,7 +169,7 @@ double FieldModel::Mean(const Eigen::VectorXd& x) const {
 
 Eigen::VectorXd FieldModel::Means(const Eigen::MatrixXd& points) const {
   Eigen::VectorXd means(points.rows());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) means[i] = Mean(points.row(i));
+  ForEachPoint(points.rows(), 6, [&](Eigen::Index i) { means[i] = Mean(points.row(i)); });
   return means;
 }
 
@@ -158,12 +177,12 @@ Moments FieldModel::Predict(const Eigen::MatrixXd& points) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
   const surrogate::Predictions error = ReconstructionError(points);
   Moments moments{.mean = error.mean, .sd = Eigen::VectorXd(points.rows())};
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+  ForEachPoint(points.rows(), 6 + kNumDraws, [&](Eigen::Index i) {
     const At at{modes.mean.row(i), modes.variance.row(i)};
     const double sd_of_draws = StandardDeviation(ValuesOfDraws(at));
     moments.mean[i] += Expected(at, {});
     moments.sd[i] = std::sqrt(sd_of_draws * sd_of_draws + error.variance[i]);
-  }
+  });
   return moments;
 }
 
@@ -186,25 +205,23 @@ Eigen::VectorXd FieldModel::LogImprovement(const Eigen::MatrixXd& points, double
   const surrogate::ModeMoments modes = modes_.Predict(points);
   const surrogate::Predictions error = ReconstructionError(points);
   Eigen::VectorXd result(points.rows());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const At at{modes.mean.row(i), modes.variance.row(i)};
-    const double goal = incumbent - error.mean[i];
-    const double reach = objective_.metric ? std::numeric_limits<double>::infinity() : Reach(at);
-    const double excess = objective_.metric ? 0 : Value(MeanVector(at.mean)) - goal;
-    if (excess > reach) {
-      result[i] = kHopeless - excess / std::max(reach, 1e-300);
-      continue;
-    }
-    const Eigen::VectorXd draws = ValuesOfDraws(at);
-    if (noise > 0) {
-      const double sd_of_draws = StandardDeviation(draws);
-      const double sd = std::sqrt(sd_of_draws * sd_of_draws + error.variance[i]);
-      result[i] = AugmentedLogExpectedImprovement(draws.mean(), sd, goal, noise).value;
-    } else {
-      result[i] = LogImprovementOfDraws(draws, goal);
-    }
-  }
+  ForEachPoint(points.rows(), 1 + kNumDraws, [&](Eigen::Index i) {
+    result[i] = LogImprovementAt(
+        {modes.mean.row(i), modes.variance.row(i)},
+        {.value = incumbent - error.mean[i], .noise = noise, .error_variance = error.variance[i]});
+  });
   return result;
+}
+
+double FieldModel::LogImprovementAt(const At& at, const Goal& goal) const {
+  const double reach = objective_.metric ? std::numeric_limits<double>::infinity() : Reach(at);
+  const double excess = objective_.metric ? 0 : Value(MeanVector(at.mean)) - goal.value;
+  if (excess > reach) return kHopeless - excess / std::max(reach, 1e-300);
+  const Eigen::VectorXd draws = ValuesOfDraws(at);
+  if (!(goal.noise > 0)) return LogImprovementOfDraws(draws, goal.value);
+  const double sd_of_draws = StandardDeviation(draws);
+  const double sd = std::sqrt(sd_of_draws * sd_of_draws + goal.error_variance);
+  return AugmentedLogExpectedImprovement(draws.mean(), sd, goal.value, goal.noise).value;
 }
 
 FieldModel::At FieldModel::Nearest(const surrogate::ModeMoments& modes) const {
@@ -262,8 +279,8 @@ Eigen::MatrixXd FieldModel::Draw(const Eigen::MatrixXd& points, int num_draws,
       modes[k] = (kInflation * (modes[k].rowwise() - mean)).rowwise() + mean;
     }
   }
-  Eigen::VectorXd coefficients(static_cast<Eigen::Index>(modes.size()));
-  for (Eigen::Index d = 0; d < draws.rows(); ++d) {
+  ForEachPoint(draws.rows(), static_cast<double>(draws.cols()), [&](Eigen::Index d) {
+    Eigen::VectorXd coefficients(static_cast<Eigen::Index>(modes.size()));
     for (Eigen::Index i = 0; i < draws.cols(); ++i) {
       for (std::size_t k = 0; k < modes.size(); ++k) {
         coefficients[static_cast<Eigen::Index>(k)] = modes[k](d, i);
@@ -272,7 +289,7 @@ Eigen::MatrixXd FieldModel::Draw(const Eigen::MatrixXd& points, int num_draws,
       if (!exact) vector -= errors.row(d).transpose();
       draws(d, i) += Value(vector);
     }
-  }
+  });
   return draws;
 }
 
@@ -289,9 +306,9 @@ Eigen::VectorXd FieldModel::LeaveOneOut() const {
   Eigen::VectorXd values = reconstruction_ ? reconstruction_->LeaveOneOut().mean
                                            : Eigen::VectorXd::Zero(modes.mean.rows());
   const Eigen::VectorXd discarded = modes_.modes().discarded;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
+  ForEachPoint(values.size(), 6, [&](Eigen::Index i) {
     values[i] += Expected({modes.mean.row(i), modes.variance.row(i)}, discarded);
-  }
+  });
   return values;
 }
 

@@ -7,6 +7,7 @@
 // code, known exactly at each evaluation, hence a process of its own.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,6 +45,7 @@ class FieldModel : public ObjectiveModel {
              const CodedFields& data, const FieldModelOptions& options, const FieldState* frozen);
 
   int num_parameters() const override;
+  double PredictionWork() const override;
   Moments Predict(const Eigen::MatrixXd& points) const override;
   // Draws of the objective to a target that is drawn too, within what is not known of it.
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws,
@@ -84,7 +86,19 @@ class FieldModel : public ObjectiveModel {
   double Expected(const At& at, const Eigen::VectorXd& noise) const;
   Eigen::VectorXd ValuesOfDraws(const At& at) const;
   double Reach(const At& at) const;
+  // What is to be improved on, and what blurs it.
+  struct Goal {
+    double value = 0;           // of the decoded image
+    double noise = 0;           // noise sd of one evaluation; 0 when deterministic
+    double error_variance = 0;  // of the reconstruction error
+  };
+  double LogImprovementAt(const At& at, const Goal& goal) const;
   double LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const;
+  // Calls body(i) of each of `count` points or draws, which works out `num_images` images; several
+  // at once.
+  double ImageWork() const;  // multiplications
+  void ForEachPoint(Eigen::Index count, double num_images,
+                    const std::function<void(Eigen::Index)>& body) const;
   surrogate::Predictions ReconstructionError(const Eigen::MatrixXd& points) const;
   // What the target may be off by, a draw a row; empty where it is exact. `nearest`: the
   // coefficients that fit the target best.

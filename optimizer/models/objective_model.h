@@ -27,6 +27,9 @@ class ObjectiveModel {
 
   virtual int num_parameters() const = 0;
 
+  // About how many multiplications the prediction of one point takes.
+  virtual double PredictionWork() const { return 0; }
+
   // One point of the unit cube a row.
   virtual Moments Predict(const Eigen::MatrixXd& points) const = 0;
 

@@ -129,6 +129,11 @@ Eigen::MatrixXd TransformedModel::Draw(const Eigen::MatrixXd& points, int num_dr
   return process_.Draw(points, num_draws, random);
 }
 
+double TransformedModel::PredictionWork() const {
+  const auto size = static_cast<double>(process_.num_points());
+  return size * (size + 40);  // two triangular solutions, and a row of covariances
+}
+
 double TransformedModel::NoiseSd(const Eigen::VectorXd&) const {
   return std::sqrt(process_.noise_variance());
 }

@@ -85,6 +85,8 @@ class TransformedModel : public ObjectiveModel {
                        base::Random random) const override;
   double NoiseSd(const Eigen::VectorXd& x) const override;
 
+  double PredictionWork() const override;
+
   const surrogate::GaussianProcess& process() const { return process_; }
 
  private:

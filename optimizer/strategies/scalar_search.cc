@@ -7,6 +7,7 @@
 #include "optimizer/acquisition/knowledge_gradient.h"
 #include "optimizer/acquisition/local_step.h"
 #include "optimizer/acquisition/model_step.h"
+#include "optimizer/acquisition/restart.h"
 #include "optimizer/acquisition/step_choice.h"
 #include "optimizer/acquisition/trust_region.h"
 #include "optimizer/answer/answer.h"
@@ -35,20 +36,35 @@ ModelView ViewOf(const ObjectiveModel& model, const SearchRecord& record, const 
           .seed = seed};
 }
 
+// Evaluations from before the first step: the design and the repeat.
+int NumBefore(const SearchRecord& record) { return record.design_size() + 1; }
+
+// Every second step of a search that has converged; the others go on polishing, lest a search that
+// only seemed to converge should stay where it is.
+std::optional<Elsewhere> Restart(const SearchRecord& record,
+                                 std::span<const Eigen::VectorXd> asked) {
+  const bool in_turn = (record.history().size() + static_cast<int>(asked.size())) % 2 == 0;
+  if (!record.deterministic() || !in_turn || record.domain().IsList()) return std::nullopt;
+  return RestartElsewhere(record.history(), record.domain(), NumBefore(record));
+}
+
 // A step near the best point, where the next one is to be one; not a failing or evaluated point.
 std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
-                                        std::span<const Eigen::VectorXd> asked) {
+                                        std::span<const Eigen::VectorXd> asked,
+                                        const std::optional<Elsewhere>& elsewhere) {
   if (record.domain().IsList()) return std::nullopt;
-  const History& history = record.history();
+  const History& history = elsewhere ? elsewhere->history : record.history();
+  const Domain& domain = elsewhere ? elsewhere->domain : record.domain();
+  const Eigen::VectorXd& values = record.history().values;
   std::optional<Eigen::VectorXd> step;
-  switch (NextStep(history.values, record.design_size() + 1, static_cast<int>(asked.size()))) {
+  switch (NextStep(values, NumBefore(record), static_cast<int>(asked.size()))) {
     case Step::kGlobal:
       break;
     case Step::kQuadratic:
-      step = TrustRegionStep(history, record.domain());
+      step = TrustRegionStep(history, domain);
       break;
     case Step::kLocal:
-      step = LocalStep(history, record.domain(), asked, record.StepSeed(asked));
+      step = LocalStep(history, domain, asked, record.StepSeed(asked));
       break;
   }
   if (step && !record.domain().IsContinuous()) step = record.domain().Snap(*step);
@@ -75,8 +91,9 @@ const ScalarFit& ScalarSearch::Fit(const SearchRecord& record) {
 }
 
 Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::VectorXd> asked) {
+  const std::optional<Elsewhere> elsewhere = Restart(record, asked);
   if (record.deterministic()) {
-    if (const auto step = NearBest(record, asked)) return {*step, Origin::kModel};
+    if (const auto step = NearBest(record, asked, elsewhere)) return {*step, Origin::kModel};
   }
   const Eigen::MatrixXd& points = record.history().points;
   surrogate::GaussianProcess process = Fit(record).process;
@@ -86,7 +103,7 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
   }
   const TransformedModel model(std::move(process));
   const double noise = record.deterministic() ? 0 : model.NoiseSd(points.row(0));
-  const Domain open = record.OpenDomain(asked);
+  const Domain open = elsewhere ? elsewhere->domain : record.OpenDomain(asked);
   const ModelView view = ViewOf(model, record, open, record.StepSeed(asked));
   if (StepsByKnowledge(record, asked)) {
     const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));

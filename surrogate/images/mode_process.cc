@@ -1,8 +1,10 @@
 #include "surrogate/images/mode_process.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "surrogate/standard_deviation.h"
 
 namespace talus::surrogate {
@@ -41,54 +43,74 @@ ModeProcess ModeProcess::Fit(const Eigen::MatrixXd& points, const Eigen::MatrixX
       options.frozen ? options.frozen->modes : FitModes(vectors, options.max_modes);
   const PrincipalModes& modes = process.state_.modes;
   const Eigen::MatrixXd coefficients = (vectors.rowwise() - modes.mean.transpose()) * modes.basis;
-  for (Eigen::Index k = 0; k < coefficients.cols(); ++k) {
+  const Eigen::Index count = coefficients.cols();
+  const Eigen::Index num_own =
+      options.frozen ? count : std::min<Eigen::Index>(count, options.num_own);
+  std::vector<std::optional<GaussianProcess>> fits(static_cast<std::size_t>(count));
+  const auto fit = [&](Eigen::Index k) {
     GaussianProcessOptions one = options.process;
     if (options.frozen) {
       one.frozen = options.frozen->processes[static_cast<std::size_t>(k)];
-    } else if (k >= options.num_own) {
-      one.frozen = Rescaled(process.processes_.back().state(), coefficients.col(k));
+    } else if (k >= num_own) {
+      one.frozen =
+          Rescaled(fits[static_cast<std::size_t>(num_own) - 1]->state(), coefficients.col(k));
     } else if (modes.next_sd > 0) {
       one.priors.noise = NoisePrior(modes.next_sd, coefficients.col(k));
     }
-    process.processes_.push_back(GaussianProcess::Fit(points, coefficients.col(k), one));
-    process.state_.processes.push_back(process.processes_.back().state());
+    fits[static_cast<std::size_t>(k)] = GaussianProcess::Fit(points, coefficients.col(k), one);
+  };
+  const double factor_work = std::pow(static_cast<double>(points.rows()), 3) / 6;
+  base::ParallelFor({.num_items = num_own, .item_work = factor_work}, fit);
+  base::ParallelFor({.num_items = count - num_own, .item_work = factor_work},
+                    [&](std::int64_t i) { fit(num_own + i); });
+  for (std::optional<GaussianProcess>& one : fits) {
+    process.state_.processes.push_back(one->state());
+    process.processes_.push_back(*std::move(one));
   }
   return process;
+}
+
+void ModeProcess::ForEachMode(Eigen::Index num_points,
+                              const std::function<void(std::int64_t)>& body) const {
+  const auto size = processes_.empty() ? 0.0 : static_cast<double>(processes_[0].num_points());
+  base::ParallelFor({.num_items = static_cast<std::int64_t>(processes_.size()),
+                     .item_work = size * (size / 2 + 40) * static_cast<double>(num_points)},
+                    body);
 }
 
 ModeMoments ModeProcess::Predict(const Eigen::MatrixXd& points) const {
   const auto count = static_cast<Eigen::Index>(processes_.size());
   ModeMoments moments{.mean = Eigen::MatrixXd(points.rows(), count),
                       .variance = Eigen::MatrixXd(points.rows(), count)};
-  for (Eigen::Index k = 0; k < count; ++k) {
+  ForEachMode(points.rows(), [&](std::int64_t k) {
     const Predictions all = processes_[static_cast<std::size_t>(k)].PredictAll(points);
     moments.mean.col(k) = all.mean;
     moments.variance.col(k) = all.variance;
-  }
+  });
   return moments;
 }
 
 std::vector<Eigen::MatrixXd> ModeProcess::Draw(const Eigen::MatrixXd& points, int num_draws,
                                                std::uint64_t seed) const {
-  std::vector<Eigen::MatrixXd> draws;
-  for (const GaussianProcess& process : processes_) {
-    draws.push_back(process.Draw(points, num_draws,
-                                 base::Random(seed, base::Stream("mode draws"), draws.size())));
-  }
+  std::vector<Eigen::MatrixXd> draws(processes_.size());
+  ForEachMode(points.rows(), [&](std::int64_t k) {
+    const auto mode = static_cast<std::size_t>(k);
+    draws[mode] = processes_[mode].Draw(points, num_draws,
+                                        base::Random(seed, base::Stream("mode draws"), mode));
+  });
   return draws;
 }
 
 ModeMoments ModeProcess::LeaveOneOut() const {
-  ModeMoments moments;
-  for (std::size_t k = 0; k < processes_.size(); ++k) {
-    const Predictions one = processes_[k].LeaveOneOut();
-    if (k == 0) {
-      moments.mean.resize(one.mean.size(), static_cast<Eigen::Index>(processes_.size()));
-      moments.variance.resizeLike(moments.mean);
-    }
-    moments.mean.col(static_cast<Eigen::Index>(k)) = one.mean;
-    moments.variance.col(static_cast<Eigen::Index>(k)) = one.variance;
-  }
+  const auto count = static_cast<Eigen::Index>(processes_.size());
+  const Eigen::Index size = processes_.empty() ? 0 : processes_[0].num_points();
+  ModeMoments moments{.mean = Eigen::MatrixXd(size, count),
+                      .variance = Eigen::MatrixXd(size, count)};
+  ForEachMode(size, [&](std::int64_t k) {
+    const Predictions one = processes_[static_cast<std::size_t>(k)].LeaveOneOut();
+    moments.mean.col(k) = one.mean;
+    moments.variance.col(k) = one.variance;
+  });
   return moments;
 }
 

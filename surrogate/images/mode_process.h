@@ -9,6 +9,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -64,6 +66,9 @@ class ModeProcess {
   const std::vector<GaussianProcess>& processes() const { return processes_; }
 
  private:
+  // Calls body(k) of each mode, several at once where work for `num_points` points is large.
+  void ForEachMode(Eigen::Index num_points, const std::function<void(std::int64_t)>& body) const;
+
   ModeState state_;
   std::vector<GaussianProcess> processes_;
   int num_parameters_ = 0;

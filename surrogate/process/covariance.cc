@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/parallel_for.h"
+
 namespace talus::surrogate {
 
 Covariance::Covariance(Kernel kernel, Hyperparameters hyper)
@@ -21,11 +23,13 @@ double Covariance::At(const double* a, const double* b) const {
 
 Eigen::MatrixXd Covariance::Between(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) const {
   Eigen::MatrixXd result(a.cols(), b.cols());
-  for (Eigen::Index j = 0; j < b.cols(); ++j) {
-    for (Eigen::Index i = 0; i < a.cols(); ++i) {
-      result(i, j) = At(a.col(i).data(), b.col(j).data());
-    }
-  }
+  constexpr double kPairWork = 40;
+  base::ParallelFor({.num_items = b.cols(), .item_work = kPairWork * static_cast<double>(a.cols())},
+                    [&](Eigen::Index j) {
+                      for (Eigen::Index i = 0; i < a.cols(); ++i) {
+                        result(i, j) = At(a.col(i).data(), b.col(j).data());
+                      }
+                    });
   return result;
 }
 

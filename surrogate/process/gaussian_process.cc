@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/parallel_for.h"
 #include "surrogate/process/map_fit.h"
 #include "surrogate/process/warp.h"
 #include "surrogate/standard_deviation.h"
@@ -20,6 +21,19 @@ GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
   const bool constant = !(sd > 1e-12 * std::abs(centre)) || sd == 0;
   return {
       .hyper = {}, .centre = centre, .scale = constant ? std::max(1e-12, std::abs(centre)) : sd};
+}
+
+// k(X, columns) → L⁻¹ k(X, columns), in blocks of columns that do not depend on the threads.
+void SolveColumns(const Eigen::MatrixXd& lower, Eigen::MatrixXd& columns) {
+  constexpr Eigen::Index kBlock = 64;
+  const auto size = static_cast<double>(lower.rows());
+  base::ParallelFor(
+      {.num_items = (columns.cols() + kBlock - 1) / kBlock, .item_work = kBlock * size * size / 2},
+      [&](std::int64_t i) {
+        const Eigen::Index first = kBlock * i;
+        const Eigen::Index count = std::min(kBlock, columns.cols() - first);
+        lower.triangularView<Eigen::Lower>().solveInPlace(columns.middleCols(first, count));
+      });
 }
 
 }  // namespace
@@ -128,7 +142,7 @@ Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
   Eigen::MatrixXd k = covariance_.Between(warped_, columns);
   Predictions result;
   result.mean = state_.centre + state_.scale * (k.transpose() * alpha_).array();
-  lower_.triangularView<Eigen::Lower>().solveInPlace(k);
+  SolveColumns(lower_, k);
   result.variance = state_.scale * state_.scale *
                     (covariance_.Diagonal(columns).transpose() - k.colwise().squaredNorm())
                         .transpose()
@@ -147,7 +161,7 @@ Covariances GaussianProcess::PosteriorCovariances(const AnchorPoints& anchors,
                                                   const Eigen::MatrixXd& points) const {
   const Eigen::MatrixXd columns = Columns(points);
   Eigen::MatrixXd v = covariance_.Between(warped_, columns);
-  lower_.triangularView<Eigen::Lower>().solveInPlace(v);
+  SolveColumns(lower_, v);
   const double scale2 = state_.scale * state_.scale;
   const Eigen::VectorXd prior = covariance_.Diagonal(columns);
   const Eigen::VectorXd known = v.colwise().squaredNorm();
@@ -182,7 +196,7 @@ Eigen::MatrixXd GaussianProcess::Draw(const Eigen::MatrixXd& points, int num_dra
   const Eigen::MatrixXd columns = Columns(points);
   Eigen::MatrixXd v = covariance_.Between(warped_, columns);
   const Eigen::VectorXd mean = v.transpose() * alpha_;
-  lower_.triangularView<Eigen::Lower>().solveInPlace(v);
+  SolveColumns(lower_, v);
   Eigen::MatrixXd posterior = covariance_.Between(columns, columns) - v.transpose() * v;
   // Robust Cholesky: the posterior is singular at and between close points.
   const Eigen::LDLT<Eigen::MatrixXd> factor(posterior);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "surrogate/nlopt_minimize.h"
 #include "surrogate/process/gaussian_process.h"
@@ -17,6 +18,9 @@ constexpr double kLargestBend = 5;  // e^5: one end is stretched 150 times as mu
 // cube of their number: one search, and a shorter one.
 constexpr Eigen::Index kManyPoints = 100;
 constexpr int kShortSearch = 40;
+// And so many decide the hyper-parameters, of which there are ten at most: all of 1000 would cost
+// 37 times as much.
+constexpr Eigen::Index kMostPoints = 300;
 
 struct Start {
   Eigen::VectorXd theta;
@@ -40,7 +44,8 @@ void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) 
 }
 
 std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& task,
-                               const HyperLayout& layout, const GaussianProcessOptions& options) {
+                               const HyperLayout& layout, const GaussianProcessOptions& options,
+                               double work) {
   const Eigen::VectorXd median = PriorMedian(options.priors, layout);
   std::vector<Eigen::VectorXd> thetas;
   if (options.start) thetas.push_back(layout.Pack(*options.start));
@@ -53,20 +58,37 @@ std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& tas
     for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += sd[k] * random.Normal();
     thetas.push_back(theta);
   }
-  std::vector<Start> starts;
-  for (Eigen::VectorXd& theta : thetas) {
-    theta = theta.cwiseMax(task.lower).cwiseMin(task.upper);
-    starts.push_back({theta, cost(theta, nullptr)});
-  }
+  std::vector<Start> starts(thetas.size());
+  base::ParallelFor({.num_items = static_cast<std::int64_t>(thetas.size()), .item_work = work},
+                    [&](std::int64_t i) {
+                      const auto k = static_cast<std::size_t>(i);
+                      starts[k].theta = thetas[k].cwiseMax(task.lower).cwiseMin(task.upper);
+                      starts[k].cost = cost(starts[k].theta, nullptr);
+                    });
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Start& a, const Start& b) { return a.cost < b.cost; });
   return starts;
 }
 
+// At most kMostPoints, evenly through the order in which they were evaluated. What all replicates
+// say of the noise is kept.
+PooledData FewOf(const PooledData& all) {
+  const Eigen::Index size = all.values.size();
+  if (size <= kMostPoints) return all;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < kMostPoints; ++i) kept.push_back(i * size / kMostPoints);
+  return {.points = all.points(Eigen::all, kept),
+          .values = all.values(kept),
+          .counts = all.counts(kept),
+          .sum_of_squares = all.sum_of_squares,
+          .num_values = all.num_values - static_cast<int>(size - kMostPoints)};
+}
+
 }  // namespace
 
-MapFit FitHyperparameters(const PooledData& data, const HyperLayout& layout,
+MapFit FitHyperparameters(const PooledData& all, const HyperLayout& layout,
                           const GaussianProcessOptions& options) {
+  const PooledData data = FewOf(all);
   const SearchFunction cost = [&](const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
     double posterior = LogLikelihood(data, options.kernel, layout, theta, gradient);
     if (!std::isfinite(posterior)) return -posterior;
@@ -81,16 +103,24 @@ MapFit FitHyperparameters(const PooledData& data, const HyperLayout& layout,
                   .max_evaluations = options.max_evaluations,
                   .relative_tolerance = 1e-7};
   SetBounds(layout, options.noise_floor, task);
-  const std::vector<Start> starts = TrialStarts(cost, task, layout, options);
+  const auto size = static_cast<double>(data.values.size());
+  const double work = size * size * (size / 3 + 20);  // of one likelihood
+  const std::vector<Start> starts = TrialStarts(cost, task, layout, options, work);
   Start best = starts.front();
   const bool many = data.values.size() > kManyPoints;
   if (many) task.max_evaluations = std::min(task.max_evaluations, kShortSearch);
   const int num_searches =
       std::min<int>(many ? 1 : options.num_starts, static_cast<int>(starts.size()));
-  for (int i = 0; i < num_searches; ++i) {
-    task.start = starts[static_cast<std::size_t>(i)].theta;
-    const Minimum found = Minimize(cost, task);
-    if (found.value < best.cost) best = {found.point, found.value};
+  std::vector<Minimum> found(static_cast<std::size_t>(num_searches));
+  base::ParallelFor({.num_items = num_searches, .item_work = task.max_evaluations * work},
+                    [&](std::int64_t i) {
+                      const auto k = static_cast<std::size_t>(i);
+                      SearchTask own = task;
+                      own.start = starts[k].theta;
+                      found[k] = Minimize(cost, own);
+                    });
+  for (const Minimum& one : found) {
+    if (one.value < best.cost) best = {one.point, one.value};
   }
   return {.theta = best.theta, .log_prior = LogPrior(options.priors, layout, best.theta, nullptr)};
 }

@@ -1,5 +1,5 @@
 // Maximum a posteriori hyper-parameters: a few local searches with analytic gradients, from the
-// best of a set of trial starts.
+// best of a set of trial starts. Of many points, 300 decide.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ struct MapFit {
   double log_prior = 0;   // density of θ
 };
 
-MapFit FitHyperparameters(const PooledData& data, const HyperLayout& layout,
+MapFit FitHyperparameters(const PooledData& all, const HyperLayout& layout,
                           const GaussianProcessOptions& options);
 
 }  // namespace talus::surrogate

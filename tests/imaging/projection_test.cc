@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/parallel_for.h"
 #include "base/random.h"
 
 namespace talus::imaging {
@@ -49,6 +50,19 @@ bool InAnyDisc(const std::vector<Sphere>& spheres, const Frame& frame, double an
     if (dx * dx + dy * dy <= radius * radius) return true;
   }
   return false;
+}
+
+TEST(Projection, HasTheSameBitsForAnyNumberOfThreads) {
+  const std::vector<Sphere> spheres = RandomSpheres(2000);
+  base::SetMostLoopThreads(1);
+  const std::vector<GrayImage> views = ProjectViews(spheres, SmallFrame(), 16);
+  const Profile heap = ProjectHeap(spheres, SmallFrame(), 16);
+  for (const int num_threads : {2, 3}) {
+    base::SetMostLoopThreads(num_threads);
+    const std::vector<GrayImage> again = ProjectViews(spheres, SmallFrame(), 16);
+    for (std::size_t i = 0; i < views.size(); ++i) EXPECT_EQ(again[i].pixels, views[i].pixels);
+    EXPECT_EQ(ProjectHeap(spheres, SmallFrame(), 16).image.pixels, heap.image.pixels);
+  }
 }
 
 // Each pixel of each view against each sphere. Random centres leave no pixel so near a rim that the

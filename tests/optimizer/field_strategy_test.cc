@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/strategies/make_strategy.h"
@@ -62,6 +63,30 @@ void RunFor(Strategy& strategy, const FieldObjective& objective, const Simulate&
 std::vector<float> Smooth(const Eigen::VectorXd& u, std::uint64_t) { return HeapImage(u, 0, 0); }
 std::vector<float> Noisy(const Eigen::VectorXd& u, std::uint64_t seed) {
   return HeapImage(u, 0.05, seed);
+}
+
+// Proposals of images and of their values, and the answer.
+std::vector<Eigen::VectorXd> PointsWith(int num_threads, StrategyKind kind) {
+  base::SetMostLoopThreads(num_threads);
+  const FieldObjective objective = SadTo(HeapImage(kTruth, 0, 0));
+  const auto strategy = Make(kind, objective);
+  RunFor(*strategy, objective, Noisy, 25);
+  std::vector<Eigen::VectorXd> points;
+  for (const Proposal& p : strategy->Ask(3, {})) points.push_back(p.point);
+  const Answer answer = strategy->Recommend();
+  points.push_back(answer.point);
+  for (const Range& range : answer.credible) {
+    points.emplace_back(Eigen::Vector2d(range.low, range.high));
+  }
+  return points;
+}
+
+TEST(FieldStrategy, HasTheSameBitsForAnyNumberOfThreads) {
+  for (const StrategyKind kind : {StrategyKind::kField, StrategyKind::kGp}) {
+    const std::vector<Eigen::VectorXd> points = PointsWith(1, kind);
+    EXPECT_EQ(PointsWith(2, kind), points);
+    EXPECT_EQ(PointsWith(3, kind), points);
+  }
 }
 
 TEST(FieldStrategy, FindsTheHeapOfANoiseFreeSimulationInFewRuns) {
