@@ -34,8 +34,13 @@ RunCheckpoint Unpack(const std::string& bytes) {
   if (bytes.compare(kMagic.size(), kDigits + 1, expected) != 0) {
     throw base::Error("is damaged or cut off: its checksum does not fit");
   }
-  const std::size_t times_end = rest.find('\n', kDigits + 1);
+  const std::size_t hash_end = rest.find('\n');
+  const std::size_t times_end = rest.find('\n', hash_end + 1);
   const std::size_t state_end = rest.find('\n', times_end + 1);
+  if (hash_end != kDigits || times_end == std::string::npos || state_end == std::string::npos ||
+      times_end < hash_end || state_end < times_end) {
+    throw base::Error("is damaged: its head is not complete");
+  }
   RunCheckpoint checkpoint;
   std::from_chars(rest.data(), rest.data() + kDigits, checkpoint.input_hash, 16);
   std::istringstream times(std::string(rest.substr(kDigits + 1, times_end - kDigits - 1)));

@@ -64,6 +64,9 @@ struct SizeDistribution {
 // for the other kinds. Throws ConfigError that names the file, the line and the remedy.
 void ReadSizeFile(SizeDistribution& sizes);
 
+// The same with the file's content at hand; `sizes.file` is its name.
+void ReadSizeText(std::string text, SizeDistribution& sizes);
+
 // The cumulative curves by number and by volume of a valid distribution without `file`.
 class SizeCurve {
  public:

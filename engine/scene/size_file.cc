@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -16,6 +17,8 @@ namespace talus::engine {
 namespace {
 
 using Row = std::vector<std::string>;
+
+constexpr std::uint64_t kLargestSizeFile = 16u << 20;  // [bytes]; instruments write some kB
 
 struct Table {
   std::string head;  // all lines above the numbers, in lower case
@@ -94,8 +97,7 @@ std::vector<std::string> Lines(std::string_view text) {
 }
 
 // The first block of lines that hold two numbers or more, and the line of titles above it.
-Table ReadTable(const std::filesystem::path& path) {
-  std::string text = base::ReadFile(path);
+Table ReadTable(std::string text, const std::filesystem::path& path) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     Refuse(path, "is UTF-16; export or save it as UTF-8");
   }
@@ -224,13 +226,15 @@ void Trim(SizeDistribution& sizes) {
   auto& d = sizes.diameters;
   auto& s = sizes.shares;
   const bool classes = sizes.kind == SizeKind::kClasses;
-  while (s.size() > 2 && (classes ? s[0] == 0 : s[1] == s[0])) {
-    s.erase(s.begin());
-    d.erase(d.begin());
-  }
-  while (s.size() > 2 && (classes ? s.back() == 0 : s[s.size() - 2] == s.back())) {
-    s.pop_back();
-    d.pop_back();
+  const auto empty = [&](std::size_t i) { return classes ? s[i] == 0 : s[i + 1] == s[i]; };
+  std::size_t num_first = 0;
+  while (s.size() - num_first > 2 && empty(num_first)) ++num_first;
+  std::size_t num_last = 0;
+  const std::size_t before_end = classes ? 1 : 2;
+  while (s.size() - num_first - num_last > 2 && empty(s.size() - num_last - before_end)) ++num_last;
+  for (auto* list : {&s, &d}) {  // each at once: one by one takes time that grows as the square
+    list->resize(list->size() - num_last);
+    list->erase(list->begin(), list->begin() + static_cast<std::ptrdiff_t>(num_first));
   }
 }
 
@@ -238,8 +242,12 @@ void Trim(SizeDistribution& sizes) {
 
 void ReadSizeFile(SizeDistribution& sizes) {
   if (sizes.kind != SizeKind::kFile || !sizes.file) return;
-  const std::filesystem::path path = *sizes.file;
-  const Table table = ReadTable(path);
+  ReadSizeText(base::ReadFile(*sizes.file, kLargestSizeFile), sizes);
+}
+
+void ReadSizeText(std::string text, SizeDistribution& sizes) {
+  const std::filesystem::path path = sizes.file.value();
+  const Table table = ReadTable(std::move(text), path);
   const Columns columns = Find(path, table);
   const std::string& title = table.titles[columns.diameter];
   const double unit = UnitOf(path, title, table.head);

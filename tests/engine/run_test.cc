@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/file.h"
 
 namespace talus::engine {
 namespace {
@@ -42,6 +43,16 @@ TEST(RunCheckpoint, CutAnywhereOrChangedAnywhereItIsRefused) {
     EXPECT_NE(ErrorOf(changed), "") << "changed at " << i;
   }
   EXPECT_THAT(ErrorOf("PK\x03\x04 something else"), HasSubstr("is not a checkpoint"));
+}
+
+// Such a text was taken apart at places that are not there. [fuzz/checkpoint]
+TEST(RunCheckpoint, WithoutItsLinesItIsRefusedWhateverItsChecksum) {
+  for (const std::string rest :
+       {"", "fedcba9876543210", "fedcba9876543210\n1 2", "\n\n\n", "fedcba9876543210\n1 2\n{}"}) {
+    EXPECT_THAT(ErrorOf("talus run 1\n" + base::Hex(base::Checksum(rest)) + "\n" + rest),
+                HasSubstr("is not complete"))
+        << rest;
+  }
 }
 
 TEST(SliceSteps, AreFewForManyParticlesAndNeverNone) {

@@ -164,6 +164,25 @@ TEST(SizeFile, CommasAndMillimetresCoarseEndFirst) {
   EXPECT_NEAR(SizeCurve(sizes).VolumeQuantile(0.5), 1e-3, 1e-8);
 }
 
+// They were taken away one by one, in time that grew as the square: minutes for a million.
+TEST(SizeFile, AMillionEmptyClassesAreDroppedAtOnce) {
+  std::string text = "size (um),% in class\n";
+  for (int i = 1; i <= 1000000; ++i) text += std::to_string(i) + ",0\n";
+  const SizeDistribution sizes = ReadText(text + "1000001,40\n1000002,60\n1000003,0\n");
+  EXPECT_THAT(sizes.shares, ::testing::ElementsAre(40, 60));
+  EXPECT_EQ(sizes.diameters.size(), 3u);
+}
+
+TEST(SizeFile, OfMoreThanSixteenMebibytesIsRefused) {
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "large.csv";
+  std::ofstream(path) << "size (um),% in class\n10,50\n20,50\n";
+  SizeDistribution sizes{.kind = SizeKind::kFile, .file = path};
+  EXPECT_NO_THROW(ReadSizeFile(sizes));
+  std::filesystem::resize_file(path, 17u << 20);
+  sizes = {.kind = SizeKind::kFile, .file = path};
+  EXPECT_THROW(ReadSizeFile(sizes), base::ConfigError);
+}
+
 TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
   const auto error = [](const std::string& text) -> std::string {
     try {

@@ -16,6 +16,7 @@
 namespace talus::runners {
 namespace {
 
+using ::testing::Each;
 using ::testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
@@ -45,7 +46,7 @@ class LocalRunnerTest : public ::testing::Test {
   FinishedJob RunOne(const Job& job) {
     LocalRunner runner({.workers = 1});
     runner.Submit(std::span(&job, 1));
-    const auto finished = runner.Wait(20);
+    const auto finished = runner.Wait(60);
     return finished.empty() ? FinishedJob{} : finished.front();
   }
 
@@ -112,7 +113,6 @@ TEST_F(LocalRunnerTest, EveryWayToFailHasItsReason) {
 
   const FinishedJob slow = RunOne(Shell(3, "sleep 60", 0.1));
   EXPECT_EQ(slow.end, JobEnd::kTimeCap);
-  EXPECT_LT(slow.duration, 10);
 
   Job absent = Shell(4, "");
   absent.command = {"talus-no-such-command"};
@@ -129,13 +129,13 @@ TEST_F(LocalRunnerTest, TimeCapAndCancelEndWhatTheCommandHasStarted) {
   const Job jobs[] = {Shell(1, "sleep 60 & echo $$ > pid; wait", 0.3),
                       Shell(2, "sleep 60 & echo $$ > pid; wait")};
   runner.Submit(jobs);
-  EXPECT_EQ(runner.Wait(20).at(0).id, 1);
+  EXPECT_EQ(runner.Wait(60).at(0).id, 1);
   pid_t group[2] = {};
   for (int i = 0; i < 2; ++i) std::ifstream(jobs[i].folder / "pid") >> group[i];
   EXPECT_TRUE(Eventually([&] { return !GroupLives(group[0]); }));
   EXPECT_TRUE(GroupLives(group[1]));
   runner.Cancel(2);
-  EXPECT_EQ(runner.Wait(20).at(0).end, JobEnd::kCancelled);
+  EXPECT_EQ(runner.Wait(60).at(0).end, JobEnd::kCancelled);
   EXPECT_TRUE(Eventually([&] { return !GroupLives(group[1]); }));
 }
 
@@ -212,35 +212,40 @@ TEST_F(LocalRunnerTest, EndlessOutputIsStopped) {
   EXPECT_THAT(finished[0].reason, HasSubstr("printed more than 1 MiB"));
 }
 
-TEST_F(LocalRunnerTest, WaitReturnsInTimeAndReportsEachJobOnce) {
+// The second job ends only after the wait that must not wait for it.
+TEST_F(LocalRunnerTest, WaitGivesUpWhileAJobRunsAndReportsEachJobOnce) {
   LocalRunner runner({.workers = 2});
-  const Job jobs[] = {Shell(1, "true"), Shell(2, "sleep 0.5")};
+  const Job jobs[] = {Shell(1, "true"), Shell(2, "until [ -e go ]; do sleep 0.01; done")};
   runner.Submit(jobs);
-  EXPECT_EQ(runner.Wait(20).size(), 1u);
-  const auto start = Clock::now();
+  EXPECT_EQ(runner.Wait(60).size(), 1u);
   EXPECT_TRUE(runner.Wait(0.05).empty());
-  EXPECT_LT(Since(start), 0.4);
-  EXPECT_EQ(runner.Wait(20).at(0).id, 2);
+  std::ofstream(jobs[1].folder / "go");
+  EXPECT_EQ(runner.Wait(60).at(0).id, 2);
   EXPECT_TRUE(runner.Wait(0).empty());
 }
 
-// What a trial costs beyond its own work.
-TEST_F(LocalRunnerTest, TwoHundredTrivialJobsTakeLessThanFourSeconds) {
+// How long they take is measured by bench/trial_rate.
+TEST_F(LocalRunnerTest, TwoHundredTrivialJobsEndOnceEach) {
   LocalRunner runner({.workers = 2});
   std::vector<Job> jobs;
+  std::vector<int> num_ends(200);
   for (int id = 0; id < 200; ++id) {
     jobs.push_back(Shell(id, ""));
     jobs.back().command = {"/bin/true"};
   }
-  const auto start = Clock::now();
   std::size_t next = 0;
   std::size_t ended = 0;
   while (ended < jobs.size()) {
     while (next < jobs.size() && next - ended < 2) runner.Submit(std::span(&jobs[next++], 1));
-    ended += runner.Wait(10).size();
+    const auto finished = runner.Wait(60);
+    ASSERT_FALSE(finished.empty());
+    for (const FinishedJob& job : finished) {
+      EXPECT_TRUE(job.ok()) << job.reason;
+      ++num_ends.at(static_cast<std::size_t>(job.id));
+    }
+    ended += finished.size();
   }
-  // 4 s is the required 50 a second; a quiet core does 500.
-  EXPECT_LT(Since(start), 4);
+  EXPECT_THAT(num_ends, Each(1));
 }
 
 }  // namespace

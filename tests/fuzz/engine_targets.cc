@@ -1,6 +1,3 @@
-#include <unistd.h>
-
-#include <filesystem>
 #include <string>
 
 #include "base/file.h"
@@ -13,13 +10,6 @@
 namespace talus::fuzz {
 namespace {
 
-// In memory where there is such a folder.
-std::filesystem::path ScratchFile(const char* name) {
-  const std::filesystem::path memory = "/dev/shm";
-  return (std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path()) /
-         ("talus_fuzz_" + std::to_string(::getpid()) + name);
-}
-
 void Json(std::string_view bytes) {
   Expect([&] { base::ParseJson(bytes, "file.json"); });
 }
@@ -30,19 +20,22 @@ void Scene(std::string_view bytes) {
 }
 
 void SizeFile(std::string_view bytes) {
-  static const std::filesystem::path file = ScratchFile("sizes.csv");
   Expect([&] {
-    base::WriteFileAtomically(file, bytes, base::Outlives::kProgram);
     engine::SizeDistribution sizes;
     sizes.kind = engine::SizeKind::kFile;
-    sizes.file = file;
-    engine::ReadSizeFile(sizes);
+    sizes.file = "sizes.csv";
+    engine::ReadSizeText(std::string(bytes), sizes);
   });
-  std::filesystem::remove(file);
+}
+
+// Behind the checksums as well, which damage does not get past.
+std::string WithItsChecksum(std::string_view rest) {
+  return "talus run 1\n" + base::Hex(base::Checksum(rest)) + "\n" + std::string(rest);
 }
 
 void Checkpoint(std::string_view bytes) {
   Expect([&] { engine::Unpack(std::string(bytes)); });
+  Expect([&] { engine::Unpack(WithItsChecksum(bytes)); });
   Expect([&] { engine::Simulation::Restore(bytes, 1); });
 }
 
