@@ -30,7 +30,7 @@ double Series::NextTime(const SeriesState& state) const {
 std::string Series::Head() const {
   std::string head = "time_s,num_spheres";
   for (const std::string& wall : wall_names_) {
-    for (const char* column : {"_fx_n", "_fy_n", "_fz_n", "_tx_n_m", "_ty_n_m", "_tz_n_m"}) {
+    for (const char* column : {"_fx_N", "_fy_N", "_fz_N", "_tx_N_m", "_ty_N_m", "_tz_N_m"}) {
       head += "," + wall + column;
     }
   }

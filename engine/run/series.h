@@ -1,6 +1,6 @@
 // What a scene gives over time, as a table: forces on walls, and the mass that has passed sections.
 //
-//   time_s, num_spheres, for each wall NAME_fx_n … NAME_tz_n_m, for each section NAME_kg, NAME_kg_s
+//   time_s, num_spheres, for each wall NAME_fx_N … NAME_tz_N_m, for each section NAME_kg, NAME_kg_s
 //
 // Forces and torques (about the wall's pivot) are those of that moment; a rate is the mean since
 // the row before. The whole table is part of the state, so that a restart writes the same file.

@@ -67,10 +67,10 @@ std::string PointData(std::span<const Particle> particles) {
     types.push_back(p.material);
     ids.push_back(p.id);
   }
-  return "<PointData Scalars=\"diameter_m\" Vectors=\"velocity_m_s\">\n" +
+  return "<PointData Scalars=\"diameter_m\" Vectors=\"velocity_m_per_s\">\n" +
          Array("Float64", "diameter_m", 1, diameters) +
-         Array("Float64", "velocity_m_s", 3, Flat(particles, &Particle::velocity)) +
-         Array("Float64", "angular_velocity_rad_s", 3,
+         Array("Float64", "velocity_m_per_s", 3, Flat(particles, &Particle::velocity)) +
+         Array("Float64", "angular_velocity_rad_per_s", 3,
                Flat(particles, &Particle::angular_velocity)) +
          Array("Int32", "type", 1, types) + Array("Int64", "id", 1, ids) + "</PointData>\n";
 }
@@ -90,7 +90,7 @@ std::string Vertices(std::size_t num_points) {
 
 std::string CsvOf(std::span<const Particle> particles) {
   std::string text =
-      "id,type,x_m,y_m,z_m,diameter_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s\n";
+      "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n";
   for (const Particle& p : particles) {
     Append(text, p.id);
     text += ',';

@@ -11,11 +11,11 @@
 
 namespace talus::engine {
 
-// Head: id,type,x_m,y_m,z_m,diameter_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s. All digits.
+// Head: id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s. All digits.
 std::string CsvOf(std::span<const Particle> particles);
 
 // PolyData, one vertex a sphere; arrays in base64: Points (x, y, z), and as point data diameter_m,
-// velocity_m_s, angular_velocity_rad_s, type, id. `time` [s] is the field TimeValue.
+// velocity_m_per_s, angular_velocity_rad_per_s, type, id. `time` [s] is the field TimeValue.
 std::string VtpOf(std::span<const Particle> particles, double time);
 
 }  // namespace talus::engine

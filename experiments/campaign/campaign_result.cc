@@ -110,11 +110,16 @@ std::string PosteriorLines(const CampaignResult& result) {
 std::string ResultText(const CampaignResult& result) { return base::ToJson(result).dump(2) + "\n"; }
 
 CampaignResult ParseResult(const std::string& text) {
-  // Earlier versions wrote warnings as sentences only.
+  // Earlier versions wrote warnings as sentences only, and one unit in lower case.
   auto json = nlohmann::ordered_json::parse(text, nullptr, false);
   if (!json.is_object()) return journal::ParseRecord<CampaignResult>(text, "the result");
   for (auto& warning : json["warnings"]) {
     if (warning.is_string()) warning = {{"kind", "other"}, {"text", warning}};
+  }
+  auto& conditions = json["conditions"];
+  if (conditions.contains("youngs_modulus_pa")) {
+    conditions["youngs_modulus_Pa"] = conditions["youngs_modulus_pa"];
+    conditions.erase("youngs_modulus_pa");
   }
   return journal::ParseRecord<CampaignResult>(json.dump(), "the result");
 }

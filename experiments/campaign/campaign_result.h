@@ -114,7 +114,7 @@ struct ResultConditions {
   static void Visit(Self& self, Visitor&& visit) {
     visit("scale_factor", self.scale_factor);
     visit("surface_energy_exponent", self.surface_energy_exponent);
-    visit("youngs_modulus_pa", self.youngs_modulus);
+    visit("youngs_modulus_Pa", self.youngs_modulus);
     visit("lift_velocity_m_per_s", self.lift_velocity);
     visit("adhesion", self.adhesion);
     visit("rolling", self.rolling);

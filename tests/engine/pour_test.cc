@@ -111,7 +111,7 @@ TEST(PouredScene, FillsTheCupWithAllOfTheMass) {
   std::string head, row, last;
   std::getline(rows, head);
   while (std::getline(rows, row)) last = row;
-  EXPECT_EQ(head.substr(0, 32), "time_s,num_spheres,floor_fx_n,fl");
+  EXPECT_EQ(head.substr(0, 32), "time_s,num_spheres,floor_fx_N,fl");
   std::vector<double> values;
   std::istringstream columns(last);
   for (std::string cell; std::getline(columns, cell, ',');) values.push_back(std::stod(cell));

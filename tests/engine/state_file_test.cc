@@ -29,7 +29,7 @@ std::vector<Particle> Two() {
 
 TEST(StateFile, CsvHasSiColumnsAndAllDigits) {
   EXPECT_EQ(CsvOf(Two()),
-            "id,type,x_m,y_m,z_m,diameter_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s\n"
+            "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n"
             "4,1,0.3333333333333333,2,-3,1,4,5,6,7,8,9\n"
             "9,0,0,0,0,0.5,0,0,0,0,0,0\n");
 }
@@ -51,11 +51,11 @@ TEST(StateFile, VtkReadsTheVtpBack) {
   EXPECT_EQ(base::ReadFile(folder / "vtk.txt"),
             "points 2 verts 2 time 1.25\n"
             "x 0.3333333333333333 2.0 -3.0\nx 0.0 0.0 0.0\n"
-            "diameter_m [1.0, 0.5]\nvelocity_m_s [(4.0, 5.0, 6.0), (0.0, 0.0, 0.0)]\n"
-            "angular_velocity_rad_s [(7.0, 8.0, 9.0), (0.0, 0.0, 0.0)]\n"
+            "diameter_m [1.0, 0.5]\nvelocity_m_per_s [(4.0, 5.0, 6.0), (0.0, 0.0, 0.0)]\n"
+            "angular_velocity_rad_per_s [(7.0, 8.0, 9.0), (0.0, 0.0, 0.0)]\n"
             "type [1, 0]\nid [4, 9]\n"
             "points 0 verts 0 time 0.0\n"
-            "diameter_m []\nvelocity_m_s []\nangular_velocity_rad_s []\ntype []\nid []\n");
+            "diameter_m []\nvelocity_m_per_s []\nangular_velocity_rad_per_s []\ntype []\nid []\n");
 }
 
 }  // namespace

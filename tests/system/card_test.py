@@ -56,8 +56,8 @@ def ours(folder, scene, step):
     assert done.returncode == 0, done.stderr
     with open(sorted((folder / "ours").glob("*.csv"))[-1], newline="") as table:
         rows = sorted(csv.DictReader(table), key=lambda row: int(row["id"]))
-    return [[float(row[key]) for key in ("x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "wx_rad_s",
-                                         "wy_rad_s", "wz_rad_s")] for row in rows]
+    return [[float(row[key]) for key in ("x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s", "wx_rad_per_s",
+                                         "wy_rad_per_s", "wz_rad_per_s")] for row in rows]
 
 
 def theirs(folder, scene, program, lines):

@@ -50,7 +50,7 @@ ordered_json Conditions(const HeapCase& c, const engine::Simulation& simulation)
   conditions["surface_energy_exponent"] = c.coarse_graining.surface_energy_exponent;
   conditions["surface_energy_J_per_m2"] = c.powder.material.surface_energy;
   conditions["surface_energy_used_J_per_m2"] = used.surface_energy;
-  conditions["youngs_modulus_pa"] = used.youngs_modulus;
+  conditions["youngs_modulus_Pa"] = used.youngs_modulus;
   conditions["lift_velocity_m_per_s"] = c.device.lift_velocity;
   conditions["rayleigh_fraction"] = c.rayleigh_fraction;
   conditions["time_step_s"] = simulation.time_step();

@@ -110,7 +110,7 @@ std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured
   result["result_file"] = file.filename().string();
   result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};
   result["conditions"] = {{"scale_factor", heap_case.coarse_graining.scale_factor},
-                          {"youngs_modulus_pa", heap_case.powder.material.youngs_modulus},
+                          {"youngs_modulus_Pa", heap_case.powder.material.youngs_modulus},
                           {"lift_velocity_m_per_s", heap_case.device.lift_velocity},
                           {"seed", heap_case.seed}};
   result["profile"] = base::ToJson(*heap_case.frame);

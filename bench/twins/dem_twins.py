@@ -1,0 +1,122 @@
+#!/usr/bin/python3
+"""dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--other-plate]: calibrates
+virtual powders whose true friction is known.
+
+Each powder has sliding and rolling friction drawn at random in the searched ranges. Three heaps of it
+are simulated at true grain size with seeds of their own, and so are three on a plate of 30 mm; their
+mean images and the mass that falls are the experiments. Two campaigns with the same core time search
+for the friction: with the heap alone, and with both tests. One line a powder: the credible level of the
+truth (0.9 or less is inside the joint 90 % region), the region's share of the ranges, the distance of
+the recommended set in widths of the ranges, and the alarms of the second.
+
+--other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: they
+should raise an alarm.
+"""
+import argparse
+import json
+import pathlib
+import random
+import subprocess
+import sys
+
+import numpy
+from PIL import Image
+
+RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
+RUNS = 3
+MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
+            "rolling_damping": 0.3}
+POWDER = {"material": MATERIAL, "sizes": {"kind": "mono", "diameter": "0.7 mm"}, "mass": "1.6 g"}
+MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
+
+
+def device(plate_mm):
+    return {"tube_inner_diameter": "10 mm", "plate_diameter": f"{plate_mm} mm", "plate": "disc",
+            "lift_velocity": "50 mm/s"}
+
+
+def frame(plate_mm):
+    width = 12 * plate_mm
+    return {"width_px": width, "height_px": 120, "pixel_size": "0.1 mm", "center_x_px": width / 2,
+            "baseline_px": 110, "plate_diameter": f"{plate_mm} mm"}
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
+    return done.stdout
+
+
+def measure(talus, folder, truth, plate_mm, seed, plate=None):
+    """The mean image of three heaps, and the mass that falls with its standard error [kg]."""
+    images, masses = [], []
+    for i in range(RUNS):
+        case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "device": device(plate_mm),
+                "models": MODELS, "frame": frame(plate_mm), "seed": seed + i}
+        if plate:
+            case["device"]["plate_material"] = plate
+        place = folder / f"plate{plate_mm}_run{i + 1}"
+        place.mkdir(parents=True, exist_ok=True)
+        (folder / f"{place.name}.json").write_text(json.dumps(case))
+        run(talus, "simulate", folder / f"{place.name}.json", "--out", place)
+        images.append(numpy.asarray(Image.open(place / "profile.png"), dtype=float))
+        masses.append(json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"])
+    name = f"plate{plate_mm}.png"
+    Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
+    grain = 4386 * numpy.pi / 6 * 0.7e-3**3
+    error = max(numpy.std(masses, ddof=1), grain) / RUNS**0.5
+    entry = {"map": name, "map_heaps": RUNS, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
+    return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
+
+
+def calibrate(talus, folder, name, experiments, core_time, seed, truth):
+    spec = {"experiments": experiments, "powder": POWDER, "device": device(10), "models": MODELS,
+            "coarse_graining": {"scale_factors": [1.4, 1]}, "seed": seed, "workers": 1,
+            "parameters": {k: {"min": a, "max": b} for k, (a, b) in RANGES.items()},
+            "budget": {"core_time": f"{core_time} s"}, "confirm": {"candidates": 0}}
+    (folder / f"{name}.json").write_text(json.dumps(spec))
+    run(talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")
+    result = json.loads((folder / name / "result.json").read_text())
+    level = json.loads(run(talus, "consider", folder / name, "--json",
+                           *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
+    off = [(p["value"] - truth[p["name"]]) / (RANGES[p["name"]][1] - RANGES[p["name"]][0])
+           for p in result["parameters"]]
+    alarms = [w["experiment"] for w in result["warnings"] if w["kind"] == "implausible"]
+    return {"level": level, "volume": result["posterior"]["region_90_volume_fraction"],
+            "distance": float(numpy.hypot(*off)), "alarms": alarms}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("talus")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--first", type=int, default=1)
+    parser.add_argument("--last", type=int, default=20)
+    parser.add_argument("--core-time", type=float, default=60)
+    parser.add_argument("--other-plate", action="store_true")
+    options = parser.parse_args()
+    tallies = {"heap": [], "both": []}
+    for twin in range(options.first, options.last + 1):
+        draw = random.Random(twin)
+        truth = {k: draw.uniform(a, b) for k, (a, b) in RANGES.items()}
+        folder = options.folder / f"twin{twin:02}"
+        plate = {"sliding_friction": 0.15, "rolling_friction": 0.02} if options.other_plate else None
+        heap, _ = measure(options.talus, folder, truth, 10, 1000 * twin)
+        wide, fallen = measure(options.talus, folder, truth, 30, 1000 * twin + 500, plate)
+        heap = {"name": "heap", **heap}
+        wide = {"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen}
+        for name, experiments in (("heap", [heap]), ("both", [heap, wide])):
+            done = calibrate(options.talus, folder, name, experiments, options.core_time, twin, truth)
+            tallies[name].append(done)
+            print(f"twin {twin} truth " + " ".join(f"{v:.3f}" for v in truth.values()) +
+                  f" {name}: level {done['level']:.3f}, volume {done['volume']:.4f}, "
+                  f"distance {done['distance']:.3f}, alarms {done['alarms']}", flush=True)
+    for name, all_of_them in tallies.items():
+        print(f"{name}: covered {sum(d['level'] <= 0.9 for d in all_of_them)} of {len(all_of_them)}, "
+              f"mean volume {numpy.mean([d['volume'] for d in all_of_them]):.4f}, "
+              f"mean distance {numpy.mean([d['distance'] for d in all_of_them]):.3f}, "
+              f"with an alarm {sum(bool(d['alarms']) for d in all_of_them)}")
+
+
+main()
