@@ -9,27 +9,19 @@
 #include "optimizer/designs/design.h"
 #include "optimizer/models/feasibility.h"
 #include "optimizer/models/history.h"
+#include "optimizer/models/size_to_fit.h"
 #include "optimizer/strategies/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {
 
-constexpr int kFewest = 6;        // evaluations of an experiment that a model can stand on
-constexpr int kOfAddedTest = 8;   // of the design, for an experiment that is added later
-constexpr int kFewestFiner = 3;   // of a finer scale factor, before gain alone decides
-constexpr double kGrowth = 1.15;  // of the evaluations, from one fit to the next
+constexpr int kFewest = 6;       // evaluations of an experiment that a model can stand on
+constexpr int kOfAddedTest = 8;  // of the design, for an experiment that is added later
+constexpr int kFewestFiner = 3;  // of a finer scale factor, before gain alone decides
 constexpr double kEdgeError =
     0.1;                          // of the powder: above it, heaps overhang and pixels serve better
 constexpr double kExploring = 4;  // softness of every other sample of candidates
 constexpr int kCandidates = 48;
-
-// Evaluations that hyper-parameters are fitted to: what a strategy proposes must not depend on when
-// it was asked.
-int SizeToFit(int size) {
-  int fit = kFewest;
-  for (int next = fit; next <= size; next = static_cast<int>(std::ceil(kGrowth * next))) fit = next;
-  return fit;
-}
 
 ExperimentData FirstOf(const ExperimentData& data, int count) {
   const auto n = static_cast<std::ptrdiff_t>(count);
@@ -134,7 +126,7 @@ Posterior FidelityStrategy::MakePosterior() {
                                        .levels = &levels_,
                                        .model_error = options_.model_error};
     data.push_back(told.by_code[code]);
-    const int count = SizeToFit(told.size());
+    const int count = SizeToFit(told.size(), kFewest);
     if (!told.state || told.num_fitted != count || told.fitted_code != code) {
       const ExperimentModel fitted(setup, FirstOf(data.back(), count), nullptr);
       told.state = fitted.state();

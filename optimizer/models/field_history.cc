@@ -6,12 +6,12 @@
 #include <numeric>
 
 #include "optimizer/answer/words.h"
+#include "optimizer/models/size_to_fit.h"
 
 namespace talus::optimizer {
 namespace {
 
-constexpr int kFewest = 5;        // evaluations a model can stand on
-constexpr double kGrowth = 1.15;  // of the evaluations, from one fit to the next
+constexpr int kFewest = 5;  // evaluations a model can stand on
 // A model of the images is given up only where its error is this many times that of a process of
 // the values: under noise both errors are mostly the noise of what was left out, and images know
 // more than that shows.
@@ -54,14 +54,6 @@ void FieldHistory::Add(const Observation& observation) {
                                              : objective_.sad_scale * coded.code->Sad(vector);
     coded.reconstruction_errors.push_back(observation.value - decoded);
   }
-}
-
-int FieldHistory::SizeToFit() const {
-  int fit = kFewest;
-  for (int next = fit; next <= size(); next = static_cast<int>(std::ceil(kGrowth * next))) {
-    fit = next;
-  }
-  return fit;
 }
 
 CodedFields FieldHistory::First(const Coded& coded, int count) const {
@@ -115,7 +107,7 @@ void FieldHistory::Choose(int count, bool deterministic) {
 
 std::optional<FieldModel> FieldHistory::Model(bool deterministic) {
   if (size() < kFewest) return std::nullopt;
-  const int count = SizeToFit();
+  const int count = SizeToFit(size(), kFewest);
   if (choice_.num_fitted != count || choice_.deterministic != deterministic) {
     Choose(count, deterministic);
   }

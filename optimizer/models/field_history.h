@@ -43,7 +43,6 @@ class FieldHistory {
     std::optional<FieldState> state;
   };
 
-  int SizeToFit() const;
   CodedFields First(const Coded& coded, int count) const;
   void Choose(int count, bool deterministic);
   double ErrorOfValues(const CodedFields& data, bool deterministic) const;
