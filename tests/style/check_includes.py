@@ -12,6 +12,7 @@ MAY_INCLUDE = {
     "surrogate": {"base", "surrogate"},
     "optimizer": {"base", "surrogate", "optimizer"},
     "experiments": {"base", "engine", "imaging", "surrogate", "optimizer", "experiments"},
+    "python": {"base", "engine", "imaging", "surrogate", "optimizer", "experiments", "python"},
 }
 # experiments/ is a wing with floors: each includes only what stands below it.
 FLOORS = {"rigs": 1, "runners": 2, "journal": 2, "trials": 3, "campaign": 4, "analysis": 5, "app": 6}

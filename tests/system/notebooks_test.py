@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""notebooks_test.py TALUS SOURCE_DIR: the Python of docs/notebooks.md runs on a small campaign."""
+"""notebooks_test.py TALUS SOURCE_DIR MODULE_DIR: the Python of docs/notebooks.md runs on a small campaign."""
 import json
 import os
 import pathlib
@@ -47,6 +47,7 @@ def main(root):
             print(module + " is not installed for " + PYTHON)
             return 77
     os.environ["PATH"] = str(talus.parent) + ":" + os.environ["PATH"]
+    os.environ["PYTHONPATH"] = sys.argv[3]
     os.environ["MPLBACKEND"] = "Agg"
     os.environ["MPLCONFIGDIR"] = str(root)
     text = (source / "docs/notebooks.md").read_text()

@@ -1,0 +1,73 @@
+// The C++ part of the Python module `talus`; python/talus/__init__.py is what users see.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "experiments/trials/simulate/run_folder.h"
+#include "experiments/trials/simulate/simulate.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/heap/metrics.h"
+#include "imaging/spheres/projection.h"
+#include "python/arrays.h"
+#include "python/strategy.h"
+
+namespace talus::python {
+namespace {
+
+namespace py = pybind11;
+
+void Simulate(const std::string& file, const std::string& folder, bool fresh) {
+  const py::gil_scoped_release release;
+  trials::Simulate(file, {.folder = folder, .fresh = fresh, .quiet = true});
+}
+
+GrayArray ReadImage(const std::string& file) { return ArrayOf(imaging::ReadGrayImage(file)); }
+
+GrayArray Project(const SphereArray& spheres, const py::dict& frame, int num_views) {
+  return ArrayOf(imaging::ProjectHeap(SpheresOf(spheres), FrameOf(frame), num_views).image);
+}
+
+py::dict Compare(const GrayArray& heap, const GrayArray& reference, const py::dict& frame) {
+  const imaging::Frame known = FrameOf(frame);
+  const auto images = [&](const GrayArray& array) {
+    return imaging::HeapImages{.profile = {.image = ImageOf(array), .frame = known}, .parts = {}};
+  };
+  py::dict metrics;
+  for (const imaging::Metric& metric : imaging::CompareProfiles(images(heap), images(reference))) {
+    if (metric.value.defined()) {
+      metrics[py::str(metric.name)] = metric.value.value;
+    } else {
+      metrics[py::str(metric.name)] = py::none();
+    }
+  }
+  return metrics;
+}
+
+}  // namespace
+}  // namespace talus::python
+
+PYBIND11_MODULE(_core, module) {
+  namespace py = pybind11;
+  using talus::python::Strategy;
+  py::register_exception<talus::base::Error>(module, "Error", PyExc_RuntimeError);
+  py::register_exception<talus::base::ConfigError>(module, "ConfigError", PyExc_ValueError);
+  module.attr("__version__") = talus::base::Version();
+  module.def("simulate", &talus::python::Simulate, py::arg("file"), py::arg("folder"),
+             py::arg("fresh") = false);
+  module.def("read_image", &talus::python::ReadImage, py::arg("file"));
+  module.def("project", &talus::python::Project, py::arg("spheres"), py::arg("frame"),
+             py::arg("num_views") = talus::imaging::kDefaultViews);
+  module.def("compare", &talus::python::Compare, py::arg("heap"), py::arg("reference"),
+             py::arg("frame"));
+  py::class_<Strategy>(module, "Strategy")
+      .def(py::init<const py::list&, const py::dict&, std::uint64_t,
+                    const std::optional<talus::python::GrayArray>&, double>(),
+           py::arg("parameters"), py::arg("options") = py::dict(), py::arg("seed") = 1,
+           py::arg("target") = py::none(), py::arg("pixel_area") = 1.0)
+      .def("ask", &Strategy::Ask, py::arg("count") = 1)
+      .def("tell", &Strategy::Tell, py::arg("values"), py::arg("value") = py::none(),
+           py::arg("image") = py::none(), py::arg("failed") = false)
+      .def("stop_reason", &Strategy::StopReason)
+      .def("answer", &Strategy::Answer);
+}

@@ -1,0 +1,122 @@
+#include "python/strategy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/json_reader.h"
+#include "optimizer/space/point_rows.h"
+
+namespace talus::python {
+namespace {
+
+namespace py = pybind11;
+
+std::vector<float> FieldOf(const GrayArray& image) {
+  std::vector<float> field;
+  for (py::ssize_t i = 0; i < image.size(); ++i) {
+    field.push_back(static_cast<float>(255 - image.data()[i]) / 255.0F);
+  }
+  return field;
+}
+
+}  // namespace
+
+Strategy::Strategy(const py::list& parameters, const py::dict& options, std::uint64_t seed,
+                   const std::optional<GrayArray>& target, double pixel_area) {
+  py::dict space;
+  space["parameters"] = parameters;
+  space_ =
+      base::LoadOptions<optimizer::ParameterSpace>(base::ParseJson(JsonOf(space), "parameters"));
+  const auto read =
+      base::LoadOptions<optimizer::StrategyOptions>(base::ParseJson(JsonOf(options), "options"));
+  if (target) {
+    const imaging::GrayImage image = ImageOf(*target);
+    field_ = optimizer::FieldObjective{.width = image.width,
+                                       .height = image.height,
+                                       .target = FieldOf(*target),
+                                       .sad_scale = pixel_area};
+  }
+  strategy_ = optimizer::MakeStrategy(read, space_.MakeDomain(), field_ ? &*field_ : nullptr, seed);
+}
+
+py::dict Strategy::Named(const Eigen::VectorXd& point) const {
+  py::dict values;
+  const std::vector<double> native = space_.ToNative(point);
+  for (std::size_t i = 0; i < native.size(); ++i) {
+    values[py::str(space_.parameters[i].name)] = native[i];
+  }
+  return values;
+}
+
+Eigen::VectorXd Strategy::PointOf(const py::dict& values) const {
+  std::vector<double> native;
+  for (const optimizer::Parameter& parameter : space_.parameters) {
+    if (!values.contains(parameter.name.c_str())) {
+      throw base::ConfigError(parameter.name + ": is missing among the values");
+    }
+    native.push_back(values[parameter.name.c_str()].cast<double>());
+  }
+  return space_.ToUnit(native);
+}
+
+py::list Strategy::Ask(int count) {
+  if (count < 1 || count > 8) throw base::ConfigError("count: must be from 1 to 8");
+  py::list asked;
+  for (const optimizer::Proposal& proposal : strategy_->Ask(count, pending_)) {
+    pending_.push_back(proposal.point);
+    asked.append(Named(proposal.point));
+  }
+  return asked;
+}
+
+void Strategy::Tell(const py::dict& values, std::optional<double> value,
+                    const std::optional<GrayArray>& image, bool failed) {
+  if (!failed && !value && !(image && field_)) {
+    throw base::ConfigError(
+        "tell: needs a value, an image of a strategy with a target, or "
+        "failed=True");
+  }
+  optimizer::Observation observation{.point = PointOf(values), .failed = failed};
+  // What was asked for is told as it was asked, not as its decimals came back.
+  const auto found =
+      std::find_if(pending_.begin(), pending_.end(), [&](const Eigen::VectorXd& point) {
+        return (point - observation.point).cwiseAbs().maxCoeff() < 1e-9;
+      });
+  if (found != pending_.end()) {
+    observation.point = *found;
+    pending_.erase(found);
+  }
+  if (!failed && image && field_) {
+    if (image->ndim() != 2 || image->shape(1) != field_->width ||
+        image->shape(0) != field_->height) {
+      throw base::ConfigError("image: must have the size of the target");
+    }
+    observation.field = FieldOf(*image);
+  }
+  if (!failed) observation.value = value ? *value : field_->Value(observation.field);
+  if (!std::isfinite(observation.value)) observation.failed = true;
+  strategy_->Tell(observation);
+}
+
+py::dict Strategy::Answer() {
+  const optimizer::Answer answer = strategy_->Recommend();
+  py::dict result;
+  result["values"] = Named(answer.point);
+  result["predicted"] = answer.predicted_value;
+  result["predicted_sd"] = answer.predicted_sd;
+  result["noise_sd"] = answer.noise_sd;
+  result["tied_volume"] = answer.tied_volume;
+  result["is_guess"] = answer.is_guess;
+  py::dict ranges;
+  const std::vector<int> free = space_.Free();
+  for (std::size_t i = 0; i < answer.credible.size(); ++i) {
+    const optimizer::Parameter& p = space_.parameters[static_cast<std::size_t>(free[i])];
+    ranges[py::str(p.name)] =
+        py::make_tuple(p.ToNative(answer.credible[i].low), p.ToNative(answer.credible[i].high));
+  }
+  result["ranges_90"] = ranges;
+  return result;
+}
+
+}  // namespace talus::python

@@ -1,0 +1,40 @@
+// Ask–tell of every strategy, with parameters by name and in their own units.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "optimizer/space/parameter_space.h"
+#include "optimizer/strategies/make_strategy.h"
+#include "python/arrays.h"
+
+namespace talus::python {
+
+class Strategy {
+ public:
+  // `parameters`: dictionaries of optimizer::Parameter; `options`: of optimizer::StrategyOptions.
+  // `target`: the measured image, for evaluations that bring images; `pixel_area` makes the sum of
+  // absolute differences an area.
+  Strategy(const pybind11::list& parameters, const pybind11::dict& options, std::uint64_t seed,
+           const std::optional<GrayArray>& target, double pixel_area);
+
+  pybind11::list Ask(int count);
+  void Tell(const pybind11::dict& values, std::optional<double> value,
+            const std::optional<GrayArray>& image, bool failed);
+  std::optional<std::string> StopReason() { return strategy_->StopReason(); }
+  pybind11::dict Answer();
+
+ private:
+  pybind11::dict Named(const Eigen::VectorXd& point) const;
+  Eigen::VectorXd PointOf(const pybind11::dict& values) const;
+
+  optimizer::ParameterSpace space_;
+  std::optional<optimizer::FieldObjective> field_;
+  std::unique_ptr<optimizer::Strategy> strategy_;
+  std::vector<Eigen::VectorXd> pending_;  // asked for and not told yet
+};
+
+}  // namespace talus::python
