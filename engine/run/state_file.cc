@@ -90,7 +90,8 @@ std::string Vertices(std::size_t num_points) {
 
 std::string CsvOf(std::span<const Particle> particles) {
   std::string text =
-      "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n";
+      "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,"
+      "wz_rad_per_s\n";
   for (const Particle& p : particles) {
     Append(text, p.id);
     text += ',';

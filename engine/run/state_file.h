@@ -11,7 +11,9 @@
 
 namespace talus::engine {
 
-// Head: id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s. All digits.
+// Head:
+// id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s.
+// All digits.
 std::string CsvOf(std::span<const Particle> particles);
 
 // PolyData, one vertex a sphere; arrays in base64: Points (x, y, z), and as point data diameter_m,

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/fidelity/residual_correlation.h"
+#include "optimizer/fidelity/robust_misfit.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
@@ -50,28 +51,6 @@ Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
     left += models[e].num_outputs();
   }
   return stacked;
-}
-
-// The quantile of M = rᵀ r that a Student-t misfit of so many outputs expects.
-double ExpectedQuantile(Eigen::Index num_outputs, double probability) {
-  constexpr int kDraws = 20000;
-  base::Random random(1, base::Stream("misfit quantile"));
-  const auto chi_square = [&](double freedom) {
-    double sum = 0;
-    for (int k = 0; k < static_cast<int>(freedom); ++k) {
-      const double z = random.Normal();
-      sum += z * z;
-    }
-    return sum;
-  };
-  std::vector<double> draws(kDraws);
-  for (double& draw : draws) {
-    draw = chi_square(static_cast<double>(num_outputs)) /
-           (chi_square(kMisfitFreedom) / kMisfitFreedom);
-  }
-  const auto at = draws.begin() + static_cast<std::ptrdiff_t>(probability * kDraws);
-  std::nth_element(draws.begin(), at, draws.end());
-  return *at;
 }
 
 double LogSumExp(const Eigen::VectorXd& x) {
@@ -174,7 +153,7 @@ void Posterior::Temper(const Eigen::MatrixXd& stacked) {
     misfits.push_back((inverse_root_ * z).squaredNorm() / share);
   }
   coverage_.count = static_cast<int>(misfits.size());
-  const double expected = ExpectedQuantile(stacked.cols(), kRegion);
+  const double expected = RobustQuantile(stacked.cols(), kRegion);
   const auto covered = [&](double temper) {
     return static_cast<double>(std::count_if(misfits.begin(), misfits.end(),
                                              [&](double m) { return m <= temper * expected; })) /
@@ -202,8 +181,7 @@ Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double soft
   }
   const Eigen::ArrayXd squared =
       (residual * inverse_root_.transpose()).rowwise().squaredNorm().array();
-  const double exponent = 0.5 * (kMisfitFreedom + static_cast<double>(residual.cols()));
-  return -log_sd.array() - exponent * (1 + squared / (kMisfitFreedom * temper_ * softness)).log();
+  return -log_sd.array() - 0.5 * RobustMisfit(squared / (temper_ * softness), residual.cols());
 }
 
 PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,

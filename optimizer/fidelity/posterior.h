@@ -1,12 +1,12 @@
 // The posterior of the parameters: how likely the measured outputs of all experiments are at a set.
 //
-//   ln p(x | data) = -Σ ln sₖ(x) - ½ (ν + K) ln(1 + M(x)/(ν T)) + const,   M = rᵀ C⁻¹ r
+//   ln p(x | data) = -Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ C⁻¹ r
 //
 // r residuals of the K outputs in standard deviations s (experiment_model.h: the experiment's own
 // error, model error and the surrogate's, which is inflated in r and not in -Σ ln s), C their
 // correlation from leave-one-out residuals of all experiments together, so that two tests are not
-// added as if independent; ν degrees of freedom of the heavy-tailed (Student-t) misfit; T >= 1
-// tempers it until leave-one-out coverage is right. The prior is uniform over the domain.
+// added as if independent; ρ is heavy-tailed (robust_misfit.h); T >= 1 tempers it until
+// leave-one-out coverage is right. The prior is uniform over the domain.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,6 @@
 #include "optimizer/space/domain.h"
 
 namespace talus::optimizer {
-
-inline constexpr double kMisfitFreedom = 8;  // ν of the Student-t misfit
 
 // Coverage of nominal 90 % regions of the outputs, each evaluation left out in turn.
 struct LeaveOneOutCoverage {

@@ -9,7 +9,7 @@
 
 #include "base/random.h"
 #include "optimizer/answer/credible_ranges.h"
-#include "optimizer/fidelity/posterior.h"
+#include "optimizer/fidelity/robust_misfit.h"
 
 namespace talus::optimizer {
 namespace {
@@ -55,9 +55,8 @@ Eigen::VectorXd Widths(const Eigen::MatrixXd& draws) {
 
 // Of each draw, when `seen` was measured.
 Eigen::VectorXd Weights(const Eigen::MatrixXd& z, const Eigen::RowVectorXd& seen) {
-  const double exponent = 0.5 * (kMisfitFreedom + static_cast<double>(z.cols()));
   const Eigen::ArrayXd squared = (z.rowwise() - seen).rowwise().squaredNorm().array();
-  const Eigen::ArrayXd log_weight = -exponent * (1 + squared / kMisfitFreedom).log();
+  const Eigen::ArrayXd log_weight = -0.5 * RobustMisfit(squared, z.cols());
   return (log_weight - log_weight.maxCoeff()).exp();
 }
 

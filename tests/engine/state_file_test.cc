@@ -29,7 +29,8 @@ std::vector<Particle> Two() {
 
 TEST(StateFile, CsvHasSiColumnsAndAllDigits) {
   EXPECT_EQ(CsvOf(Two()),
-            "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_per_s,wz_rad_per_s\n"
+            "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,wx_rad_per_s,wy_rad_"
+            "per_s,wz_rad_per_s\n"
             "4,1,0.3333333333333333,2,-3,1,4,5,6,7,8,9\n"
             "9,0,0,0,0,0.5,0,0,0,0,0,0\n");
 }
