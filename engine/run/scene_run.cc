@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
+#include "engine/run/resisted_spins.h"
 #include "engine/run/scaling_json.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/scene_json.h"
@@ -140,14 +141,20 @@ double SceneRun::LastEvent() const {
   return last;
 }
 
+// Without friction nothing resists any spin, so that it does not count.
 bool SceneRun::AtRest() {
   double kinetic = 0;
   double weight = 0;
   const double gravity = Norm(spec_.gravity);
-  for (const Particle& p : simulation_.Particles()) {
-    const double density = spec_.materials[static_cast<std::size_t>(p.material)].material.density;
-    const double cube = density * p.radius * p.radius * p.radius;
+  const std::vector<Particle> particles = simulation_.Particles();
+  const std::vector<Vec3> spins = ResistedSpins(particles, simulation_.Contacts());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Particle& p = particles[i];
+    const Material& material = spec_.materials[static_cast<std::size_t>(p.material)].material;
+    const double square = p.radius * p.radius;
+    const double cube = material.density * p.radius * square;
     kinetic += cube * Dot(p.velocity, p.velocity) / 2;
+    if (material.sliding_friction > 0) kinetic += cube * 0.2 * square * Dot(spins[i], spins[i]);
     weight += cube * gravity * 2 * p.radius;
   }
   state_.energy_ratio = weight > 0 ? kinetic / weight : 0;

@@ -91,5 +91,27 @@ TEST(SceneRun, ASceneIsNotAtRestBeforeItsGateHasOpened) {
   EXPECT_LT(run.Progress().time, 0.3);
 }
 
+// A sphere spins in a groove without moving: friction needs 2 μ g/√2 / (0.4 R) = 694 rad/s² of
+// braking to end that, 0.29 s for 200 rad/s.
+TEST(SceneRun, ASceneThatSpinsIsNotAtRest) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_spin";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << R"({
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa", "restitution": 0.3,
+                   "sliding_friction": 0.01}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, "0.7071 mm"],
+                 "angular_velocity": [0, 200, 0]}],
+    "walls": [{"shape": "plane", "direction": [1, 0, 1]},
+              {"shape": "plane", "direction": [-1, 0, 1]}],
+    "models": {"rolling": "none"},
+    "stop": {"time": 1, "energy_fraction": 1e-4}})";
+  const LoadedScene loaded = LoadScene(folder / "scene.json");
+  SceneRun run(loaded.spec, loaded.scene, folder);
+  while (run.Advance()) {
+  }
+  EXPECT_GT(run.Progress().time, 0.27);
+  EXPECT_LT(run.Progress().time, 0.4);
+}
+
 }  // namespace
 }  // namespace talus::engine

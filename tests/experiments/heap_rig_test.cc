@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/run/resisted_spins.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/lifted_tube/landing.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
@@ -212,7 +213,7 @@ TEST(ResistedSpins, LeaveOutTheTwistOfASingleContact) {
                                .force = {}};
   };
   const std::vector<engine::ContactInfo> contacts{touch(0, 1), touch(1, 2)};
-  const std::vector<engine::Vec3> spins = ResistedSpins(grains, contacts);
+  const std::vector<engine::Vec3> spins = engine::ResistedSpins(grains, contacts);
   EXPECT_EQ(spins[0], (engine::Vec3{1, 2, 0}));
   EXPECT_EQ(spins[1], (engine::Vec3{1, 2, 3}));
   EXPECT_EQ(spins[2], (engine::Vec3{1, 2, 0}));

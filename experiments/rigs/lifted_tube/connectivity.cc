@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/run/resisted_spins.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
 namespace talus::rigs {
@@ -26,19 +27,10 @@ class Sets {
 
 }  // namespace
 
-PlaceOfId::PlaceOfId(std::span<const engine::Particle> particles) {
-  if (particles.empty()) return;
-  first_id_ = particles.front().id;
-  places_.resize(particles.back().id - first_id_ + 1);
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    places_[particles[i].id - first_id_] = static_cast<std::uint32_t>(i);
-  }
-}
-
 Connectivity Connect(std::span<const engine::Particle> particles,
                      std::span<const engine::ContactInfo> contacts) {
   const std::size_t n = particles.size();
-  const PlaceOfId place_of(particles);
+  const engine::PlaceOfId place_of(particles);
   Sets sets(n);
   std::vector<bool> touches_plate(n, false);
   std::vector<bool> touches_tube(n, false);

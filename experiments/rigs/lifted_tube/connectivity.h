@@ -15,17 +15,6 @@ struct Connectivity {
   bool tube_touches_heap = false;  // a grain that is on_plate touches the tube
 };
 
-// Where the particle with an id is in `particles`, which are by id.
-class PlaceOfId {
- public:
-  explicit PlaceOfId(std::span<const engine::Particle> particles);
-  std::size_t operator()(std::int64_t id) const { return places_[id - first_id_]; }
-
- private:
-  std::int64_t first_id_ = 0;
-  std::vector<std::uint32_t> places_;
-};
-
 // `particles` by id, as Simulation::Particles gives them.
 Connectivity Connect(std::span<const engine::Particle> particles,
                      std::span<const engine::ContactInfo> contacts);

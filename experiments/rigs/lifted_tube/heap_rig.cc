@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/run/resisted_spins.h"
 #include "engine/wall_motion.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
 
@@ -219,7 +220,7 @@ HeapRig::View HeapRig::LookWithoutFallen() {
 // Without friction nothing resists any spin, so that it does not count.
 bool HeapRig::AtRest(const View& view, const RestRule& rule) {
   const bool spins_count = case_.powder.material.sliding_friction > 0;
-  const std::vector<Vec3> spins = ResistedSpins(view.particles, view.contacts);
+  const std::vector<Vec3> spins = engine::ResistedSpins(view.particles, view.contacts);
   EnergyRatio energy(case_.gravity);
   for (std::size_t i = 0; i < view.particles.size(); ++i) {
     const Particle& p = view.particles[i];

@@ -35,29 +35,6 @@ double EnergyRatio::ValueWithoutFastest(double share) const {
   return rest.Value();
 }
 
-std::vector<Vec3> ResistedSpins(std::span<const Particle> particles,
-                                std::span<const engine::ContactInfo> contacts) {
-  const PlaceOfId place_of(particles);
-  std::vector<int> num_contacts(particles.size(), 0);
-  std::vector<Vec3> normal(particles.size());
-  for (const engine::ContactInfo& contact : contacts) {
-    const std::size_t i = place_of(contact.first);
-    ++num_contacts[i];
-    normal[i] = contact.normal;
-    if (contact.second < 0) continue;
-    const std::size_t j = place_of(contact.second);
-    ++num_contacts[j];
-    normal[j] = contact.normal;
-  }
-  std::vector<Vec3> spins;
-  spins.reserve(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const Vec3& spin = particles[i].angular_velocity;
-    spins.push_back(num_contacts[i] == 1 ? spin - Dot(spin, normal[i]) * normal[i] : spin);
-  }
-  return spins;
-}
-
 namespace {
 
 // Faster than after a free fall over its own diameter: no contact holds such a grain.

@@ -32,12 +32,6 @@ class EnergyRatio {
   std::vector<Grain> grains_;
 };
 
-// Of each grain, the spin that friction or rolling resistance act on. A grain with one contact may
-// twist about its normal for ever, which no law resists: that part is left out. `particles` and
-// `contacts` as Simulation gives them.
-std::vector<engine::Vec3> ResistedSpins(std::span<const engine::Particle> particles,
-                                        std::span<const engine::ContactInfo> contacts);
-
 // Ids, ascending, of the grains that can only fall. They hang together with neither plate nor tube,
 // or fall faster than after a free fall over their own diameter, and are
 // - whole below the plate's top (and, if slow, below all that hangs on it), too slow to come back
