@@ -5,9 +5,12 @@
 #include <memory>
 #include <thread>
 
+#include "base/error.h"
 #include "base/interrupt.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/write_report.h"
+#include "experiments/analysis/search/search_folder.h"
+#include "experiments/analysis/search/search_page.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/campaign_folder.h"
 
@@ -55,13 +58,27 @@ void Watch(const Arguments& arguments) {
   }
 }
 
+void ReportSearch(const Arguments& arguments) {
+  if (arguments.watch || !arguments.experiment.empty()) {
+    throw base::ConfigError(arguments.campaign.string() +
+                            ": is the folder of a search by `talus optimize`; --watch and "
+                            "--experiment are for campaigns");
+  }
+  const auto page =
+      analysis::WriteSearchReport(analysis::ReadSearchFolder(arguments.campaign), arguments.out);
+  std::cout << "The report is " << page.string() << '\n';
+}
+
 }  // namespace
 
 void AddReportCommand(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "report", "Write a campaign's report: one HTML page, with its figures and tables beside it");
-  command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
+  CLI::App* command = app.add_subcommand("report",
+                                         "Write the report of a campaign or a search: one HTML "
+                                         "page, with its figures and tables beside it");
+  command
+      ->add_option("DIR", arguments->campaign,
+                   "folder of a campaign, or of a search by `talus optimize`; it may be running")
       ->required();
   command->add_option("--out", arguments->out, "folder to write into; default: DIR/report");
   command->add_flag("--watch", arguments->watch,
@@ -71,6 +88,10 @@ void AddReportCommand(CLI::App& app) {
                       "whose trials are shown, in a campaign with several; default: the first");
   command->callback([arguments] {
     if (arguments->out.empty()) arguments->out = arguments->campaign / "report";
+    if (analysis::IsSearchFolder(arguments->campaign)) {
+      ReportSearch(*arguments);
+      return;
+    }
     if (arguments->watch) {
       Watch(*arguments);
       return;

@@ -33,7 +33,7 @@ void FieldStrategy::Update(const Observation& observation) {
 }
 
 const std::optional<FieldModel>& FieldStrategy::Model() {
-  if (!is_current_) model_ = fields_.Model(record().deterministic());
+  if (!is_current_) model_ = fields_.Model(record().noise_free());
   is_current_ = true;
   return model_;
 }
@@ -60,7 +60,7 @@ Proposal FieldStrategy::ByModel(const Points& asked) {
 // now. Of a target that is not exact the ranges are wanted too, so every other one explores.
 Eigen::VectorXd FieldStrategy::Step(const FieldModel& model, const Points& asked) const {
   const int turn = fields_.size() + static_cast<int>(asked.size());
-  if (!record().deterministic()) {
+  if (!record().noise_free()) {
     if (has_exact_target_ && turn % 3 == 0) return Best(model, record().OpenDomain(asked));
     if (!has_exact_target_ && turn % 2 == 0) return ByDraw(model, asked);
   }
@@ -98,7 +98,7 @@ Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& ask
 Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Points& asked) const {
   Eigen::MatrixXd centers = BestEvaluated(ViewOf(model, record().domain(), 0));
   Incumbent incumbent;
-  if (record().deterministic()) {
+  if (record().noise_free()) {
     centers = Stack(centers, Best(model, record().domain()).transpose());
     centers.row(0).swap(centers.row(centers.rows() - 1));
   } else {
@@ -157,7 +157,7 @@ Answer FieldStrategy::Recommend() {
                                    .seed = record().options().seed});
   answer.model = std::to_string(model_->num_modes()) + " modes of the images of " +
                  std::to_string(fields_.size()) + " evaluations, " +
-                 (record().deterministic() ? "deterministic" : "noisy") + "; " + fields_.verdict();
+                 (record().noise_free() ? "deterministic" : "noisy") + "; " + fields_.verdict();
   return answer;
 }
 

@@ -44,7 +44,7 @@ int NumBefore(const SearchRecord& record) { return record.design_size() + 1; }
 std::optional<Elsewhere> Restart(const SearchRecord& record,
                                  std::span<const Eigen::VectorXd> asked) {
   const bool in_turn = (record.history().size() + static_cast<int>(asked.size())) % 2 == 0;
-  if (!record.deterministic() || !in_turn || record.domain().IsList()) return std::nullopt;
+  if (!record.noise_free() || !in_turn || record.domain().IsList()) return std::nullopt;
   return RestartElsewhere(record.history(), record.domain(), NumBefore(record));
 }
 
@@ -80,19 +80,19 @@ std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
 bool StepsByKnowledge(const SearchRecord& record, std::span<const Eigen::VectorXd> asked) {
   constexpr int kFewest = 20;
   const int index = record.history().size() + static_cast<int>(asked.size());
-  return !record.deterministic() && index >= kFewest && index % 2 == 0;
+  return !record.noise_free() && index >= kFewest && index % 2 == 0;
 }
 
 }  // namespace
 
 const ScalarFit& ScalarSearch::Fit(const SearchRecord& record) {
-  if (!fit_) fit_ = fitter_.Fit(record.history(), record.deterministic());
+  if (!fit_) fit_ = fitter_.Fit(record.history(), record.noise_free());
   return *fit_;
 }
 
 Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::VectorXd> asked) {
   const std::optional<Elsewhere> elsewhere = Restart(record, asked);
-  if (record.deterministic()) {
+  if (record.noise_free()) {
     if (const auto step = NearBest(record, asked, elsewhere)) return {*step, Origin::kModel};
   }
   const Eigen::MatrixXd& points = record.history().points;
@@ -102,7 +102,7 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
     incumbent = std::min(incumbent, process.AddFantasy(point));  // or the next would land beside it
   }
   const TransformedModel model(std::move(process));
-  const double noise = record.deterministic() ? 0 : model.NoiseSd(points.row(0));
+  const double noise = record.noise_free() ? 0 : model.NoiseSd(points.row(0));
   const Domain open = elsewhere ? elsewhere->domain : record.OpenDomain(asked);
   const ModelView view = ViewOf(model, record, open, record.StepSeed(asked));
   if (StepsByKnowledge(record, asked)) {
@@ -132,7 +132,7 @@ std::optional<std::string> ScalarSearch::StopReason(const SearchRecord& record) 
   const TransformedModel model(fit.process);
   const ModelView view = ViewOf(model, record, record.domain(), record.options().seed);
   const double bound = fit.transform.Backward(LowestBound(view, BestEvaluated(view)));
-  if (record.deterministic()) {
+  if (record.noise_free()) {
     return record.ReasonToStop(record.history().values.minCoeff() - bound, 0);
   }
   const Moments best = model.Predict(Best(record).transpose());
@@ -151,7 +151,7 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
   const Eigen::ArrayXd error = left_out.mean - fit.process.values();
   const double z = std::sqrt((error.square() / left_out.variance.array()).mean());
   answer.model = "Gaussian process of " + std::to_string(record.history().size()) +
-                 " evaluations, " + (record.deterministic() ? "deterministic" : "noisy") +
+                 " evaluations, " + (record.noise_free() ? "deterministic" : "noisy") +
                  "; left out, each is missed by " + Rounded(std::sqrt(error.square().mean())) +
                  (fit.transform.delta > 0 ? " in the logarithm, " : ", ") + Rounded(z) +
                  " x the predicted error";

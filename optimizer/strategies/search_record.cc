@@ -147,7 +147,7 @@ bool SearchRecord::MayStop(int num_evaluations) const {
 
 std::optional<std::string> SearchRecord::ReasonToStop(double gain, double noise) const {
   const std::string left = "what is left to gain, at most " + Rounded(std::max(0.0, gain));
-  if (deterministic()) {
+  if (noise_free()) {
     const double typical = history_.values.mean() - history_.values.minCoeff();
     if (!(gain <= kStopShare * typical)) return std::nullopt;
     return left + ", is below a millionth of the mean value less the lowest, " + Rounded(typical);

@@ -72,6 +72,9 @@ class SearchRecord {
   const History& history() const { return history_; }
   const Feasibility& feasibility() const { return feasibility_; }
   bool deterministic() const { return options_.exact || repeats_.deterministic; }
+  // Whether a model may go through every value. Rows of a table are results of single simulations:
+  // each may be exact and yet rough, other seeds beside each other.
+  bool noise_free() const { return deterministic() && !domain_.IsList(); }
   int design_size() const { return design_.size(); }
 
  private:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -63,6 +64,25 @@ TEST_P(Lists, AnExactListIsEvaluatedOnceEachToItsEnd) {
 INSTANTIATE_TEST_SUITE_P(Kinds, Lists,
                          ::testing::Values(StrategyKind::kGp, StrategyKind::kRbf,
                                            StrategyKind::kLhs, StrategyKind::kSobol));
+
+// Rows of single simulations: the same row gives the same value, and still its neighbours differ by
+// chance, here by 0.05. A model that goes through every value states no noise.
+TEST(Candidates, AnExactListMayBeRough) {
+  const Domain domain{.num_parameters = 2, .candidates = RSequence(60, 2, 3)};
+  const auto strategy = MakeStrategy({.kind = StrategyKind::kGp, .stop_multiple = 0, .exact = true},
+                                     domain, nullptr, 1);
+  std::set<Eigen::Index> seen;
+  for (int told = 0; told < 30; ++told) {
+    const Eigen::VectorXd point = strategy->Ask(1, {}).at(0).point;
+    const Eigen::Index row = RowOf(domain.candidates, point);
+    EXPECT_TRUE(seen.insert(row).second);
+    base::Random random(1, base::Stream("rough rows"), static_cast<std::uint64_t>(row));
+    strategy->Tell({.point = point, .value = Bowl(point) + 0.05 * random.Normal()});
+  }
+  const double noise_sd = strategy->Recommend().noise_sd;
+  EXPECT_GT(noise_sd, 0.025);
+  EXPECT_LT(noise_sd, 0.1);
+}
 
 TEST(Candidates, ANoisyListIsEvaluatedAtMostMaxReplicatesTimesEach) {
   const Domain domain{.num_parameters = 2, .candidates = RSequence(12, 2, 3)};

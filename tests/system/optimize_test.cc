@@ -167,6 +167,17 @@ TEST_F(Optimize, ResumesAfterAKillWithTheSameResult) {
             base::ReadFile(folder_ / "whole/result.json"));
 }
 
+TEST_F(Optimize, AReportOfItsFolderShowsTheAnswer) {
+  Write("problem.json", "{\"evaluations\": 12, \"parameters\": " + std::string(kUnitSquare) + "}");
+  ASSERT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "value"), 0) << errors_;
+  ASSERT_EQ(Run(TALUS_BINARY_DIR "/talus report search"), 0) << errors_;
+  const std::string page = base::ReadFile(folder_ / "search/report/report.html");
+  EXPECT_THAT(page, HasSubstr("12 of at most 12 evaluations"));
+  EXPECT_THAT(page, HasSubstr("<td>a</td>"));
+  EXPECT_EQ(Run(TALUS_BINARY_DIR "/talus report search --watch"), 2);
+  EXPECT_THAT(errors_, HasSubstr("--watch"));
+}
+
 TEST_F(Optimize, AFolderOfAnotherProblemIsLeftAlone) {
   Write("one.json", "{\"evaluations\": 3, \"parameters\": " + std::string(kUnitSquare) + "}");
   Write("two.json",

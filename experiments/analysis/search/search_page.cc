@@ -1,0 +1,167 @@
+#include "experiments/analysis/search/search_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include "base/file.h"
+#include "base/output_folder.h"
+#include "experiments/analysis/compare/csv.h"
+#include "experiments/analysis/search/search_figures.h"
+#include "page_files.h"  // made by talus_embed
+
+namespace talus::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return escaped;
+}
+
+// A dash where there is no number.
+std::string Print(double x) {
+  if (!std::isfinite(x)) return "–";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+std::string Row(const std::vector<std::string>& cells, const char* tag = "td") {
+  std::string row = "<tr>";
+  for (const std::string& cell : cells) {
+    row += "<" + std::string(tag) + ">" + Escaped(cell) + "</" + tag + ">";
+  }
+  return row + "</tr>\n";
+}
+
+std::string Section(const std::string& id, const std::string& title, const std::string& content) {
+  return "<section id=\"" + id + "\"><h2>" + title + "</h2>\n<div class=\"card\">\n" + content +
+         "</div></section>\n";
+}
+
+std::string Standing(const SearchFolder& search) {
+  const auto count = static_cast<std::size_t>(search.evaluations.size());
+  const auto num_failed = std::count_if(search.evaluations.begin(), search.evaluations.end(),
+                                        [](const SearchEvaluation& one) { return !one.value; });
+  std::string text = std::to_string(count) + " of at most " +
+                     std::to_string(search.most_evaluations) + " evaluations, " +
+                     std::to_string(num_failed) + " failed. ";
+  if (!search.answer) return text + "The search has not ended.";
+  return text + "Ended: " + search.answer->stopped + ".";
+}
+
+std::string AnswerTable(const SearchFolder& search) {
+  std::string table = "<table>" + Row({"parameter", "recommended", "90 % from", "to",
+                                       "Sobol index, first", "total", "best evaluation"},
+                                      "th");
+  const SearchEvaluation* best = BestOf(search);
+  for (std::size_t k = 0; k < search.parameters.size(); ++k) {
+    const ParameterAnswer& answer = search.answer->parameters[k];
+    table += Row({search.parameters[k].name, Print(answer.recommended), Print(answer.low),
+                  Print(answer.high), Print(answer.sobol_first), Print(answer.sobol_total),
+                  best ? Print(best->values[k]) : "–"});
+  }
+  return table + "</table>\n";
+}
+
+std::string Answer(const SearchFolder& search) {
+  if (!search.answer) {
+    return "<p>There is none before the search ends. The same `talus optimize` goes on with "
+           "it.</p>\n";
+  }
+  const SearchAnswer& answer = *search.answer;
+  std::string text = AnswerTable(search);
+  text += "<p>Predicted value " + Print(answer.predicted_value) + " ± " +
+          Print(answer.predicted_sd) + " (standard deviation); noise sd of one evaluation " +
+          Print(answer.noise_sd) + ". ";
+  if (const SearchEvaluation* best = BestOf(search)) {
+    text += "Lowest value seen: " + Print(*best->value) + ", by evaluation " +
+            std::to_string(best->number) + ". ";
+  }
+  text += "Share of the ranges that ties with the recommendation: " + Print(answer.tied_volume) +
+          ".</p>\n<p class=\"note\">" + Escaped(answer.model) + "</p>\n";
+  for (const std::string& warning : answer.warnings) {
+    text += "<p class=\"notice\">" + Escaped(warning) + "</p>\n";
+  }
+  return text;
+}
+
+std::vector<std::string> Head(const SearchFolder& search) {
+  std::vector<std::string> head{"evaluation"};
+  for (const SearchParameter& parameter : search.parameters) head.push_back(parameter.name);
+  head.insert(head.end(), {"value", "failed"});
+  return head;
+}
+
+std::string EvaluationTable(const SearchFolder& search) {
+  std::string table = "<table>" + Row(Head(search), "th");
+  for (const SearchEvaluation& one : search.evaluations) {
+    std::vector<std::string> cells{std::to_string(one.number)};
+    for (const double value : one.values) cells.push_back(Print(value));
+    cells.push_back(one.value ? Print(*one.value) : "");
+    cells.push_back(one.failure);
+    table += Row(cells);
+  }
+  return table + "</table>\n";
+}
+
+std::string EvaluationCsv(const SearchFolder& search) {
+  Csv csv;
+  for (const std::string& name : Head(search)) csv.Cell(name);
+  csv.EndRow();
+  for (const SearchEvaluation& one : search.evaluations) {
+    csv.Cell(one.number).Cells(one.values).Cell(one.value.value_or(std::nan("")));
+    csv.Cell(one.failure).EndRow();
+  }
+  return csv.Take();
+}
+
+std::string Charts(const std::vector<SearchFigure>& figures) {
+  if (figures.empty()) return "<p>No evaluation has succeeded.</p>\n";
+  std::string text = "<div class=\"grid two\">\n";
+  for (const SearchFigure& figure : figures) {
+    text += "<figure>" + figure.svg + "<figcaption>" + Escaped(figure.caption) +
+            "</figcaption></figure>\n";
+  }
+  return text + "</div>\n";
+}
+
+}  // namespace
+
+std::string SearchPage(const SearchFolder& search) {
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+      Escaped(search.name) + " – search report</title>\n<link rel=\"icon\" href=\"data:,\">\n" +
+      "<style>\n" + std::string(page_files::kPageCss) +
+      "svg { max-width: 100%; height: auto; }\n</style>\n</head>\n<body>\n"
+      "<header class=\"top\"><div class=\"wrap\"><p class=\"eyebrow\">Search report</p><h1>" +
+      Escaped(search.name) + "</h1><p id=\"standing\">" + Escaped(Standing(search)) +
+      "</p></div></header>\n<main class=\"wrap\">\n";
+  page += Section("answer", "Answer", Answer(search));
+  page += Section("charts", "Values", Charts(SearchFigures(search)));
+  page += Section("evaluations", "Evaluations",
+                  "<div class=\"scroll\">" + EvaluationTable(search) + "</div>\n");
+  return page + "</main>\n</body>\n</html>\n";
+}
+
+fs::path WriteSearchReport(const SearchFolder& search, const fs::path& folder) {
+  base::ClaimOutputFolder(folder, "report");
+  fs::create_directories(folder / "figures");
+  fs::create_directories(folder / "tables");
+  for (const SearchFigure& figure : SearchFigures(search)) {
+    base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.svg);
+  }
+  base::WriteFileAtomically(folder / "tables" / "evaluations.csv", EvaluationCsv(search));
+  base::WriteFileAtomically(folder / "report.html", SearchPage(search));
+  return folder / "report.html";
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/analysis/search/search_folder.h"
+#include "experiments/analysis/search/search_page.h"
+#include "tests/experiments/scratch_folder.h"
+
+namespace talus::analysis {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kProblem = R"({"problem": {"parameters": [
+  {"name": "mu", "low": 0, "high": 1, "scale": "linear", "levels": []},
+  {"name": "rpm", "low": null, "high": null, "scale": "linear", "levels": [10, 40]},
+  {"name": "density", "scale": "linear", "fixed": 2500, "levels": []}],
+  "evaluations": 4}, "command": ["x"]})";
+
+// The second is made twice, the last is being written.
+constexpr const char* kLog = R"({"evaluation":1,"parameters":{"mu":0.5,"rpm":10},"value":3.25}
+{"evaluation":2,"parameters":{"mu":0.25,"rpm":40},"failed":"first"}
+{"evaluation":3,"parameters":{"mu":0.75,"rpm":40},"value":1.5}
+{"evaluation":2,"parameters":{"mu":0.25,"rpm":40},"failed":"<b>crash</b>"}
+{"evaluation":4,"parameters":{"mu":0.)";
+
+constexpr const char* kResult = R"({"recommended": {"mu": 0.625, "rpm": 40, "density": 2500},
+  "predicted_value": 1.75, "predicted_sd": 0.125, "noise_sd": 0.5, "ranges_90": {
+  "mu": {"low": 0.375, "high": 0.875, "sobol_first": 0.75, "sobol_total": 0.8125},
+  "rpm": {"low": 10, "high": 40, "sobol_first": 0.1, "sobol_total": 0.2}},
+  "tied_volume": 0.0625, "stopped": "all evaluations are used", "model": "a model",
+  "warnings": ["mu is at its bound"]})";
+
+class SearchReport : public testing::Test {
+ protected:
+  void SetUp() override {
+    Write("problem.json", kProblem);
+    Write("evaluations.jsonl", kLog);
+  }
+  void Write(const std::string& name, const std::string& text) {
+    base::WriteFileAtomically(scratch_.path() / name, text);
+  }
+  SearchFolder Read() { return ReadSearchFolder(scratch_.path()); }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(SearchReport, ReadsWhatIsSearchedAndEachEvaluationOnce) {
+  const SearchFolder search = Read();
+  ASSERT_EQ(search.parameters.size(), 2u);
+  EXPECT_EQ(search.parameters[1].name, "rpm");
+  EXPECT_EQ(search.parameters[1].low, 10);
+  EXPECT_EQ(search.parameters[1].high, 40);
+  ASSERT_EQ(search.evaluations.size(), 3u);
+  EXPECT_THAT(search.evaluations[0].values, ElementsAre(0.5, 10));
+  EXPECT_EQ(search.evaluations[1].failure, "<b>crash</b>");
+  EXPECT_EQ(search.evaluations[2].value, 1.5);
+}
+
+TEST_F(SearchReport, ShowsASearchThatHasNotEnded) {
+  const std::string page = SearchPage(Read());
+  EXPECT_THAT(page, HasSubstr("3 of at most 4 evaluations, 1 failed"));
+  EXPECT_THAT(page, HasSubstr("has not ended"));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+}
+
+TEST_F(SearchReport, ShowsTheAnswerWithItsRangesAndWarnings) {
+  Write("result.json", kResult);
+  const std::string page = SearchPage(Read());
+  EXPECT_THAT(page, HasSubstr("<tr><td>mu</td><td>0.625</td><td>0.375</td><td>0.875</td>"
+                              "<td>0.75</td><td>0.8125</td><td>0.75</td></tr>"));
+  EXPECT_THAT(page, HasSubstr("1.75 ± 0.125"));
+  EXPECT_THAT(page, HasSubstr("Lowest value seen: 1.5, by evaluation 3"));
+  EXPECT_THAT(page, HasSubstr("mu is at its bound"));
+}
+
+// Of a search that ended before there was a model.
+TEST_F(SearchReport, ShowsAnAnswerWithoutRanges) {
+  Write("result.json", R"({"recommended": {"mu": 0.625, "rpm": 40}, "stopped": "interrupted"})");
+  EXPECT_THAT(SearchPage(Read()), HasSubstr("<tr><td>mu</td><td>0.625</td><td>–</td><td>–</td>"));
+}
+
+TEST_F(SearchReport, LoadsNothingAndTakesNoWordForMarkup) {
+  const std::string page = SearchPage(Read());
+  EXPECT_THAT(page, HasSubstr("&lt;b&gt;crash"));
+  EXPECT_THAT(page, Not(HasSubstr("<b>crash")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
+}
+
+TEST_F(SearchReport, PutsFiguresAndTheTableBesideThePage) {
+  const auto out = scratch_.path() / "report";
+  WriteSearchReport(Read(), out);
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(out / "figures" / "along_rpm.svg"));
+  EXPECT_THAT(base::ReadFile(out / "tables" / "evaluations.csv"),
+              HasSubstr("evaluation,mu,rpm,value,failed\n1,0.5,10,3.25,\n"));
+}
+
+TEST_F(SearchReport, NamesTheFileAndLineOfWhatIsDamaged) {
+  const auto read = [this] { Read(); };
+  Write("evaluations.jsonl", "{\"evaluation\":1,\"parameters\":{\"mu\":0.5}}\n");
+  EXPECT_THAT(read, testing::ThrowsMessage<base::ConfigError>(HasSubstr("evaluations.jsonl:1")));
+  Write("evaluations.jsonl", "");
+  Write("result.json", "{}");
+  EXPECT_THAT(read, testing::ThrowsMessage<base::ConfigError>(HasSubstr("result.json")));
+  Write("problem.json", "[]");
+  EXPECT_THAT(read, testing::ThrowsMessage<base::ConfigError>(HasSubstr("problem.json")));
+}
+
+}  // namespace
+}  // namespace talus::analysis
