@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/checked_text.h"
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
@@ -223,7 +224,7 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
                       {"particle_steps", state_.particle_steps},
                       {"threads", spec_.threads},
                       {"scaling", ScalingJson(simulation_.Scaling())}};
-  base::WriteFileAtomically(folder_ / "result.json", result.dump(2) + "\n");
+  base::WriteFileAtomically(folder_ / "result.json", base::WithChecksum(result.dump(2) + "\n"));
 }
 
 std::uint64_t SceneHash(const SceneSpec& spec) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/checked_text.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_writer.h"
@@ -21,38 +22,19 @@ std::string RunFile(std::size_t index) {
   return "run_" + std::string(index < 9 ? "0" : "") + std::to_string(index + 1) + ".png";
 }
 
-// A record in a file of its own, with its checksum: `key` stands last.
-constexpr std::string_view kChecksum = ",\n  \"checksum_xxh3\": \"";
-constexpr std::string_view kEnd = "\"\n}\n";
-
 template <class Record>
 std::string TextWithChecksum(const Record& record) {
-  std::string text = base::JsonTextWriter::TextOf(record);  // ends with "\n}\n"
-  const std::string checksum = base::Hex(base::Checksum(text));
-  text.resize(text.size() - 3);
-  return text.append(kChecksum).append(checksum).append(kEnd);
+  return base::WithChecksum(base::JsonTextWriter::TextOf(record));
 }
 
 // The text without its checksum; nothing where it has none.
-std::optional<std::string> CheckedText(const std::filesystem::path& path) {
-  std::string text = base::ReadFile(path);
-  const std::size_t at = text.rfind(kChecksum);
-  constexpr std::size_t kDigits = 16;
-  if (at == std::string::npos || text.size() != at + kChecksum.size() + kDigits + kEnd.size()) {
-    return std::nullopt;
-  }
-  const std::string checksum = text.substr(at + kChecksum.size(), kDigits);
-  text.resize(at);
-  text += "\n}\n";
-  if (base::Hex(base::Checksum(text)) != checksum) {
-    throw base::Error(path.string() + ": is damaged: it does not match its checksum");
-  }
-  return text;
+std::optional<std::string> CheckedFile(const std::filesystem::path& path) {
+  return base::CheckedText(base::ReadFile(path), path.string());
 }
 
 template <class Record>
 Record ReadRecord(const std::filesystem::path& path) {
-  const std::optional<std::string> text = CheckedText(path);
+  const std::optional<std::string> text = CheckedFile(path);
   if (!text) throw base::Error(path.string() + ": is damaged: its checksum is not there");
   return journal::ParseRecord<Record>(*text, path.string());
 }
@@ -77,7 +59,7 @@ void PutAside(const std::filesystem::path& journal) {
 // Before schema 3 there was one experiment, whose keys stood beside the campaign's own, and no
 // checksum.
 std::string WithExperiments(const std::filesystem::path& path) {
-  if (const std::optional<std::string> checked = CheckedText(path)) return *checked;
+  if (const std::optional<std::string> checked = CheckedFile(path)) return *checked;
   auto json = nlohmann::ordered_json::parse(base::ReadFile(path), nullptr, false);
   if (!json.is_object() || json.contains("experiments")) {
     throw base::Error(path.string() + ": is damaged: its checksum is not there");

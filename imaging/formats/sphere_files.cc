@@ -1,6 +1,8 @@
 #include "imaging/formats/sphere_files.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "base/error.h"
@@ -13,8 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Together they are bounded as one file is: a part can be named many times.
+void CheckSizeOfParts(const fs::path& path, const std::vector<fs::path>& parts) {
+  std::uint64_t num_bytes = 0;
+  for (const fs::path& part : parts) {
+    std::error_code absent;  // is said when it is read
+    const std::uintmax_t size = fs::file_size(path.parent_path() / part, absent);
+    if (!absent) num_bytes += std::min<std::uint64_t>(size, base::kLargestRead);
+    if (num_bytes <= base::kLargestRead) continue;
+    throw base::ConfigError(path.string() + ": names parts of more than " +
+                            std::to_string(base::kLargestRead >> 20) +
+                            " MiB together, the most that is read");
+  }
+}
+
 std::vector<base::Sphere> ReadParts(const fs::path& path, const std::vector<fs::path>& parts,
                                     const SphereFileOptions& options) {
+  CheckSizeOfParts(path, parts);
   std::vector<base::Sphere> spheres;
   for (const fs::path& part : parts) {
     // A part is never a list of parts again; this also ends a file that names itself.

@@ -179,6 +179,15 @@ TEST_F(SphereFilesTest, PartsOfAParallelFileArePutTogether) {
   EXPECT_THROW(read("absent.vtu"), base::ConfigError);
 }
 
+// Each was bounded by itself only, and could be named a million times.
+TEST_F(SphereFilesTest, PartsOfAParallelFileAreBoundedTogether) {
+  fs::resize_file(Write("hole.vtu", "x"), std::uintmax_t{3} << 30);  // takes no room on the disk
+  const std::string piece = "<Piece Source=\"hole.vtu\"/>";
+  EXPECT_THAT(ErrorOf("<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>" + piece + piece +
+                      "</PUnstructuredGrid></VTKFile>"),
+              HasSubstr("more than 4096 MiB together"));
+}
+
 TEST_F(SphereFilesTest, EmptyHeapIsAListOfNone) {
   EXPECT_TRUE(Read("x,y,z,r\n").empty());
   EXPECT_TRUE(Read("<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"0\"/>"

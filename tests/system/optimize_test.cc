@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "base/file.h"
 
@@ -51,6 +53,21 @@ class Optimize : public ::testing::Test {
   }
   int Talus(const std::string& arguments) {
     return Run(TALUS_BINARY_DIR "/talus optimize " + arguments);
+  }
+
+  // Whether the process whose number is in this file is gone, or will be: the guard needs a moment.
+  bool Ends(const std::string& file) {
+    std::string pid;
+    std::ifstream(folder_ / file) >> pid;
+    for (int look = 0; look < 1000; ++look) {
+      std::ifstream process("/proc/" + pid + "/stat");
+      std::string stat;
+      std::getline(process, stat);
+      const std::size_t state = stat.rfind(") ");
+      if (state == std::string::npos || stat[state + 2] == 'Z') return !pid.empty();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
   }
 
   fs::path folder_;
@@ -176,6 +193,35 @@ TEST_F(Optimize, AReportOfItsFolderShowsTheAnswer) {
   EXPECT_THAT(page, HasSubstr("<td>a</td>"));
   EXPECT_EQ(Run(TALUS_BINARY_DIR "/talus report search --watch"), 2);
   EXPECT_THAT(errors_, HasSubstr("--watch"));
+}
+
+// A flipped digit was another evaluation.
+TEST_F(Optimize, ADamagedEvaluationIsNamed) {
+  Write("problem.json", "{\"evaluations\": 3, \"parameters\": " + std::string(kUnitSquare) + "}");
+  ASSERT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "bowl"), 0) << errors_;
+  std::string log = base::ReadFile(folder_ / "search/evaluations.jsonl");
+  const std::size_t digit = log.rfind("\"value\":") + 10;
+  log[digit] = log[digit] == '7' ? '8' : '7';
+  Write("search/evaluations.jsonl", log);
+  EXPECT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "bowl"), 2);
+  EXPECT_THAT(errors_, HasSubstr("evaluations.jsonl:3: is damaged"));
+}
+
+// The command ran on, and so did what it had started in a session of its own.
+TEST_F(Optimize, WhatTheCommandHasStartedEndsWithIt) {
+  Write("problem.json", "{\"evaluations\": 2, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write("evaluate.sh",
+        "setsid sh -c 'echo $$ >session.new; mv session.new session; exec sleep 300' >&- 2>&- &\n"
+        "until [ -e session ]; do sleep 0.01; done\n"
+        "echo $$ >leader\n"
+        "[ $1 = end ] || { kill -KILL $PPID; exec sleep 300; }\n"
+        "echo '{\"value\": 1}'\n");
+  ASSERT_EQ(Talus("problem.json --quiet -- sh evaluate.sh end"), 0) << errors_;
+  EXPECT_TRUE(Ends("session"));
+  fs::remove(folder_ / "session");
+  ASSERT_EQ(Talus("problem.json --quiet -- sh evaluate.sh kill"), 128 + 9);
+  EXPECT_TRUE(Ends("session"));
+  EXPECT_TRUE(Ends("leader"));
 }
 
 TEST_F(Optimize, AFolderOfAnotherProblemIsLeftAlone) {

@@ -150,6 +150,20 @@ TEST_F(Simulate, ADamagedCheckpointIsSaidAndNotUsed) {
   EXPECT_EQ(Result("out")["status"], "ok");
 }
 
+// A flipped digit was another result.
+TEST_F(Simulate, ADamagedResultIsMadeAgain) {
+  Write("pair.json", Read(TALUS_SOURCE_DIR "/examples/scenes/bouncing_pair.json"));
+  ASSERT_EQ(Talus("pair.json"), 0) << output_;
+  const int num_steps = Result("pair")["num_steps"];
+  std::string damaged = Read("pair/result.json");
+  const std::size_t digit = damaged.find("\"num_steps\": ") + 13;
+  damaged[digit] = damaged[digit] == '1' ? '2' : '1';
+  Write("pair/result.json", damaged);
+  ASSERT_NE(Result("pair")["num_steps"], num_steps);
+  ASSERT_EQ(Talus("pair.json"), 0) << output_;
+  EXPECT_EQ(Result("pair")["num_steps"], num_steps);
+}
+
 TEST_F(Simulate, AFolderOfAnotherInputIsRefused) {
   Write("pair.json", Read(TALUS_SOURCE_DIR "/examples/scenes/bouncing_pair.json"));
   ASSERT_EQ(Talus("pair.json"), 0) << output_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/checked_text.h"
 #include "base/file.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
@@ -166,7 +167,7 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
   }
   if (heap.empty()) warnings.push_back("nothing is left on the plate");
   result["warnings"] = warnings;
-  return result.dump(2) + "\n";
+  return base::WithChecksum(result.dump(2) + "\n");
 }
 
 std::string HeapStateLine(const HeapState& state) { return base::ToJson(state).dump(); }

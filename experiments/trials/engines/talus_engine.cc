@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/checked_text.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_file.h"
@@ -42,12 +43,15 @@ std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {
 }
 
 bool TalusEngine::IsComplete(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / "result.json");
+  const std::filesystem::path result = folder / "result.json";
+  return std::filesystem::exists(result) && base::IfWhole(base::ReadFile(result));
 }
 
 TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
                                  const std::filesystem::path& folder) {
-  const auto result = nlohmann::json::parse(base::ReadFile(folder / "result.json"), nullptr, false);
+  const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
+  if (!text) throw base::Error("left a result.json that does not match its checksum");
+  const auto result = nlohmann::json::parse(*text, nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   const std::string reason = base::TextAt(result, "reason");
   if (base::TextAt(result, "status") != "ok") {

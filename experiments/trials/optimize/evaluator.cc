@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "experiments/runners/process_guard.h"
 #include "experiments/runners/tool.h"
 
 namespace talus::trials {
@@ -44,10 +45,14 @@ std::string Evaluator::InputOf(const Eigen::VectorXd& point, std::uint64_t seed)
   return input.dump() + "\n";
 }
 
-Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed) const {
+Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed,
+                         const std::string& mark) const {
   Evaluated evaluated{.observation = {.point = point}, .failure = {}};
-  const runners::ToolResult result = runners::RunTool(
-      command_, {.time_cap = problem_.time_cap, .output_file = {}, .input = InputOf(point, seed)});
+  const runners::ToolResult result = runners::RunTool(command_, {.time_cap = problem_.time_cap,
+                                                                 .output_file = {},
+                                                                 .input = InputOf(point, seed),
+                                                                 .mark = mark});
+  runners::KillMarked(mark);
   if (result.status == 127) {
     throw base::Error("the command cannot be run: " + Excerpt(result.errors));
   }

@@ -32,8 +32,9 @@ class Evaluator {
   std::string InputOf(const Eigen::VectorXd& point, std::uint64_t seed) const;
 
   // An exit status other than 0, the time cap and an answer that makes no sense are failures, which
-  // are results. Throws base::Error only when the command cannot be started.
-  Evaluated Run(const Eigen::VectorXd& point, std::uint64_t seed) const;
+  // are results. What the command has started carries `mark`, see process_guard.h, and has ended
+  // when this returns. Throws base::Error only when the command cannot be started.
+  Evaluated Run(const Eigen::VectorXd& point, std::uint64_t seed, const std::string& mark) const;
 
  private:
   // What is wrong with the answer, in words; empty when it was taken.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "experiments/runners/process_guard.h"
 #include "experiments/trials/optimize/evaluator.h"
 #include "experiments/trials/optimize/optimize_folder.h"
 #include "experiments/trials/optimize/optimize_result_json.h"
@@ -30,6 +31,7 @@ class Loop {
         strategy_(optimizer::MakeStrategy(problem.strategy, problem.space.MakeDomain(),
                                           evaluator_.field(), problem.seed)) {
     if (!output.folder.empty()) folder_.emplace(output.folder, problem, command);
+    processes_.emplace();  // after the folder, whose lock it keeps until all has ended
   }
 
   std::string Run() {
@@ -78,7 +80,8 @@ class Loop {
       if (recorded && optimizer::SamePoint(recorded->observation.point, point)) return *recorded;
     }
     const Evaluated evaluated =
-        evaluator_.Run(point, problem_.seed * 1000003 + static_cast<std::uint64_t>(number));
+        evaluator_.Run(point, problem_.seed * 1000003 + static_cast<std::uint64_t>(number),
+                       processes_->MarkOf(number));
     const int width = evaluator_.field() == nullptr ? 0 : evaluator_.field()->width;
     if (folder_) folder_->Record(number, evaluated, width);
     return evaluated;
@@ -126,6 +129,7 @@ class Loop {
   Evaluator evaluator_;
   std::unique_ptr<optimizer::Strategy> strategy_;
   std::optional<OptimizeFolder> folder_;
+  std::optional<runners::ProcessGuard> processes_;
   base::InterruptGuard guard_;
   SearchTally tally_;
   std::string last_failure_;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/checked_text.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/file_lock.h"
@@ -89,7 +90,8 @@ std::filesystem::path OptimizeFolder::ImagePath(int number) const {
   return root_ / "images" / name;
 }
 
-// A line that a kill has cut off is no evaluation: it is taken away, and made again.
+// A line that a kill has cut off is no evaluation: it is taken away, and made again. One that was
+// damaged since would be another answer.
 void OptimizeFolder::Load() {
   const std::filesystem::path path = root_ / kLog;
   if (!std::filesystem::exists(path)) return;
@@ -99,12 +101,14 @@ void OptimizeFolder::Load() {
   for (std::size_t start = 0; start < complete;) {
     const std::size_t end = text.find('\n', start);
     ++line_number;
-    const auto line = json::parse(text.substr(start, end - start), nullptr, false);
+    const auto whole = base::IfWhole(text.substr(start, end + 1 - start));
     start = end + 1;
-    if (!line.is_object() || !line.contains("evaluation") || !line.contains("point")) {
+    if (!whole) {
       throw base::ConfigError(path.string() + ":" + std::to_string(line_number) +
-                              ": is no evaluation; take the line away, it will be made again");
+                              ": is damaged: it does not match its checksum; take the line away, "
+                              "it will be made again");
     }
+    const auto line = json::parse(*whole);
     const int number = line["evaluation"].get<int>();
     const auto point = line["point"].get<std::vector<double>>();
     Evaluated evaluated;
@@ -147,7 +151,8 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
     base::WriteFileAtomically(ImagePath(number), ToCsv(observation.field, image_width),
                               base::Outlives::kProgram);
   }
-  const std::string text = line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string text =
+      base::WithChecksum(line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
   const std::lock_guard guard(writing_);
   if (::write(log_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
     throw base::Error((root_ / kLog).string() + ": cannot be written: " + std::strerror(errno));

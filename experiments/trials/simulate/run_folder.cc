@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/checked_text.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/interrupt.h"
@@ -59,14 +60,14 @@ std::optional<nlohmann::json> ResultIn(const fs::path& folder) {
                           " of another input; choose another --out, or --fresh to replace it");
 }
 
-// True when the folder holds this input's result.
+// True when the folder holds this input's result, undamaged.
 bool IsDone(const RunJob& job, const fs::path& folder) {
   const auto result = ResultIn(folder);
   if (!result) return false;
   if (base::TextAt(*result, "input_hash") != base::Hex(job.input_hash)) {
     RefuseFolder(folder, "result");
   }
-  return base::TextAt(*result, "status") == "ok";
+  return base::TextAt(*result, "status") == "ok" && base::IfWhole(base::ReadFile(folder / kResult));
 }
 
 struct Started {
@@ -135,7 +136,7 @@ void WriteFailure(const RunJob& job, const fs::path& folder, const std::string& 
   result["input_hash"] = base::Hex(job.input_hash);
   result["timing"] = {{"wall_time_s", watch.Total().wall_time},
                       {"cpu_time_s", watch.Total().cpu_time}};
-  base::WriteFileAtomically(folder / kResult, result.dump(2) + "\n");
+  base::WriteFileAtomically(folder / kResult, base::WithChecksum(result.dump(2) + "\n"));
 }
 
 void Report(engine::Run& run, RunLog& log) {
