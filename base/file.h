@@ -17,9 +17,8 @@ std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit = kL
 // The last bytes of a file, at most `count`; empty when it cannot be read.
 std::string ReadTail(const std::filesystem::path& path, std::size_t count);
 
-// What is written outlives this: a power cut, for which the disk is waited for, some milliseconds,
-// or only the end of the program, of whatever kind. Then it may be empty or absent after a power
-// cut: for what can be made again.
+// What the written file survives. kPowerCut: waits for the disk, some milliseconds. kProgram:
+// survives a crash of the program but may be lost in a power cut; for what can be made again.
 enum class Outlives { kPowerCut, kProgram };
 
 // Writes beside `path`, syncs, then renames: a reader sees the old file or the new one. Throws

@@ -1,5 +1,5 @@
-// Rolling resistance: R1–R5. Twist about the normal is never resisted. A new law is one struct here
-// and one line in laws/law_list.h.
+// Rolling resistance: R1–R4; the opposite torque on the other sphere, R5, is the caller's. Twist
+// about the normal is never resisted. A new law is one struct here and one line in laws/law_list.h.
 #pragma once
 
 #include "engine/laws/hertz_mindlin.h"

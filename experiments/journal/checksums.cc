@@ -16,7 +16,7 @@ constexpr std::int64_t kCampaign = 0;  // trials count from 1
 // profile has a checksum beside it.
 struct Query {
   const char* rows;
-  const char* of_one;  // more, for one trial
+  const char* of_one;  // condition that selects one trial
   const char* order;
 };
 constexpr std::array kOfTrials{

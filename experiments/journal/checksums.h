@@ -1,5 +1,5 @@
-// Checksums of what the journal holds. SQLite has none of its rows: of bits turned over in the
-// file, one in twenty was not noticed, and a campaign could end with another answer.
+// Checksums of what the journal holds. SQLite keeps none of its rows: when bits of the file were
+// flipped, one flip in twenty went unnoticed, and a campaign could end with another answer.
 #pragma once
 
 #include <cstdint>

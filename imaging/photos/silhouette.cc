@@ -9,8 +9,8 @@ namespace talus::imaging {
 namespace {
 
 constexpr double kOntoPlate =
-    2.0;  // powder that ends less far above the baseline stands on it [px]
-constexpr double kBesidePlate = 0.02;  // and so far beside the plate / its diameter
+    2.0;  // powder whose lower end is nearer the baseline stands on it [px]
+constexpr double kBesidePlate = 0.02;  // how far beside the plate powder counts / its diameter
 
 // From pixel indices of the frame to pixel indices of the photograph (OpenCV counts from pixel
 // centres, hence the halves).

@@ -5,6 +5,7 @@
 //   replicate or        under noise, a proposal next to an evaluated point becomes a replicate of
 //   perturb             it; otherwise no point is evaluated twice
 //   feasibility         where evaluations fail (feasibility.h)
+//   end                 when what is left to gain is small (ReasonToStop)
 //
 // State = the observations told so far, in order.
 #pragma once
@@ -27,7 +28,7 @@ namespace talus::optimizer {
 // Of every strategy with a model.
 struct SurrogateOptions {
   int num_initial = 0;         // evaluations of the design; 0: 2 d + 3
-  double stop_multiple = 0.7;  // stop when the expected gain is below this × noise sd; 0: never
+  double stop_multiple = 0.7;  // stop when the most left to gain is below this × noise sd
   int max_replicates = 5;      // deliberate replicates beside the first repeat, in all; of a list
                                // of candidates, how often each may be evaluated
   bool exact = false;          // the same point always gives the same value: nothing is repeated

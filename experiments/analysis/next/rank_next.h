@@ -13,9 +13,9 @@
 namespace talus::analysis {
 
 enum class NextKind {
-  kMoreRuns,         // photograph as many runs of an experiment again
-  kMoreSimulations,  // as many simulations at the smallest scale factor again
-  kNumber,           // weigh what an experiment leaves or loses; trials have it already
+  kMoreRuns,         // double the photographed runs of an experiment
+  kMoreSimulations,  // double the simulations at the smallest scale factor
+  kNumber,           // weigh the powder that falls off the plate; trials know it already
   kTest              // another test
 };
 
