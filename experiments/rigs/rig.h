@@ -18,7 +18,7 @@ struct Observable {
   std::string undefined{};                                  // why it has no value; else empty
 };
 
-// "kg/m3" of "tapped_density_kg_m3", "-" of "hausner_ratio".
+// "kg/m3" of "tapped_density_kg_per_m3", "-" of "hausner_ratio".
 std::string UnitOfObservable(const std::string& name);
 
 class Rig {

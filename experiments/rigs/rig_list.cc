@@ -68,8 +68,8 @@ std::unique_ptr<Rig> RestoreRig(const HeapCase& heap_case, const std::string& st
 // The endings that docs/rigs.md lists.
 std::string UnitOfObservable(const std::string& name) {
   constexpr std::pair<const char*, const char*> kUnits[] = {
-      {"_kg_m3", "kg/m3"}, {"_kg_s", "kg/s"}, {"_kg", "kg"}, {"_deg", "deg"},
-      {"_mm2", "mm2"},     {"_mm", "mm"},     {"_m", "m"},   {"_s", "s"}};
+      {"_kg_per_m3", "kg/m3"}, {"_kg_per_s", "kg/s"}, {"_kg", "kg"}, {"_deg", "deg"},
+      {"_mm2", "mm2"},         {"_mm", "mm"},         {"_m", "m"},   {"_s", "s"}};
   for (const auto& [ending, unit] : kUnits) {
     if (name.ends_with(ending)) return unit;
   }

@@ -67,7 +67,7 @@ TEST(TappedDensity, TapsPackThePowderTowardsRandomClosePacking) {
   const HeapCase many = Tapped(20);
   const auto after_few = Ran(few);
   const auto after_many = Ran(many);
-  const double poured = Value(many, *after_many, "poured_density_kg_m3") / kDensity;
+  const double poured = Value(many, *after_many, "poured_density_kg_per_m3") / kDensity;
   const double tapped = Value(many, *after_many, "tapped_solid_fraction");
   EXPECT_GT(poured, 0.48);
   EXPECT_LT(poured, 0.58);
@@ -137,7 +137,7 @@ TEST(DrawDown, TheDischargeFollowsBeverloo) {
     c.rig->draw_down = {.length = 0.024, .width = 0.005, .slot = slot, .height = 0.02};
     c.device.tube_material = WallMaterial{.sliding_friction = 0};
     const auto rig = Ran(c);
-    rates.push_back(Value(c, *rig, "discharge_rate_kg_s"));
+    rates.push_back(Value(c, *rig, "discharge_rate_kg_per_s"));
     laws.push_back(Beverloo(0.55 * kDensity, slot, 0.005));
     EXPECT_GT(rates.back(), 0.7 * laws.back());
     EXPECT_LT(rates.back(), 1.3 * laws.back());

@@ -116,7 +116,7 @@ std::vector<Observable> DrawDownRig::Observables() const {
   std::vector<Observable> all{{.name = "mass_fallen_kg", .value = passed},
                               {.name = "mass_left_kg", .value = FilledMass() - passed}};
   Observable time{.name = "discharge_time_s"};
-  Observable rate{.name = "discharge_rate_kg_s"};
+  Observable rate{.name = "discharge_rate_kg_per_s"};
   if (passed > 0 && !flow.empty()) {
     time.value = TimeOf(0.95 * passed, flow);
     rate.value = 0.4 * passed / (TimeOf(0.6 * passed, flow) - TimeOf(0.2 * passed, flow));

@@ -13,7 +13,7 @@ namespace talus::rigs {
 class DrawDownRig : public PhasedRig {
  public:
   static constexpr const char* kObservables[] = {"mass_fallen_kg",   "mass_left_kg",
-                                                 "discharge_time_s", "discharge_rate_kg_s",
+                                                 "discharge_time_s", "discharge_rate_kg_per_s",
                                                  "angle_deg",        "shear_angle_deg"};
 
   explicit DrawDownRig(const HeapCase& heap_case);

@@ -1,9 +1,11 @@
 // result.json of a phased test.
 #include <nlohmann/json.hpp>
 
+#include "base/checked_text.h"
 #include "base/file.h"
 #include "base/json_writer.h"
 #include "base/version.h"
+#include "engine/run/scaling_json.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/phased/phased_rig.h"
@@ -20,7 +22,7 @@ ordered_json Conditions(const HeapCase& c, const engine::Simulation& simulation)
           {"surface_energy_exponent", c.coarse_graining.surface_energy_exponent},
           {"surface_energy_J_per_m2", c.powder.material.surface_energy},
           {"surface_energy_used_J_per_m2", used.surface_energy},
-          {"youngs_modulus_pa", used.youngs_modulus},
+          {"youngs_modulus_Pa", used.youngs_modulus},
           {"rayleigh_fraction", c.rayleigh_fraction},
           {"time_step_s", simulation.time_step()},
           {"seed", c.seed}};
@@ -76,9 +78,10 @@ std::string PhasedRig::ResultText(const std::vector<engine::Particle>& grains,
   result["timing"] = {{"wall_time_s", timing.wall_time},
                       {"cpu_time_s", timing.cpu_time},
                       {"particle_steps", state_.particle_steps},
-                      {"threads", case_.threads}};
+                      {"threads", case_.threads},
+                      {"scaling", engine::ScalingJson(simulation_.Scaling())}};
   result["warnings"] = warnings;
-  return result.dump(2) + "\n";
+  return base::WithChecksum(result.dump(2) + "\n");
 }
 
 }  // namespace talus::rigs

@@ -56,8 +56,8 @@ std::vector<Observable> TappedDensityRig::Observables() const {
   const double grain = heap_case().powder.material.density;
   const double poured = state().bed.solid_fraction;
   const double tapped = state().numbers.at(0);
-  return {{.name = "poured_density_kg_m3", .value = grain * poured},
-          {.name = "tapped_density_kg_m3", .value = grain * tapped},
+  return {{.name = "poured_density_kg_per_m3", .value = grain * poured},
+          {.name = "tapped_density_kg_per_m3", .value = grain * tapped},
           {.name = "hausner_ratio", .value = tapped / poured},
           {.name = "tapped_solid_fraction", .value = tapped}};
 }

@@ -14,8 +14,9 @@ namespace talus::rigs {
 
 class TappedDensityRig : public PhasedRig {
  public:
-  static constexpr const char* kObservables[] = {"poured_density_kg_m3", "tapped_density_kg_m3",
-                                                 "hausner_ratio", "tapped_solid_fraction"};
+  static constexpr const char* kObservables[] = {"poured_density_kg_per_m3",
+                                                 "tapped_density_kg_per_m3", "hausner_ratio",
+                                                 "tapped_solid_fraction"};
 
   explicit TappedDensityRig(const HeapCase& heap_case);
   TappedDensityRig(const HeapCase& heap_case, const PhasedState& state,
