@@ -51,6 +51,12 @@ class SchemaWriter {
   std::vector<std::string> required_;
 };
 
+// A struct whose keys depend on its `kind`: one value of each.
+template <class T>
+concept HasAlternatives = requires {
+  { T::Alternatives() } -> std::same_as<std::vector<T>>;
+};
+
 template <class T>
 struct Element {
   using Type = void;
@@ -68,9 +74,23 @@ template <class T>
 nlohmann::ordered_json SchemaOf(const FieldInfo& info) {
   using json = nlohmann::ordered_json;
   json schema;
-  if constexpr (Visitable<T>) {
+  if constexpr (HasAlternatives<T>) {
+    // The first is meant where a file has no `kind`.
+    json all = json::array();
+    for (const T& alternative : T::Alternatives()) {
+      SchemaWriter writer;
+      T::Visit(alternative, writer);
+      json one = writer.Take();
+      const std::string kind = one["properties"]["kind"]["default"];
+      one["title"] = kind;
+      one["properties"]["kind"] = {{"const", kind}};
+      if (!all.empty()) one["required"].push_back("kind");
+      all.push_back(std::move(one));
+    }
+    schema["oneOf"] = std::move(all);
+  } else if constexpr (Visitable<T>) {
     SchemaWriter writer;
-    const T defaults{};
+    static const T defaults{};  // on the stack GCC 12 takes its optionals for uninitialised
     T::Visit(defaults, writer);
     schema = writer.Take();
   } else if constexpr (NamedEnum<T>) {

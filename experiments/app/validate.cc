@@ -19,7 +19,8 @@ namespace {
 
 void PrintExperiment(const journal::ExperimentRecord& e, const journal::CampaignRecord& record) {
   std::cout << "  experiment        " << (record.experiments.size() > 1 ? e.name + ": " : "")
-            << "NEBP " << campaign::NumberText4(e.nebp_px) << " px";
+            << (!e.aehp_png.empty() ? "NEBP " + campaign::NumberText4(e.nebp_px) + " px"
+                                    : "numbers only");
   if (e.noise_mm2) std::cout << ", noise floor " << campaign::NumberText4(*e.noise_mm2) << " mm²";
   for (const journal::ScalarRecord& s : e.scalars) {
     std::cout << ", " << s.name << " " << campaign::NumberText4(s.value) << " ± "

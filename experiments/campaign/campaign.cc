@@ -222,7 +222,7 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   trial.reason = output.note;
   trial.num_steps = output.num_steps;
   trial.num_particles = output.num_particles;
-  Close(trial, &output.profile);
+  Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {

@@ -29,13 +29,14 @@ std::string ExperimentLines(const std::vector<ResultConfirmed>& experiments,
                             const std::string& unit) {
   std::string text;
   for (const ResultConfirmed& e : experiments) {
-    text += "    " + Padded(e.name, 16) + NumberText4(e.mean) + unit;
+    text += "    " + Padded(e.name, 16);
+    if (std::isfinite(e.mean)) text += NumberText4(e.mean) + unit;
     if (e.over_floor) {
       text += ", its mean profile " + NumberText4(*e.over_floor) + " times the noise floor";
     }
     for (const ResultScalar& s : e.scalars) {
-      text += "; " + s.name + " " + NumberText4(s.mean) + ", measured " + NumberText4(s.measured) +
-              " ± " + NumberText4(s.measured_sd);
+      text += (text.ends_with(' ') ? "" : "; ") + s.name + " " + NumberText4(s.mean) +
+              ", measured " + NumberText4(s.measured) + " ± " + NumberText4(s.measured_sd);
     }
     text += "\n";
   }
@@ -48,7 +49,7 @@ std::string ConfirmedLines(const CampaignResult& result) {
   for (std::size_t i = 0; i < result.confirmed.size(); ++i) {
     const ResultCandidate& c = result.confirmed[i];
     std::string line = i == 0 ? "  confirmed" : "  candidate " + std::to_string(i + 1);
-    text += Padded(line, 20) + NumberText4(c.mean) + unit;
+    text += Padded(line, 20) + (std::isfinite(c.mean) ? NumberText4(c.mean) + unit : "by numbers");
     if (std::isfinite(c.standard_error)) text += " ± " + NumberText4(c.standard_error);
     text += " (" + std::to_string(c.num_trials) + " fresh seeds, scale factor " +
             NumberText4(c.scale_factor) + ")";
@@ -126,10 +127,14 @@ CampaignResult ParseResult(const std::string& text) {
 
 std::string ResultSummary(const CampaignResult& r) {
   std::string text = r.name + ": recommended set\n" + ParameterLines(r);
-  text += "  predicted         " + NumberText4(r.predicted) + " " + r.objective_unit + " ± " +
-          NumberText4(r.predicted_sd) + "; one simulation scatters by " + NumberText4(r.noise_sd) +
-          "\n";
-  text += ConfirmedLines(r) + FloorLine(r);
+  const bool has_image = std::isfinite(r.predicted);
+  if (has_image) {
+    text += "  predicted         " + NumberText4(r.predicted) + " " + r.objective_unit + " ± " +
+            NumberText4(r.predicted_sd) + "; one simulation scatters by " +
+            NumberText4(r.noise_sd) + "\n";
+  }
+  text += ConfirmedLines(r);
+  if (has_image) text += FloorLine(r);
   text += r.posterior ? PosteriorLines(r)
                       : "  tied within noise " + NumberText4(100 * r.tied_volume) +
                             " % of the searched ranges\n";

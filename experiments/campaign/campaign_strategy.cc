@@ -85,7 +85,7 @@ optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Re
       // Not the processor time, which differs from run to run and would take proposals with it.
       .cost = static_cast<double>(trial.num_particles) * static_cast<double>(trial.num_steps) /
               kUsualSpeed,
-      .failed = trial.status != journal::TrialStatus::kOk || !value,
+      .failed = trial.status != journal::TrialStatus::kOk || !reference.IsMeasured(trial),
       .value = value.value_or(0),
       .field = std::move(field)};
   for (const journal::ScalarRecord& scalar : reference.scalars()) {

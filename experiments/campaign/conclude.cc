@@ -70,7 +70,9 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     if (auto profile = of.profile(trial->id)) profiles.push_back(std::move(*profile));
   }
   const Sample sample = SampleOf(objective);
-  confirmed.num_trials = sample.count;
+  confirmed.num_trials = static_cast<int>(std::count_if(
+      trials.begin(), trials.end(),
+      [&](const journal::TrialRecord* trial) { return reference.IsMeasured(*trial); }));
   confirmed.mean = sample.mean;
   confirmed.standard_error = sample.sd / std::sqrt(sample.count);
   confirmed.sad_mm2 = MeanMetric(trials, journal::InfoOf(journal::Objective::kSad).metric);
@@ -192,6 +194,7 @@ void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
+      if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
       const double across =
           heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
       if (across >= kAdvised) continue;
@@ -258,9 +261,12 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   result.objective = of.references.front().info().ValueKey();
   result.objective_unit = of.references.front().info().unit;
   AddParameters(*answer, planner, result);
-  result.predicted = answer->predicted_value;
-  result.predicted_sd = answer->predicted_sd;
-  result.noise_sd = answer->noise_sd;
+  if (std::any_of(of.references.begin(), of.references.end(),
+                  [](const Reference& r) { return r.has_image(); })) {
+    result.predicted = answer->predicted_value;
+    result.predicted_sd = answer->predicted_sd;
+    result.noise_sd = answer->noise_sd;
+  }
   result.noise_floor = of.campaign.experiments.front().noise_mm2;
   result.tied_volume = answer->tied_volume;
   for (std::size_t i = 0; i < std::min(answer->tied.size(), kMostTied); ++i) {

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "experiments/campaign/console.h"
-#include "experiments/rigs/lifted_tube/heap_rig.h"
+#include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
@@ -20,17 +20,17 @@ double MeasureSpeed(rigs::HeapCase heap_case, std::int64_t num_grains) {
   const double reduction = std::cbrt(static_cast<double>(num_grains) / kEnoughGrains);
   heap_case.coarse_graining.scale_factor *= std::max(1.0, reduction);
   heap_case.threads = 1;
-  rigs::HeapRig rig(heap_case);
+  const std::unique_ptr<rigs::Rig> rig = rigs::MakeRig(heap_case);
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   double seconds = 0;
   bool more = true;
-  const double before = rig.state().particle_steps;
+  const double before = rig->Progress().particle_steps;
   while (more && seconds < kSeconds) {
-    more = rig.Advance();
+    more = rig->Advance();
     seconds = std::chrono::duration<double>(Clock::now() - start).count();
   }
-  return (rig.state().particle_steps - before) / seconds;
+  return (rig->Progress().particle_steps - before) / seconds;
 }
 
 TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double scale_factor) {

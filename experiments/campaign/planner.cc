@@ -258,7 +258,7 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
 
 std::optional<optimizer::Answer> Planner::Recommend() {
   const bool any = std::any_of(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
-    return IsOfSearch(t) && t.status == journal::TrialStatus::kOk && ReferenceOf(t).Value(t);
+    return IsOfSearch(t) && t.status == journal::TrialStatus::kOk && ReferenceOf(t).IsMeasured(t);
   });
   if (!any) return std::nullopt;
   LeaveCoresToTrials();

@@ -45,10 +45,11 @@ int MethodOf(journal::Objective objective) {
 
 }  // namespace
 
-Reference::Reference(imaging::Profile aehp, ReferenceOptions options)
-    : aehp_{.profile = std::move(aehp), .parts = {}},
-      options_(std::move(options)),
-      region_(RegionThatMatters(aehp_.profile)) {
+Reference::Reference(std::optional<imaging::Profile> aehp, ReferenceOptions options)
+    : has_image_(aehp.has_value()), options_(std::move(options)) {
+  if (!aehp) return;
+  aehp_.profile = std::move(*aehp);
+  region_ = RegionThatMatters(aehp_.profile);
   if (!info().is_angle) return;
   const imaging::Measured angle = AngleOf(aehp_.profile.image);
   if (!angle.defined()) {
@@ -60,7 +61,7 @@ Reference::Reference(imaging::Profile aehp, ReferenceOptions options)
 }
 
 imaging::Measured Reference::AngleOf(const imaging::GrayImage& image) const {
-  const auto angles = imaging::MeasureRepose(image, frame(), options_.metrics.repose);
+  const auto angles = imaging::MeasureRepose(image, aehp_.profile.frame, options_.metrics.repose);
   imaging::Measured angle =
       angles.at(static_cast<std::size_t>(MethodOf(options_.objective)) - 1).mean;
   angle.value *= 180 / std::numbers::pi;
@@ -69,7 +70,9 @@ imaging::Measured Reference::AngleOf(const imaging::GrayImage& image) const {
 
 std::vector<journal::MetricRecord> Reference::Measure(const imaging::GrayImage& profile) const {
   std::vector<journal::MetricRecord> records;
-  const imaging::HeapImages heap{.profile = {.image = profile, .frame = frame()}, .parts = {}};
+  if (!has_image_) return records;
+  const imaging::HeapImages heap{.profile = {.image = profile, .frame = aehp_.profile.frame},
+                                 .parts = {}};
   for (const imaging::Metric& metric : imaging::CompareProfiles(heap, aehp_, options_.metrics)) {
     records.push_back({.name = metric.name,
                        .value = metric.value.value,
@@ -79,7 +82,15 @@ std::vector<journal::MetricRecord> Reference::Measure(const imaging::GrayImage& 
   return records;
 }
 
+bool Reference::IsMeasured(const journal::TrialRecord& trial) const {
+  if (has_image_) return Value(trial).has_value();
+  return std::any_of(scalars().begin(), scalars().end(), [&](const journal::ScalarRecord& scalar) {
+    return trial.Metric(scalar.name).has_value();
+  });
+}
+
 std::optional<double> Reference::Value(const journal::TrialRecord& trial) const {
+  if (!has_image_) return std::nullopt;
   const std::optional<double> value = trial.Metric(info().metric);
   if (!value) return value;
   return info().Value(*value, angle_);
@@ -98,7 +109,8 @@ std::vector<float> Reference::Field(const imaging::GrayImage& profile) const {
 }
 
 optimizer::FieldObjective Reference::MakeFieldObjective() const {
-  const double pixel_mm = 1e3 * frame().pixel_size;
+  if (!has_image_) return {};
+  const double pixel_mm = 1e3 * aehp_.profile.frame.pixel_size;
   optimizer::FieldObjective objective{.width = region_.width,
                                       .height = region_.height,
                                       .target = Field(aehp_.profile.image),
@@ -114,7 +126,8 @@ optimizer::FieldObjective Reference::MakeFieldObjective() const {
 }
 
 imaging::GrayImage Reference::ImageOf(std::span<const float> field) const {
-  imaging::GrayImage image{.width = frame().width, .height = frame().height, .pixels = {}};
+  imaging::GrayImage image{
+      .width = aehp_.profile.frame.width, .height = aehp_.profile.frame.height, .pixels = {}};
   image.pixels.assign(aehp_.profile.image.pixels.size(), 255);
   std::size_t i = 0;
   for (int y = 0; y < region_.height; ++y) {

@@ -22,17 +22,24 @@ struct ReferenceOptions {
 
 class Reference {
  public:
-  // Throws ConfigError when the experiment has no such angle of repose.
-  Reference(imaging::Profile aehp, ReferenceOptions options);
+  // Without an image where the experiment has measured numbers only. Throws ConfigError when the
+  // experiment has no such angle of repose.
+  Reference(std::optional<imaging::Profile> aehp, ReferenceOptions options);
 
-  const imaging::Frame& frame() const { return aehp_.profile.frame; }
+  bool has_image() const { return has_image_; }
+  std::optional<imaging::Frame> frame() const {
+    return has_image_ ? std::optional(aehp_.profile.frame) : std::nullopt;
+  }
   const std::vector<journal::ScalarRecord>& scalars() const { return options_.scalars; }
 
-  // Every metric of a trial's profile.
+  // Every metric of a trial's profile; none without an image.
   std::vector<journal::MetricRecord> Measure(const imaging::GrayImage& profile) const;
 
   // What is minimised, or nothing where it is not defined.
   std::optional<double> Value(const journal::TrialRecord& trial) const;
+
+  // Whether the trial says anything of this experiment.
+  bool IsMeasured(const journal::TrialRecord& trial) const;
 
   const journal::ObjectiveInfo& info() const {
     return journal::InfoOf(options_.objective);
@@ -49,7 +56,8 @@ class Reference {
   double ValueOfField(std::span<const float> field) const;
   imaging::Measured AngleOf(const imaging::GrayImage& image) const;  // in degrees
 
-  imaging::HeapImages aehp_;
+  bool has_image_ = false;
+  imaging::HeapImages aehp_;  // empty without an image
   ReferenceOptions options_;
   imaging::Region region_;
   double angle_ = 0;  // of the experiment, for an angle objective [deg]

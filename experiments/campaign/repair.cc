@@ -82,7 +82,7 @@ journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
-    experiment.aehp_png = base::ReadFile(place / kAehp);
+    experiment.aehp_png = IfThere(place / kAehp);
     experiment.aehp_sd_png = IfThere(place / kAehpSd);
     for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
       experiment.runs[r].png = base::ReadFile(place / RunFile(r));
@@ -113,7 +113,7 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
     const journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
     std::filesystem::create_directories(place);
-    base::WriteFileAtomically(place / kAehp, experiment.aehp_png);
+    if (!experiment.aehp_png.empty()) base::WriteFileAtomically(place / kAehp, experiment.aehp_png);
     if (!experiment.aehp_sd_png.empty()) {
       base::WriteFileAtomically(place / kAehpSd, experiment.aehp_sd_png);
     }

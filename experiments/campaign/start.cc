@@ -31,6 +31,32 @@ std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpa
   return records;
 }
 
+void AddImages(const ExperimentSpec& spec, journal::ExperimentRecord& record) {
+  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
+  for (const imaging::PhotoWarning& warning : experiment.warnings) {
+    std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
+  }
+  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
+  if (!experiment.standard_deviation.pixels.empty()) {
+    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
+  }
+  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
+  record.nebp_px = imaging::Nebp(experiment.aehp.image);
+  record.num_heaps =
+      experiment.runs.empty() ? spec.images.map_heaps : static_cast<int>(experiment.runs.size());
+  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
+  for (const imaging::Metric& metric : experiment.metrics) {
+    record.reference.push_back({.name = metric.name,
+                                .value = metric.value.value,
+                                .unit = metric.unit,
+                                .undefined = metric.value.not_defined,
+                                .standard_error = metric.value.standard_error});
+  }
+  for (const imaging::MeasuredRun& run : experiment.runs) {
+    record.runs.push_back({.name = run.name, .png = imaging::EncodePng(run.profile.image)});
+  }
+}
+
 // The journal, or a new one from what the folder keeps beside it.
 journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
   const std::filesystem::path path = journal::JournalPath(folder.root);
@@ -124,31 +150,9 @@ std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spe
 }
 
 journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
-  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
-  for (const imaging::PhotoWarning& warning : experiment.warnings) {
-    std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
-  }
   journal::ExperimentRecord record;
   record.name = spec.name;
-  record.aehp_png = imaging::EncodePng(experiment.aehp.image);
-  if (!experiment.standard_deviation.pixels.empty()) {
-    record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
-  }
-  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
-  record.nebp_px = imaging::Nebp(experiment.aehp.image);
-  record.num_heaps =
-      experiment.runs.empty() ? spec.images.map_heaps : static_cast<int>(experiment.runs.size());
-  if (experiment.noise_floor) record.noise_mm2 = experiment.noise_floor->mean_sad_mm2;
-  for (const imaging::Metric& metric : experiment.metrics) {
-    record.reference.push_back({.name = metric.name,
-                                .value = metric.value.value,
-                                .unit = metric.unit,
-                                .undefined = metric.value.not_defined,
-                                .standard_error = metric.value.standard_error});
-  }
-  for (const imaging::MeasuredRun& run : experiment.runs) {
-    record.runs.push_back({.name = run.name, .png = imaging::EncodePng(run.profile.image)});
-  }
+  if (spec.images.HasImages()) AddImages(spec, record);
   for (const ScalarSpec& scalar : ScalarsOf(spec)) {
     record.scalars.push_back(
         {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
@@ -225,14 +229,16 @@ std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
   std::vector<Reference> references;
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     const journal::ExperimentRecord& experiment = record.experiments[e];
-    references.emplace_back(imaging::Profile{.image = imaging::DecodeGrayImage(
-                                                 experiment.aehp_png, "the journal's AEHP"),
-                                             .frame = journal::ParseRecord<imaging::Frame>(
-                                                 experiment.frame_json, "the journal's frame")},
-                            ReferenceOptions{.metrics = specs.at(e).images.metrics,
-                                             .objective = spec.objective,
-                                             .num_heaps = experiment.num_heaps,
-                                             .scalars = experiment.scalars});
+    std::optional<imaging::Profile> aehp;
+    if (!experiment.aehp_png.empty()) {
+      aehp = {.image = imaging::DecodeGrayImage(experiment.aehp_png, "the journal's AEHP"),
+              .frame = journal::ParseRecord<imaging::Frame>(experiment.frame_json,
+                                                            "the journal's frame")};
+    }
+    references.emplace_back(std::move(aehp), ReferenceOptions{.metrics = specs.at(e).images.metrics,
+                                                              .objective = spec.objective,
+                                                              .num_heaps = experiment.num_heaps,
+                                                              .scalars = experiment.scalars});
   }
   return references;
 }
@@ -241,9 +247,11 @@ std::vector<float> StoredField(journal::Journal& journal, const CampaignFolder& 
                                const std::vector<Reference>& references,
                                const journal::TrialRecord& trial) {
   if (trial.status != journal::TrialStatus::kOk || !IsOfSearch(trial)) return {};
+  const Reference& reference = references[static_cast<std::size_t>(trial.experiment)];
+  if (!reference.has_image()) return {};
   const auto profile = StoredProfile(journal, folder, trial.id);
   if (!profile) return {};
-  return references[static_cast<std::size_t>(trial.experiment)].Field(*profile);
+  return reference.Field(*profile);
 }
 
 std::optional<imaging::GrayImage> StoredProfile(journal::Journal& journal,

@@ -49,6 +49,7 @@ struct Kind {
 std::string BestLine(const std::vector<journal::TrialRecord>& trials,
                      const journal::CampaignRecord& campaign, const Reference& reference,
                      const Kind& kind) {
+  if (!reference.has_image()) return "none, it has numbers only\n";
   const journal::TrialRecord* best = nullptr;
   double best_value = 0;
   for (const journal::TrialRecord& trial : trials) {

@@ -60,7 +60,7 @@ struct ExperimentOptions {
           {.doc = "of how many heaps (runs, not views) the map is the average, 1 or more: what is "
                   "not known of the mean heap widens the credible ranges"});
     visit("plate_diameter", self.plate_diameter,
-          {.dimension = Dimension::kLength, .required = true, .doc = "plate diameter, > 0"});
+          {.dimension = Dimension::kLength, .doc = "plate diameter, > 0; needed with images"});
     visit("frame", self.frame, {.doc = "where the plate is, instead of finding it in the images"});
     visit("tilt", self.tilt,
           {.dimension = Dimension::kAngle,
@@ -79,6 +79,8 @@ struct ExperimentOptions {
     visit("metrics", self.metrics, {.doc = "how the profiles are measured"});
   }
   void Validate(base::Problems& problems) const;
+  // Whether it names images at all.
+  bool HasImages() const { return !photos.empty() || !runs.empty() || !map.empty(); }
   LightOptions light() const { return {.threshold = threshold, .powder = powder}; }
 };
 

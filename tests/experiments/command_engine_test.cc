@@ -94,6 +94,47 @@ TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
   EXPECT_THAT(Text("trial/case.json"), HasSubstr("\"command\""));
 }
 
+// Of any rig: its keys are placeholders, its numbers stand in a file.
+TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
+  rigs::HeapCase drum = SmallCase();
+  drum.rig.emplace().kind = rigs::RigKind::kDrum;
+  drum.rig->drum = {.diameter = 0.02, .width = 0.01, .speed = 2};
+  drum.frame.reset();
+  const auto scalars_of = [&] {
+    CommandEngine engine(options_);
+    fs::remove_all(root_ / "trial");
+    SimulateCommandCase({.heap = drum, .engine = options_}, root_ / "trial", false);
+    return engine.Collect(drum, root_ / "trial").scalars;
+  };
+  Deck("run.sh", R"(echo '{"angle_deg": {{ rig_speed }}5, "angle_sd_deg": null}' >scalars.json)");
+  const auto json = scalars_of();
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0].value, 25);
+  EXPECT_EQ(json[0].unit, "deg");
+  EXPECT_THAT(json[1].undefined, HasSubstr("gives no value"));
+  Deck("run.sh", "printf 'name,value\\nangle_deg, 31.5\\nnum_avalanches,4\\n' >scalars.csv");
+  const auto csv = scalars_of();
+  ASSERT_EQ(csv.size(), 2u);
+  EXPECT_EQ(csv[0].value, 31.5);
+  EXPECT_EQ(csv[1].unit, "-");
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("\"angle_deg\": 31.5"));
+  Deck("run.sh", "echo 'angle_deg;3' >scalars.csv");
+  EXPECT_THROW(scalars_of(), base::Error);
+  Deck("run.sh", "true");  // neither numbers nor a result
+  EXPECT_THROW(scalars_of(), base::Error);
+}
+
+TEST_F(CommandEngineTest, ANumberThatTheCommandGivesCounts) {
+  Deck("run.sh",
+       "echo 'x,y,z,r' >heap.csv; echo '0,0,1e-3,1e-3' >>heap.csv;"
+       "echo 'mass_fallen_kg,7e-6' >scalars.csv");
+  Run();
+  const TrialOutput output = CommandEngine(options_).Collect(SmallCase(), root_ / "trial");
+  ASSERT_EQ(output.scalars.size(), 2u);
+  EXPECT_EQ(output.scalars[0].name, "mass_on_plate_kg");
+  EXPECT_EQ(output.scalars[1].value, 7e-6);
+}
+
 TEST_F(CommandEngineTest, OwnImageIsTakenAsTheProfile) {
   Deck("run.sh", "cp prepared.png profile.png\n");
   imaging::GrayImage image{.width = 40, .height = 30, .pixels = {}};

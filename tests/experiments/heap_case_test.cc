@@ -90,10 +90,10 @@ TEST(HeapCase, ADeviceThatCannotHoldTheMassIsRefused) {
 TEST(HeapScene, CoarseGrainingScalesDiametersAndSurfaceEnergyAndKeepsTheMass) {
   HeapCase heap_case = LoadHeapCase(kExample);
   heap_case.powder.material.surface_energy = 1e-4;
-  const HeapScene fine = MakeHeapScene(heap_case);
+  const FilledScene fine = MakeHeapScene(heap_case);
   heap_case.coarse_graining.scale_factor = 2;
-  const HeapScene coarse = MakeHeapScene(heap_case);
-  const auto mass = [&](const HeapScene& made) {
+  const FilledScene coarse = MakeHeapScene(heap_case);
+  const auto mass = [&](const FilledScene& made) {
     double volume = 0;
     for (const engine::Particle& p : made.scene.particles) volume += std::pow(p.radius, 3);
     return 4.0 / 3 * std::numbers::pi * volume * heap_case.powder.material.density;

@@ -277,11 +277,11 @@ TEST(PouredHeap, SoftGrainsFromAHeightAreRefusedWithWhatHolds) {
   c.filling.drop_height = 67e-3;
   EXPECT_EQ(problems_of(c), "");
   c.powder.material.youngs_modulus = 2e4;
-  EXPECT_GT(ImpactShare(c), kMaxImpactShare);
+  EXPECT_GT(ImpactShare(c, TubeOf(c)), kMaxImpactShare);
   EXPECT_NE(problems_of(c).find("filling.drop_height: lets grains sink"), std::string::npos);
-  const double share = ImpactShare(c);
+  const double share = ImpactShare(c, TubeOf(c));
   c.powder.material.youngs_modulus *= 32;
-  EXPECT_NEAR(ImpactShare(c) / share, 0.25, 1e-6);
+  EXPECT_NEAR(ImpactShare(c, TubeOf(c)) / share, 0.25, 1e-6);
   c.filling.mouth_diameter = 10e-3;
   EXPECT_NE(problems_of(c).find("must be below device.tube_inner_diameter"), std::string::npos);
   c.filling.kind = FillingKind::kDense;

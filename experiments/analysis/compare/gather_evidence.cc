@@ -140,11 +140,16 @@ std::string SeedsText(const std::vector<TrialEvidence>& trials) {
 }
 
 std::size_t ExperimentNamed(const journal::CampaignRecord& record, const std::string& name) {
-  if (name.empty()) return 0;
   std::string names;
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
-    if (record.experiments[e].name == name) return e;
+    const journal::ExperimentRecord& experiment = record.experiments[e];
+    if (name.empty() ? !experiment.aehp_png.empty() : experiment.name == name) return e;
     names += (e == 0 ? "\"" : ", \"") + record.experiments[e].name + "\"";
+  }
+  if (name.empty()) {
+    throw base::ConfigError(
+        "the campaign's experiments have numbers only, and no images to compare; `talus status` "
+        "shows its answer, `talus export` writes its trials");
   }
   throw base::ConfigError("the campaign has no experiment \"" + name + "\"; it has " + names);
 }
@@ -173,6 +178,11 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   }
   const std::size_t index = ExperimentNamed(record, experiment);
   const journal::ExperimentRecord& compared_with = record.experiments.at(index);
+  if (compared_with.aehp_png.empty()) {
+    throw base::ConfigError("experiment \"" + compared_with.name +
+                            "\" has numbers only, and no image to compare; name another with "
+                            "--experiment");
+  }
   std::vector<journal::TrialRecord> trials = journal->Trials();
   std::erase_if(trials, [&](const journal::TrialRecord& t) {
     return static_cast<std::size_t>(t.experiment) != index;

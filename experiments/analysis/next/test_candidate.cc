@@ -76,8 +76,7 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
   campaign::CampaignSpec spec = view.spec;
   campaign::ExperimentSpec only = FirstOf(view);
   only.name = test.name;
-  only.mass_fallen.reset();
-  only.mass_on_plate.reset();
+  only.numbers = {};
   if (test.device) only.device = test.device;
   if (test.rules) only.rules = test.rules;
   spec.experiment.reset();
@@ -85,9 +84,18 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
   return spec;
 }
 
+// Of the first experiment that has an image.
+imaging::Frame ImageFrame(const campaign::JointView& view) {
+  for (const campaign::Reference& reference : view.references) {
+    if (reference.has_image()) return reference.frame().value();
+  }
+  throw base::ConfigError(view.folder.root.string() +
+                          ": its experiments have numbers only; `talus next` looks at images");
+}
+
 imaging::Frame FrameOf(const campaign::JointView& view, const TestCandidate& test) {
   constexpr double kMargin = 0.1;  // of the plate diameter, on either side
-  imaging::Frame frame = view.references.front().frame();
+  imaging::Frame frame = ImageFrame(view);
   if (test.device) frame.plate_diameter = test.device->plate_diameter;
   const double width = (1 + 2 * kMargin) * frame.plate_diameter / frame.pixel_size;
   frame.width = static_cast<int>(std::ceil(width));

@@ -1,12 +1,12 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
 #include <cmath>
-#include <set>
 
 #include "base/error.h"
 #include "base/json_reader.h"
 #include "base/json_writer.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "imaging/spheres/projection.h"
 
@@ -90,27 +90,6 @@ void CompleteDefaults(CampaignSpec& spec, const nlohmann::json& root) {
   if (several && spec.IsJoint() && !IsGiven(root, "noise", "replicates")) spec.noise.replicates = 0;
 }
 
-void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
-  problems.Require(spec.experiment || spec.experiments, "experiment", "is missing");
-  problems.Require(!spec.experiment || !spec.experiments, "experiments",
-                   "stands beside experiment: give one of the two");
-  if (!spec.experiments) return;
-  problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
-  std::set<std::string> names;
-  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
-  for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
-    const ExperimentSpec& e = all[i];
-    const std::string place = "experiments[" + std::to_string(i) + "]";
-    problems.Require(names.insert(e.name).second, place + ".name",
-                     "\"" + e.name + "\" stands there twice: results could not tell them apart");
-    const double plate = e.device->plate_diameter;
-    problems.Require(std::abs(e.images.plate_diameter - plate) <= 0.01 * plate,
-                     place + ".plate_diameter", e.images.plate_diameter,
-                     "is not the device's plate_diameter: the images are of another test, or the "
-                     "experiment needs a device of its own");
-  }
-}
-
 // What shows only when it is put together, such as a tube that cannot hold the mass.
 void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
@@ -119,6 +98,7 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
       const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
       heap_case.Validate(problems);
       if (!problems.empty()) return;  // the same for every scale factor
+      if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
       const double across =
           heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
       problems.Require(across >= kFewestAcross, "coarse_graining",
@@ -213,7 +193,9 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
     list.push_back(std::move(only));
   }
   for (ExperimentSpec& experiment : list) {
+    if (!experiment.rig) experiment.rig = spec.rig;
     if (!experiment.device) experiment.device = spec.device;
+    if (!experiment.filling) experiment.filling = spec.filling;
     if (!experiment.rules) experiment.rules = spec.rules;
   }
   return list;
@@ -266,17 +248,18 @@ optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec) {
 }
 
 rigs::HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
-                      const imaging::Frame& frame) {
+                      const std::optional<imaging::Frame>& frame) {
   rigs::HeapCase heap_case;
   heap_case.powder = spec.powder;
   const ExperimentSpec experiment =
       ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
+  heap_case.rig = experiment.rig;
   heap_case.device = *experiment.device;
   heap_case.models = spec.models;
   heap_case.coarse_graining = {
       .scale_factor = settings.scale_factor,
       .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent};
-  heap_case.filling = spec.filling;
+  heap_case.filling = *experiment.filling;
   heap_case.rules = *experiment.rules;
   heap_case.gravity = spec.gravity;
   heap_case.rayleigh_fraction = spec.rayleigh_fraction;
@@ -299,7 +282,8 @@ rigs::HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scal
       spec,
       {.values = values, .seed = spec.seed, .scale_factor = scale_factor, .experiment = experiment},
       {});
-  heap_case.frame = {.pixel_size = 1e-4, .plate_diameter = heap_case.device.plate_diameter};
+  heap_case.frame = imaging::Frame{.pixel_size = 1e-4,
+                                   .plate_diameter = rigs::EntryOf(heap_case).width(heap_case)};
   return heap_case;
 }
 

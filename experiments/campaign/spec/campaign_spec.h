@@ -23,6 +23,7 @@ namespace talus::campaign {
 struct CampaignSpec {
   std::string name;
   rigs::Powder powder;
+  std::optional<rigs::RigOptions> rig{};  // default: the lifted tube
   rigs::Device device;
   engine::ContactModels models;
   GrainSizes coarse_graining;
@@ -56,6 +57,7 @@ struct CampaignSpec {
     using base::Dimension;
     visit("name", self.name, {.doc = "for people; default: the file's name"});
     visit("powder", self.powder, {.required = true, .doc = "what is heaped"});
+    visit("rig", self.rig, {.doc = "kind of bulk test (docs/rigs.md); default: the lifted tube"});
     visit("device", self.device, {.doc = "tube and plate"});
     visit("models", self.models, {.doc = "contact laws"});
     visit("coarse_graining", self.coarse_graining, {.doc = "fewer, larger grains"});
@@ -116,8 +118,12 @@ CampaignSpec ParseSpecText(const std::string& text);
 // What is searched.
 optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec);
 
-// The campaign's experiments, one at least, each with its device and rules filled in.
+// The campaign's experiments, one at least, each with its rig, device, filling and rules filled
+// in.
 std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec);
+
+// Why the experiment does not go together with its rig and the others; a rule a problem.
+void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems);
 
 // The case of a trial: `values` of all of the space's parameters, in its order.
 struct TrialSettings {
@@ -127,7 +133,7 @@ struct TrialSettings {
   int experiment = 0;
 };
 rigs::HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
-                      const imaging::Frame& frame);
+                      const std::optional<imaging::Frame>& frame);
 
 // A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
 rigs::HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);

@@ -1,5 +1,6 @@
-// One of a campaign's experiments as its user writes it: photographs or a map of a heap, the device
-// that it was made with where that is not the campaign's, and numbers that were measured beside.
+// One of a campaign's experiments as its user writes it: photographs or a map, or numbers that were
+// measured, or both; and the rig and device that it was made with where those are not the
+// campaign's.
 #pragma once
 
 #include <optional>
@@ -8,37 +9,23 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/campaign/spec/measured_numbers.h"
 #include "experiments/rigs/lifted_tube/device.h"
+#include "experiments/rigs/lifted_tube/filling_rule.h"
 #include "experiments/rigs/lifted_tube/heap_rules.h"
+#include "experiments/rigs/rig_options.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
 
-// A mass from a balance, with the error of what is given (of the mean, where it is a mean).
-struct MeasuredMass {
-  double value = 0;           // [kg], >= 0
-  double standard_error = 0;  // [kg], > 0
-
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    using base::Dimension;
-    visit("value", self.value,
-          {.dimension = Dimension::kMass, .required = true, .doc = "what was weighed, >= 0"});
-    visit("sd", self.standard_error,
-          {.dimension = Dimension::kMass,
-           .required = true,
-           .doc = "standard error of the value given, > 0"});
-  }
-  void Validate(base::Problems& problems) const;
-};
-
 struct ExperimentSpec {
   std::string name;
   imaging::ExperimentOptions images;
-  std::optional<rigs::Device> device{};    // default: the campaign's
-  std::optional<rigs::HeapRules> rules{};  // default: the campaign's
-  std::optional<MeasuredMass> mass_on_plate{};
-  std::optional<MeasuredMass> mass_fallen{};
+  std::optional<rigs::Device> device{};        // default: the campaign's
+  std::optional<rigs::HeapRules> rules{};      // default: the campaign's
+  std::optional<rigs::RigOptions> rig{};       // default: the campaign's
+  std::optional<rigs::FillingRule> filling{};  // default: the campaign's
+  MeasuredNumbers numbers;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -46,18 +33,15 @@ struct ExperimentSpec {
     imaging::ExperimentOptions::Visit(self.images, visit);
     visit("device", self.device, {.doc = "tube and plate, instead of the campaign's device"});
     visit("rules", self.rules, {.doc = "when each phase ends, instead of the campaign's rules"});
-    visit("mass_on_plate", self.mass_on_plate, {.doc = "of the heap that stays on the plate"});
-    visit("mass_fallen", self.mass_fallen, {.doc = "of the powder that fell over the rim"});
+    visit("rig", self.rig, {.doc = "kind of bulk test, instead of the campaign's rig"});
+    visit("filling", self.filling, {.doc = "how the powder gets in, instead of the campaign's"});
+    MeasuredNumbers::Visit(self.numbers, visit);
   }
   void Validate(base::Problems& problems) const;
 };
 
-// A number of an experiment under the name of the metric that trials are measured by.
-struct ScalarSpec {
-  std::string metric;  // "mass_fallen_kg"
-  double value = 0;
-  double standard_error = 0;
-};
-std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment);
+inline std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment) {
+  return ScalarsOf(experiment.numbers);
+}
 
 }  // namespace talus::campaign

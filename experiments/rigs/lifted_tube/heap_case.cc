@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/scene/filling.h"
 #include "engine/scene/scene.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
+#include "experiments/rigs/rig_list.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
@@ -105,17 +105,18 @@ void HeapOutputs::Validate(base::Problems& problems) const {
 
 namespace {
 
-// A grain that sinks too deeply into what it falls on would be pressed through the plate.
-void ValidatePour(const HeapCase& c, base::Problems& problems) {
+// A grain that sinks too deeply into what it falls on would be pressed through the floor.
+void ValidatePour(const HeapCase& c, const Vessel& vessel, base::Problems& problems) {
   const double largest =
       c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
-  const double mouth = c.filling.mouth_diameter.value_or(c.device.tube_inner_diameter / 2);
-  problems.Require(mouth < c.device.tube_inner_diameter, "filling.mouth_diameter", mouth,
-                   "must be below device.tube_inner_diameter");
+  const double mouth = c.filling.mouth_diameter.value_or(vessel.across / 2);
+  problems.Require(mouth < vessel.across, "filling.mouth_diameter", mouth,
+                   KindOf(c) == RigKind::kLiftedTube ? "must be below device.tube_inner_diameter"
+                                                     : "must be below the width of the vessel");
   problems.Require(!c.filling.mouth_diameter || mouth > 2 * largest, "filling.mouth_diameter",
                    mouth, "must be above two (scaled) grain diameters");
   if (!problems.empty()) return;
-  const double share = ImpactShare(c);
+  const double share = ImpactShare(c, vessel);
   if (share <= kMaxImpactShare) return;
   // (δ/R)^(5/2) goes with v²/E, and v² nearly with the height.
   const double ratio = std::pow(share / kMaxImpactShare, 2.5);
@@ -144,13 +145,14 @@ void HeapCase::Validate(base::Problems& problems) const {
   problems.Require(too_many.empty(), "powder.mass", too_many);
   problems.Require(size.num_grains >= 1, "powder.mass", powder.mass,
                    "is less than one grain; the coarse graining may be too strong");
-  problems.Require(3 * largest < device.tube_inner_diameter, "device.tube_inner_diameter",
-                   device.tube_inner_diameter, "must be above three (scaled) grain diameters");
-  problems.Require(size.filled_height <= device.tube_length.value_or(size.filled_height),
-                   "device.tube_length", device.tube_length.value_or(0),
-                   "cannot hold the mass, which fills " + std::to_string(size.filled_height) +
-                       " m; leave it out or lengthen the tube");
-  if (problems.empty() && filling.kind == FillingKind::kPour) ValidatePour(*this, problems);
+  const RigEntry& entry = EntryOf(*this);
+  const Vessel vessel = entry.vessel(*this);
+  problems.Require(3 * largest < vessel.across, rig ? "rig" : "device.tube_inner_diameter",
+                   vessel.across, "must be above three (scaled) grain diameters");
+  entry.validate(*this, problems);
+  if (problems.empty() && filling.kind == FillingKind::kPour) {
+    ValidatePour(*this, vessel, problems);
+  }
 }
 
 HeapSize EstimateHeap(const HeapCase& c) {
@@ -158,16 +160,16 @@ HeapSize EstimateHeap(const HeapCase& c) {
   const engine::SizeCurve curve(c.powder.sizes);
   const double f = c.coarse_graining.scale_factor;
   const double volume = c.powder.mass / c.powder.material.density;
-  const double area = std::numbers::pi / 4 * std::pow(c.device.tube_inner_diameter, 2);
+  const RigEntry& entry = EntryOf(c);
   HeapSize size;
   size.grains = volume / (f * f * f * curve.mean_volume());
   size.num_grains = std::llround(std::min(size.grains, 1e18));
   size.mean_diameter = f * curve.VolumeQuantile(0.5);
   size.time_step =
       c.rayleigh_fraction * engine::RayleighTime(c.powder.material, f * curve.smallest() / 2);
-  size.filled_height = volume / (kSettled * area);
+  size.filled_height = volume / (kSettled * entry.vessel(c).area);
   constexpr double kStill = 0.1;  // settling and coming to rest, as seen in runs [s]
-  size.simulated_time = kStill + size.filled_height / c.device.lift_velocity;
+  size.simulated_time = kStill + entry.test_time(c, size.filled_height);
   if (c.filling.taps) size.simulated_time += c.filling.taps->count * c.filling.taps->interval;
   return size;
 }

@@ -1,4 +1,5 @@
-// One lifted-cylinder heap test (docs/physics.md, 7 and 8): all that is needed to simulate it.
+// One bulk test, by default the lifted-cylinder heap test (docs/physics.md, 7 and 8): all that is
+// needed to simulate it.
 //
 // A campaign's spec embeds the same structs, so that a powder is described in one way everywhere.
 #pragma once
@@ -17,6 +18,7 @@
 #include "experiments/rigs/lifted_tube/filling_rule.h"
 #include "experiments/rigs/lifted_tube/heap_rules.h"
 #include "experiments/rigs/lifted_tube/powder.h"
+#include "experiments/rigs/rig_options.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::rigs {
@@ -40,10 +42,11 @@ struct HeapOutputs {
 // Largest Δt / t_R at which heaps were seen to be the same as at 0.15 (docs/validation.md) [-].
 inline constexpr double kHeapRayleighFraction = 0.30;
 
-// The whole of a case.json. Running it gives the same heap anywhere with one build.
+// The whole of a case.json. Running it gives the same grains anywhere with one build.
 struct HeapCase {
   Powder powder;
-  Device device;
+  std::optional<RigOptions> rig{};  // default: the lifted tube
+  Device device;  // of other rigs than the lifted tube: the materials of walls and floor only
   engine::ContactModels models;
   CoarseGraining coarse_graining;
   FillingRule filling;
@@ -61,7 +64,11 @@ struct HeapCase {
   static void Visit(Self& self, Visitor&& visit) {
     using base::Dimension;
     visit("powder", self.powder, {.required = true});
-    visit("device", self.device);
+    visit("rig", self.rig, {.doc = "kind of bulk test (docs/rigs.md); default: the lifted tube"});
+    visit(
+        "device", self.device,
+        {.doc = "of the lifted tube; other rigs take the materials: tube_material for their walls, "
+                "plate_material for their floor"});
     visit("models", self.models);
     visit("coarse_graining", self.coarse_graining);
     visit("filling", self.filling, {.doc = "how the powder gets into the tube"});
@@ -81,6 +88,11 @@ struct HeapCase {
   }
   void Validate(base::Problems& problems) const;
 };
+
+// The lifted tube where none is named.
+inline RigKind KindOf(const HeapCase& heap_case) {
+  return heap_case.rig ? heap_case.rig->kind : RigKind::kLiftedTube;
+}
 
 // Reads, completes (a size file's content moves into the struct) and validates a case; throws one
 // ConfigError with everything that is wrong.

@@ -6,9 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/run/resisted_spins.h"
 #include "engine/wall_motion.h"
+#include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
+#include "experiments/rigs/pace.h"
 
 namespace talus::rigs {
 namespace {
@@ -34,13 +35,6 @@ std::int64_t Remove(const std::vector<std::int64_t>& ids, engine::Simulation& si
       [&](const Particle& p) { return std::binary_search(ids.begin(), ids.end(), p.id); });
 }
 
-// Grains fall an eighth of a diameter between two checks.
-std::int64_t CheckSteps(const HeapCase& heap_case, double time_step) {
-  const double interval =
-      0.5 * std::sqrt(EstimateHeap(heap_case).mean_diameter / heap_case.gravity);
-  return std::max<std::int64_t>(1, std::llround(interval / time_step));
-}
-
 }  // namespace
 
 HeapRig::HeapRig(const HeapCase& heap_case, const HeapState& state, engine::Simulation simulation)
@@ -48,18 +42,18 @@ HeapRig::HeapRig(const HeapCase& heap_case, const HeapState& state, engine::Simu
       simulation_(std::move(simulation)),
       state_(state),
       check_steps_(CheckSteps(heap_case, simulation_.time_step())) {
-  if (case_.filling.kind == FillingKind::kPour) pour_ = MakePour(case_);
+  if (case_.filling.kind == FillingKind::kPour) pour_ = MakePour(case_, TubeOf(case_));
   leave_height_ = -case_.rules.leave_depth * case_.coarse_graining.scale_factor *
                   engine::SizeCurve(case_.powder.sizes).largest();
 }
 
-HeapRig::HeapRig(const HeapCase& heap_case, const HeapScene& made)
+HeapRig::HeapRig(const HeapCase& heap_case, const FilledScene& made)
     : HeapRig(heap_case, {}, engine::Simulation(made.scene)) {
   if (pour_) {
     state_.phase = HeapPhase::kPouring;
     state_.filled_height = EstimateHeap(case_).filled_height;
     Say(Format("pouring %zu grains, %.4g mm deep, at %.4g g/s", pour_->plan().radii.size(),
-               1e3 * DropHeight(case_), 1e3 * pour_->plan().rate));
+               1e3 * DropHeight(case_, TubeOf(case_)), 1e3 * pour_->plan().rate));
     return;
   }
   state_.filled_height = made.filling.height;
@@ -73,6 +67,16 @@ HeapRig::HeapRig(const HeapCase& heap_case, const HeapScene& made)
 
 HeapRig::HeapRig(const HeapCase& heap_case) : HeapRig(heap_case, MakeHeapScene(heap_case)) {}
 
+HeapState HeapRig::ParseState(const std::string& line) { return ParseHeapState(line); }
+
+void HeapRig::Validate(const HeapCase& c, base::Problems& problems) {
+  const double filled_height = EstimateHeap(c).filled_height;
+  problems.Require(filled_height <= c.device.tube_length.value_or(filled_height),
+                   "device.tube_length", c.device.tube_length.value_or(0),
+                   "cannot hold the mass, which fills " + std::to_string(filled_height) +
+                       " m; leave it out or lengthen the tube");
+}
+
 bool HeapRig::Advance(double until) {
   if (state_.phase == HeapPhase::kEnded) return false;
   if (state_.phase == HeapPhase::kPouring) {
@@ -80,10 +84,7 @@ bool HeapRig::Advance(double until) {
     until = std::min(until, pour_->NextTime(state_.pour));
   }
   const std::int64_t num_particles = simulation_.num_particles();
-  const double to_go = std::ceil((until - simulation_.time()) / simulation_.time_step());
-  std::int64_t steps = check_steps_ - simulation_.step() % check_steps_;
-  steps = std::min(steps, engine::SliceSteps(num_particles));
-  if (to_go < static_cast<double>(steps)) steps = std::max(1, static_cast<int>(to_go));
+  const std::int64_t steps = StepsOfSlice(simulation_, check_steps_, until);
   simulation_.Advance(steps);
   state_.particle_steps += static_cast<double>(steps) * static_cast<double>(num_particles);
   Record().steps += steps;
@@ -217,16 +218,12 @@ HeapRig::View HeapRig::LookWithoutFallen() {
   return view;
 }
 
-// Without friction nothing resists any spin, so that it does not count.
 bool HeapRig::AtRest(const View& view, const RestRule& rule) {
-  const bool spins_count = case_.powder.material.sliding_friction > 0;
-  const std::vector<Vec3> spins = engine::ResistedSpins(view.particles, view.contacts);
-  EnergyRatio energy(case_.gravity);
-  for (std::size_t i = 0; i < view.particles.size(); ++i) {
-    const Particle& p = view.particles[i];
-    energy.Add(p, p.velocity, spins_count ? spins[i] : Vec3());
-  }
-  Record().energy_ratio = energy.ValueWithoutFastest(rule.moving_share);
+  Record().energy_ratio =
+      RestingEnergy(view.particles, view.contacts,
+                    {.gravity = case_.gravity,
+                     .moving_share = rule.moving_share,
+                     .spins_count = case_.powder.material.sliding_friction > 0});
   return Record().energy_ratio < rule.energy_fraction;
 }
 
@@ -294,6 +291,24 @@ double HeapRig::ExpectedEnd() const {
       break;
   }
   return now;
+}
+
+engine::RunProgress HeapRig::Progress() const {
+  return {.phase = std::string(base::NameOf(state_.phase)),
+          .time = simulation_.time(),
+          .end_time = ExpectedEnd(),
+          .num_particles = simulation_.num_particles(),
+          .step = simulation_.step(),
+          .particle_steps = state_.particle_steps};
+}
+
+std::string HeapRig::StateLine() const { return HeapStateLine(state_); }
+
+std::vector<Particle> HeapRig::Grains() const { return GrainsOfHeap(simulation_); }
+
+std::string HeapRig::ResultText(const std::vector<Particle>& grains,
+                                const engine::RunTiming& timing) const {
+  return HeapResultText(case_, *this, grains, timing);
 }
 
 void HeapRig::Say(const std::string& message) { messages_.push_back(message); }

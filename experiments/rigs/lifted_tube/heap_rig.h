@@ -1,5 +1,5 @@
 // The lifted-cylinder heap test (docs/physics.md, 7): the powder is filled into the tube and
-// settles there, the tube is lifted, the heap comes to rest. Physics only; HeapRun does the files.
+// settles there, the tube is lifted, the heap comes to rest.
 #pragma once
 
 #include <limits>
@@ -16,25 +16,40 @@
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/lifted_tube/heap_state.h"
 #include "experiments/rigs/lifted_tube/rest.h"
+#include "experiments/rigs/rig.h"
 
 namespace talus::rigs {
 
-class HeapRig {
+class HeapRig : public Rig {
  public:
+  static constexpr const char* kObservables[] = {"mass_on_plate_kg", "mass_fallen_kg"};
+
+  // Of its entry in rig_list.cc.
+  static Vessel VesselOf(const HeapCase& c) { return TubeOf(c); }
+  static void Validate(const HeapCase& c, base::Problems& problems);
+  static double Width(const HeapCase& c) { return c.device.plate_diameter; }
+  static double TestTime(const HeapCase& c, double filled_height) {
+    return filled_height / c.device.lift_velocity;
+  }
+  static HeapState ParseState(const std::string& line);
+
   // Fills the tube.
   explicit HeapRig(const HeapCase& heap_case);
 
   // Goes on from a checkpoint of the same case.
   HeapRig(const HeapCase& heap_case, const HeapState& state, engine::Simulation simulation);
 
-  // Advances by a slice that ends, at the latest, with the first step at or after `until` [s];
-  // false when the test has ended.
-  bool Advance(double until = std::numeric_limits<double>::infinity());
+  bool Advance(double until = std::numeric_limits<double>::infinity()) override;
+
+  const engine::Simulation& simulation() const override { return simulation_; }
+  engine::RunProgress Progress() const override;
+  std::vector<std::string> TakeMessages() override;
+  std::string StateLine() const override;
+  std::vector<engine::Particle> Grains() const override;
+  std::string ResultText(const std::vector<engine::Particle>& grains,
+                         const engine::RunTiming& timing) const override;
 
   const HeapState& state() const { return state_; }
-  const engine::Simulation& simulation() const { return simulation_; }
-  double ExpectedEnd() const;  // of the simulated time [s]
-  std::vector<std::string> TakeMessages();
 
  private:
   // The state at a check.
@@ -44,7 +59,7 @@ class HeapRig {
     Connectivity connected;
   };
 
-  HeapRig(const HeapCase& heap_case, const HeapScene& made);
+  HeapRig(const HeapCase& heap_case, const FilledScene& made);
 
   void Check();
   void CheckPouring();
@@ -60,6 +75,7 @@ class HeapRig {
   void LiftTube();
   void Say(const std::string& message);
   PhaseRecord& Record();
+  double ExpectedEnd() const;  // of the simulated time [s]
   double LiftMaxTime() const;  // [s]
   double TubeEdge() const;     // height of the tube's lower edge [m]
 

@@ -9,30 +9,11 @@
 #include "base/field.h"
 #include "engine/run/bed.h"
 #include "engine/scene/pour.h"
+#include "experiments/rigs/phase.h"
 
 namespace talus::rigs {
 
 enum class HeapPhase { kPouring, kSettling, kTapping, kLifting, kResting, kEnded };
-
-// How a phase ended.
-enum class PhaseEnd { kNone, kPoured, kTapped, kAtRest, kCleared, kTimeCap, kEmpty };
-
-struct PhaseRecord {
-  PhaseEnd reason = PhaseEnd::kNone;
-  double start_time = 0;    // [s]
-  double end_time = 0;      // [s]
-  std::int64_t steps = 0;   // of the phase
-  double energy_ratio = 0;  // mean kinetic energy of a grain / (m g d) at its last check [-]
-
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("reason", self.reason);
-    visit("start_time_s", self.start_time);
-    visit("end_time_s", self.end_time);
-    visit("steps", self.steps);
-    visit("energy_ratio", self.energy_ratio);
-  }
-};
 
 struct HeapState {
   HeapPhase phase = HeapPhase::kSettling;
@@ -84,13 +65,4 @@ struct talus::base::Names<talus::rigs::HeapPhase> {
       std::pair{"pouring", P::kPouring},        std::pair{"settling", P::kSettling},
       std::pair{"tapping", P::kTapping},        std::pair{"lifting", P::kLifting},
       std::pair{"coming to rest", P::kResting}, std::pair{"ended", P::kEnded}};
-};
-template <>
-struct talus::base::Names<talus::rigs::PhaseEnd> {
-  using E = talus::rigs::PhaseEnd;
-  static constexpr std::array kList{
-      std::pair{"none", E::kNone},       std::pair{"poured", E::kPoured},
-      std::pair{"tapped", E::kTapped},   std::pair{"at_rest", E::kAtRest},
-      std::pair{"cleared", E::kCleared}, std::pair{"time_cap", E::kTimeCap},
-      std::pair{"empty", E::kEmpty}};
 };

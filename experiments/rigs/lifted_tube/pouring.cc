@@ -12,17 +12,12 @@ namespace {
 
 constexpr double kFollowed = 0.5;  // solid fraction that the mouth rises with
 
-double TubeArea(const HeapCase& c) {
-  return std::numbers::pi / 4 * std::pow(c.device.tube_inner_diameter, 2);
-}
-
-double MouthDiameter(const HeapCase& c) {
-  const double tube = c.device.tube_inner_diameter;
+double MouthDiameter(const HeapCase& c, const Vessel& vessel) {
   const double largest =
       c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
   // Not so narrow that grains come down in a file.
-  const double least = std::min(4 * largest, 0.9 * tube);
-  return c.filling.mouth_diameter.value_or(std::max(tube / 2, least));
+  const double least = std::min(4 * largest, 0.9 * vessel.across);
+  return c.filling.mouth_diameter.value_or(std::max(vessel.across / 2, least));
 }
 
 }  // namespace
@@ -36,23 +31,24 @@ std::vector<double> DrawRadii(const HeapCase& c) {
   return engine::Shuffled(std::move(radii), c.seed);
 }
 
-// Loose powders fill a tube to a solid fraction of 0.4.
-double PouredTubeLength(const HeapCase& c) {
+// Loose powders fill a vessel to a solid fraction of 0.4.
+double PouredHeight(const HeapCase& c, const Vessel& vessel) {
   constexpr double kLoose = 0.4;
-  return c.powder.mass / c.powder.material.density / (kLoose * TubeArea(c));
+  return c.powder.mass / c.powder.material.density / (kLoose * vessel.area);
 }
 
-double DropHeight(const HeapCase& c) {
-  return c.filling.drop_height.value_or(c.device.tube_inner_diameter / 2);
+double DropHeight(const HeapCase& c, const Vessel& vessel) {
+  return c.filling.drop_height.value_or(vessel.across / 2);
 }
 
-engine::Pour MakePour(const HeapCase& c) {
+engine::Pour MakePour(const HeapCase& c, const Vessel& vessel) {
+  const engine::Vec3 foot = vessel.region.base;
   engine::PourPlan plan{.radii = DrawRadii(c),
                         .material = 0,
                         .density = c.powder.material.density,
-                        .mouth = {0, 0, DropHeight(c)},
-                        .rise = 1 / (kFollowed * c.powder.material.density * TubeArea(c)),
-                        .mouth_diameter = MouthDiameter(c),
+                        .mouth = {foot.x, foot.y, foot.z + DropHeight(c, vessel)},
+                        .rise = 1 / (kFollowed * c.powder.material.density * vessel.area),
+                        .mouth_diameter = MouthDiameter(c, vessel),
                         .rate = 0,
                         .scatter = c.filling.scatter.value_or(0),
                         .start = 0,
@@ -65,9 +61,9 @@ engine::Pour MakePour(const HeapCase& c) {
 
 // With m = (4/3) π ρ R³: (δ/R)^(5/2) = (5π/4) ρ v²/E* on a wall, and √2/2 of it between like
 // grains.
-double ImpactShare(const HeapCase& c) {
-  const engine::Pour pour = MakePour(c);
-  const double fall = 2 * c.gravity * (DropHeight(c) + pour.slab());
+double ImpactShare(const HeapCase& c, const Vessel& vessel) {
+  const engine::Pour pour = MakePour(c, vessel);
+  const double fall = 2 * c.gravity * (DropHeight(c, vessel) + pour.slab());
   const double square = std::pow(engine::StreamSpeed(pour.plan()), 2) + fall;
   const double scale = 5 * std::numbers::pi / 4 * c.powder.material.density * square;
   const engine::Material powder = UsedMaterial(c);

@@ -1,4 +1,4 @@
-// The pouring of a heap test's powder into its tube.
+// The pouring of a test's powder into its tube or box.
 #pragma once
 
 #include <string>
@@ -6,26 +6,28 @@
 
 #include "engine/scene/pour.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/rigs/vessel.h"
 
 namespace talus::rigs {
 
 // Radii of the scaled grains, in the order in which they come [m].
 std::vector<double> DrawRadii(const HeapCase& heap_case);
 
-engine::Pour MakePour(const HeapCase& heap_case);
+engine::Pour MakePour(const HeapCase& heap_case, const Vessel& vessel);
 
-// Height of the mouth above the powder, which it follows as the tube fills to a solid fraction of a
-// half [m].
-double DropHeight(const HeapCase& heap_case);
+// Height of the mouth above the powder, which it follows as the vessel fills to a solid fraction of
+// a half [m].
+double DropHeight(const HeapCase& heap_case, const Vessel& vessel);
 
-// Of a tube that has no length of its own [m].
-double PouredTubeLength(const HeapCase& heap_case);
+// What walls that have no height of their own must hold [m].
+double PouredHeight(const HeapCase& heap_case, const Vessel& vessel);
 
 // Overlap over radius of the heaviest blow that a grain gets when it comes down alone: on the
-// plate, on the tube or on a grain at rest. From the energy of a Hertz contact,
+// plate (the floor), on the tube (the walls) or on a grain at rest. From the energy of a Hertz
+// contact,
 //
 //   (8/15) E* √R* δ^(5/2) = m* v²/2,   v² = v₀² + 2 g H
-double ImpactShare(const HeapCase& heap_case);
+double ImpactShare(const HeapCase& heap_case, const Vessel& vessel);
 
 // Beyond this share, grains were pressed through the plate: a blow on a small grain that lies on it
 // is that of a larger one.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/run/resisted_spins.h"
+
 namespace talus::rigs {
 
 using engine::Particle;
@@ -33,6 +35,16 @@ double EnergyRatio::ValueWithoutFastest(double share) const {
   for (const Grain& g : slowest) to_leave += share * g.weight;
   for (; to_leave > 0 && !slowest.empty(); slowest.pop_back()) to_leave -= slowest.back().weight;
   return rest.Value();
+}
+
+double RestingEnergy(std::span<const Particle> particles,
+                     std::span<const engine::ContactInfo> contacts, const RestQuestion& question) {
+  const std::vector<Vec3> spins = engine::ResistedSpins(particles, contacts);
+  EnergyRatio energy(question.gravity);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    energy.Add(particles[i], particles[i].velocity, question.spins_count ? spins[i] : Vec3());
+  }
+  return energy.ValueWithoutFastest(question.moving_share);
 }
 
 namespace {

@@ -32,6 +32,16 @@ class EnergyRatio {
   std::vector<Grain> grains_;
 };
 
+// Mean kinetic energy of a grain over its m g d, without the fastest grains that make up
+// `moving_share` of the weight.
+struct RestQuestion {
+  double gravity = 9.81;    // [m/s²]
+  double moving_share = 0;  // [-], in [0, 1)
+  bool spins_count = true;  // without friction nothing resists any spin
+};
+double RestingEnergy(std::span<const engine::Particle> particles,
+                     std::span<const engine::ContactInfo> contacts, const RestQuestion& question);
+
 // Ids, ascending, of the grains that can only fall. They hang together with neither plate nor tube,
 // or fall faster than after a free fall over their own diameter, and are
 // - whole below the plate's top (and, if slow, below all that hangs on it), too slow to come back

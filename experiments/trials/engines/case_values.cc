@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "engine/scene/size_distribution.h"
-#include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "experiments/rigs/rig_list.h"
 
 namespace talus::trials {
 namespace {
@@ -50,6 +50,25 @@ void AddDevice(const rigs::HeapCase& c, Scalars& scalars) {
   AddMaterial("plate_", device.plate_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
 }
 
+// {{ rig_length }}, {{ rig_taps_count }}, …: the keys of the rig's kind.
+struct RigValues {
+  Scalars& scalars;
+  std::string prefix;
+
+  void operator()(std::string_view key, const rigs::RigKind& kind, base::FieldInfo = {}) {
+    scalars[prefix + std::string(key)] = base::NameOf(kind);
+  }
+  void operator()(std::string_view key, double value, base::FieldInfo = {}) {
+    scalars[prefix + std::string(key)] = NumberText(value);
+  }
+  void operator()(std::string_view key, const std::optional<double>& value, base::FieldInfo = {}) {
+    if (value) (*this)(key, *value);
+  }
+  void operator()(std::string_view key, const rigs::TapRule& taps, base::FieldInfo = {}) {
+    rigs::TapRule::Visit(taps, RigValues{scalars, prefix + std::string(key) + "_"});
+  }
+};
+
 // The powder as it is simulated: scaled, and counted.
 void AddSizes(const rigs::HeapCase& c, Scalars& scalars) {
   const double factor = c.coarse_graining.scale_factor;
@@ -87,6 +106,7 @@ TemplateValues CaseValues(const rigs::HeapCase& c) {
   scalars["threads"] = std::to_string(c.threads);
   AddSizes(c, scalars);
   AddDevice(c, scalars);
+  if (c.rig) rigs::RigOptions::Visit(*c.rig, RigValues{scalars, "rig_"});
   values.tables["grains"] = {.columns = {"number", "x", "y", "z", "diameter", "radius"},
                              .rows = {}};
   return values;
@@ -96,7 +116,7 @@ void AddGrains(const rigs::HeapCase& c, TemplateValues& values) {
   TemplateTable& table = values.tables.at("grains");
   rigs::HeapCase dense = c;  // another engine gets its grains in place
   dense.filling = {};
-  const rigs::HeapScene made = rigs::MakeHeapScene(dense);
+  const rigs::FilledScene made = rigs::FillVessel(dense, rigs::EntryOf(dense).vessel(dense));
   // The exact number, which the estimate may miss by one.
   values.scalars["num_grains"] = std::to_string(made.scene.particles.size());
   for (const engine::Particle& p : made.scene.particles) {

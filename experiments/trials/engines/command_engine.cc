@@ -12,9 +12,11 @@
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
+#include "experiments/rigs/rig_list.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
+#include "experiments/trials/engines/command_scalars.h"
 #include "imaging/formats/image_file.h"
 #include "imaging/formats/sphere_files.h"
 #include "imaging/spheres/projection.h"
@@ -69,27 +71,36 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::HeapCase& hea
                         const fs::path& file, const fs::path& folder) {
   const auto spheres =
       OnOurPlate(options, imaging::ReadSpheres(file, {.length_unit = options.length_unit}));
-  const auto heap = imaging::GrainsOnPlate(spheres, heap_case.frame.value().plate_diameter);
+  const bool on_plate = rigs::KindOf(heap_case) == rigs::RigKind::kLiftedTube;
+  const double plate =
+      heap_case.frame ? heap_case.frame->plate_diameter : heap_case.device.plate_diameter;
+  const auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
                       " spheres in " + file.filename().string() +
                       "; are length_unit, up and plate_center right?");
   }
-  const imaging::Profile profile =
-      imaging::ProjectHeap(heap, *heap_case.frame, heap_case.num_views);
-  base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(profile.image),
-                            Outlives::kProgram);
+  Measured measured{.profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
+  if (heap_case.frame) {
+    measured.profile =
+        imaging::ProjectHeap(heap, *heap_case.frame, rigs::NumViewsOf(heap_case)).image;
+    base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
+                              Outlives::kProgram);
+  }
   if (file.filename() != "heap.vtp") WriteHeap(folder / "heap.vtp", heap);
-  return {.profile = profile.image,
-          .num_spheres = spheres.size(),
-          .num_grains = heap.size(),
-          .scalars = MassesOf(heap_case, heap)};
+  if (on_plate) measured.scalars = MassesOf(heap_case, heap);
+  return measured;
 }
 
 Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
                       const fs::path& folder) {
   Measured measured{.profile = imaging::ReadGrayImage(file)};
-  const imaging::Frame& frame = heap_case.frame.value();
+  if (!heap_case.frame) {
+    throw base::Error(
+        "left an image, but the experiment has numbers only; leave scalars.json or "
+        "scalars.csv");
+  }
+  const imaging::Frame& frame = *heap_case.frame;
   if (measured.profile.width != frame.width || measured.profile.height != frame.height) {
     throw base::Error("left the image " + file.filename().string() + " of " +
                       std::to_string(measured.profile.width) + " x " +
@@ -98,6 +109,25 @@ Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
   }
   base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
                             Outlives::kProgram);
+  return measured;
+}
+
+// What the command left: spheres or an image where there is a frame, numbers, or both. The masses
+// of a lifted tube's heap follow from its spheres; a number that the command gives itself counts.
+Measured MeasureResult(const CommandOptions& options, const rigs::HeapCase& heap_case,
+                       const fs::path& folder, fs::path& file) {
+  const std::vector<journal::MetricRecord> given = ReadScalars(folder);
+  Measured measured;
+  if (heap_case.frame || given.empty()) {
+    file = FindResult(options, folder, kCommandFile);
+    measured = file.extension() == ".png" ? MeasureImage(heap_case, file, folder)
+                                          : MeasureSpheres(options, heap_case, file, folder);
+  }
+  for (const journal::MetricRecord& scalar : given) {
+    std::erase_if(measured.scalars,
+                  [&](const journal::MetricRecord& s) { return s.name == scalar.name; });
+    measured.scalars.push_back(scalar);
+  }
   return measured;
 }
 
@@ -113,9 +143,14 @@ std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured
                           {"youngs_modulus_Pa", heap_case.powder.material.youngs_modulus},
                           {"lift_velocity_m_per_s", heap_case.device.lift_velocity},
                           {"seed", heap_case.seed}};
-  result["profile"] = base::ToJson(*heap_case.frame);
-  result["profile"]["file"] = "profile.png";
-  result["profile"]["num_views"] = heap_case.num_views;
+  for (const journal::MetricRecord& scalar : measured.scalars) {
+    if (scalar.undefined.empty()) result["observables"][scalar.name] = scalar.value;
+  }
+  if (heap_case.frame) {
+    result["profile"] = base::ToJson(*heap_case.frame);
+    result["profile"]["file"] = "profile.png";
+    result["profile"]["num_views"] = rigs::NumViewsOf(heap_case);
+  }
   return result.dump(2) + "\n";
 }
 
@@ -148,6 +183,7 @@ void CommandEngine::Prepare(const rigs::HeapCase& heap_case, const fs::path& fol
   PrepareFolder(folder, "case.json", CaseText(heap_case, options_));
   if (IsComplete(folder)) return;
   RemoveResults(options_, folder);
+  RemoveScalars(folder);
   TemplateValues values = CaseValues(heap_case);
   if (templates_.Uses(options_, "grains")) AddGrains(heap_case, values);
   templates_.Fill(values, folder);
@@ -172,10 +208,8 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
 bool CommandEngine::IsComplete(const fs::path& folder) { return fs::exists(folder / kDone); }
 
 TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::path& folder) {
-  const fs::path file = FindResult(options_, folder, kCommandFile);
-  const Measured measured = file.extension() == ".png"
-                                ? MeasureImage(heap_case, file, folder)
-                                : MeasureSpheres(options_, heap_case, file, folder);
+  fs::path file;
+  const Measured measured = MeasureResult(options_, heap_case, folder, file);
   base::WriteFileAtomically(folder / "result.json", ResultText(heap_case, measured, file),
                             Outlives::kProgram);
   return {.profile = measured.profile,
@@ -199,7 +233,7 @@ CommandCase LoadCommandCase(const base::JsonFile& file) {
   auto command_case = base::LoadOptions<CommandCase>(file);
   engine::ReadSizeFile(command_case.heap.powder.sizes);
   base::Problems problems(file.path.string(), file.places);
-  problems.Require(command_case.heap.frame.has_value(), "frame",
+  problems.Require(command_case.heap.frame || command_case.heap.rig, "frame",
                    "is missing: the result is measured in it");
   problems.Within("engine", [&] {
     CheckCommand(command_case.engine,

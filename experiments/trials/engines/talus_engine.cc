@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_file.h"
+#include "experiments/rigs/rig.h"
 #include "imaging/formats/image_file.h"
 
 namespace talus::trials {
@@ -20,8 +21,15 @@ std::vector<journal::MetricRecord> ScalarsOf(const nlohmann::json& result) {
   for (const auto& [name, value] : result["observables"].items()) {
     scalars.push_back({.name = name,
                        .value = value.get<double>(),
-                       .unit = name.ends_with("_kg") ? "kg" : "-",
+                       .unit = rigs::UnitOfObservable(name),
                        .undefined = ""});
+  }
+  if (!result.contains("undefined")) return scalars;
+  for (const auto& [name, why] : result["undefined"].items()) {
+    journal::MetricRecord scalar{
+        .name = name, .unit = rigs::UnitOfObservable(name), .undefined = {}};
+    scalar.undefined = why;
+    scalars.push_back(std::move(scalar));
   }
   return scalars;
 }
@@ -57,11 +65,13 @@ TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
   if (base::TextAt(result, "status") != "ok") {
     throw base::Error("failed: " + (reason.empty() ? "no reason in result.json" : reason));
   }
-  TrialOutput output{.profile = imaging::ReadGrayImage(folder / "profile.png"),
+  TrialOutput output{.profile = {},
                      .num_steps = base::IntegerAt(result, "num_steps"),
                      .num_particles = base::IntegerAt(result, "num_grains"),
                      .scalars = ScalarsOf(result),
                      .note = reason};
+  if (!heap_case.frame) return output;
+  output.profile = imaging::ReadGrayImage(folder / "profile.png");
   if (output.profile.width != heap_case.frame->width ||
       output.profile.height != heap_case.frame->height) {
     throw base::Error("left a profile.png of another size than the experiment's");

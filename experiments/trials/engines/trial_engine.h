@@ -14,7 +14,7 @@
 namespace talus::trials {
 
 struct TrialOutput {
-  imaging::GrayImage profile;  // ANHP in the case's frame
+  imaging::GrayImage profile;  // ANHP in the case's frame; empty without one
   std::int64_t num_steps = 0;  // 0 when not known
   std::int64_t num_particles = 0;
   std::vector<journal::MetricRecord> scalars{};  // what was measured beside the image

@@ -6,7 +6,7 @@
 #include "engine/run/scene_run.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"
-#include "experiments/rigs/lifted_tube/heap_run.h"
+#include "experiments/rigs/rig_run.h"
 #include "experiments/trials/engines/command_engine.h"
 
 namespace talus::trials {
@@ -33,19 +33,21 @@ void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
   DriveRun(job, options);
 }
 
-void SimulateHeap(base::JsonFile input, const RunFolderOptions& options) {
+void SimulateTest(base::JsonFile input, const RunFolderOptions& options) {
   const rigs::HeapCase heap_case = rigs::LoadHeapCase(input);
   const RunJob job{
-      .kind = "heap",
+      .kind = rigs::KindOf(heap_case) == rigs::RigKind::kLiftedTube
+                  ? "heap"
+                  : std::string(base::NameOf(rigs::KindOf(heap_case))),
       .input_hash = rigs::HeapCaseHash(heap_case),
       .source = input.path,
       .input_name = "case.json",
       .input = rigs::HeapCaseText(heap_case),
       .checkpoint_interval = heap_case.checkpoint_interval,
-      .start = [&] { return std::make_unique<rigs::HeapRun>(heap_case, options.folder); },
+      .start = [&] { return std::make_unique<rigs::RigRun>(heap_case, options.folder); },
       .go_on =
           [&](const engine::RunCheckpoint& checkpoint) {
-            return std::make_unique<rigs::HeapRun>(heap_case, options.folder, checkpoint);
+            return std::make_unique<rigs::RigRun>(heap_case, options.folder, checkpoint);
           }};
   DriveRun(job, options);
 }
@@ -56,7 +58,7 @@ void SimulateCommand(base::JsonFile input, const RunFolderOptions& options) {
 
 constexpr InputKind kKinds[] = {
     {"engine", "a case of another engine", &SimulateCommand},  // has "powder" too
-    {"powder", "a heap case", &SimulateHeap},
+    {"powder", "a case of a bulk test", &SimulateTest},
     {"materials", "a scene", &SimulateScene},
 };
 

@@ -1,0 +1,92 @@
+// What must hold between a campaign's experiments, and between each and its rig.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/rigs/rig_list.h"
+
+namespace talus::campaign {
+namespace {
+
+rigs::HeapCase RigOf(const ExperimentSpec& experiment) {
+  rigs::HeapCase heap_case;
+  heap_case.rig = experiment.rig;
+  heap_case.device = *experiment.device;
+  return heap_case;
+}
+
+// Images are scaled by the width of plate, drum or box: another one shows another test.
+void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
+  if (!e.images.HasImages()) return;
+  const rigs::HeapCase of = RigOf(e);
+  const double width = rigs::EntryOf(of).width(of);
+  const bool tube = rigs::KindOf(of) == rigs::RigKind::kLiftedTube;
+  problems.Require(
+      std::abs(e.images.plate_diameter - width) <= 0.01 * width, place + ".plate_diameter",
+      e.images.plate_diameter,
+      tube ? "is not the device's plate_diameter: the images are of another test, or the "
+             "experiment needs a device of its own"
+           : "is not the width of the rig, " + std::to_string(1e3 * width) +
+                 " mm: the images are of another test, or the experiment needs a rig of its own");
+}
+
+// Another engine's command may measure what it likes.
+void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
+  const rigs::HeapCase of = RigOf(e);
+  const auto known = rigs::EntryOf(of).observables;
+  for (const ScalarSpec& scalar : ScalarsOf(e)) {
+    if (std::find(known.begin(), known.end(), scalar.metric) != known.end()) continue;
+    std::string all;
+    for (const char* name : known) all += (all.empty() ? "" : ", ") + std::string(name);
+    problems.Add(place + "." + scalar.key,
+                 "is not measured by the rig " + std::string(base::NameOf(rigs::KindOf(of))) +
+                     ", which measures " + all + "; remove it, or name the rig of this test");
+  }
+}
+
+// A searched property of the plate or tube is one number for all experiments; where two of them
+// give it themselves, with different values, they speak of different materials.
+void CheckWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all,
+                base::Problems& problems) {
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  for (const optimizer::Parameter& p : space.parameters) {
+    const bool plate = p.name.starts_with("plate_");
+    if (!plate && !p.name.starts_with("tube_")) continue;
+    std::set<double> given;
+    for (const ExperimentSpec& e : all) {
+      const auto& wall = plate ? e.device->plate_material : e.device->tube_material;
+      if (!wall) continue;
+      rigs::WallMaterial::Visit(
+          *wall, [&](std::string_view key, const std::optional<double>& value, base::FieldInfo) {
+            if (value && p.name.ends_with("_" + std::string(key))) given.insert(*value);
+          });
+    }
+    problems.Require(given.size() < 2, "parameters." + p.name,
+                     "is searched as one number for all experiments, whose devices give it "
+                     "different values; leave it out of the devices, or do not search it");
+  }
+}
+
+}  // namespace
+
+void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
+  problems.Require(spec.experiment || spec.experiments, "experiment", "is missing");
+  problems.Require(!spec.experiment || !spec.experiments, "experiments",
+                   "stands beside experiment: give one of the two");
+  if (!spec.experiments) return;
+  problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
+  std::set<std::string> names;
+  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
+  for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
+    const std::string place = "experiments[" + std::to_string(i) + "]";
+    problems.Require(
+        names.insert(all[i].name).second, place + ".name",
+        "\"" + all[i].name + "\" stands there twice: results could not tell them apart");
+    CheckWidth(all[i], place, problems);
+    if (spec.engine.kind == EngineKind::kTalus) CheckNumbers(all[i], place, problems);
+  }
+  if (spec.parameters) CheckWalls(spec, all, problems);
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,42 @@
+// How the phases of a bulk test have ended.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "base/field.h"
+
+namespace talus::rigs {
+
+// How a phase ended.
+enum class PhaseEnd { kNone, kPoured, kTapped, kAtRest, kCleared, kTimeCap, kEmpty, kDone };
+
+struct PhaseRecord {
+  PhaseEnd reason = PhaseEnd::kNone;
+  double start_time = 0;    // [s]
+  double end_time = 0;      // [s]
+  std::int64_t steps = 0;   // of the phase
+  double energy_ratio = 0;  // mean kinetic energy of a grain / (m g d) at its last check [-]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("reason", self.reason);
+    visit("start_time_s", self.start_time);
+    visit("end_time_s", self.end_time);
+    visit("steps", self.steps);
+    visit("energy_ratio", self.energy_ratio);
+  }
+};
+
+}  // namespace talus::rigs
+
+template <>
+struct talus::base::Names<talus::rigs::PhaseEnd> {
+  using E = talus::rigs::PhaseEnd;
+  static constexpr std::array kList{
+      std::pair{"none", E::kNone},       std::pair{"poured", E::kPoured},
+      std::pair{"tapped", E::kTapped},   std::pair{"at_rest", E::kAtRest},
+      std::pair{"cleared", E::kCleared}, std::pair{"time_cap", E::kTimeCap},
+      std::pair{"empty", E::kEmpty},     std::pair{"done", E::kDone}};
+};

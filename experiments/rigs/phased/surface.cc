@@ -1,0 +1,79 @@
+#include "experiments/rigs/phased/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace talus::rigs {
+
+std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
+                                    const SurfaceStrips& strips) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const double span = strips.to - strips.from;
+  if (!(span > 0) || !(strips.width > 0)) return {};
+  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(span / strips.width));
+  const double width = span / static_cast<double>(count);
+  std::vector<double> top(count, kNone);
+  for (const engine::Particle& p : grains) {
+    const double at = (p.position.x - strips.from) / width;
+    if (at < 0 || at >= static_cast<double>(count)) continue;
+    double& highest = top[static_cast<std::size_t>(at)];
+    highest = std::max(highest, p.position.z + p.radius);
+  }
+  std::vector<SurfacePoint> surface;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (top[i] == kNone) continue;
+    surface.push_back({.x = strips.from + width * (static_cast<double>(i) + 0.5), .top = top[i]});
+  }
+  return surface;
+}
+
+std::optional<double> SlopeOf(std::span<const SurfacePoint> surface) {
+  if (surface.size() < 3) return std::nullopt;
+  double x = 0;
+  double top = 0;
+  for (const SurfacePoint& p : surface) {
+    x += p.x / static_cast<double>(surface.size());
+    top += p.top / static_cast<double>(surface.size());
+  }
+  double xx = 0;
+  double xz = 0;
+  for (const SurfacePoint& p : surface) {
+    xx += (p.x - x) * (p.x - x);
+    xz += (p.x - x) * (p.top - top);
+  }
+  return xz / xx;
+}
+
+Observable AngleOf(const std::string& name, std::span<const SurfacePoint> surface) {
+  Observable angle{.name = name};
+  if (const auto slope = SlopeOf(surface)) {
+    angle.value = SlopeAngle(std::abs(*slope));
+  } else {
+    angle.undefined = "the surface is fewer than three grains long";
+  }
+  return angle;
+}
+
+double MassQuantile(std::span<const engine::Particle> grains, double share,
+                    const std::function<double(const engine::Particle&)>& place) {
+  std::vector<std::pair<double, double>> sorted;  // place, R³
+  double total = 0;
+  for (const engine::Particle& p : grains) {
+    sorted.emplace_back(place(p), p.radius * p.radius * p.radius);
+    total += sorted.back().second;
+  }
+  std::sort(sorted.begin(), sorted.end());
+  double sum = 0;
+  for (const auto& [at, cube] : sorted) {
+    sum += cube;
+    if (sum >= share * total) return at;
+  }
+  return 0;
+}
+
+double SlopeAngle(double slope) { return std::atan(slope) * 180 / std::numbers::pi; }
+
+}  // namespace talus::rigs

@@ -1,0 +1,42 @@
+// The surface of a bed that is seen from the front: its top over x, and its slope.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "experiments/rigs/rig.h"
+
+namespace talus::rigs {
+
+struct SurfacePoint {
+  double x = 0;    // [m]
+  double top = 0;  // height of the highest grain there [m]
+};
+
+// In strips of `width` [m] from `from` to `to` [m]; strips without grains are left out.
+struct SurfaceStrips {
+  double from = 0;
+  double to = 0;
+  double width = 0;
+};
+std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
+                                    const SurfaceStrips& strips);
+
+// Slope of the least-squares line [-]; nothing for fewer than three points.
+std::optional<double> SlopeOf(std::span<const SurfacePoint> surface);
+
+// The angle of the slope as an observable, whichever side is the higher [deg].
+Observable AngleOf(const std::string& name, std::span<const SurfacePoint> surface);
+
+// Below which `share` of the grains' volume has its place along an axis; 0 without grains.
+double MassQuantile(std::span<const engine::Particle> grains, double share,
+                    const std::function<double(const engine::Particle&)>& place);
+
+// Angle of a slope with the horizontal [deg].
+double SlopeAngle(double slope);
+
+}  // namespace talus::rigs

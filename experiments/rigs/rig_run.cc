@@ -1,0 +1,69 @@
+#include "experiments/rigs/rig_run.h"
+
+#include <utility>
+
+#include "base/file.h"
+#include "base/sphere.h"
+#include "engine/run/state_file.h"
+#include "experiments/rigs/lifted_tube/heap_result.h"
+#include "experiments/rigs/rig_list.h"
+#include "imaging/formats/image_file.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::rigs {
+namespace {
+
+std::vector<base::Sphere> Spheres(const std::vector<engine::Particle>& particles) {
+  std::vector<base::Sphere> spheres;
+  for (const engine::Particle& p : particles) spheres.push_back({p.position, p.radius});
+  return spheres;
+}
+
+}  // namespace
+
+RigRun::RigRun(const HeapCase& heap_case, std::filesystem::path folder)
+    : case_(heap_case),
+      folder_(std::move(folder)),
+      rig_(MakeRig(heap_case)),
+      states_(folder_, case_.outputs.times) {}
+
+RigRun::RigRun(const HeapCase& heap_case, std::filesystem::path folder,
+               const engine::RunCheckpoint& checkpoint)
+    : case_(heap_case),
+      folder_(std::move(folder)),
+      rig_(RestoreRig(heap_case, checkpoint.state,
+                      engine::Simulation::Restore(checkpoint.simulation, heap_case.threads))),
+      states_(folder_, case_.outputs.times) {
+  states_.SkipUntil(rig_->simulation().time());
+}
+
+bool RigRun::Advance() {
+  states_.Write(rig_->simulation());  // the one at time 0
+  const bool goes_on = rig_->Advance(states_.NextTime());
+  states_.Write(rig_->simulation());
+  return goes_on;
+}
+
+std::string RigRun::Checkpoint(const engine::RunTiming& timing) const {
+  return engine::Pack({.input_hash = HeapCaseHash(case_),
+                       .timing = timing,
+                       .state = rig_->StateLine(),
+                       .simulation = rig_->simulation().Checkpoint()});
+}
+
+void RigRun::WriteResults(const engine::RunTiming& timing) const {
+  const std::vector<engine::Particle> grains = rig_->Grains();
+  const double time = rig_->simulation().time();
+  if (case_.outputs.vtp) {
+    base::WriteFileAtomically(folder_ / "heap.vtp", engine::VtpOf(grains, time));
+  }
+  if (case_.outputs.csv) base::WriteFileAtomically(folder_ / "heap.csv", engine::CsvOf(grains));
+  if (case_.frame) {
+    const imaging::Profile profile =
+        imaging::ProjectHeap(Spheres(grains), *case_.frame, NumViewsOf(case_));
+    base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(profile.image));
+  }
+  base::WriteFileAtomically(folder_ / "result.json", rig_->ResultText(grains, timing));
+}
+
+}  // namespace talus::rigs

@@ -1,0 +1,89 @@
+#include "experiments/trials/engines/command_scalars.h"
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "experiments/rigs/rig.h"
+
+namespace talus::trials {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kJson = "scalars.json";
+constexpr const char* kCsv = "scalars.csv";
+
+journal::MetricRecord ScalarOf(const std::string& name, std::optional<double> value) {
+  journal::MetricRecord scalar{.name = name, .unit = rigs::UnitOfObservable(name), .undefined = {}};
+  if (value && std::isfinite(*value)) {
+    scalar.value = *value;
+  } else {
+    scalar.undefined = "the command gives no value";
+  }
+  return scalar;
+}
+
+std::vector<journal::MetricRecord> FromJson(const std::string& text) {
+  const auto root = nlohmann::json::parse(text, nullptr, false);
+  if (!root.is_object()) throw base::Error("left a scalars.json that is no JSON object");
+  std::vector<journal::MetricRecord> scalars;
+  for (const auto& [name, value] : root.items()) {
+    if (!value.is_number() && !value.is_null()) {
+      throw base::Error("left scalars.json with \"" + name + "\" that is no number");
+    }
+    scalars.push_back(
+        ScalarOf(name, value.is_null() ? std::nullopt : std::optional(value.get<double>())));
+  }
+  return scalars;
+}
+
+std::string Trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+// A first line "name,value" is a head.
+std::vector<journal::MetricRecord> FromCsv(const std::string& text) {
+  std::vector<journal::MetricRecord> scalars;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (Trimmed(line).empty()) continue;
+    const auto comma = line.find(',');
+    const std::string name = Trimmed(line.substr(0, comma));
+    const std::string word = comma == std::string::npos ? "" : Trimmed(line.substr(comma + 1));
+    if (number == 1 && word == "value") continue;
+    double value = 0;
+    const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool whole = read.ec == std::errc() && read.ptr == word.data() + word.size();
+    if (comma == std::string::npos || name.empty() || (!whole && !word.empty())) {
+      throw base::Error("left scalars.csv whose line " + std::to_string(number) +
+                        " is no name and number: " + line);
+    }
+    scalars.push_back(ScalarOf(name, whole ? std::optional(value) : std::nullopt));
+  }
+  return scalars;
+}
+
+}  // namespace
+
+std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
+  if (fs::exists(folder / kJson)) return FromJson(base::ReadFile(folder / kJson));
+  if (fs::exists(folder / kCsv)) return FromCsv(base::ReadFile(folder / kCsv));
+  return {};
+}
+
+void RemoveScalars(const fs::path& folder) {
+  for (const char* name : {kJson, kCsv}) {
+    std::error_code absent;
+    fs::remove(folder / name, absent);
+  }
+}
+
+}  // namespace talus::trials

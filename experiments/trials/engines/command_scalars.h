@@ -1,0 +1,19 @@
+// The numbers that another engine's command leaves beside its spheres or image, or without any.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "experiments/journal/records.h"
+
+namespace talus::trials {
+
+// scalars.json, {"runout_m": 0.03, …}, or scalars.csv, lines of name and value; nothing where there
+// is neither. A number that is not defined is null in JSON, and empty in CSV. Throws base::Error
+// with the place of what cannot be read.
+std::vector<journal::MetricRecord> ReadScalars(const std::filesystem::path& folder);
+
+// Takes away what an earlier attempt has left.
+void RemoveScalars(const std::filesystem::path& folder);
+
+}  // namespace talus::trials

@@ -1,0 +1,173 @@
+// Campaigns with experiments that have measured numbers and no image, by rigs of their own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/json_file.h"
+#include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/export/export.h"
+#include "experiments/campaign/consider.h"
+#include "experiments/campaign/status.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::campaign {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kHeap = R"({"name": "heap", "map": "map.png", "plate_diameter": "10 mm",
+  "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
+            "baseline_px": 76, "plate_diameter": "10 mm"}})";
+// What the fake engine gives at the truth.
+constexpr const char* kTapped = R"({"name": "tapped",
+  "rig": {"kind": "tapped_density", "diameter": "12 mm"}, "filling": {"kind": "pour"},
+  "tapped_density": {"value": "1480 kg/m^3", "sd": "3 kg/m^3"}})";
+constexpr const char* kFallen =
+    R"({"name": "balance", "mass_fallen": {"value": "23 mg", "sd": "1 mg"}})";
+
+constexpr const char* kTwoParameters = R"("sliding_friction": {"min": 0.1, "max": 0.8},
+  "rolling_friction": {"min": 0.05, "max": 0.5})";
+
+class NumbersOnly : public CampaignFixture {
+ protected:
+  fs::path WriteSpec(const std::string& name, const std::string& experiments,
+                     const std::string& parameters = kTwoParameters) const {
+    const fs::path in = scratch_.path() / (name + "_in");
+    WriteFakeSpec(in, "");
+    std::ofstream(in / "spec.json") << R"({"experiments": [)" << experiments << R"(],
+      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+      "coarse_graining": {"scale_factor": 2},
+      "parameters": {)" << parameters
+                                    << R"(},
+      "budget": {"simulations": 24}, "confirm": {"candidates": 1, "replicates": 2},
+      "workers": 1})";
+    return in / "spec.json";
+  }
+  fs::path BeginWith(const std::string& name, const std::string& experiments) const {
+    BeginCampaign(WriteSpec(name, experiments), scratch_.path() / name);
+    return scratch_.path() / name;
+  }
+  std::string ErrorOf(const std::string& experiments,
+                      const std::string& parameters = kTwoParameters) const {
+    try {
+      LoadCampaignSpec(WriteSpec("bad", experiments, parameters));
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
+  const fs::path folder = BeginWith("run", std::string(kHeap) + "," + kTapped);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  std::array<int, 2> searched{};
+  for (const journal::TrialRecord& trial : Trials(folder)) {
+    const rigs::HeapCase heap_case =
+        rigs::LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    const bool tapped = trial.experiment == 1;
+    EXPECT_EQ(rigs::KindOf(heap_case),
+              tapped ? rigs::RigKind::kTappedDensity : rigs::RigKind::kLiftedTube);
+    EXPECT_EQ(heap_case.filling.kind,
+              tapped ? rigs::FillingKind::kPour : rigs::FillingKind::kDense);
+    EXPECT_EQ(heap_case.frame.has_value(), !tapped);
+    EXPECT_EQ(trial.status, journal::TrialStatus::kOk);
+    EXPECT_EQ(trial.Metric("sad_mm2").has_value(), !tapped);
+    EXPECT_EQ(trial.Metric("tapped_density_kg_per_m3").has_value(), tapped);
+    if (trial.kind != journal::TrialKind::kConfirm) {
+      ++searched[static_cast<std::size_t>(trial.experiment)];
+    }
+  }
+  EXPECT_GT(searched[0], 3);
+  EXPECT_GT(searched[1], 3);
+  const CampaignResult result = Result(folder);
+  const auto& experiments = result.confirmed.at(0).experiments.value();
+  EXPECT_EQ(experiments.at(1).num_trials, 2);
+  EXPECT_NEAR(experiments.at(1).scalars.at(0).mean, 1480, 30);
+  EXPECT_THAT(StatusText(folder), HasSubstr("tapped at scale factor 2: "));
+  EXPECT_THAT(StatusText(folder), HasSubstr("none, it has numbers only"));
+  EXPECT_EQ(analysis::GatherEvidence(folder, "").trials.size(),
+            static_cast<std::size_t>(searched[0] + 2));
+  EXPECT_THROW(analysis::GatherEvidence(folder, "tapped"), base::ConfigError);
+}
+
+// The number follows one parameter, so that it alone decides that one: within 3 kg/m³, the error of
+// the value, and the seeds' 4 kg/m³, over a slope of 350 kg/m³.
+TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
+  const fs::path folder = BeginWith("run", std::string(kFallen) + "," + kTapped);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const CampaignResult result = Result(folder);
+  ASSERT_EQ(result.parameters.size(), 2u);
+  EXPECT_NEAR(result.parameters[0].value, kTrueSliding, 0.08);
+  EXPECT_NEAR(result.parameters[1].value, kTrueRolling, 0.05);
+  EXPECT_LT(result.parameters[1].credible_high - result.parameters[1].credible_low, 0.15);
+  EXPECT_LE(result.parameters[1].credible_low, kTrueRolling);
+  EXPECT_GE(result.parameters[1].credible_high, kTrueRolling);
+  EXPECT_EQ(result.confirmed.at(0).num_trials, 2);
+  EXPECT_THAT(ResultSummary(result), HasSubstr("tapped_density_kg_per_m3"));
+  EXPECT_THAT(ResultSummary(result), ::testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(StatusText(folder), HasSubstr("numbers only"));
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
+  EXPECT_THAT(analysis::TrialsCsv(journal.Campaign(), journal.Trials()),
+              HasSubstr("tapped_density_kg_per_m3"));
+  EXPECT_THAT(ConsideredText(
+                  ConsiderSet(folder, {{"sliding_friction", "0.45"}, {"rolling_friction", "0.2"}})),
+              HasSubstr("tapped"));
+  EXPECT_THROW(analysis::GatherEvidence(folder, ""), base::ConfigError);
+}
+
+TEST_F(NumbersOnly, GoOnAfterAKillAndFromADamagedJournal) {
+  const std::string experiments = std::string(kHeap) + "," + kTapped;
+  const fs::path whole = BeginWith("whole", experiments);
+  RunFake(whole, {});
+  const fs::path cut = BeginWith("cut", experiments);
+  RunFake(cut, {});
+  journal::Database(journal::JournalPath(cut), journal::Database::Mode::kReadWrite)
+      .Execute(
+          "DELETE FROM profiles WHERE trial > 9; DELETE FROM metrics WHERE trial > 9;"
+          "DELETE FROM points WHERE trial > 9; DELETE FROM trials WHERE id > 9");
+  EXPECT_EQ(RunFake(cut, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(cut), TrialTable(whole));
+  fs::resize_file(journal::JournalPath(cut), 5000);
+  EXPECT_EQ(RunFake(cut, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(TrialTable(cut), TrialTable(whole));
+}
+
+TEST_F(NumbersOnly, WhatDoesNotFitTogetherIsOneClearError) {
+  EXPECT_EQ(ErrorOf(kTapped), "");
+  EXPECT_THAT(ErrorOf(R"({"name": "empty"})"), HasSubstr("experiments[0]: has no data"));
+  EXPECT_THAT(ErrorOf(std::string(kTapped) + "," + kTapped),
+              HasSubstr("\"tapped\" stands there twice"));
+  EXPECT_THAT(ErrorOf(R"({"name": "heap", "mass_fallen": {"value": "21 mg"}})"),
+              HasSubstr("experiments[0].mass_fallen.sd: is missing"));
+  EXPECT_THAT(ErrorOf(R"({"name": "heap", "mass_fallen": {"value": "21 mg", "sd": 0}})"),
+              HasSubstr("a number counts by its error"));
+  EXPECT_THAT(ErrorOf(R"({"name": "heap",
+                          "tapped_density": {"value": 1480, "sd": 3}})"),
+              HasSubstr("is not measured by the rig lifted_tube, which measures mass_on_plate_kg"));
+  // The map shows a plate of 10 mm.
+  std::string wide = kHeap;
+  wide.insert(wide.size() - 1, R"(, "device": {"plate_diameter": "30 mm"})");
+  EXPECT_THAT(ErrorOf(wide), HasSubstr("experiments[0].plate_diameter: is 0.01, is not the "
+                                       "device's plate_diameter"));
+  std::string collapse = kHeap;
+  collapse.insert(collapse.size() - 1, R"(, "rig": {"kind": "column_collapse"})");
+  EXPECT_THAT(ErrorOf(collapse), HasSubstr("is not the width of the rig, 20"));
+  // One searched friction of the plate, and two plates that say what theirs is.
+  const auto on = [](const char* name, const char* friction) {
+    return std::string(R"({"name": ")") + name +
+           R"(", "mass_fallen": {"value": "21 mg", "sd": "2 mg"},
+              "device": {"plate_material": {"sliding_friction": )" +
+           friction + "}}}";
+  };
+  EXPECT_THAT(ErrorOf(on("a", "0.3") + "," + on("b", "0.5"),
+                      R"("plate_sliding_friction": {"min": 0.1, "max": 0.8})"),
+              HasSubstr("parameters.plate_sliding_friction: is searched as one number"));
+}
+
+}  // namespace
+}  // namespace talus::campaign
