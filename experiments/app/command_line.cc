@@ -32,6 +32,7 @@ std::string DidYouMean(const std::string& nearest) {
 void DescribeCommandLine(CLI::App& app) {
   app.set_version_flag("--version", "talus " + base::Version());
   app.require_subcommand(1);
+  AddInitCommand(app);
   AddMeasureCommand(app);
   AddValidateCommand(app);
   AddCalibrateCommand(app);

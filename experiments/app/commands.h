@@ -11,6 +11,7 @@ namespace talus::app {
 void AddCardCommand(CLI::App& app);
 void AddCompareCommand(CLI::App& app);
 void AddReportCommand(CLI::App& app);
+void AddInitCommand(CLI::App& app);
 void AddMeasureCommand(CLI::App& app);
 void AddCalibrateCommand(CLI::App& app);
 void AddAddExperimentCommand(CLI::App& app);

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -42,12 +43,14 @@ void Watch(const Arguments& arguments) {
   while (interrupt.Asked() == base::Interrupt::kNone) {
     // Asked before the journal is read: what was written last is still shown.
     const bool worked_on = campaign::IsWorkedOn(arguments.campaign);
-    const analysis::Evidence evidence =
+    analysis::Evidence evidence =
         analysis::GatherEvidence(arguments.campaign, arguments.experiment);
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
-      const auto page = analysis::WriteReport(analysis::MakeReportData(evidence), arguments.out,
-                                              {.reload = worked_on ? kWatchPeriod : 0});
+      analysis::AddModel(arguments.campaign, evidence);
+      const auto page =
+          analysis::WriteReport(analysis::MakeReportData(std::move(evidence)), arguments.out,
+                                {.reload = worked_on ? kWatchPeriod : 0});
       if (shown.empty()) std::cout << "The report is " << page.string() << std::endl;
       shown = state;
     }
@@ -96,9 +99,11 @@ void AddReportCommand(CLI::App& app) {
       Watch(*arguments);
       return;
     }
-    const auto page = analysis::WriteReport(analysis::MakeReportData(analysis::GatherEvidence(
-                                                arguments->campaign, arguments->experiment)),
-                                            arguments->out);
+    analysis::Evidence evidence =
+        analysis::GatherEvidence(arguments->campaign, arguments->experiment);
+    analysis::AddModel(arguments->campaign, evidence);
+    const auto page =
+        analysis::WriteReport(analysis::MakeReportData(std::move(evidence)), arguments->out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }

@@ -83,10 +83,7 @@ std::string BranchLine(const ResultBranch& branch) {
 
 std::string PosteriorLines(const CampaignResult& result) {
   const ResultPosterior& p = *result.posterior;
-  std::vector<std::string> names;
-  for (const ResultParameter& parameter : result.parameters) names.push_back(parameter.name);
-  std::string text =
-      "  posterior         " + PosteriorSentence(p, names, result.correlation) + "\n";
+  std::string text;
   if (p.branches.size() > 1) {
     for (const ResultBranch& branch : p.branches) text += BranchLine(branch);
   }
@@ -96,8 +93,8 @@ std::string PosteriorLines(const CampaignResult& result) {
   for (const ResultAlone& a : p.alone) {
     text += "  " + a.name + " alone:";
     for (std::size_t i = 0; i < a.values.size(); ++i) {
-      text += (i == 0 ? " " : ", ") + names[i] + " " + NumberText4(a.values[i]) + " (" +
-              NumberText4(a.low[i]) + " to " + NumberText4(a.high[i]) + ")";
+      text += (i == 0 ? " " : ", ") + result.parameters[i].name + " " + NumberText4(a.values[i]) +
+              " (" + NumberText4(a.low[i]) + " to " + NumberText4(a.high[i]) + ")";
     }
     text += "\n";
   }
@@ -127,6 +124,7 @@ CampaignResult ParseResult(const std::string& text) {
 
 std::string ResultSummary(const CampaignResult& r) {
   std::string text = r.name + ": recommended set\n" + ParameterLines(r);
+  if (r.verdict) text += "  verdict           " + r.verdict->text + "\n";
   const bool has_image = std::isfinite(r.predicted);
   if (has_image) {
     text += "  predicted         " + NumberText4(r.predicted) + " " + r.objective_unit + " ± " +

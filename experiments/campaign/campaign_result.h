@@ -9,6 +9,7 @@
 #include "base/field.h"
 #include "experiments/campaign/result_posterior.h"
 #include "experiments/campaign/result_warning.h"
+#include "experiments/campaign/verdict.h"
 
 namespace talus::campaign {
 
@@ -140,8 +141,11 @@ struct CampaignResult {
   std::string name;
   std::string talus_version;
   std::string stop_reason;
-  std::string objective;       // key with the unit: "sad_mm2"
-  std::string objective_unit;  // for people: "mm²"
+  std::string objective;                   // key with the unit: "sad_mm2"
+  std::string objective_unit;              // for people: "mm²"
+  std::optional<ResultVerdict> verdict{};  // what kind of answer it is
+  // Sets to look at side by side, the recommended one among them, SI.
+  std::vector<std::vector<double>> representative{};
   std::vector<ResultParameter> parameters{};
   double predicted = kNotKnown;              // objective at the recommended set
   double predicted_sd = kNotKnown;           // of that mean
@@ -167,6 +171,8 @@ struct CampaignResult {
     visit("stop_reason", self.stop_reason);
     visit("objective", self.objective);
     visit("objective_unit", self.objective_unit);
+    visit("verdict", self.verdict);
+    visit("representative_sets", self.representative);
     visit("parameters", self.parameters);
     visit("predicted_objective", self.predicted);
     visit("predicted_objective_sd", self.predicted_sd);

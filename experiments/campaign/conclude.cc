@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/version.h"
+#include "experiments/campaign/alarms.h"
 #include "experiments/campaign/describe_posterior.h"
 #include "experiments/campaign/hold_out.h"
 #include "imaging/spheres/projection.h"
@@ -167,6 +168,31 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, co
   }
 }
 
+// What the sentence and the sets to look at stand on: the posterior's draws, or the sets that tie.
+void AddVerdict(const optimizer::Answer& answer, const Planner& planner, CampaignResult& result) {
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(answer.tied.size()), answer.point.size());
+  for (std::size_t i = 0; i < answer.tied.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = answer.tied[i];
+  }
+  if (answer.posterior) points = answer.posterior->draws;
+  for (const Eigen::VectorXd& set : RepresentativeSets(points, answer.point)) {
+    result.representative.push_back(FreeValues(planner.space(), set));
+  }
+  VerdictBasis basis{.correlation = result.correlation,
+                     .sets = result.representative,
+                     .region_volume = result.tied_volume};
+  for (const int i : planner.space().Free()) {
+    basis.parameters.push_back(planner.space().parameters[static_cast<std::size_t>(i)]);
+    basis.names.push_back(basis.parameters.back().name);
+  }
+  for (const ResultParameter& parameter : result.parameters) {
+    basis.low.push_back(parameter.credible_low);
+    basis.high.push_back(parameter.credible_high);
+  }
+  if (result.posterior) basis.branches = result.posterior->branches;
+  result.verdict = VerdictOf(basis);
+}
+
 ResultConditions ConditionsOf(const CampaignSpec& spec) {
   return {.scale_factor = spec.coarse_graining.Target(),
           .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent,
@@ -186,24 +212,6 @@ ResultCost CostOf(const Planner& planner, const Evidenced& of) {
     if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
   }
   return cost;
-}
-
-void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
-  constexpr double kAdvised = 30;  // grains across the plate
-  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
-    for (const double factor : spec.coarse_graining.Levels()) {
-      const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
-      if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
-      const double across =
-          heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
-      if (across >= kAdvised) continue;
-      result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
-                                        .experiment = experiments[e].name,
-                                        .scale_factor = factor,
-                                        .value = across}));
-    }
-  }
 }
 
 // Where experiments disagree, what each alone would say: it tells which of them is the odd one.
@@ -231,22 +239,6 @@ void AddAloneAnswers(const Planner& planner, const Evidenced& of, CampaignResult
                                        .low = answer.low,
                                        .high = answer.high});
   }
-}
-
-void AddWarnings(const optimizer::Answer& answer, const CampaignSpec& spec,
-                 CampaignResult& result) {
-  for (const optimizer::BoundWarning& bound : answer.warnings) {
-    const auto i = static_cast<std::size_t>(bound.parameter);
-    result.warnings.push_back(Worded({.kind = WarningKind::kBound,
-                                      .parameter = result.parameters[i].name,
-                                      .side = bound.is_upper ? "upper" : "lower"}));
-  }
-  if (result.posterior) {
-    for (const ResultWarning& warning : PosteriorWarnings(*result.posterior)) {
-      result.warnings.push_back(warning);
-    }
-  }
-  AddGrainWarnings(spec, result);
 }
 
 }  // namespace
@@ -280,8 +272,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   if (answer->posterior) {
     result.posterior = DescribePosterior(*answer->posterior, planner.space());
   }
-  AddWarnings(*answer, of.spec, result);
-  AddAloneAnswers(planner, of, result);
+  AddVerdict(*answer, planner, result);
   std::vector<double> noise;
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.kind != journal::TrialKind::kNoise) continue;
@@ -290,6 +281,13 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   if (noise.size() >= 2) result.replicates_sd = SampleOf(noise).sd;
   AddConfirmation(*answer, planner, of, result);
   result.conditions = ConditionsOf(of.spec);
+  AddAlarms({.answer = *answer,
+             .spec = of.spec,
+             .campaign = of.campaign,
+             .reference = of.references.front(),
+             .trials = planner.trials()},
+            result);
+  AddAloneAnswers(planner, of, result);
   result.cost = CostOf(planner, of);
   return result;
 }

@@ -8,15 +8,12 @@
 namespace talus::campaign {
 namespace {
 
-constexpr double kAlarm = 3;    // implausibility above which no set fits
-constexpr double kCurve = 0.8;  // correlation above which two parameters are known together only
+constexpr double kAlarm = 3;  // implausibility above which no set fits
 
 std::string Exact(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
-
-std::string Percent(double share) { return NumberText4(std::round(1000 * share) / 10) + " %"; }
 
 }  // namespace
 
@@ -91,30 +88,6 @@ std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
     csv += line + "\n";
   }
   return csv;
-}
-
-std::string PosteriorSentence(const ResultPosterior& posterior,
-                              const std::vector<std::string>& names,
-                              const std::vector<std::vector<double>>& correlation) {
-  const std::string where =
-      "; the joint 90 % region is " + Percent(posterior.region_volume) + " of the searched ranges";
-  if (posterior.branches.size() > 1) {
-    std::string shares;
-    for (const ResultBranch& branch : posterior.branches) {
-      shares += (shares.empty() ? "" : ", ") + Percent(branch.share);
-    }
-    return "the measurements allow " + std::to_string(posterior.branches.size()) +
-           " separate answers, of " + shares + where;
-  }
-  for (std::size_t i = 0; i < correlation.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (std::abs(correlation[i][j]) < kCurve) continue;
-      return "the measurements determine a curve, not a point: " + names[i] +
-             (correlation[i][j] < 0 ? " falls as " : " rises with ") + names[j] +
-             (correlation[i][j] < 0 ? " rises" : "") + where;
-    }
-  }
-  return "the measurements determine a point, within its ranges" + where;
 }
 
 }  // namespace talus::campaign

@@ -29,10 +29,4 @@ std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
                          const optimizer::ParameterSpace& space,
                          const std::vector<journal::ParameterRecord>& parameters);
 
-// "these images determine a curve, not a point: …", for people. `correlation` is between the
-// parameters, as a result holds it.
-std::string PosteriorSentence(const ResultPosterior& posterior,
-                              const std::vector<std::string>& names,
-                              const std::vector<std::vector<double>>& correlation);
-
 }  // namespace talus::campaign

@@ -1,5 +1,7 @@
 #include "experiments/campaign/result_warning.h"
 
+#include <cmath>
+
 #include "experiments/campaign/console.h"
 
 namespace talus::campaign {
@@ -30,13 +32,38 @@ std::string TextOf(const ResultWarning& w) {
     case WarningKind::kNotModelsChoice:
       return "the set that the model recommends was confirmed worse than another candidate, which "
              "is recommended instead; the predicted value is that of the model's set";
-    case WarningKind::kOther:
+    case WarningKind::kWorseThanPredicted:
+      return "confirmed worse than predicted, by " + value +
+             " of the objective: the model promises too much here; more simulations round this set "
+             "would settle it (`talus resume DIR --add-simulations N`)";
+    case WarningKind::kWorseThanObserved:
+      return "trial " + std::to_string(w.trial.value_or(0)) +
+             " came out better than the recommended set, by " + value +
+             " of the objective: look at its set before you use this one";
+    case WarningKind::kCorrelated:
+      return w.parameter.value_or("") + " and " + w.other_parameter.value_or("") +
+             " are known together only (correlation " +
+             NumberText4(std::round(100 * w.value.value_or(0)) / 100) +
+             "): use them as a pair, or measure one of them in another test";
+    case WarningKind::kPoorModel:
+      return "the model predicts badly what it was not told: " + w.text;
+    default:  // a photograph's, or an earlier version's: in words already
       return w.text;
   }
   return w.text;
 }
 
 }  // namespace
+
+ResultWarning PhotographWarning(const journal::PhotoWarningRecord& warning,
+                                const std::string& experiment) {
+  ResultWarning made{.experiment = experiment, .value = warning.value, .text = warning.text};
+  if (!warning.photo.empty()) made.photo = warning.photo;
+  for (const auto& [name, kind] : base::Names<WarningKind>::kList) {
+    if (name == warning.kind) made.kind = kind;
+  }
+  return made;
+}
 
 ResultWarning Worded(ResultWarning warning) {
   warning.text = TextOf(warning);

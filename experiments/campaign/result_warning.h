@@ -2,30 +2,50 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "base/field.h"
+#include "experiments/journal/records.h"
 
 namespace talus::campaign {
 
+// Those of photographs have the names that measure.json gives them (imaging::PhotoDoubt).
 enum class WarningKind {
-  kBound,            // `parameter` of the recommended set lies on its `side`
-  kFewGrains,        // `value` grains across the plate of `experiment` at `scale_factor`
-  kImplausible,      // no set fits `experiment`: the best is `value` standard deviations off
-  kExtrapolated,     // nothing was simulated at the target `scale_factor`
-  kUnlearntLevel,    // the bias of `scale_factor` is not known
-  kNotModelsChoice,  // another candidate was confirmed better than the model's set
-  kOther             // of an earlier version's result, in words
+  kWorseThanPredicted,  // confirmed worse than predicted, by `value` of the objective
+  kWorseThanObserved,   // … than trial `trial` at the same `scale_factor`, by `value`
+  kNotModelsChoice,     // another candidate was confirmed better than the model's set
+  kImplausible,         // no set fits `experiment`: the best is `value` standard deviations off
+  kPoorModel,           // the model predicts badly what it was not told; `value` as the text says
+  kExtrapolated,        // nothing was simulated at the target `scale_factor`
+  kUnlearntLevel,       // the bias of `scale_factor` is not known
+  kCorrelated,          // `parameter` and `other_parameter` are known together only: `value`
+  kBound,               // `parameter` of the recommended set lies on its `side`
+  kFewGrains,           // `value` grains across the plate of `experiment` at `scale_factor`
+  kLeftOut,             // from here on photographs of `experiment`, one of them or all
+  kRunDisagrees,
+  kFrontLit,
+  kMixedLight,
+  kHiddenTop,
+  kNoPowder,
+  kTouchesFrame,
+  kBesidePlate,
+  kViewDisagrees,
+  kOverexposed,
+  kOther  // of an earlier version's result, in words
 };
 
 struct ResultWarning {
   WarningKind kind = WarningKind::kOther;
   std::optional<std::string> parameter{};
+  std::optional<std::string> other_parameter{};
   std::optional<std::string> side{};  // "lower" or "upper"
   std::optional<std::string> experiment{};
   std::optional<double> scale_factor{};
+  std::optional<std::int64_t> trial{};
+  std::optional<std::string> photo{};  // file
   std::optional<double> value{};
   std::string text{};  // the same in words, for people
 
@@ -33,9 +53,12 @@ struct ResultWarning {
   static void Visit(Self& self, Visitor&& visit) {
     visit("kind", self.kind);
     visit("parameter", self.parameter);
+    visit("other_parameter", self.other_parameter);
     visit("side", self.side);
     visit("experiment", self.experiment);
     visit("scale_factor", self.scale_factor);
+    visit("trial", self.trial);
+    visit("photo", self.photo);
     visit("value", self.value);
     visit("text", self.text);
   }
@@ -44,18 +67,36 @@ struct ResultWarning {
 // With its text filled in.
 ResultWarning Worded(ResultWarning warning);
 
+// Of an experiment's photographs, under the name that it has there.
+ResultWarning PhotographWarning(const journal::PhotoWarningRecord& warning,
+                                const std::string& experiment);
+
 }  // namespace talus::campaign
 
 template <>
 struct talus::base::Names<talus::campaign::WarningKind> {
   using K = talus::campaign::WarningKind;
   static constexpr std::array kList{
-      std::pair{"bound", K::kBound},
-      std::pair{"few_grains", K::kFewGrains},
+      std::pair{"worse_than_predicted", K::kWorseThanPredicted},
+      std::pair{"worse_than_observed", K::kWorseThanObserved},
+      std::pair{"not_the_models_choice", K::kNotModelsChoice},
       std::pair{"implausible", K::kImplausible},
+      std::pair{"poor_model", K::kPoorModel},
       std::pair{"extrapolated", K::kExtrapolated},
       std::pair{"unlearnt_scale_factor", K::kUnlearntLevel},
-      std::pair{"not_the_models_choice", K::kNotModelsChoice},
+      std::pair{"correlated", K::kCorrelated},
+      std::pair{"bound", K::kBound},
+      std::pair{"few_grains", K::kFewGrains},
+      std::pair{"left_out", K::kLeftOut},
+      std::pair{"run_disagrees", K::kRunDisagrees},
+      std::pair{"front_lit", K::kFrontLit},
+      std::pair{"mixed_light", K::kMixedLight},
+      std::pair{"hidden_top", K::kHiddenTop},
+      std::pair{"no_powder", K::kNoPowder},
+      std::pair{"touches_frame", K::kTouchesFrame},
+      std::pair{"beside_plate", K::kBesidePlate},
+      std::pair{"view_disagrees", K::kViewDisagrees},
+      std::pair{"overexposed", K::kOverexposed},
       std::pair{"other", K::kOther},
   };
 };

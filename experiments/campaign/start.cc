@@ -34,7 +34,11 @@ std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpa
 void AddImages(const ExperimentSpec& spec, journal::ExperimentRecord& record) {
   const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
   for (const imaging::PhotoWarning& warning : experiment.warnings) {
-    std::cerr << "warning: experiment: " << imaging::WarningText(warning) << '\n';
+    record.warnings.push_back({.kind = std::string(base::NameOf(warning.doubt)),
+                               .photo = warning.photo.string(),
+                               .value = warning.value,
+                               .text = imaging::WarningText(warning)});
+    std::cerr << "warning: experiment: " << record.warnings.back().text << '\n';
   }
   record.aehp_png = imaging::EncodePng(experiment.aehp.image);
   if (!experiment.standard_deviation.pixels.empty()) {

@@ -1,9 +1,16 @@
 #include "experiments/journal/experiment_tables.h"
 
 #include <cmath>
+#include <string>
+
+#include "base/json_writer.h"
+#include "experiments/journal/journal.h"
+#include "experiments/journal/record_json.h"
 
 namespace talus::journal {
 namespace {
+
+constexpr const char* kPhotographEvent = "photograph";  // a PhotoWarningRecord as JSON
 
 // The record of a row whose first column is its experiment's position.
 ExperimentRecord& OwnerOf(const Statement& row, std::vector<ExperimentRecord>& experiments) {
@@ -43,6 +50,16 @@ void ReadScalars(Database& database, std::vector<ExperimentRecord>& experiments)
   }
 }
 
+// An event's `trial` is here the experiment's position.
+void ReadWarnings(Database& database, std::vector<ExperimentRecord>& experiments) {
+  Statement row = database.Prepare("SELECT trial, text FROM events WHERE kind = ?1 ORDER BY id");
+  row.Bind(std::string(kPhotographEvent));
+  while (row.Step()) {
+    OwnerOf(row, experiments)
+        .warnings.push_back(ParseRecord<PhotoWarningRecord>(row.Text(1), "a photograph's warning"));
+  }
+}
+
 }  // namespace
 
 void InsertExperiment(Database& database, std::int64_t position, const ExperimentRecord& e) {
@@ -68,6 +85,11 @@ void InsertExperiment(Database& database, std::int64_t position, const Experimen
         .Bind(position, i++, scalar.name, scalar.value, scalar.standard_error)
         .Finish();
   }
+  for (const PhotoWarningRecord& warning : e.warnings) {
+    database.Prepare("INSERT INTO events (utc, kind, trial, text) VALUES (?1, ?2, ?3, ?4)")
+        .Bind(UtcNow(), std::string(kPhotographEvent), position, base::ToJson(warning).dump())
+        .Finish();
+  }
 }
 
 std::vector<ExperimentRecord> ReadExperiments(Database& database) {
@@ -89,6 +111,7 @@ std::vector<ExperimentRecord> ReadExperiments(Database& database) {
   ReadMetrics(database, experiments);
   ReadRuns(database, experiments);
   ReadScalars(database, experiments);
+  ReadWarnings(database, experiments);
   return experiments;
 }
 

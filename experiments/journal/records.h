@@ -106,6 +106,22 @@ struct ScalarRecord {
   }
 };
 
+// What is doubtful about an experiment's photographs.
+struct PhotoWarningRecord {
+  std::string kind;   // "front_lit", as measure.json calls it
+  std::string photo;  // file; empty where it is of all
+  double value = 0;   // as the kind says
+  std::string text;   // for people
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind);
+    visit("photo", self.photo);
+    visit("value", self.value);
+    visit("text", self.text);
+  }
+};
+
 // What trials are compared with: what was measured on the real powder by one test.
 struct ExperimentRecord {
   std::string name;
@@ -118,6 +134,7 @@ struct ExperimentRecord {
   std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
   std::vector<RunRecord> runs;      // empty for a map, and in journals of schema 2
   std::vector<ScalarRecord> scalars;
+  std::vector<PhotoWarningRecord> warnings{};
 
   // All but the images.
   template <class Self, class Visitor>
@@ -130,6 +147,7 @@ struct ExperimentRecord {
     visit("experimental_noise_floor_mm2", self.noise_mm2);
     visit("runs", self.runs);
     visit("scalars", self.scalars);
+    visit("warnings", self.warnings);
   }
 };
 

@@ -211,6 +211,12 @@ void Summarise(const ExperimentOptions& options, Experiment& result) {
   if (images.size() >= 2) {
     result.standard_deviation = StandardDeviation(images);
     result.noise_floor = LeaveOneOut(images, result.aehp);
+    const std::vector<double> off = DisagreeingRuns(result.noise_floor->sad_px);
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      if (off[i] == 0) continue;
+      result.warnings.push_back(
+          {.doubt = PhotoDoubt::kRunDisagrees, .value = off[i], .reason = result.runs[i].name});
+    }
   }
   result.metrics = DescribeProfile(result.Images(), options.metrics);
 }

@@ -98,4 +98,25 @@ ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const Experim
                      frame);
 }
 
+// Linear between pixel centres; what the photograph does not show is white.
+GrayImage PhotoInFrame(const GrayImage& photo, const PlatePose& plate, double photo_pixel,
+                       const Frame& frame) {
+  GrayImage image{.width = frame.width, .height = frame.height, .pixels = {}};
+  image.pixels.assign(
+      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height), 255);
+  const cv::Mat source(photo.height, photo.width, CV_8U,
+                       const_cast<std::uint8_t*>(photo.pixels.data()));
+  cv::Mat target(frame.height, frame.width, CV_8U, image.pixels.data());
+  const double scale = frame.pixel_size / photo_pixel;
+  const double c = scale * std::cos(plate.tilt);
+  const double s = scale * std::sin(plate.tilt);
+  const double x = 0.5 - frame.center_x;  // from pixel indices: centres lie half a pixel on
+  const double y = 0.5 - frame.baseline;
+  const cv::Matx23d photo_from_frame(c, -s, plate.center_x + c * x - s * y - 0.5, s, c,
+                                     plate.baseline + s * x + c * y - 0.5);
+  cv::warpAffine(source, target, photo_from_frame, {frame.width, frame.height},
+                 cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, cv::Scalar(255));
+  return image;
+}
+
 }  // namespace talus::imaging

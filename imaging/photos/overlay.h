@@ -24,4 +24,9 @@ ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat,
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
                      double photo_pixel);
 
+// A photograph resampled so that its plate lies as `frame` has it: pixel for pixel beside profiles
+// of that frame. `photo_pixel` is the photograph's pixel size [m].
+GrayImage PhotoInFrame(const GrayImage& photo, const PlatePose& plate, double photo_pixel,
+                       const Frame& frame);
+
 }  // namespace talus::imaging

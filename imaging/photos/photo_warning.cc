@@ -24,10 +24,20 @@ std::string Percent(double share) {
   return text.str();
 }
 
+std::string Times(double factor) {
+  std::ostringstream text;
+  text.precision(2);
+  text << factor << " times";
+  return text.str();
+}
+
 std::string Reason(const PhotoWarning& warning) {
   switch (warning.doubt) {
     case PhotoDoubt::kLeftOut:
       return "left out: " + warning.reason;
+    case PhotoDoubt::kRunDisagrees:
+      return "run " + warning.reason + " differs from the others " + Times(warning.value) +
+             " as much as they do: another heap, or one that slid; look at it, or leave it out";
     case PhotoDoubt::kFrontLit:
       return "powder is brighter than its background and is taken to be lit from the front; say "
              "\"powder\": \"bright\" (--powder bright) if so, \"dark\" if not";
@@ -107,6 +117,20 @@ std::vector<double> DisagreeingViews(const std::vector<double>& nebp) {
   for (std::size_t i = 0; i < nebp.size(); ++i) {
     const bool much = deviations[i] > kLeastDeviation && deviations[i] > kManyScatters * scatter;
     if (much) off[i] = nebp[i] / median;
+  }
+  return off;
+}
+
+std::vector<double> DisagreeingRuns(const std::vector<double>& differences) {
+  constexpr std::size_t kFewest = 4;  // one run is one of two halves, and pulls the mean of three
+  constexpr double kMuch = 2;
+  std::vector<double> off(differences.size(), 0.0);
+  if (differences.size() < kFewest) return off;
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    std::vector<double> others = differences;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double usual = Median(others);
+    if (usual > 0 && differences[i] > kMuch * usual) off[i] = differences[i] / usual;
   }
   return off;
 }

@@ -14,6 +14,7 @@ namespace talus::imaging {
 
 enum class PhotoDoubt {
   kLeftOut,        // not usable; `reason` says why
+  kRunDisagrees,   // `reason`: the run; value: its difference from the others / the usual one [-]
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some photographs only; value: number of such photographs
   kHiddenTop,      // powder hides the plate's top in every photograph
@@ -28,7 +29,7 @@ struct PhotoWarning {
   PhotoDoubt doubt = PhotoDoubt::kLeftOut;
   std::filesystem::path photo{};  // empty where it is of all
   double value = 0;               // as the doubt says
-  std::string reason{};           // of kLeftOut
+  std::string reason{};           // of kLeftOut and kRunDisagrees
 };
 
 // One sentence with the photograph, the number and what to look at.
@@ -50,15 +51,23 @@ inline constexpr double kMuchOverexposed = 0.5;   // [-]
 // than four times the usual scatter (1.48 × median absolute deviation); 0 for the others.
 std::vector<double> DisagreeingViews(const std::vector<double>& nebp);
 
+// The leave-one-out difference of each run over the median of the others', for those that differ
+// more than twice as much; 0 for the others, and for all of fewer than four runs.
+std::vector<double> DisagreeingRuns(const std::vector<double>& differences);
+
 }  // namespace talus::imaging
 
 template <>
 struct talus::base::Names<talus::imaging::PhotoDoubt> {
   using enum talus::imaging::PhotoDoubt;
-  static constexpr std::array kList{
-      std::pair{"left_out", kLeftOut},         std::pair{"front_lit", kFrontLit},
-      std::pair{"mixed_light", kMixedLight},   std::pair{"hidden_top", kHiddenTop},
-      std::pair{"no_powder", kNoPowder},       std::pair{"touches_frame", kTouchesFrame},
-      std::pair{"beside_plate", kBesidePlate}, std::pair{"view_disagrees", kViewDisagrees},
-      std::pair{"overexposed", kOverexposed}};
+  static constexpr std::array kList{std::pair{"left_out", kLeftOut},
+                                    std::pair{"run_disagrees", kRunDisagrees},
+                                    std::pair{"front_lit", kFrontLit},
+                                    std::pair{"mixed_light", kMixedLight},
+                                    std::pair{"hidden_top", kHiddenTop},
+                                    std::pair{"no_powder", kNoPowder},
+                                    std::pair{"touches_frame", kTouchesFrame},
+                                    std::pair{"beside_plate", kBesidePlate},
+                                    std::pair{"view_disagrees", kViewDisagrees},
+                                    std::pair{"overexposed", kOverexposed}};
 };

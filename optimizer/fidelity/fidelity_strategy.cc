@@ -309,6 +309,13 @@ std::optional<std::string> FidelityStrategy::StopReason() {
   return text;
 }
 
+std::optional<Moments> FidelityStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {
+  if (!CanModel()) return std::nullopt;
+  const ExperimentModel& model = Model().models()[static_cast<std::size_t>(experiment)];
+  if (!model.has_image()) return std::nullopt;
+  return model.Objective(points);
+}
+
 std::unique_ptr<Strategy> MakeFidelityStrategy(const FidelityOptions& options, const Domain& domain,
                                                std::vector<ExperimentTarget> targets) {
   return std::make_unique<FidelityStrategy>(options, domain, std::move(targets));

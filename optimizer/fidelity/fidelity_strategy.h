@@ -31,6 +31,7 @@ class FidelityStrategy : public Strategy {
   std::optional<std::string> StopReason() override;
   Answer Recommend() override;
   std::optional<Standing> Consider(const Eigen::VectorXd& point) override;
+  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 
   // Whether enough was told for the two below.
   bool CanModel() const;

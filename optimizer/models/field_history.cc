@@ -99,6 +99,7 @@ void FieldHistory::Choose(int count, bool deterministic) {
     verdict_ += ", by " + Percent(error / sd) + " by modes of " + coded.code->name();
     if (!(error < lowest)) continue;
     lowest = error;
+    left_out_share_ = sd > 0 ? error / sd : 0;
     choice_.coded = &coded;
     choice_.state = model.state();
     if (!always_) break;

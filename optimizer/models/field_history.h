@@ -29,6 +29,8 @@ class FieldHistory {
 
   // Which model was chosen and how well each predicts, in words. After Model.
   const std::string& verdict() const { return verdict_; }
+  // Leave-one-out error of the chosen model over the better half / their standard deviation.
+  double left_out_share() const { return left_out_share_; }
 
  private:
   struct Coded {
@@ -55,6 +57,7 @@ class FieldHistory {
   std::vector<double> values_;
   Choice choice_;
   std::string verdict_;
+  double left_out_share_ = 0;
 };
 
 }  // namespace talus::optimizer

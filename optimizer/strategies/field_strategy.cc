@@ -155,10 +155,16 @@ Answer FieldStrategy::Recommend() {
                                    .num_draws = slow ? 100 : 200,
                                    .num_sobol = slow ? 32 : 128,
                                    .seed = record().options().seed});
+  answer.left_out_share = fields_.left_out_share();
   answer.model = std::to_string(model_->num_modes()) + " modes of the images of " +
                  std::to_string(fields_.size()) + " evaluations, " +
                  (record().noise_free() ? "deterministic" : "noisy") + "; " + fields_.verdict();
   return answer;
+}
+
+std::optional<Moments> FieldStrategy::Predict(const Eigen::MatrixXd& points, int /*experiment*/) {
+  if (!Model()) return by_values_.Predict(record(), points);
+  return model_->Predict(points);
 }
 
 }  // namespace talus::optimizer

@@ -150,12 +150,21 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();
   const Eigen::ArrayXd error = left_out.mean - fit.process.values();
   const double z = std::sqrt((error.square() / left_out.variance.array()).mean());
+  const Eigen::ArrayXd told = fit.process.values();
+  const double spread = std::sqrt((told - told.mean()).square().mean());
+  if (spread > 0) answer.left_out_share = std::sqrt(error.square().mean()) / spread;
   answer.model = "Gaussian process of " + std::to_string(record.history().size()) +
                  " evaluations, " + (record.noise_free() ? "deterministic" : "noisy") +
                  "; left out, each is missed by " + Rounded(std::sqrt(error.square().mean())) +
                  (fit.transform.delta > 0 ? " in the logarithm, " : ", ") + Rounded(z) +
                  " x the predicted error";
   return answer;
+}
+
+std::optional<Moments> ScalarSearch::Predict(const SearchRecord& record,
+                                             const Eigen::MatrixXd& points) {
+  if (record.history().size() < 2) return std::nullopt;
+  return ScalarModel(Fit(record), kInflation).Predict(points);
 }
 
 }  // namespace talus::optimizer

@@ -6,12 +6,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "optimizer/fidelity/posterior_summary.h"
+#include "optimizer/models/objective_model.h"
 
 namespace talus::optimizer {
 
@@ -64,6 +66,8 @@ struct Answer {
   std::vector<double> sobol_total;     // total Sobol index, one a parameter
   std::vector<BoundWarning> warnings;  // of `point`
   bool is_guess = false;               // no evaluation has succeeded
+  // Leave-one-out error of the model / standard deviation of what it predicts [-]; NaN: not known.
+  double left_out_share = std::numeric_limits<double>::quiet_NaN();
   std::string model;  // which surrogate answered and how well it predicts, in words
   std::optional<PosteriorSummary> posterior = {};  // of strategies that work one out
 };
@@ -89,6 +93,13 @@ class Strategy {
   }
   // Where a set stands in the posterior; nothing for strategies without one.
   virtual std::optional<Standing> Consider(const Eigen::VectorXd& /*point*/) {
+    return std::nullopt;
+  }
+  // The objective of an experiment by the model that Recommend answers with, one point a row; at
+  // the target scale factor where there are several. Nothing for strategies without a model, for
+  // experiments without an image, and before there are evaluations enough. A standard deviation
+  // that the model does not know is NaN.
+  virtual std::optional<Moments> Predict(const Eigen::MatrixXd& /*points*/, int /*experiment*/) {
     return std::nullopt;
   }
 };

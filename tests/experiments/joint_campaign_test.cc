@@ -94,7 +94,7 @@ TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
   const double sliding = std::stod(line);
   EXPECT_GE(sliding, 0.1);  // SI, so within the range and not in the unit cube
   EXPECT_LE(sliding, 0.8);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("the joint 90 % region is"));
+  EXPECT_THAT(ResultSummary(result), HasSubstr("the joint 90 % region fills"));
 }
 
 TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
@@ -201,17 +201,6 @@ TEST_F(TwoExperiments, ADamagedJournalIsMadeAnewWithBoth) {
   EXPECT_EQ(
       journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().experiments.size(),
       2u);
-}
-
-TEST(PosteriorInWords, ABranchACurveOrAPoint) {
-  const std::vector<std::string> names{"sliding_friction", "rolling_friction"};
-  ResultPosterior posterior{.region_volume = 0.05, .branches = {{.share = 1}}, .experiments = {}};
-  EXPECT_THAT(PosteriorSentence(posterior, names, {{1, 0.2}, {0.2, 1}}), HasSubstr("a point"));
-  EXPECT_THAT(PosteriorSentence(posterior, names, {{1, -0.9}, {-0.9, 1}}),
-              HasSubstr("a curve, not a point: rolling_friction falls as sliding_friction rises"));
-  posterior.branches = {{.share = 0.7}, {.share = 0.3}};
-  EXPECT_THAT(PosteriorSentence(posterior, names, {}),
-              HasSubstr("2 separate answers, of 70 %, 30 %"));
 }
 
 TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {

@@ -1,4 +1,5 @@
-// make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running: a campaign to test with.
+// make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running [posterior]: a campaign to test
+// with.
 #include <iostream>
 #include <string>
 
@@ -6,14 +7,15 @@
 #include "tests/experiments/synthetic_journal.h"
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::cerr << "make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running\n";
+  if (argc != 5 && argc != 6) {
+    std::cerr << "make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running [posterior]\n";
     return 2;
   }
   using namespace talus::test;
   const SyntheticOptions options{.num_trials = std::stoi(argv[2]),
                                  .num_parameters = std::stoi(argv[3]),
-                                 .concluded = std::string(argv[4]) == "finished"};
+                                 .concluded = std::string(argv[4]) == "finished",
+                                 .posterior = argc == 6};
   WriteSyntheticJournal(MakeSyntheticCampaign(options), argv[1]);
   return 0;
 }

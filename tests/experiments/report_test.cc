@@ -5,14 +5,17 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/base64.h"
 #include "experiments/analysis/report/figures.h"
 #include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/posterior_density.h"
 #include "experiments/analysis/report/svg_chart.h"
 #include "experiments/analysis/report/tables.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/campaign_result.h"
+#include "imaging/heap/metrics.h"
 #include "tests/experiments/synthetic_campaign.h"
 #include "tests/experiments/synthetic_journal.h"
 
@@ -125,19 +128,76 @@ TEST_F(Report, OutlinesEndOnThePlateWithinIt) {
 
 TEST_F(Report, ChancesOfPairsAreChancesAndHighestNearTheBestSet) {
   ASSERT_EQ(Data().pairs.size(), 3u);
-  const PairChance& pair = Data().pairs[0];
-  for (const double chance : pair.chance) {
+  const PairMap& pair = Data().pairs[0];
+  for (const double chance : pair.value) {
     EXPECT_GE(chance, 0);
     EXPECT_LE(chance, 1 + 1e-12);
   }
-  const auto highest = std::max_element(pair.chance.begin(), pair.chance.end());
-  const auto cell = static_cast<std::size_t>(highest - pair.chance.begin());
-  const std::size_t num_x = pair.x_edges.size() - 1;
-  // Averaging over the third parameter may shift the ridge by some cells of twenty.
-  const double reach = 2 * (pair.x_edges[1] - pair.x_edges[0]);
-  const std::vector<double>& best = Data().own().from_model->values;
-  EXPECT_NEAR(pair.x_edges[cell % num_x], best[pair.i], 2 * reach);
-  EXPECT_NEAR(pair.y_edges[cell / num_x], best[pair.j], 2 * reach);
+  // Two parameters trade along a valley, anywhere along which the chance may be highest; the
+  // model's best set lies in it, and two strong frictions lie far from it.
+  const double highest = *std::max_element(pair.value.begin(), pair.value.end());
+  const auto cells = static_cast<Eigen::Index>(pair.x_edges.size()) - 1;
+  const Eigen::VectorXd& best = Data().evidence.model->point;
+  const auto cell_of = [&](double unit) {
+    return std::min(static_cast<Eigen::Index>(unit * static_cast<double>(cells)), cells - 1);
+  };
+  const auto at_best = static_cast<std::size_t>(cell_of(best[1]) * cells + cell_of(best[0]));
+  EXPECT_GT(pair.value[at_best], 0.2 * highest);
+  EXPECT_LT(pair.value.back(), 0.2 * highest);
+}
+
+// What the page says of the objective at the recommended set is what the model that answers says.
+TEST_F(Report, SlicesPassThroughTheAnswerOfTheModelThatAnswered) {
+  const ReportData& data = Data();
+  ASSERT_EQ(data.slices.size(), 3u);
+  for (const ModelSlice& slice : data.slices) {
+    EXPECT_GE(*std::min_element(slice.mean.begin(), slice.mean.end()), 0);
+    EXPECT_GE(*std::min_element(slice.low.begin(), slice.low.end()), 0);
+    // The synthetic conclusion recommends the truth; 60 steps of the range pass within half a step.
+    const double there = data.evidence.conclusion->values[slice.parameter].value;
+    const auto at = std::min_element(slice.x.begin(), slice.x.end(), [&](double a, double b) {
+      return std::abs(a - there) < std::abs(b - there);
+    });
+    Eigen::VectorXd truth(3);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      truth[k] = data.evidence.parameters[i].range.ToUnit(test::SyntheticTruth()[i]);
+    }
+    const double expected = data.evidence.model->predict(truth.transpose()).mean[0];
+    EXPECT_NEAR(slice.mean[static_cast<std::size_t>(at - slice.x.begin())], expected, 0.3);
+  }
+}
+
+// A posterior is drawn from its draws; nothing is fitted to the trials beside it.
+TEST(ReportOfAPosterior, RegionsHoldTheirShareOfTheDraws) {
+  const ReportData data = MakeReportData(test::MakeSyntheticCampaign({.posterior = true}));
+  ASSERT_TRUE(data.has_posterior());
+  ASSERT_EQ(data.pairs.size(), 3u);
+  const PairMap& pair = data.pairs[0];
+  const auto cells = static_cast<Eigen::Index>(pair.x_edges.size()) - 1;
+  const Eigen::MatrixXd& draws = data.evidence.model->draws;
+  double inside_half = 0, inside_most = 0;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const auto cell_of = [&](double unit) {
+      return std::min(static_cast<Eigen::Index>(unit * static_cast<double>(cells)), cells - 1);
+    };
+    const double level =
+        pair.value[static_cast<std::size_t>(cell_of(draws(i, 1)) * cells + cell_of(draws(i, 0)))];
+    inside_half += level < 0.5 ? 1 : 0;
+    inside_most += level < 0.9 ? 1 : 0;
+  }
+  // 1000 draws count to ± 0.016; a kernel is wider than its draw, so regions hold somewhat more.
+  EXPECT_NEAR(inside_half / 1000, 0.57, 0.1);
+  EXPECT_NEAR(inside_most / 1000, 0.94, 0.06);
+  const auto outside = std::count_if(pair.value.begin(), pair.value.end(),
+                                     [](double level) { return level >= 0.9; });
+  // The valley is 0.02 thick and about 0.6 long; smeared with one width for all it would fill half.
+  EXPECT_GT(outside, 0.8 * static_cast<double>(pair.value.size()));
+}
+
+TEST(PosteriorDensity, AnEvenSampleHasAnEvenDensity) {
+  const Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(2000, 0, 1);
+  for (const double density : MarginalDensity(even, 40)) EXPECT_NEAR(density, 1, 0.1);
 }
 
 TEST_F(Report, JournalGivesBackWhatTheCampaignHas) {
@@ -171,9 +231,15 @@ campaign::CampaignResult ResultWithPosterior() {
   campaign::CampaignResult result;
   result.objective = "sad_mm2";
   result.parameters.resize(2);
-  result.parameters[0].name = "sliding_friction";
-  result.parameters[1].name = "rolling_friction";
+  result.parameters[0] = {.name = "sliding_friction", .unit = "", .value = 0.3};
+  result.parameters[1] = {.name = "rolling_friction", .unit = "", .value = 0.1};
+  for (campaign::ResultParameter& p : result.parameters) {
+    p.credible_low = 0.05;
+    p.credible_high = 0.45;
+  }
   result.correlation = {{1, -0.95}, {-0.95, 1}};
+  result.tied_volume = 0.2;
+  result.representative = {{0.06, 0.44}, {0.3, 0.1}, {0.44, 0.06}};
   result.posterior.emplace();
   result.posterior->region_volume = 0.2;
   result.posterior->branches = {
@@ -181,29 +247,79 @@ campaign::CampaignResult ResultWithPosterior() {
   return result;
 }
 
+Conclusion Concluded(const campaign::CampaignResult& result) {
+  return ConclusionOf(
+      campaign::ResultText(result),
+      test::MakeSyntheticCampaign({.num_trials = 2, .num_parameters = 2}).parameters);
+}
+
 TEST(ConclusionOf, VerdictSaysWhatKindOfAnswerThereIs) {
   campaign::CampaignResult result = ResultWithPosterior();
-  EXPECT_THAT(
-      ConclusionOf(campaign::ResultText(result)).verdict,
-      StartsWith("The measurements determine a curve, not a point: μ_r falls as μ_t rises"));
+  EXPECT_EQ(Concluded(result).verdict_kind, "curve");
+  EXPECT_THAT(Concluded(result).verdict, StartsWith("The measurements determine μ_"));
+  EXPECT_THAT(Concluded(result).verdict,
+              HasSubstr("not both: sets from (μ_t 0.06, μ_r 0.44) to (μ_t 0.44, μ_r 0.06) fit "
+                        "equally; the joint 90 % region fills 20 % of the searched ranges."));
   result.correlation = {{1, 0}, {0, 1}};
-  EXPECT_THAT(ConclusionOf(campaign::ResultText(result)).verdict, HasSubstr("determine a point"));
+  EXPECT_EQ(Concluded(result).verdict_kind, "region");
+  EXPECT_THAT(Concluded(result).verdict, HasSubstr("leave a region, not a point: μ_t in 0.05 to"));
+  for (campaign::ResultParameter& p : result.parameters) p.credible_high = 0.1;
+  EXPECT_EQ(Concluded(result).verdict_kind, "point");
   result.posterior->branches.push_back(
       {.share = 0.1, .values = {0.8, 0.4}, .low = {0.7, 0.3}, .high = {0.9, 0.5}});
-  const Conclusion conclusion = ConclusionOf(campaign::ResultText(result));
+  const Conclusion conclusion = Concluded(result);
+  EXPECT_EQ(conclusion.verdict_kind, "separate");
   EXPECT_THAT(conclusion.verdict, HasSubstr("2 separate answers"));
   ASSERT_EQ(conclusion.branches.size(), 2u);
   EXPECT_EQ(conclusion.branches[1].values, std::vector<double>({0.8, 0.4}));
-  result.posterior.reset();
-  EXPECT_EQ(ConclusionOf(campaign::ResultText(result)).verdict, "");
+  result.parameters[0].credible_low = kUndefined;
+  EXPECT_EQ(Concluded(result).verdict, "");  // no ranges, no verdict
 }
 
 TEST_F(Report, PageHoldsTheVerdictAndItsBranches) {
   ReportData data = Data();
-  data.evidence.conclusion = ConclusionOf(campaign::ResultText(ResultWithPosterior()));
+  data.evidence.conclusion = Concluded(ResultWithPosterior());
   const json headline = json::parse(PageJson(data))["headline"];
   EXPECT_EQ(headline["verdict"], data.evidence.conclusion->verdict);
   EXPECT_EQ(headline["branches"][0]["high"], json({0.4, 0.2}));
+}
+
+// Given the first parameter, the bent valley of the synthetic posterior leaves little of the
+// second.
+TEST(NextSteps, MeasuringOneOfTwoTiedParametersLeavesANarrowRangeOfTheOther) {
+  const ReportData data = MakeReportData(test::MakeSyntheticCampaign({.posterior = true}));
+  ASSERT_FALSE(data.next_steps.empty());
+  const NextStep& first = data.next_steps.front();
+  EXPECT_THAT(first.what, HasSubstr("Measure μ_"));
+  // The valley is 0.02 thick and 0.6 long, so knowing one leaves less than a tenth of the volume.
+  EXPECT_LT(first.remaining, 0.1);
+  for (std::size_t i = 1; i < data.next_steps.size(); ++i) {
+    EXPECT_LE(data.next_steps[i - 1].remaining, data.next_steps[i].remaining);
+  }
+  EXPECT_TRUE(NextSteps(test::MakeSyntheticCampaign()).empty());  // no posterior, nothing to say
+}
+
+TEST(RepresentativeViews, RecommendedStandsInTheMiddleWithWhatTheModelExpects) {
+  Evidence evidence = test::MakeSyntheticCampaign({.posterior = true});
+  evidence.conclusion->representative = {{0.1, 0.5, 1e-5}, {0.3, 0.2, 3e-5}, {0.6, 0.1, 3e-5}};
+  const auto views = RepresentativeViews(evidence);
+  ASSERT_EQ(views.size(), 3u);
+  EXPECT_TRUE(views[1].is_recommended);
+  EXPECT_EQ(views[1].values[0], evidence.conclusion->values[0].value);
+  ASSERT_NE(views[1].trial, nullptr);
+  EXPECT_EQ(views[1].trial->purpose, "confirm");  // simulated at that very set
+  EXPECT_GT(views[0].expected, views[1].expected);
+}
+
+TEST(HeapBox, HoldsThePowderAndThePlateAndLittleMore) {
+  const Evidence evidence = test::MakeSyntheticCampaign({.num_trials = 2});
+  const imaging::Profile& aehp = evidence.reference.aehp;
+  const Box box = HeapBox({&aehp});
+  const imaging::GrayImage cut = Cropped(aehp.image, box);
+  EXPECT_EQ(imaging::Nebp(cut), imaging::Nebp(aehp.image));  // nothing of the heap is lost
+  EXPECT_LT(cut.pixels.size(), 0.75 * static_cast<double>(aehp.image.pixels.size()));
+  const double plate = aehp.frame.plate_diameter / aehp.frame.pixel_size;
+  EXPECT_GE(box.width, plate);
 }
 
 TEST(GatherEvidence, NamesAFolderWithoutACampaign) {

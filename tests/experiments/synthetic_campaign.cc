@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "imaging/heap/metrics.h"
 #include "optimizer/designs/design.h"
+#include "optimizer/strategies/make_strategy.h"
 
 namespace talus::test {
 namespace {
@@ -114,6 +115,8 @@ analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
         evidence.parameters[k].range.ToNative(point(static_cast<Eigen::Index>(k))));
   }
   trial.seed = 1000 + i;
+  if (options.posterior && (trial.purpose == "design" || trial.purpose == "noise"))
+    trial.scale_factor = 2;
   trial.seconds = 40 + 15 * random.Uniform();
   trial.cpu_seconds = 0.97 * trial.seconds;
   trial.metrics.assign(evidence.metrics.size(), analysis::kUndefined);
@@ -156,6 +159,44 @@ analysis::Conclusion MakeConclusion(const analysis::Evidence& evidence,
     conclusion.sobol_total.push_back(0.6 / static_cast<double>(k + 1));
   }
   return conclusion;
+}
+
+// Draws of a bent valley through the truth: the first two parameters are known together only.
+Eigen::MatrixXd MakeDraws(const Eigen::VectorXd& truth) {
+  constexpr int kDraws = 1000;
+  Eigen::MatrixXd draws(kDraws, truth.size());
+  base::Random random(5, base::Stream("synthetic posterior"));
+  for (Eigen::Index i = 0; i < kDraws; ++i) {
+    const double along = 0.18 * random.Normal();
+    for (Eigen::Index k = 0; k < truth.size(); ++k) {
+      const double shift = k == 0 ? along : k == 1 ? along * along - 0.8 * along : 0;
+      draws(i, k) = std::clamp(truth(k) + shift + 0.02 * random.Normal(), 0.0, 1.0);
+    }
+  }
+  return draws;
+}
+
+analysis::ModelEvidence MakeModel(const analysis::Evidence& evidence, bool posterior,
+                                  const Eigen::VectorXd& truth) {
+  std::shared_ptr<optimizer::Strategy> strategy =
+      optimizer::MakeStrategy({.kind = optimizer::StrategyKind::kGp},
+                              {.num_parameters = static_cast<int>(truth.size())}, nullptr, 1);
+  const std::size_t sad = *analysis::MetricColumn(evidence, "sad_mm2");
+  for (const analysis::TrialEvidence& trial : evidence.trials) {
+    if (trial.state != journal::TrialStatus::kOk) continue;
+    strategy->Tell({.point = trial.point, .value = trial.metrics[sad]});
+  }
+  const optimizer::Answer answer = strategy->Recommend();
+  analysis::ModelEvidence model;
+  model.point = answer.point;
+  model.expected = answer.predicted_value;
+  model.expected_sd = answer.predicted_sd;
+  model.noise_sd = answer.noise_sd;
+  if (posterior) model.draws = MakeDraws(truth);
+  model.predict = [strategy](const Eigen::MatrixXd& points) {
+    return *strategy->Predict(points, 0);
+  };
+  return model;
 }
 
 }  // namespace
@@ -207,6 +248,9 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
     evidence.trials.push_back(MakeTrial(i, evidence, options, points[static_cast<std::size_t>(i)]));
   }
   if (options.concluded) evidence.conclusion = MakeConclusion(evidence, truth);
+  if (options.num_trials >= 20 && options.num_trials <= 200) {
+    evidence.model = MakeModel(evidence, options.posterior, truth);
+  }
   return evidence;
 }
 

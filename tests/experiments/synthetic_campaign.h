@@ -11,6 +11,7 @@ struct SyntheticOptions {
   int num_parameters = 3;  // 2 or 3: without the third, cohesion is that of the truth
   int every_failed = 13;   // each so-manieth trial fails
   bool concluded = true;   // else it is still running and there is no answer
+  bool posterior = false;  // the design at scale factor 2, the rest at 1; else all at 1
 };
 
 // The set that the reference heap is drawn with: μ_t, μ_r and γ, SI.

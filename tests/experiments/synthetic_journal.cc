@@ -1,5 +1,7 @@
 #include "tests/experiments/synthetic_journal.h"
 
+#include <algorithm>
+
 #include "base/json_writer.h"
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/journal/journal.h"
@@ -22,13 +24,48 @@ std::vector<journal::MetricRecord> RecordsOf(const analysis::Evidence& evidence,
   return records;
 }
 
+// As a user would have written it; a model of numbers, which is quick.
+nlohmann::ordered_json SpecOf(const analysis::Evidence& evidence) {
+  nlohmann::ordered_json spec{
+      {"name", evidence.name},
+      {"experiment", {{"photos", "photos"}, {"plate_diameter", "10 mm"}}},
+      {"powder",
+       {{"material",
+         {{"density", "4386 kg/m^3"},
+          {"youngs_modulus", "26.25 MPa"},
+          {"poisson_ratio", 0.342},
+          {"restitution", 0.9}}},
+        {"sizes", {{"kind", "mono"}, {"diameter", "0.2 mm"}}},
+        {"mass", "1.6 g"}}},
+      {"device",
+       {{"tube_inner_diameter", "10 mm"},
+        {"plate_diameter", "10 mm"},
+        {"plate", "disc"},
+        {"lift_velocity", "10 mm/s"}}},
+      {"models",
+       {{"adhesion", evidence.parameters.size() > 2 ? "jkr" : "none"}, {"rolling", "epsd"}}},
+      {"objective", evidence.objective},
+      {"budget", {{"simulations", evidence.max_simulations}}}};
+  for (const analysis::ParameterInfo& p : evidence.parameters) {
+    spec["parameters"][p.range.name] = {
+        {"min", p.range.low}, {"max", p.range.high}, {"scale", base::NameOf(p.range.scale)}};
+  }
+  const bool coarse = std::ranges::any_of(
+      evidence.trials, [](const analysis::TrialEvidence& t) { return t.scale_factor != 1; });
+  if (coarse) {
+    spec["coarse_graining"] = {{"scale_factors", {2, 1}}};
+  } else {
+    spec["strategy"] = {{"kind", evidence.trials.size() > 1000 ? "lhs" : "gp"}};
+  }
+  return spec;
+}
+
 journal::CampaignRecord CampaignOf(const analysis::Evidence& evidence) {
   journal::CampaignRecord record;
   record.name = evidence.name;
   record.spec_path = "/somewhere/spec.json";
   record.spec_text = evidence.spec;
-  record.spec_json = R"({"budget": {"simulations": )" + std::to_string(evidence.max_simulations) +
-                     R"(}, "strategy": {"kind": ")" + evidence.strategy + "\"}}";
+  record.spec_json = SpecOf(evidence).dump();
   record.spec_hash = "0123456789abcdef";
   record.talus_version = "0.1.0";
   record.created_utc = "2026-01-31T12:00:00Z";
@@ -110,6 +147,8 @@ void WriteSyntheticJournal(const analysis::Evidence& evidence,
     record.unit.assign(t.point.data(), t.point.data() + t.point.size());
     record.native = t.values;
     record.seed = t.seed;
+    record.scale_factor = t.scale_factor;
+    record.finish_order = t.id;
     record.started_utc = "2026-01-31T12:00:00Z";
     journal.Start({&record, 1});
     record.status = t.state;

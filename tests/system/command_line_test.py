@@ -163,6 +163,30 @@ class Progress(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("sliding_friction in 0.1 … 0.9", done.stdout)
 
+    def test_a_spec_to_start_from_is_written_and_valid(self):
+        out = self.folder / "started.json"
+        known = {"--plate-diameter": "10 mm", "--tube-diameter": "10 mm", "--lift-velocity": "50 mm/s",
+                 "--mass": "1.602 g", "--density": "4386 kg/m^3", "--grain-diameter": "0.1 mm"}
+        photos = str(SOURCE / "examples/photos/powder_a")
+        done = talus("init", photos, "--out", str(out))
+        self.assertEqual(done.returncode, 2)  # no terminal to ask on: every missing one is named
+        for flag in known:
+            self.assertIn(flag, done.stderr)
+        self.assertFalse(out.exists())
+        flags = [word for pair in known.items() for word in pair]
+        for more in ([], ["--cohesive"]):
+            out.unlink(missing_ok=True)
+            done = talus("init", photos, "--out", str(out), *flags, *more)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("//", out.read_text())
+            self.assertIn('"scale_factors": [8, 3]', out.read_text())  # 12.5 and 33 grains across
+            self.assertEqual("surface_energy" in out.read_text().split('"parameters"')[1], bool(more))
+            done = talus("validate", str(out), "--without-experiment")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = talus("init", photos, "--out", str(out), *flags)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is there already", done.stderr)
+
     def test_every_kind_of_input_file_is_validated(self):
         for name, says in [("scenes/heap_case.json", "is a heap case in order"),
                            ("scenes/bouncing_pair.json", "spheres           2"),

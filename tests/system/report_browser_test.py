@@ -2,6 +2,7 @@
 """report_browser_test.py TALUS MAKE_SYNTHETIC_CAMPAIGN: opens reports in headless Chromium and checks
 that they load nothing from elsewhere, that no script fails, that every chart draws its data, and that
 the table of trials sorts and filters. With a third argument, it keeps screenshots in that folder."""
+import base64
 import json
 import pathlib
 import subprocess
@@ -48,10 +49,11 @@ class ReportInABrowser(unittest.TestCase):
         cls.driver.quit()
         cls.folder.cleanup()
 
-    def open_report(self, name, trials, parameters, state, width=1400):
+    def open_report(self, name, trials, parameters, state, width=1400, posterior=False):
         campaign = pathlib.Path(self.folder.name) / name
         if not campaign.exists():
-            subprocess.run([self.maker, campaign, str(trials), str(parameters), state], check=True)
+            subprocess.run([self.maker, campaign, str(trials), str(parameters), state] +
+                           (["posterior"] if posterior else []), check=True)
             subprocess.run([self.talus, "report", campaign], check=True, stdout=subprocess.DEVNULL)
         self.driver.set_window_size(width, 1000)
         for log in ("browser", "performance"):
@@ -169,12 +171,108 @@ class ReportInABrowser(unittest.TestCase):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True})
         try:
-            self.open_report("three", 60, 3, "finished", width=500)
-            self.check_charts()
-            width = self.driver.execute_script("return document.documentElement.scrollWidth")
-            self.assertEqual(width, 390)
-            self.keep_screenshot("phone")
+            for name, posterior in (("three", False), ("posterior", True)):
+                self.open_report(name, 60, 3 if not posterior else 2, "finished", width=500,
+                                 posterior=posterior)
+                self.check_charts()
+                width = self.driver.execute_script("return document.documentElement.scrollWidth")
+                self.assertEqual(width, 390)
+                self.keep_screenshot("phone_" + name)
         finally:
+            self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def numbers_of(self, path):
+        return self.driver.execute_script("return " + path)
+
+    def test_posterior_is_what_the_page_shows(self):
+        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        charts = self.check_charts()
+        self.assertIn("region", charts)
+        self.assertIn("marginal-1", charts)
+        self.assertTrue(self.numbers_of("D.model.posterior"))
+        self.assertGreaterEqual(min(self.numbers_of("D.slices.flatMap((s) => s.mean)")), 0)
+        self.assertGreaterEqual(min(self.numbers_of("D.slices.flatMap((s) => s.low)")), 0)
+        text = self.driver.find_element(By.TAG_NAME, "main").text
+        self.assertIn("The measurements", self.driver.find_element(By.ID, "verdict").text)
+        self.assertIn("What to do next", self.driver.find_element(By.ID, "next").text)
+        self.assertNotIn("Gaussian process of SAD", text)
+        self.assertIn("single runs", text)  # both figures of the confirmed SAD
+        self.check_log()
+        self.keep_screenshot("posterior")
+
+    def test_verdict_comes_before_any_number(self):
+        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        first = self.driver.execute_script(
+            "return document.querySelector('#answer').children[1].id")
+        self.assertEqual(first, "verdict")
+
+    def test_experiment_is_not_compared_with_itself(self):
+        self.open_report("three", 60, 3, "finished")
+        cells = self.driver.execute_script(
+            "return [...document.querySelectorAll('#measures tbody tr')].map((r) => "
+            "[r.cells[0].textContent, r.cells[1].textContent])")
+        iou = [own for name, own in cells if name.startswith("IoU")]
+        self.assertEqual(iou, ["–"])
+
+    def test_trials_of_several_grain_sizes_are_told_apart(self):
+        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.check_charts()
+        names = self.driver.execute_script(
+            "return echarts.getInstanceByDom(document.getElementById('space')).getOption()"
+            ".series.map((s) => s.name)")
+        self.assertIn("scale factor 2.00", names)
+        self.assertIn("scale factor 1.00", names)
+        self.assertEqual(self.driver.execute_script(
+            "return document.getElementById('space-objective').value"), "-1")
+
+    # As a reader with a dark system sees it: text and background stand apart, in charts too.
+    def test_dark_page_is_dark_and_readable(self):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+        try:
+            self.open_report("posterior", 60, 2, "finished", posterior=True)
+            self.check_charts()
+            lightness = self.driver.execute_script(
+                "const of = (colour) => colour.match(/\\d+/g).slice(0, 3).map(Number)"
+                ".reduce((a, b) => a + b) / 765;"
+                "const style = getComputedStyle(document.querySelector('.card'));"
+                "return [of(style.backgroundColor), of(style.color)]")
+            self.assertLess(lightness[0], 0.2)
+            self.assertGreater(lightness[1], 0.7)
+            self.assertGreater(self.driver.execute_script(
+                "return parseInt(ink.slice(1, 3), 16)"), 180)  # what charts write with
+            self.check_log()
+            self.keep_screenshot("dark")
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+    # Every chart is drawn, seen or not, and none is wider than A4 with its margins.
+    def test_prints_on_a4(self):
+        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.driver.execute_script("for (const made of talusCharts) made.start()")
+        end = time.monotonic() + 60
+        while time.monotonic() < end and not self.driver.execute_script(
+                "return talusCharts.every((c) => c.drawn)"):
+            time.sleep(0.05)
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": 688, "height": 1017, "deviceScaleFactor": 1, "mobile": False})
+        try:
+            self.assertEqual(self.driver.execute_script(
+                "return talusCharts.filter((c) => !c.drawn).map((c) => c.id)"), [])
+            self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "canvas.paper")),
+                             len(self.driver.execute_script("return talusCharts")))
+            too_wide = self.driver.execute_script(
+                "return [...document.querySelectorAll('canvas, img, figure, .card')]"
+                ".filter((e) => e.getBoundingClientRect().right > 689).map((e) => e.outerHTML.slice(0, 80))")
+            self.assertEqual(too_wide, [])
+            if self.shots is not None:
+                pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {
+                    "paperWidth": 8.27, "paperHeight": 11.69, "printBackground": True,
+                    "preferCSSPageSize": True})
+                (pathlib.Path(self.shots) / "print.pdf").write_bytes(base64.b64decode(pdf["data"]))
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 

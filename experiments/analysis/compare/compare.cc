@@ -131,7 +131,8 @@ std::string WhyAbsent(const journal::ObjectiveInfo& info, double reference, bool
   return "";
 }
 
-ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo& info) {
+ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo& info,
+                         bool with_model) {
   ObjectiveFinding finding{.info = info, .absent = {}, .from_trials = {}, .from_model = {}};
   const auto column = MetricColumn(evidence, info.metric);
   if (column && info.is_angle && *column < evidence.reference.metrics.size()) {
@@ -148,7 +149,7 @@ ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo&
   finding.noise_sd = PooledScatter(measured);
   const Eigen::VectorXd start = sets.front().point;
   std::optional<ObjectiveModel> model;
-  if (sets.size() >= ObjectiveModel::kFewestPoints) {
+  if (with_model && sets.size() >= ObjectiveModel::kFewestPoints) {
     std::vector<ModelPoint> points;
     for (const Measurement& m : measured) points.push_back({m.trial->point, m.quantity});
     model = ObjectiveModel::Fit(points, start, info, finding.reference);
@@ -157,6 +158,13 @@ ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo&
   finding.from_trials = FindFromTrials(std::move(sets), finding.margin());
   if (model) finding.from_model = FindFromModel(evidence, *model, start, finding.margin());
   return finding;
+}
+
+std::vector<ObjectiveFinding> FindForAll(const Evidence& evidence, bool with_models) {
+  std::vector<ObjectiveFinding> findings;
+  for (const journal::ObjectiveInfo& info : journal::kObjectives)
+    findings.push_back(FindFor(evidence, info, with_models));
+  return findings;
 }
 
 }  // namespace
@@ -169,10 +177,11 @@ std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_vi
 }
 
 std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence) {
-  std::vector<ObjectiveFinding> findings;
-  for (const journal::ObjectiveInfo& info : journal::kObjectives)
-    findings.push_back(FindFor(evidence, info));
-  return findings;
+  return FindForAll(evidence, true);
+}
+
+std::vector<ObjectiveFinding> CompareTrials(const Evidence& evidence) {
+  return FindForAll(evidence, false);
 }
 
 }  // namespace talus::analysis

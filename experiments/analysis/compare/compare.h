@@ -58,4 +58,8 @@ struct ObjectiveFinding {
 // Findings for kObjectives, in their order.
 std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence);
 
+// The same from the trials alone. Without repeated sets the scatter is not known, and then nothing
+// is said of ties.
+std::vector<ObjectiveFinding> CompareTrials(const Evidence& evidence);
+
 }  // namespace talus::analysis

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -14,6 +15,7 @@
 
 #include "experiments/journal/records.h"
 #include "imaging/heap/profile.h"
+#include "optimizer/models/objective_model.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::analysis {
@@ -52,6 +54,7 @@ struct ReferenceEvidence {
   std::vector<double> metrics;      // of the AEHP itself, in the order of Evidence::metrics
   std::vector<double> errors;       // standard errors of these, from run to run
   double noise_floor = kUndefined;  // leave-one-run-out SAD [mm²]; kUndefined for a lone map
+  int num_heaps = 1;                // runs that the AEHP is the mean of
 };
 
 // One parameter of the recommended set.
@@ -71,13 +74,18 @@ struct AnswerBranch {
 
 // What the campaign itself concludes.
 struct Conclusion {
-  std::string verdict{};  // a point, a curve or several answers, in a sentence; empty: not known
+  std::string verdict_kind{};  // "point", "curve", "region", "separate"; empty: not known
+  std::string verdict{};       // the same in a sentence
+  bool has_posterior = false;
+  std::vector<std::vector<double>> representative{};  // sets to look at side by side, SI
   std::vector<AnswerBranch> branches{};  // the likeliest first; empty where there is no posterior
   std::string objective{};               // key of one of kObjectives
   std::vector<RecommendedValue> values{};
-  double predicted = kUndefined;     // the objective there, by the campaign's model
-  double predicted_sd = kUndefined;  // of that mean
-  double confirmed = kUndefined;     // mean over the confirming trials
+  double predicted = kUndefined;             // the objective there, by the campaign's model
+  double predicted_sd = kUndefined;          // of that mean
+  double confirmed = kUndefined;             // mean over the confirming trials
+  double confirmed_profile = kUndefined;     // SAD of their mean profile [mm²]
+  double confirmed_over_floor = kUndefined;  // … over the experiment's noise floor
   int num_confirmed = 0;
   double noise_sd = kUndefined;  // scatter of one evaluation
   double tied_volume = kUndefined;
@@ -86,6 +94,17 @@ struct Conclusion {
   std::vector<std::string> warnings{};
   std::vector<std::string> conditions{};  // what the calibrated set holds for
   std::string model{};                    // which surrogate answered and how well it predicts
+};
+
+// The model that the campaign's strategy answers with, asked again. Points are of the unit cube.
+struct ModelEvidence {
+  Eigen::VectorXd point;         // that it recommends
+  double expected = kUndefined;  // the objective there, of the experiment that is shown; >= 0
+  double expected_sd = kUndefined;
+  double noise_sd = kUndefined;  // scatter of one evaluation there
+  Eigen::MatrixXd draws;  // of the posterior, one a row; none where it works out no posterior
+  // The objective, >= 0, one point a row; empty where the experiment that is shown has no image.
+  std::function<optimizer::Moments(const Eigen::MatrixXd&)> predict;
 };
 
 struct NamedText {
@@ -100,20 +119,25 @@ struct StageTime {
 
 struct Evidence {
   std::string name;
-  std::string state;        // "running", "finished", "interrupted"
-  std::string stop_reason;  // empty while running
-  double scale_factor = 1;  // of the search
-  std::string objective;    // key of one of kObjectives: the latest search's
-  std::string strategy;     // its kind
-  int max_simulations = 0;  // the budget; 0: none
+  std::filesystem::path folder;  // of the campaign
+  std::string state;             // "running", "finished", "interrupted"
+  std::string stop_reason;       // empty while running
+  std::size_t experiment = 0;    // whose trials these are, of the campaign's
+  double scale_factor = 1;       // of the search
+  std::string objective;         // key of one of kObjectives: the latest search's
+  std::string strategy;          // its kind
+  int max_simulations = 0;       // the budget; 0: none
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;
   std::vector<TrialEvidence> trials;
   ReferenceEvidence reference;
   std::optional<Conclusion> conclusion;                         // none before there is one
+  std::optional<ModelEvidence> model;                           // none where no model answers
+  std::string model_absent;                                     // why, where there is none
   std::vector<StageTime> stages;                                // where the time went
   std::vector<NamedText> versions;                              // of talus and what it stands on
   std::string spec;                                             // the text of the spec's file
+  std::string spec_json;                                        // as it was understood
   std::function<std::optional<imaging::Profile>(int)> profile;  // ANHP of a trial by its id
 };
 

@@ -1,4 +1,3 @@
-#include <cctype>
 #include <cmath>
 
 #include "base/error.h"
@@ -6,7 +5,7 @@
 #include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/campaign_result.h"
 #include "experiments/campaign/console.h"
-#include "experiments/campaign/describe_posterior.h"
+#include "experiments/campaign/verdict.h"
 #include "experiments/journal/objective.h"
 
 namespace talus::analysis {
@@ -33,14 +32,26 @@ std::string ObjectiveKey(const std::string& result_key) {
   throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
 }
 
-// The report's first line: what kind of answer the posterior is.
-void AddVerdict(const campaign::CampaignResult& result, Conclusion& conclusion) {
+// The report's first line, with symbols in place of names; and what it stands on.
+void AddVerdict(const campaign::CampaignResult& result,
+                const std::vector<ParameterInfo>& parameters, Conclusion& conclusion) {
+  campaign::VerdictBasis basis{.correlation = result.correlation,
+                               .sets = result.representative,
+                               .region_volume = result.tied_volume};
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    basis.parameters.push_back(parameters[i].range);
+    basis.names.push_back(parameters[i].symbol);
+    basis.low.push_back(result.parameters[i].credible_low);
+    basis.high.push_back(result.parameters[i].credible_high);
+  }
+  if (result.posterior) basis.branches = result.posterior->branches;
+  if (const auto verdict = campaign::VerdictOf(basis)) {
+    conclusion.verdict_kind = std::string(base::NameOf(verdict->kind));
+    conclusion.verdict = verdict->text;
+  }
+  conclusion.representative = result.representative;
   if (!result.posterior) return;
-  std::vector<std::string> names;
-  for (const campaign::ResultParameter& p : result.parameters) names.push_back(SymbolOf(p.name));
-  conclusion.verdict = campaign::PosteriorSentence(*result.posterior, names, result.correlation);
-  conclusion.verdict.front() = static_cast<char>(std::toupper(conclusion.verdict.front()));
-  conclusion.verdict += ".";
+  conclusion.has_posterior = true;
   for (const campaign::ResultBranch& branch : result.posterior->branches) {
     conclusion.branches.push_back(
         {.share = branch.share, .values = branch.values, .low = branch.low, .high = branch.high});
@@ -49,7 +60,8 @@ void AddVerdict(const campaign::CampaignResult& result, Conclusion& conclusion) 
 
 }  // namespace
 
-Conclusion ConclusionOf(const std::string& result_json) {
+Conclusion ConclusionOf(const std::string& result_json,
+                        const std::vector<ParameterInfo>& parameters) {
   const campaign::CampaignResult result = campaign::ParseResult(result_json);
   Conclusion conclusion{.objective = ObjectiveKey(result.objective),
                         .predicted = result.predicted,
@@ -58,7 +70,7 @@ Conclusion ConclusionOf(const std::string& result_json) {
                         .tied_volume = result.tied_volume,
                         .conditions = ConditionTexts(result.conditions),
                         .model = result.model};
-  AddVerdict(result, conclusion);
+  AddVerdict(result, parameters, conclusion);
   for (const campaign::ResultWarning& warning : result.warnings)
     conclusion.warnings.push_back(warning.text);
   for (const campaign::ResultParameter& p : result.parameters) {
@@ -70,7 +82,9 @@ Conclusion ConclusionOf(const std::string& result_json) {
   if (!result.confirmed.empty()) {  // the recommended set comes first
     conclusion.confirmed = result.confirmed.front().mean;
     conclusion.num_confirmed = result.confirmed.front().num_trials;
+    conclusion.confirmed_profile = result.confirmed.front().profile_sad_mm2.value_or(kUndefined);
   }
+  conclusion.confirmed_over_floor = result.confirmed_over_floor.value_or(kUndefined);
   return conclusion;
 }
 

@@ -121,6 +121,7 @@ void AddTimes(Evidence& evidence, double elapsed) {
 
 void AddSpec(Evidence& evidence, const journal::CampaignRecord& record) {
   evidence.spec = record.spec_text;
+  evidence.spec_json = record.spec_json;
   const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
   if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
   if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
@@ -169,6 +170,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
 
   Evidence evidence;
   evidence.name = record.name;
+  evidence.folder = campaign;
   evidence.state = progress.state;
   evidence.stop_reason = progress.stop_reason;
   evidence.objective = record.objective;
@@ -177,6 +179,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
     evidence.parameters.push_back(InfoOf(parameter));
   }
   const std::size_t index = ExperimentNamed(record, experiment);
+  evidence.experiment = index;
   const journal::ExperimentRecord& compared_with = record.experiments.at(index);
   if (compared_with.aehp_png.empty()) {
     throw base::ConfigError("experiment \"" + compared_with.name +
@@ -189,9 +192,10 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   });
   AddTrials(evidence, compared_with, trials);
   evidence.reference.aehp = ReadReference(compared_with);
+  evidence.reference.num_heaps = compared_with.num_heaps;
   evidence.reference.noise_floor = compared_with.noise_mm2.value_or(kUndefined);
   if (!progress.result_json.empty()) {
-    evidence.conclusion = ConclusionOf(progress.result_json);
+    evidence.conclusion = ConclusionOf(progress.result_json, evidence.parameters);
     evidence.objective = evidence.conclusion->objective;
   }
   AddTimes(evidence, progress.elapsed_s);

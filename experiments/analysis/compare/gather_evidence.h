@@ -12,7 +12,11 @@ namespace talus::analysis {
 // where none is named. Throws ConfigError when there is no such campaign or experiment.
 Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment = {});
 
-// From the text of result.json.
-Conclusion ConclusionOf(const std::string& result_json);
+// Adds the model that the campaign's strategy answers with, or why there is none to ask.
+void AddModel(const std::filesystem::path& campaign, Evidence& evidence);
+
+// From the text of result.json of a campaign that searched `parameters`.
+Conclusion ConclusionOf(const std::string& result_json,
+                        const std::vector<ParameterInfo>& parameters);
 
 }  // namespace talus::analysis

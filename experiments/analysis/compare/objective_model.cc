@@ -73,14 +73,15 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
   std::vector<ObjectivePrediction> made(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     ObjectivePrediction& p = made[static_cast<std::size_t>(i)];
-    p.quantity = all.mean(i);
+    p.quantity =
+        info_.is_angle ? all.mean(i) : std::max(0.0, all.mean(i));  // a distance is not less
     p.sd = std::sqrt(std::max(0.0, all.variance(i)));
     p.objective = info_.Value(p.quantity, reference_);
     const double least = info_.Value(p.quantity - kNinetyPercent * p.sd, reference_);
     const double most = info_.Value(p.quantity + kNinetyPercent * p.sd, reference_);
     const bool spans_reference =
         info_.is_angle && std::abs(p.quantity - reference_) < kNinetyPercent * p.sd;
-    p.low = spans_reference ? 0 : std::min(least, most);
+    p.low = spans_reference ? 0 : std::max(0.0, std::min(least, most));
     p.high = std::max(least, most);
   }
   return made;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
+#include "experiments/analysis/compare/crop.h"
 #include "imaging/formats/image_file.h"
 #include "imaging/heap/difference_map.h"
 #include "imaging/photos/canvas.h"
@@ -79,15 +81,22 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
 std::vector<Picture> ProfilePictures(const Evidence& evidence,
                                      const std::vector<ShownTrial>& shown) {
   const imaging::Profile& aehp = evidence.reference.aehp;
-  std::vector<Picture> pictures{MakePicture("aehp", "Experiment (AEHP)", aehp.image)};
-  for (const ShownTrial& s : shown) {
-    const auto profile = evidence.profile(s.trial->id);
-    if (!profile) continue;
-    const std::string id = "trial_" + std::to_string(s.trial->id);
-    const std::string title = TitleOf(s) + ", " + s.why;
-    pictures.push_back(MakePicture("anhp_" + id, "ANHP of " + title, profile->image));
+  std::vector<std::optional<imaging::Profile>> profiles;
+  std::vector<const imaging::Profile*> all{&aehp};
+  for (const ShownTrial& s : shown) profiles.push_back(evidence.profile(s.trial->id));
+  for (const auto& profile : profiles) {
+    if (profile) all.push_back(&*profile);
+  }
+  const Box box = HeapBox(all);
+  std::vector<Picture> pictures{MakePicture("aehp", "Experiment (AEHP)", Cropped(aehp.image, box))};
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!profiles[i]) continue;
+    const std::string id = "trial_" + std::to_string(shown[i].trial->id);
+    const std::string title = TitleOf(shown[i]) + ", " + shown[i].why;
+    pictures.push_back(
+        MakePicture("anhp_" + id, "ANHP of " + title, Cropped(profiles[i]->image, box)));
     pictures.push_back(MakePicture("signed_map_" + id, "Signed map of " + title,
-                                   imaging::DrawDifferenceMap(*profile, aehp)));
+                                   imaging::DrawDifferenceMap(*profiles[i], aehp)));
   }
   return pictures;
 }

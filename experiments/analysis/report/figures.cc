@@ -103,21 +103,35 @@ std::string Slice(const ReportData& data, const ModelSlice& slice) {
   const journal::ObjectiveInfo& info = data.own().info;
   std::vector<SvgPoint> mean, low, high;
   double top = 0;
+  const bool has_band = std::isfinite(slice.high.front());
   for (std::size_t i = 0; i < slice.x.size(); ++i) {
-    const ObjectivePrediction& p = slice.predicted[i];
-    mean.push_back({slice.x[i], p.objective});
-    low.push_back({slice.x[i], std::max(0.0, p.low)});
-    high.push_back({slice.x[i], p.high});
-    top = std::max(top, p.high);
+    mean.push_back({slice.x[i], slice.mean[i]});
+    low.push_back({slice.x[i], slice.low[i]});
+    high.push_back({slice.x[i], slice.high[i]});
+    top = std::max(top, has_band ? slice.high[i] : slice.mean[i]);
   }
   SvgChart chart(AxisOf(parameter),
                  {.title = WithUnit(info.title, info.unit), .low = 0, .high = 1.05 * top});
-  chart.Band(low, high, {.color = SvgColor(0), .opacity = 0.2}, "90 % band of the mean");
-  chart.Line(mean, {.color = SvgColor(0), .width = 2}, "model");
+  if (has_band) {
+    chart.Band(low, high, {.color = SvgColor(0), .opacity = 0.2}, "90 % band of the mean");
+  }
+  chart.Line(mean, {.color = SvgColor(0), .width = 2}, "expected");
   if (data.evidence.conclusion) {
     const double x = data.evidence.conclusion->values[slice.parameter].value;
     chart.Line({{x, 0}, {x, 1.05 * top}}, {.color = "#c1121f"}, "recommended");
   }
+  return chart.Text();
+}
+
+std::string MarginalFigure(const ReportData& data, const Marginal& marginal) {
+  const double top = *std::max_element(marginal.density.begin(), marginal.density.end());
+  SvgChart chart(AxisOf(data.evidence.parameters[marginal.parameter]),
+                 {.title = "posterior density / even density", .low = 0, .high = 1.05 * top});
+  std::vector<SvgPoint> points;
+  for (std::size_t i = 0; i < marginal.x.size(); ++i) {
+    points.push_back({marginal.x[i], marginal.density[i]});
+  }
+  chart.Line(points, {.color = SvgColor(0), .width = 2}, "posterior");
   return chart.Text();
 }
 
@@ -135,23 +149,28 @@ void AddStar(const ReportData& data, std::size_t i, std::size_t j, SvgChart& cha
   chart.Star({values[i].value, values[j].value}, "recommended");
 }
 
-std::string Chances(const ReportData& data, const PairChance& pair) {
+// With a posterior the joint regions: 50 % dark, 90 % light, the rest white.
+std::string PairFigure(const ReportData& data, const PairMap& pair) {
   SvgChart chart(AxisOf(data.evidence.parameters[pair.i]),
                  AxisOf(data.evidence.parameters[pair.j]));
   const std::size_t num_x = pair.x_edges.size() - 1;
-  const double top = *std::max_element(pair.chance.begin(), pair.chance.end());
-  for (std::size_t cell = 0; cell < pair.chance.size(); ++cell) {
+  const double top = *std::max_element(pair.value.begin(), pair.value.end());
+  const auto share = [&](double value) {
+    if (!data.has_posterior()) return top > 0 ? value / top : 0;
+    return value < 0.5 ? 0.75 : value < 0.9 ? 0.3 : 0.0;
+  };
+  for (std::size_t cell = 0; cell < pair.value.size(); ++cell) {
     const std::size_t x = cell % num_x;
     const std::size_t y = cell / num_x;
     chart.Cell({.from = {pair.x_edges[x], pair.y_edges[y]},
                 .to = {pair.x_edges[x + 1], pair.y_edges[y + 1]}},
-               Shade(top > 0 ? pair.chance[cell] / top : 0));
+               Shade(share(pair.value[cell])));
   }
   AddStar(data, pair.i, pair.j, chart);
   return chart.Text();
 }
 
-std::string Scatter(const ReportData& data, const PairChance& pair) {
+std::string Scatter(const ReportData& data, const PairMap& pair) {
   SvgChart chart(AxisOf(data.evidence.parameters[pair.i]),
                  AxisOf(data.evidence.parameters[pair.j]));
   std::vector<SvgPoint> all;
@@ -184,10 +203,15 @@ std::vector<NamedText> ReportFigures(const ReportData& data) {
   for (const ModelSlice& slice : data.slices) {
     figures.push_back({"slice_" + parameters[slice.parameter].range.name, Slice(data, slice)});
   }
-  for (const PairChance& pair : data.pairs) {
+  for (const Marginal& marginal : data.marginals) {
+    figures.push_back(
+        {"posterior_" + parameters[marginal.parameter].range.name, MarginalFigure(data, marginal)});
+  }
+  for (const PairMap& pair : data.pairs) {
     const std::string names = parameters[pair.i].range.name + "_" + parameters[pair.j].range.name;
     figures.push_back({"trials_" + names, Scatter(data, pair)});
-    figures.push_back({"tie_chance_" + names, Chances(data, pair)});
+    figures.push_back(
+        {(data.has_posterior() ? "posterior_" : "tie_chance_") + names, PairFigure(data, pair)});
   }
   return figures;
 }

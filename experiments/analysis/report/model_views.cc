@@ -3,90 +3,123 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/analysis/compare/objective_model.h"
+#include "experiments/analysis/report/posterior_density.h"
+
 namespace talus::analysis {
 namespace {
 
 constexpr int kSlicePoints = 61;
-constexpr int kCells = 20;          // of a pair, each way
-constexpr int kPairSample = 16384;  // points of the cube: some 40 fall into each cell
+constexpr int kPosteriorCells = 60;       // of a pair, each way
+constexpr int kTieCells = 16;             // … where each point is asked of the model
+constexpr int kTieSample = 4096;          // points of the cube: 16 fall into each cell
+constexpr double kNinetyPercent = 1.645;  // standard deviations each side
 
 double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-// P[|q - reference| <= limit] or P[q <= limit] for q ~ N(quantity, sd²).
-double ChanceBelow(const ObjectivePrediction& p, const ObjectiveFinding& finding, double limit) {
-  const double sd = std::max(p.sd, 1e-300);
-  if (!finding.info.is_angle) return NormalCdf((limit - p.quantity) / sd);
-  return NormalCdf((finding.reference + limit - p.quantity) / sd) -
-         NormalCdf((finding.reference - limit - p.quantity) / sd);
+std::vector<double> Along(const ParameterInfo& parameter, int num_cells, double offset) {
+  const int count = offset == 0 ? num_cells + 1 : num_cells;
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k)
+    values.push_back(parameter.range.ToNative((k + offset) / num_cells));
+  return values;
 }
 
-std::vector<double> Edges(const ParameterInfo& parameter) {
-  std::vector<double> edges;
-  for (int k = 0; k <= kCells; ++k) {
-    edges.push_back(parameter.range.ToNative(static_cast<double>(k) / kCells));
-  }
-  return edges;
+PairMap MapOf(const Evidence& evidence, std::size_t i, std::size_t j, int num_cells) {
+  return {.i = i,
+          .j = j,
+          .x_edges = Along(evidence.parameters[i], num_cells, 0),
+          .y_edges = Along(evidence.parameters[j], num_cells, 0),
+          .value = {}};
 }
 
-std::size_t CellOf(double unit) {
-  return static_cast<std::size_t>(std::clamp(static_cast<int>(unit * kCells), 0, kCells - 1));
-}
-
-PairChance MakePair(const Evidence& evidence, std::size_t i, std::size_t j,
-                    const Eigen::MatrixXd& sample, const std::vector<double>& chances) {
-  PairChance pair{.i = i,
-                  .j = j,
-                  .x_edges = Edges(evidence.parameters[i]),
-                  .y_edges = Edges(evidence.parameters[j]),
-                  .chance = std::vector<double>(kCells * kCells, 0.0)};
-  std::vector<int> counts(pair.chance.size(), 0);
+// The mean chance over the sampled points of each cell.
+std::vector<double> CellMeans(const Eigen::MatrixXd& sample, const Eigen::VectorXd& chance) {
+  const auto cell_of = [](double unit) {
+    return static_cast<std::size_t>(
+        std::clamp(static_cast<int>(unit * kTieCells), 0, kTieCells - 1));
+  };
+  std::vector<double> sums(kTieCells * kTieCells, 0.0);
+  std::vector<int> counts(sums.size(), 0);
   for (Eigen::Index row = 0; row < sample.rows(); ++row) {
-    const std::size_t cell = CellOf(sample(row, static_cast<Eigen::Index>(j))) * kCells +
-                             CellOf(sample(row, static_cast<Eigen::Index>(i)));
-    pair.chance[cell] += chances[static_cast<std::size_t>(row)];
+    const std::size_t cell = cell_of(sample(row, 1)) * kTieCells + cell_of(sample(row, 0));
+    sums[cell] += chance[row];
     ++counts[cell];
   }
-  for (std::size_t cell = 0; cell < counts.size(); ++cell) {
-    pair.chance[cell] /= std::max(1, counts[cell]);
+  for (std::size_t cell = 0; cell < sums.size(); ++cell) sums[cell] /= std::max(1, counts[cell]);
+  return sums;
+}
+
+// Every pair of columns, as a map whose values `fill` works out.
+template <class Fill>
+std::vector<PairMap> EachPair(const Evidence& evidence, const Eigen::MatrixXd& points,
+                              int num_cells, Fill&& fill) {
+  std::vector<PairMap> maps;
+  const std::size_t n = evidence.parameters.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      maps.push_back(MapOf(evidence, i, j, num_cells));
+      Eigen::MatrixXd two(points.rows(), 2);
+      two << points.col(static_cast<Eigen::Index>(i)), points.col(static_cast<Eigen::Index>(j));
+      maps.back().value = fill(two);
+    }
   }
-  return pair;
+  return maps;
 }
 
 }  // namespace
 
-std::vector<ModelSlice> SliceModel(const Evidence& evidence, const ModelFinding& finding,
-                                   const Eigen::VectorXd& point) {
+std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::VectorXd& point) {
   std::vector<ModelSlice> slices;
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     Eigen::MatrixXd along = point.transpose().replicate(kSlicePoints, 1);
-    ModelSlice slice{.parameter = k, .x = {}, .predicted = {}};
+    ModelSlice slice{.parameter = k, .x = {}, .mean = {}, .low = {}, .high = {}};
     for (int i = 0; i < kSlicePoints; ++i) {
       const double unit = static_cast<double>(i) / (kSlicePoints - 1);
       along(i, static_cast<Eigen::Index>(k)) = unit;
       slice.x.push_back(evidence.parameters[k].range.ToNative(unit));
     }
-    slice.predicted = finding.model.Predict(along);
+    const optimizer::Moments predicted = evidence.model->predict(along);
+    for (int i = 0; i < kSlicePoints; ++i) {
+      const double reach = kNinetyPercent * predicted.sd[i];
+      slice.mean.push_back(predicted.mean[i]);
+      slice.low.push_back(std::isnan(reach) ? reach : std::max(0.0, predicted.mean[i] - reach));
+      slice.high.push_back(predicted.mean[i] + reach);
+    }
     slices.push_back(std::move(slice));
   }
   return slices;
 }
 
-std::vector<PairChance> PairChances(const Evidence& evidence, const ObjectiveFinding& finding) {
-  const std::size_t n = evidence.parameters.size();
-  if (n < 2) return {};
-  const Eigen::MatrixXd sample = EvenSample(kPairSample, static_cast<Eigen::Index>(n));
-  const double limit = finding.from_model->there.objective + finding.margin();
-  std::vector<double> chances;
-  for (const ObjectivePrediction& p : finding.from_model->model.Predict(sample)) {
-    chances.push_back(ChanceBelow(p, finding, limit));
+std::vector<Marginal> Marginals(const Evidence& evidence) {
+  std::vector<Marginal> marginals;
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    const Eigen::VectorXd draws = evidence.model->draws.col(static_cast<Eigen::Index>(k));
+    marginals.push_back({.parameter = k,
+                         .x = Along(evidence.parameters[k], kPosteriorCells, 0.5),
+                         .density = MarginalDensity(draws, kPosteriorCells)});
   }
-  std::vector<PairChance> pairs;
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      pairs.push_back(MakePair(evidence, i, j, sample, chances));
-    }
+  return marginals;
+}
+
+std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
+  return EachPair(evidence, evidence.model->draws, kPosteriorCells,
+                  [](const Eigen::MatrixXd& two) { return CredibleLevels(two, kPosteriorCells); });
+}
+
+std::vector<PairMap> TiePairs(const Evidence& evidence) {
+  const ModelEvidence& model = *evidence.model;
+  if (evidence.parameters.size() < 2 || std::isnan(model.expected_sd)) return {};
+  const auto dimension = static_cast<Eigen::Index>(evidence.parameters.size());
+  const Eigen::MatrixXd sample = EvenSample(kTieSample, dimension);
+  const optimizer::Moments predicted = model.predict(sample);
+  const double limit = model.expected + std::max(0.0, model.noise_sd);
+  Eigen::VectorXd chance(sample.rows());
+  for (Eigen::Index i = 0; i < chance.size(); ++i) {
+    chance[i] = NormalCdf((limit - predicted.mean[i]) / std::max(predicted.sd[i], 1e-300));
   }
-  return pairs;
+  return EachPair(evidence, sample, kTieCells,
+                  [&](const Eigen::MatrixXd& two) { return CellMeans(two, chance); });
 }
 
 }  // namespace talus::analysis

@@ -1,34 +1,49 @@
-// What a model of the objective looks like from the sides that a page can show.
+// What the model that answered looks like from the sides that a page can show.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "experiments/analysis/compare/compare.h"
+#include "experiments/analysis/compare/evidence.h"
 
 namespace talus::analysis {
 
-// Along one parameter, the others held.
+// The expected objective along one parameter, the others held; low and high bound the mean's 90 %
+// band, NaN where the model does not know its own uncertainty.
 struct ModelSlice {
   std::size_t parameter = 0;
   std::vector<double> x;  // SI
-  std::vector<ObjectivePrediction> predicted;
+  std::vector<double> mean;
+  std::vector<double> low;
+  std::vector<double> high;
 };
 
-// Over two parameters: the chance that a set ties with the best, averaged over the others.
-struct PairChance {
+// The posterior density of one parameter over its searched range, as a multiple of the even
+// density before any simulation.
+struct Marginal {
+  std::size_t parameter = 0;
+  std::vector<double> x;  // SI
+  std::vector<double> density;
+};
+
+// Over two parameters, by cell, x fastest. With a posterior: the share of it in denser cells, so
+// that cells below 0.5 and 0.9 are the joint regions. Without: the chance that a set is within one
+// simulation's scatter of the best, averaged over the other parameters.
+struct PairMap {
   std::size_t i = 0;
   std::size_t j = 0;
   std::vector<double> x_edges;  // of the cells, parameter i, SI
   std::vector<double> y_edges;  // parameter j
-  std::vector<double> chance;   // by cell, x fastest, in [0, 1]
+  std::vector<double> value;
 };
 
 // Through `point` of the unit cube.
-std::vector<ModelSlice> SliceModel(const Evidence& evidence, const ModelFinding& finding,
-                                   const Eigen::VectorXd& point);
+std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::VectorXd& point);
 
-// Every pair of parameters. `margin` as in ObjectiveFinding.
-std::vector<PairChance> PairChances(const Evidence& evidence, const ObjectiveFinding& finding);
+std::vector<Marginal> Marginals(const Evidence& evidence);
+
+// Every pair of parameters.
+std::vector<PairMap> PosteriorPairs(const Evidence& evidence);
+std::vector<PairMap> TiePairs(const Evidence& evidence);
 
 }  // namespace talus::analysis

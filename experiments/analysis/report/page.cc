@@ -46,8 +46,9 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
   const std::string scripts =
       std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
       std::string(page_files::kSearchChartsJs) + std::string(page_files::kSpaceChartsJs) +
-      std::string(page_files::kProfileChartsJs) + std::string(page_files::kTrialTableJs) +
-      std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
+      std::string(page_files::kProfileChartsJs) + std::string(page_files::kOverlayJs) +
+      std::string(page_files::kTrialTableJs) + std::string(page_files::kSectionsJs) +
+      std::string(page_files::kPageJs);
   // The data come last: what they hold is never searched for a placeholder.
   Replace(page, "{{title}}", EscapedHtml(data.evidence.name) + " – calibration report");
   const bool reloads = options.reload > 0 && data.evidence.state == "running";

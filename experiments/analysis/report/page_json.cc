@@ -68,6 +68,8 @@ Json TrialsJson(const Evidence& evidence) {
        List(evidence.trials, [](const TrialEvidence& t) { return base::NameOf(t.state); })},
       {"purpose", List(evidence.trials, [](const TrialEvidence& t) { return t.purpose; })},
       {"reason", List(evidence.trials, [](const TrialEvidence& t) { return t.reason; })},
+      {"scale",
+       List(evidence.trials, [](const TrialEvidence& t) { return Number(t.scale_factor); })},
       {"seconds", List(evidence.trials, [](const TrialEvidence& t) { return Number(t.seconds); })},
       {"values", values},
       {"metrics", metrics}};
@@ -85,6 +87,7 @@ Json CampaignJson(const ReportData& data) {
           {"state", e.state},
           {"stop_reason", e.stop_reason},
           {"budget", e.max_simulations},
+          {"scale_factor", Number(e.scale_factor)},
           {"core_hours", cpu > 0 ? Number(cpu / 3600) : Json(nullptr)},
           {"objective",
            {{"key", own.info.key},
@@ -97,7 +100,37 @@ Json CampaignJson(const ReportData& data) {
             {"noise_floor", Number(floor)}}}};
 }
 
-Json HeadlineJson(const Conclusion& c) {
+// The picture stands in the page itself; nothing where there is none.
+Json UriOf(const Picture& picture) {
+  if (picture.png.empty()) return nullptr;
+  return "data:image/png;base64," + Base64(picture.png);
+}
+
+Json RepresentativeJson(const ReportData& data, const RepresentativeView& view) {
+  const auto column = MetricColumn(data.evidence, data.own().info.metric);
+  const bool has_trial = view.trial != nullptr && column;
+  const double objective =
+      has_trial ? data.own().info.Value(view.trial->metrics[*column], data.own().reference)
+                : kUndefined;
+  return {{"values", Numbers(view.values)},
+          {"recommended", view.is_recommended},
+          {"expected", Number(view.expected)},
+          {"expected_sd", Number(view.expected_sd)},
+          {"trial", has_trial ? Json(view.trial->id) : Json(nullptr)},
+          {"trial_values", has_trial ? Numbers(view.trial->values) : Json(nullptr)},
+          {"trial_objective", Number(objective)},
+          {"distance", Number(view.distance)},
+          {"uri", UriOf(view.heap)},
+          {"width", view.heap.width},
+          {"height", view.heap.height}};
+}
+
+Json StepJson(const NextStep& step) {
+  return {{"what", step.what}, {"cost", step.cost}, {"leaves", step.leaves}};
+}
+
+Json HeadlineJson(const ReportData& data) {
+  const Conclusion& c = *data.evidence.conclusion;
   return {{"values", List(c.values,
                           [](const RecommendedValue& v) {
                             return Json{{"value", Number(v.value)},
@@ -105,6 +138,8 @@ Json HeadlineJson(const Conclusion& c) {
                                         {"high", Number(v.high)}};
                           })},
           {"verdict", c.verdict},
+          {"verdict_kind", c.verdict_kind},
+          {"posterior", c.has_posterior},
           {"branches", List(c.branches,
                             [](const AnswerBranch& b) {
                               return Json{{"share", Number(b.share)},
@@ -112,9 +147,15 @@ Json HeadlineJson(const Conclusion& c) {
                                           {"low", Numbers(b.low)},
                                           {"high", Numbers(b.high)}};
                             })},
+          {"representatives",
+           List(data.representative,
+                [&](const RepresentativeView& view) { return RepresentativeJson(data, view); })},
+          {"next", List(data.next_steps, StepJson)},
           {"predicted", Number(c.predicted)},
           {"predicted_sd", Number(c.predicted_sd)},
           {"confirmed", Number(c.confirmed)},
+          {"confirmed_profile", Number(c.confirmed_profile)},
+          {"confirmed_over_floor", Number(c.confirmed_over_floor)},
           {"num_confirmed", c.num_confirmed},
           {"noise_sd", Number(c.noise_sd)},
           {"tied_volume", Number(c.tied_volume)},
@@ -146,33 +187,44 @@ Json FindingJson(const ObjectiveFinding& f) {
               {"tied_volume", Number(f.from_trials.tied_volume)},
               {"best", List(f.from_trials.best, SetJson)}}},
             {"model", nullptr}};
-  if (f.from_model) {
-    json["model"] = {{"values", Numbers(f.from_model->values)},
-                     {"quantity", Number(f.from_model->there.quantity)},
-                     {"objective", Number(f.from_model->there.objective)},
-                     {"sd", Number(f.from_model->there.sd)},
-                     {"tied_volume", Number(f.from_model->tied_volume)}};
-  }
   return json;
 }
 
-Json SliceJson(const ModelSlice& slice) {
-  const auto column = [&](double ObjectivePrediction::*field) {
-    return List(slice.predicted, [&](const ObjectivePrediction& p) { return Number(p.*field); });
-  };
-  return {{"parameter", slice.parameter},
-          {"x", Numbers(slice.x)},
-          {"mean", column(&ObjectivePrediction::objective)},
-          {"low", column(&ObjectivePrediction::low)},
-          {"high", column(&ObjectivePrediction::high)}};
+// What the model that answers expects; null while none does.
+Json ModelJson(const ReportData& data) {
+  const Evidence& e = data.evidence;
+  if (!e.model) return nullptr;
+  std::vector<double> values;
+  for (std::size_t k = 0; k < e.parameters.size(); ++k) {
+    values.push_back(e.parameters[k].range.ToNative(e.model->point[static_cast<Eigen::Index>(k)]));
+  }
+  return {{"values", Numbers(values)},
+          {"expected", Number(e.model->expected)},
+          {"expected_sd", Number(e.model->expected_sd)},
+          {"posterior", data.has_posterior()}};
 }
 
-Json PairJson(const PairChance& pair) {
+Json SliceJson(const ModelSlice& slice) {
+  return {{"parameter", slice.parameter},
+          {"x", Numbers(slice.x)},
+          {"mean", Numbers(slice.mean)},
+          {"low", Numbers(slice.low)},
+          {"high", Numbers(slice.high)}};
+}
+
+Json MarginalJson(const Marginal& marginal) {
+  return {{"parameter", marginal.parameter},
+          {"x", Numbers(marginal.x)},
+          {"density", Numbers(marginal.density)}};
+}
+
+// Three decimals are finer than any shade.
+Json PairJson(const PairMap& pair) {
   return {{"i", pair.i},
           {"j", pair.j},
           {"x", Numbers(pair.x_edges)},
           {"y", Numbers(pair.y_edges)},
-          {"chance", Numbers(pair.chance)}};
+          {"value", List(pair.value, [](double x) { return std::round(1e3 * x) / 1e3; })}};
 }
 
 Json OutlineJson(const OutlineCurve& outline) {
@@ -188,7 +240,18 @@ Json PictureJson(const Picture& picture) {
           {"caption", picture.caption},
           {"width", picture.width},
           {"height", picture.height},
-          {"uri", "data:image/png;base64," + Base64(picture.png)}};
+          {"uri", UriOf(picture)}};
+}
+
+Json OverlayJson(const ReportData& data) {
+  const PhotoOverlay& overlay = data.overlay;
+  if (overlay.photographs.empty()) return nullptr;
+  return {{"photographs", List(overlay.photographs, PictureJson)},
+          {"simulated", PictureJson(overlay.simulated)},
+          {"pixel_mm", Number(overlay.pixel_mm)},
+          {"center_x", Number(overlay.center_x)},
+          {"baseline", Number(overlay.baseline)},
+          {"outlines", List(data.overlay_outlines, OutlineJson)}};
 }
 
 }  // namespace
@@ -203,16 +266,21 @@ std::string PageJson(const ReportData& data) {
       {"campaign", CampaignJson(data)},
       {"parameters", ParametersJson(e)},
       {"metrics", metrics},
-      {"headline", conclusion ? HeadlineJson(*conclusion) : Json(nullptr)},
+      {"headline", conclusion ? HeadlineJson(data) : Json(nullptr)},
       {"warnings", conclusion ? Json(conclusion->warnings) : Json::array()},
       {"conditions", conclusion ? Json(conclusion->conditions) : Json::array()},
       {"trials", TrialsJson(e)},
       {"objectives", List(data.findings, FindingJson)},
       {"slices", List(data.slices, SliceJson)},
+      {"marginals", List(data.marginals, MarginalJson)},
       {"pairs", List(data.pairs, PairJson)},
+      {"model", ModelJson(data)},
+      {"model_absent", e.model_absent},
       {"plate_mm", Number(1e3 * e.reference.aehp.frame.plate_diameter)},
       {"outlines", List(data.outlines, OutlineJson)},
       {"pictures", List(data.pictures, PictureJson)},
+      {"overlay", OverlayJson(data)},
+      {"overlay_absent", data.overlay_absent},
       {"measures",
        List(data.measures,
             [](const MeasuredProfile& m) {

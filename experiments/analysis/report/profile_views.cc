@@ -4,9 +4,6 @@
 #include "imaging/heap/outline.h"
 
 namespace talus::analysis {
-namespace {
-
-// The highest powder of each column, from foot to foot.
 OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profile) {
   const imaging::Frame& frame = profile.frame;
   const imaging::Outline outline = imaging::FindOutline(profile.image, frame);
@@ -26,8 +23,6 @@ OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profi
   return curve;
 }
 
-}  // namespace
-
 void AddProfileViews(ReportData& data) {
   const ReferenceEvidence& reference = data.evidence.reference;
   const std::vector<ShownTrial> shown = TrialsToShow(data.evidence, data.findings);
@@ -41,6 +36,13 @@ void AddProfileViews(ReportData& data) {
     }
   }
   data.pictures = ProfilePictures(data.evidence, shown);
+  data.representative = RepresentativeViews(data.evidence);
+  data.overlay = MakeOverlay(data.evidence, shown, data.overlay_absent);
+  if (data.overlay.photographs.empty()) return;
+  data.overlay_outlines = {
+      MakeOutline("experiment (AEHP)", reference.aehp),
+      MakeOutline("simulation, trial " + std::to_string(data.overlay.trial->id),
+                  *data.evidence.profile(data.overlay.trial->id))};
 }
 
 }  // namespace talus::analysis

@@ -9,4 +9,7 @@ namespace talus::analysis {
 // each objective, each trial once.
 void AddProfileViews(ReportData& data);
 
+// The highest powder of each column, from foot to foot.
+OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profile);
+
 }  // namespace talus::analysis

@@ -14,10 +14,10 @@ std::size_t IndexOf(const std::vector<ObjectiveFinding>& findings, std::string_v
   return 0;
 }
 
-// Where the slices pass: the recommended set, or without one the model's own best.
-Eigen::VectorXd SliceCentre(const Evidence& evidence, const ModelFinding& finding) {
-  if (!evidence.conclusion) return finding.point;
-  Eigen::VectorXd point(finding.point.size());
+// Where the slices pass: the recommended set, before there is one the model's own.
+Eigen::VectorXd SliceCentre(const Evidence& evidence) {
+  Eigen::VectorXd point = evidence.model->point;
+  if (!evidence.conclusion) return point;
   for (Eigen::Index k = 0; k < point.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     const double value = evidence.conclusion->values[i].value;
@@ -26,20 +26,29 @@ Eigen::VectorXd SliceCentre(const Evidence& evidence, const ModelFinding& findin
   return point;
 }
 
+// One model only: the one that answers.
+void AddModelViews(ReportData& data) {
+  const Evidence& evidence = data.evidence;
+  if (!evidence.model) return;
+  if (evidence.model->predict) data.slices = SliceModel(evidence, SliceCentre(evidence));
+  if (evidence.model->draws.rows() > 0) {
+    data.marginals = Marginals(evidence);
+    data.pairs = PosteriorPairs(evidence);
+  } else if (evidence.model->predict) {
+    data.pairs = TiePairs(evidence);
+  }
+}
+
 }  // namespace
 
 ReportData MakeReportData(Evidence evidence) {
   ReportData data;
   data.evidence = std::move(evidence);
-  data.findings = CompareObjectives(data.evidence);
+  data.findings = CompareTrials(data.evidence);
   data.objective = IndexOf(data.findings, data.evidence.objective);
-  const ObjectiveFinding& own = data.own();
-  if (own.from_model) {
-    data.slices =
-        SliceModel(data.evidence, *own.from_model, SliceCentre(data.evidence, *own.from_model));
-    data.pairs = PairChances(data.evidence, own);
-  }
+  AddModelViews(data);
   AddProfileViews(data);
+  data.next_steps = NextSteps(data.evidence);
   return data;
 }
 

@@ -7,7 +7,9 @@
 
 #include "experiments/analysis/compare/compare.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/report/heap_views.h"
 #include "experiments/analysis/report/model_views.h"
+#include "experiments/analysis/report/next_steps.h"
 
 namespace talus::analysis {
 
@@ -30,11 +32,18 @@ struct ReportData {
   std::vector<ObjectiveFinding> findings;
   std::size_t objective = 0;  // index into findings: the campaign's own
   std::vector<ModelSlice> slices;
-  std::vector<PairChance> pairs;
+  std::vector<Marginal> marginals;  // of the posterior; none without one
+  std::vector<PairMap> pairs;
+  std::vector<RepresentativeView> representative;  // of the recommended set and its equals
+  std::vector<NextStep> next_steps;
+  PhotoOverlay overlay;
+  std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
+  std::string overlay_absent;                  // why there are no photographs to show
   std::vector<MeasuredProfile> measures;
   std::vector<OutlineCurve> outlines;  // the experiment's first
   std::vector<Picture> pictures;
 
+  bool has_posterior() const { return !marginals.empty(); }
   const ObjectiveFinding& own() const { return findings[objective]; }
 };
 

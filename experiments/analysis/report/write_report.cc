@@ -16,6 +16,10 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
   for (const Picture& picture : data.pictures) {
     base::WriteFileAtomically(folder / "figures" / (picture.name + ".png"), picture.png);
   }
+  for (const RepresentativeView& view : data.representative) {
+    if (view.heap.png.empty()) continue;
+    base::WriteFileAtomically(folder / "figures" / (view.heap.name + ".png"), view.heap.png);
+  }
   for (const NamedText& figure : ReportFigures(data)) {
     base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.text);
   }

@@ -1,16 +1,36 @@
 // Every chart goes through `chart`, which sizes it, redraws it when the page changes and lists it in
 // `talusCharts` with whether it drew.
-const ink = "#1d2730", soft = "#55626d", line = "#dfe4e8";
+const D = JSON.parse(document.getElementById("data").textContent);  // what the program wrote into the page
+
+let ink, soft, line, paper, axisLine, starColor;
+// The page's colours as the reader's system has them; paper is always light.
+function readTheme() {
+  const style = getComputedStyle(document.documentElement);
+  [ink, soft, line, paper, axisLine, starColor] = ["ink", "soft", "line", "paper", "axis", "star"]
+    .map((name) => style.getPropertyValue("--" + name).trim());
+}
+readTheme();
 // Okabe and Ito's colours: told apart with every common colour blindness.
 const palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#6b6b6b"];
 const sequence = ["#fde725", "#7ad151", "#22a884", "#2a788e", "#414487", "#440154"];  // best is dark
-const starColor = "#c1121f";
 const star = "path://M0,-10 L2.6,-3.2 L9.8,-3.1 L4,1.3 L6.2,8.2 L0,4.1 L-6.2,8.2 L-4,1.3 " +
     "L-9.8,-3.1 L-2.6,-3.2 Z";
 
 const fontFamily = getComputedStyle(document.body).fontFamily;
 
-window.talusCharts = [];
+window.talusCharts = [];  // {id, drawn, redraw}: drawn whether seen yet or not
+
+function redrawAll() {
+  readTheme();
+  for (const made of window.talusCharts) made.redraw();
+}
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
+// Charts are drawn when they scroll into view; on paper all of them are, as pictures in light colours.
+window.addEventListener("beforeprint", () => window.talusCharts.forEach((made) => made.start()));
+window.matchMedia("print").addEventListener("change", (e) => {
+  redrawAll();
+  if (e.matches) window.talusCharts.forEach((made) => made.toPaper());
+});
 
 const hasWebGl = (() => {
   try {
@@ -32,15 +52,16 @@ function chart(id, title, caption, makeOption, size = "") {
   let made = null;
   const redraw = () => {
     if (!made) return;
-    const option = makeOption(place.clientWidth);
+    const onPaper = window.matchMedia("print").matches;  // where the place itself is not shown
+    const option = makeOption(onPaper ? made.getWidth() : place.clientWidth);
     if (option.height_px) place.style.height = option.height_px + "px";
     delete option.height_px;
-    made.resize();
+    if (!onPaper) made.resize();
     made.setOption({animation: false, textStyle: {fontFamily, fontSize: 13, color: ink}, ...option},
         {notMerge: true});
   };
-  const watcher = new IntersectionObserver((entries) => {
-    if (!entries.some((e) => e.isIntersecting)) return;
+  const start = () => {
+    if (made) return;
     watcher.disconnect();
     made = echarts.init(place, null, {renderer: "canvas"});
     made.on("finished", () => { entry.drawn = true; });
@@ -51,9 +72,31 @@ function chart(id, title, caption, makeOption, size = "") {
       width = place.clientWidth;
       redraw();
     })).observe(figure);
+  };
+  const watcher = new IntersectionObserver((entries) => {
+    if (entries.some((e) => e.isIntersecting)) start();
   }, {rootMargin: "400px"});
   watcher.observe(place);
+  const toPaper = () => {
+    if (!made) return;
+    if (entry.picture) entry.picture.remove();
+    entry.picture = made.getRenderedCanvas({pixelRatio: 2, backgroundColor: paper});
+    entry.picture.removeAttribute("style");  // its size on the screen
+    entry.picture.className = "paper";
+    place.after(entry.picture);
+  };
+  Object.assign(entry, {redraw, start, toPaper});
   return {figure, redraw};
+}
+
+// Shapes, too, for those who see no colours.
+const symbols = ["circle", "diamond", "triangle", "rect", "roundRect", "pin"];
+const scaleFactors = [...new Set(D.trials.scale)].sort((a, b) => b - a);
+
+// The same in every chart.
+function scaleLook(factor) {
+  const k = scaleFactors.indexOf(factor);
+  return {symbol: symbols[k % symbols.length], itemStyle: {color: palette[k % palette.length], opacity: .8}};
 }
 
 const nameOf = (p) => p.symbol + (p.unit ? " (" + p.unit + ")" : "");
@@ -61,20 +104,21 @@ const nameOf = (p) => p.symbol + (p.unit ? " (" + p.unit + ")" : "");
 // A parameter's axis over its whole search range, on its own scale.
 const parameterAxis = (p, vertical = false) => ({
   type: p.log ? "log" : "value", min: p.low, max: p.high, name: nameOf(p), nameLocation: "middle",
-  nameGap: vertical ? 50 : 30, nameTextStyle: {color: ink, fontSize: 13}, axisLine: {onZero: false, lineStyle: {color: "#8b979f"}},
+  nameGap: vertical ? 50 : 30, nameTextStyle: {color: ink, fontSize: 13}, axisLine: {onZero: false, lineStyle: {color: axisLine}},
   axisTick: {show: true}, splitLine: {lineStyle: {color: line}},
   axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true},
 });
 const valueAxis = (name, more = {}) => ({
   type: "value", name, nameLocation: "middle", nameGap: 46, nameTextStyle: {color: ink, fontSize: 13},
-  axisLine: {show: true, onZero: false, lineStyle: {color: "#8b979f"}}, axisTick: {show: true},
+  axisLine: {show: true, onZero: false, lineStyle: {color: axisLine}}, axisTick: {show: true},
   axisLabel: {color: soft, hideOverlap: true, formatter: tick},
   splitLine: {lineStyle: {color: line}}, ...more,
 });
 const margins = {left: 70, right: 24, top: 36, bottom: 52};
 const legendStyle = {top: 0, left: 0, icon: "circle", itemHeight: 11, itemWidth: 14, itemGap: 14, type: "scroll",
-                     textStyle: {color: soft, fontSize: 13}};
-const tooltipStyle = {confine: true, borderColor: line, textStyle: {color: ink, fontSize: 13}};
+                     get textStyle() { return {color: soft, fontSize: 13}; }};
+const tooltipStyle = {confine: true, borderColor: "#dfe4e8", backgroundColor: "#ffffff",
+                      textStyle: {color: "#1d2730", fontSize: 13}};
 const lines = (texts) => texts.map((t) => echarts.format.encodeHTML(t)).join("<br>");
 
 const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "ok");

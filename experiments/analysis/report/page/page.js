@@ -1,6 +1,4 @@
-// Puts the page together from the data that the program wrote into it.
-const D = JSON.parse(document.getElementById("data").textContent);
-
+// Puts the page together.
 function section(id, title, lead, parts) {
   const shown = parts.filter(Boolean);
   if (!shown.length) return;
@@ -10,12 +8,25 @@ function section(id, title, lead, parts) {
 }
 const card = (figure) => element("div", {class: "card"}, figure);
 
-// The charts know the trials' numbers; the answer may stand on their images.
-const modelNote = () => D.headline && D.headline.model.startsWith("modes")
-  ? " This is a model of the numbers alone, drawn because it is quick to ask. The recommended set, its " +
-    "ranges and the sensitivities come from a model of the images, which knows more: where the two " +
-    "differ, believe that one."
-  : "";
+// What the section shows, in the words of the kind of model there is.
+const modelLead = () => "All from the model that gives the answer" +
+  (D.model.posterior ? ": the posterior of the parameters, given every simulation and what was measured. "
+    : ": what it expects between the simulations. ") +
+  (D.slices.length ? "The slices show the expected " + D.campaign.objective.title + " through the " +
+    (D.headline ? "recommended set" : "best set so far") +
+    (D.slices[0].high[0] === null ? "." : ", with 90\u00a0% bands.") : "") +
+  (D.model.posterior || !D.pairs.length ? "" : " The pairs show the chance that a set is within one simulation's " +
+    "scatter of the best, averaged over the other parameters.");
+
+function modelSection() {
+  if (!D.model) {
+    return D.model_absent ? [element("div", {class: "notice"}, element("p", {}, "No model: " + D.model_absent))] : [];
+  }
+  const grid = (charts) => charts.length ? element("div", {class: "grid three stacked"}, charts) : null;
+  return [grid([...D.marginals.map((m, k) => card(marginalChart(m, k))), ...D.pairs.map((p, k) => card(pairChart(p, k)))]),
+    grid(D.slices.map((s, k) => card(sliceChart(s, k)))),
+    ...sensitivityTable()];
+}
 
 function build() {
   const o = D.campaign.objective;
@@ -24,15 +35,12 @@ function build() {
   section("answer", "Answer", "", answerSection());
   section("convergence-section", "Convergence", "", doneTrials().length ? [card(convergenceChart())] : []);
   section("space-section", "Parameter space", "", doneTrials().length ? [card(spaceChart())] : []);
-  section("model", "Model", "What a Gaussian process of " + o.title + " says between the trials. The slices " +
-    "pass through the " + (D.headline ? "recommended set" : "model's best set") + ", with 90\u00a0% bands; the pairs show the " +
-    "chance that a set ties with the best, averaged over the other parameters." + modelNote(), D.slices.length ? [
-      element("div", {class: "grid three"}, D.slices.map((s, k) => card(sliceChart(s, k)))),
-      element("div", {class: "grid three", style: "margin-top:18px"}, D.pairs.map((p, k) => card(pairChart(p, k)))),
-      element("div", {style: "margin-top:18px"}, sensitivityTable())] : []);
+  section("model", "Model", D.model ? modelLead() : "", modelSection());
   section("profiles", "Profiles", "The average profile of the experiment (AEHP) and the average profiles of " +
     "the best simulations (ANHP). In a signed map, blue is where the simulation has too little powder, red " +
-    "where it has too much.", [D.outlines.length ? card(outlineChart()) : null,
+    "where it has too much.", [D.overlay ? overlayFigure()
+      : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to show: " + D.overlay_absent) : null,
+      D.outlines.length ? card(outlineChart()) : null,
       D.pictures.length ? pictures() : null]);
   section("measures", "Angles and measures", "", [measuresTable()]);
   section("compare", "Objectives", "", D.objectives.length ? comparisonSection() : []);

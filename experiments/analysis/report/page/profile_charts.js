@@ -21,7 +21,7 @@ function outlineChart() {
           connectNulls: false, lineStyle: {width: k === 0 ? 3 : 1.7, color: k === 0 ? ink : palette[k - 1]},
           itemStyle: {color: k === 0 ? ink : palette[k - 1]}, triggerLineEvent: true})),
         {type: "line", data: [[-D.plate_mm / 2, 0], [D.plate_mm / 2, 0]], symbol: "none", silent: true,
-         lineStyle: {color: "#8b979f", width: 5}},
+         lineStyle: {color: axisLine, width: 5}},
       ],
     };
   }).figure;

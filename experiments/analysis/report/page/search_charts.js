@@ -7,7 +7,7 @@ function convergenceChart() {
   const best = [];
   let least = Infinity;
   for (const i of all) {
-    if (value(i) < least) {
+    if (t.scale[i] === D.campaign.scale_factor && value(i) < least) {
       least = value(i);
       best.push([t.id[i], least]);
     }
@@ -16,12 +16,19 @@ function convergenceChart() {
   if (best.length) best.push([last, least]);
   const noise = o.noise_sd;
   const shown = thin(all, 4000);
-  const purposes = [...new Set(shown.map((i) => t.purpose[i]))];
+  // Grains of another size make another heap: what is compared is told apart by colour.
+  const kindOf = scaleFactors.length > 1 ? (i) => "scale factor " + format(t.scale[i]) +
+    (t.purpose[i] === "confirm" ? ", confirm" : "") : (i) => t.purpose[i];
+  const kinds = [...new Set(shown.map(kindOf))];
+  const lookOf = (name, k) => scaleFactors.length < 2
+    ? {symbol: "circle", itemStyle: {color: palette[k % palette.length], opacity: .8}}
+    : name.endsWith("confirm") ? {symbol: "pin", itemStyle: {color: starColor}}
+    : scaleLook(t.scale[shown.find((i) => kindOf(i) === name)]);
   const top = Math.max(...shown.map(value));
   let logarithmic = false;
   const option = () => ({
     grid: margins,
-    legend: {...legendStyle, data: [...purposes, "best so far", ...(noise ? ["± noise of one trial"] : []),
+    legend: {...legendStyle, data: [...kinds, "best so far", ...(noise ? ["± noise of one trial"] : []),
       ...(o.noise_floor === null ? [] : ["noise floor of the experiment"])]},
     tooltip: {...tooltipStyle, trigger: "item",
               formatter: (e) => e.data && e.data[2] !== undefined ? lines(trialText(e.data[2])) : ""},
@@ -41,14 +48,15 @@ function convergenceChart() {
         {type: "line", name: "noise floor of the experiment", symbol: "none", silent: true,
          data: [[0, o.noise_floor], [Math.max(1, last), o.noise_floor]],
          lineStyle: {color: soft, type: "dashed", width: 1.5}, itemStyle: {color: soft}}]),
-      ...purposes.map((name, k) => ({
-        type: "scatter", name, symbolSize: shown.length > 800 ? 4 : 7,
-        itemStyle: {color: palette[k % palette.length], opacity: .8},
-        data: shown.filter((i) => t.purpose[i] === name).map((i) => [t.id[i], value(i), i])})),
+      ...kinds.map((name, k) => ({
+        type: "scatter", name, symbolSize: shown.length > 800 ? 4 : name.endsWith("confirm") && scaleFactors.length > 1 ? 14 : 7,
+        ...lookOf(name, k),
+        data: shown.filter((i) => kindOf(i) === name).map((i) => [t.id[i], value(i), i])})),
     ],
   });
   const made = chart("convergence", o.title + " of each trial, and the best so far",
-      "Each point is one simulation; the axis starts at zero unless it is logarithmic. " +
+      "Each point is one simulation" + (scaleFactors.length > 1 ? "; the best is of those at scale factor " +
+        format(D.campaign.scale_factor) : "") + ". The axis starts at zero unless it is logarithmic. " +
       (all.length > shown.length ? shown.length + " of " + all.length + " trials are drawn. " : "") +
       (t.state.includes("failed") ? "Failed trials have no value and are listed below." : ""), option);
   made.figure.insertBefore(element("div", {class: "row"}, element("label", {},

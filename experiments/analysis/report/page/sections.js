@@ -41,38 +41,72 @@ function fact(name, value, note) {
     element("dd", {}, value, note ? element("small", {}, note) : null));
 }
 
-// What kind of answer it is, before any number; several answers are listed side by side.
+const setText = (values) => D.parameters.map((p, k) => p.symbol + " " + formatUnit(values[k], p.unit)).join(", ");
+
+// What kind of answer it is, before any number, with the figure of its region; and each part of it.
 function verdict(h) {
-  if (!h.verdict) return null;
-  const several = h.branches.length > 1;
-  return element("div", {class: "card", id: "verdict"}, element("p", {}, element("strong", {}, h.verdict)),
-    several ? table([{title: "Answer"}, {title: "of the posterior"},
-      ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit}))],
-      h.branches.map((b, i) => [String(i + 1), percent(b.share), ...b.values.map((x, k) =>
-        format(x) + " (" + format(b.low[k]) + " to " + format(b.high[k]) + ")")])) : null);
+  if (!h.verdict) return [];
+  // The pair of parameters that says most: the one that is tied closest.
+  const inside = (pair) => pair.value.filter((level) => level < .9).length;
+  const closest = [...D.pairs].sort((a, b) => inside(a) - inside(b))[0];
+  const region = closest && D.model.posterior ? card(pairChart(closest, 0, "region", "")) : null;
+  const parts = h.branches.length ? element("div", {class: "card", id: "branches"}, element("h3", {},
+      h.branches.length > 1 ? "The separate answers" : "The answer"),
+    table([{title: "", text: true}, ...h.branches.map((b, i) => ({title: h.branches.length > 1 ? "Answer " + (i + 1)
+        : "Recommended", unit: percent(b.share) + " of the region"}))],
+      D.parameters.map((p, k) => [p.symbol + (p.unit ? " (" + p.unit + ")" : ""), ...h.branches.map((b) =>
+        element("span", {}, format(b.values[k]), element("br"), element("small", {},
+          format(b.low[k]) + " to " + format(b.high[k]))))]))) : null;
+  return [element("div", {class: "card", id: "verdict"}, element("p", {}, element("strong", {}, h.verdict))),
+    region ? element("div", {class: "grid two stacked"}, region, element("div", {}, nextSteps(h), parts)) : parts];
+}
+
+function nextSteps(h) {
+  if (!h.next.length) return null;
+  return element("div", {class: "card", id: "next"}, element("h3", {}, "What to do next"),
+    element("ol", {class: "steps"}, h.next.map((step) => element("li", {}, element("strong", {}, step.what),
+      element("div", {}, "Costs " + step.cost + "."), element("div", {}, "Leaves " + step.leaves + ".")))));
+}
+
+// Heaps of sets that fit equally, side by side; of one set alone, its heap.
+function representativeHeaps(h) {
+  const o = D.campaign.objective;
+  if (!h.representatives.some((set) => set.uri)) return null;
+  const others = h.representatives.filter((set) => !set.recommended);
+  return element("div", {class: "grid three stacked", id: "representatives"}, h.representatives.map((set) =>
+    set.uri ? element("figure", {class: "card"},
+      element("h3", {}, (set.recommended ? "Recommended: " : "Set " + (others.indexOf(set) + 1) + ": ") +
+        setText(set.values)),
+      element("img", {src: set.uri, alt: "Simulated heap of trial " + set.trial, width: set.width, height: set.height}),
+      element("figcaption", {}, (set.expected === null ? "" : "Expected " + o.title + " " + formatUnit(set.expected, o.unit) +
+        (set.expected_sd === null ? "" : " ± " + format(set.expected_sd, 2)) + ". ") +
+        "Shown is trial " + set.trial + (set.distance > .01 ? ", the nearest simulated, at " + setText(set.trial_values) : "") +
+        ": " + formatUnit(set.trial_objective, o.unit) + ".")) : null));
 }
 
 function answerSection() {
   const h = D.headline, o = D.campaign.objective, parts = [];
   if (!h) {
-    const own = D.objectives.find((one) => one.key === o.key && one.model);
     parts.push(element("div", {class: "card"}, element("p", {}, "The campaign has not concluded yet. " +
-      (own ? "So far a model of its trials expects the best " + o.title + ", " +
-        formatUnit(own.model.quantity, o.unit) + " ± " + format(own.model.sd, 2) + ", at " +
-        D.parameters.map((p, k) => p.symbol + " = " + formatUnit(own.model.values[k], p.unit)).join(", ") + "."
+      (D.model ? "So far its model recommends " +
+        D.parameters.map((p, k) => p.symbol + " = " + formatUnit(D.model.values[k], p.unit)).join(", ") +
+        (D.model.expected === null ? "" : " and expects a " + o.title + " of " + formatUnit(D.model.expected, o.unit) +
+          (D.model.expected_sd === null ? "" : " ± " + format(D.model.expected_sd, 2)) + " there") + "."
         : "There are too few trials to say anything about the best set."))));
   } else {
-    parts.push(verdict(h));
-    const times = o.noise_floor ? " × the noise floor" : "";
-    const ratio = (x) => o.noise_floor ? format(x / o.noise_floor, 2) + times : "";
+    parts.push(...verdict(h));
     const facts = [];
     if (h.predicted !== null) {
       facts.push(fact("Predicted " + o.title, objectiveValue(h.predicted) +
-        (h.predicted_sd ? " ± " + format(h.predicted_sd, 2) : ""), ratio(h.predicted)));
+        (h.predicted_sd ? " ± " + format(h.predicted_sd, 2) : ""), "by the model that answers"));
     }
+    const inProfile = h.confirmed_profile === null ? ""
+      : objectiveValue(h.confirmed_profile) + (o.key === "sad" ? "" : " SAD") + " of their mean profile" +
+        (h.confirmed_over_floor === null ? "" : ", " + format(h.confirmed_over_floor, 2) + " × the noise floor");
     facts.push(h.num_confirmed
-      ? fact("Confirmed " + o.title, objectiveValue(h.confirmed), "mean of " + h.num_confirmed +
-          " fresh seeds" + (o.noise_floor ? ", " + ratio(h.confirmed) : ""))
+      ? fact("Confirmed " + o.title, objectiveValue(h.confirmed) +
+          (h.num_confirmed > 1 ? " in single runs" : " in a single run"),
+          h.num_confirmed > 1 ? "mean of " + h.num_confirmed + " fresh seeds; " + inProfile : inProfile)
       : fact("Confirmed " + o.title, "not yet", "no fresh seed has been run"));
     facts.push(o.noise_floor === null
       ? fact("Noise floor of the experiment", "unknown", "needs more than one run of photographs")
@@ -80,15 +114,19 @@ function answerSection() {
     facts.push(fact("Scatter of one simulation", h.noise_sd === null ? "unknown" : objectiveValue(h.noise_sd),
       "standard deviation between seeds"));
     if (h.tied_volume !== null) {
-      facts.push(fact("Sets that tie with it", percent(h.tied_volume), "of the searched volume"));
+      facts.push(h.posterior
+        ? fact("Joint 90\u00a0% region", percent(h.tied_volume), "of the searched volume; each range above spans it alone")
+        : fact("Sets within the scatter", percent(h.tied_volume), "of the searched volume: a thin region may still " +
+            "span each range alone"));
     }
     parts.push(element("div", {class: "card"},
       element("div", {class: "answer"}, D.parameters.map((p, k) => valueTile(p, h.values[k]))),
       element("dl", {class: "facts"}, facts),
       h.model ? element("p", {class: "note"}, h.model) : null));
+    parts.push(representativeHeaps(h));
   }
   if (D.warnings.length) {
-    parts.push(element("div", {class: "notice", role: "note"}, element("strong", {}, "Before you use it"),
+    parts.splice(1, 0, element("div", {class: "notice", role: "note", id: "alarms"}, element("strong", {}, "Before you use it"),
       element("ul", {}, D.warnings.map((w) => element("li", {}, w)))));
   }
   if (D.conditions.length) {
@@ -123,23 +161,16 @@ function comparisonSection() {
   const first = answered.map((o) => {
     const b = o.trials.best[0];
     return [o.title, formatUnit(b.quantity, o.unit, 4), experimentOf(o),
-      ...b.values.map((x) => format(x)), o.trials.num_tied + " of " + o.trials.num_sets,
-      shareBar(o.trials.tied_volume)];
+      ...b.values.map((x) => format(x)),
+      o.noise_sd === null ? "–" : o.trials.num_tied + " of " + o.trials.num_sets,
+      o.noise_sd === null ? "–" : shareBar(o.trials.tied_volume)];
   });
-  const second = answered.filter((o) => o.model).map((o) => [o.title,
-    formatUnit(o.model.quantity, o.unit, 4) + " ± " + format(o.model.sd, 2),
-    experimentOf(o),
-    ...o.model.values.map((x) => format(x)), shareBar(o.model.tied_volume)]);
   const parts = [
     element("p", {class: "lead"}, "The best set by each objective, and how much of the searched volume " +
       "ties with it: sets whose objective is within the scatter of one simulation. The smaller " +
-      "that volume, the more unique the answer."),
-    element("div", {class: "card"}, element("h3", {}, "From the trials"), table(columns, first))];
-  if (second.length) {
-    parts.push(element("div", {class: "card"}, element("h3", {}, "From a model of the trials"),
-      table(columns.filter((c) => c.title !== "Sets that tie"), second),
-      element("p", {class: "note"}, "A Gaussian process of the measured quantity, fitted to the same trials.")));
-  }
+      "that volume, the more unique the answer. A dash: no set was simulated twice, so that the scatter is not " +
+      "known."),
+    element("div", {class: "card"}, table(columns, first))];
   const silent = D.objectives.filter((o) => o.absent);
   if (silent.length) {
     parts.push(element("div", {class: "notice"}, element("ul", {}, silent.map((o) =>
@@ -156,13 +187,17 @@ function comparisonSection() {
   return parts;
 }
 
+const comparing = new Set(["sad_px", "sad_mm2", "sad_relative", "rmse_gray", "rmse", "iou"]);
+
 function measuresTable() {
   const shown = D.metrics.map((_, k) => k).filter((k) => !D.metrics[k].name.endsWith("_px"));
   return element("div", {class: "card"},
     table([{title: "Measure", text: true},
            ...D.measures.map((m) => ({title: m.title, unit: m.note, profile: true}))],
       shown.map((k) => [D.metrics[k].title +
-        (D.metrics[k].unit ? " (" + D.metrics[k].unit + ")" : ""), ...D.measures.map((m) => m.values[k] === null ? "not defined" : format(m.values[k], 4))])),
+        (D.metrics[k].unit ? " (" + D.metrics[k].unit + ")" : ""), ...D.measures.map((m, column) => m.values[k] !== null ? format(m.values[k], 4)
+          // The experiment is not compared with itself.
+          : column === 0 && comparing.has(D.metrics[k].name) ? "–" : "not defined")])),
     element("p", {class: "note"}, "AOR: angle of repose by methods 1 (height over base radius), 2 (regression " +
       "over the slope) and 3 (over the part of the slope next to the base). NEBP: number of equivalent black " +
       "pixels, the area of the profile. SAD, RMSE and IoU compare with the experiment."));
@@ -173,7 +208,7 @@ function pictures() {
     // The experiment has a row of its own; then profile and map of a trial stand side by side.
     {class: k === 0 ? "card alone" : "card"},
     element("h3", {}, p.title), element("img", {src: p.uri, alt: p.title, width: p.width,
-      height: p.height, loading: "lazy"}), p.caption ? element("figcaption", {}, p.caption) : null)));
+      height: p.height}), p.caption ? element("figcaption", {}, p.caption) : null)));
 }
 
 function failuresSection() {

@@ -6,7 +6,9 @@ function spaceChart() {
   const three = n >= 3 && hasWebGl;
   const axes = three ? [0, 1, 2] : n >= 2 ? [0, 1] : [0];
   const answered = D.objectives.filter((o) => !o.absent);
-  let colorBy = Math.max(0, answered.findIndex((o) => o.key === D.campaign.objective.key));
+  const own = Math.max(0, answered.findIndex((o) => o.key === D.campaign.objective.key));
+  // -1: by scale factor, where there are several: their objectives do not compare.
+  let colorBy = scaleFactors.length > 1 ? -1 : own;
   const rowOf = new Map(t.id.map((id, i) => [id, i]));
   const kept = new Set(answered.flatMap((o) => o.trials.best.map((b) => rowOf.get(b.trials[0]))));
   const logOf = (k, x) => D.parameters[k].log && three ? Math.log10(x) : x;
@@ -14,7 +16,7 @@ function spaceChart() {
   const point = (i) => at(t.values.map((column) => column[i]));
 
   const option = (width) => {
-    const o = answered[colorBy];
+    const o = answered[colorBy < 0 ? own : colorBy];
     const m = D.metrics.findIndex((metric) => metric.name === o.metric);
     const value = (i) => o.is_angle ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
     const usable = doneTrials().filter((i) => t.metrics[m][i] !== null);
@@ -25,10 +27,15 @@ function spaceChart() {
     const kind = three ? "scatter3D" : "scatter";
     const size = shown.length > 1000 ? 4 : 8;
     const extra = n === 1 ? (i) => [value(i)] : () => [];
-    const series = [{
-      type: kind, name: "trials", symbolSize: size,
-      itemStyle: {opacity: .9, borderWidth: three ? .4 : .5, borderColor: "#ffffff"},
-      data: shown.map((i) => [...point(i), ...extra(i), value(i), i])}];
+    const trialSeries = (name, some, style, symbol = "circle") => ({type: kind, name, symbolSize: size, symbol,
+      itemStyle: {opacity: .9, borderWidth: three ? .4 : .5, borderColor: paper, ...style},
+      data: some.map((i) => [...point(i), ...extra(i), value(i), i])});
+    const byScale = colorBy < 0;
+    const series = byScale
+      ? scaleFactors.map((factor, k) => trialSeries("scale factor " + format(factor),
+          shown.filter((i) => t.scale[i] === factor), scaleLook(factor).itemStyle, scaleLook(factor).symbol))
+      : [trialSeries("trials", shown, {})];
+    const numTrialSeries = series.length;
     answered.forEach((objective, k) => series.push({
       type: kind, name: "ten best by " + objective.title, symbolSize: 15 + 3 * k,
       itemStyle: {color: "rgba(255,255,255,0)", borderColor: palette[k], borderWidth: 2, opacity: 1},
@@ -38,7 +45,7 @@ function spaceChart() {
       })}));
     if (D.headline) {
       series.push({type: kind, name: "recommended", symbol: star, symbolSize: 26, z: 9,
-        itemStyle: {color: starColor, borderColor: "#ffffff", borderWidth: 1, opacity: 1},
+        itemStyle: {color: starColor, borderColor: paper, borderWidth: 1, opacity: 1},
         data: [[...at(D.headline.values.map((v) => v.value)),
                 ...(n === 1 ? [D.headline.predicted] : []), 0, -1]]});
     }
@@ -47,10 +54,10 @@ function spaceChart() {
     const narrow = width < 560;
     const common = {
       legend: {...legendStyle, selected, icon: undefined,
-               data: series.slice(1).map((s) => ({name: s.name, icon: s.symbol || "circle"}))},
+               data: series.slice(byScale ? 0 : numTrialSeries).map((s) => ({name: s.name, icon: s.symbol || "circle"}))},
       tooltip: {...tooltipStyle, formatter: (e) => e.data[e.data.length - 1] < 0 ? "recommended"
         : lines(trialText(e.data[e.data.length - 1]))},
-      visualMap: {seriesIndex: 0, dimension: axes.length + (n === 1 ? 1 : 0), min: low, max: high,
+      visualMap: byScale ? undefined : {seriesIndex: 0, dimension: axes.length + (n === 1 ? 1 : 0), min: low, max: high,
         inRange: {color: [...sequence].reverse()}, calculable: false, orient: "horizontal",
         left: 0, bottom: 0, itemWidth: 12, itemHeight: narrow ? 90 : 150,
         text: ["≥ " + format(high) + " " + o.unit, o.title + "  " + format(low)],
@@ -71,7 +78,7 @@ function spaceChart() {
           formatter: (x) => k === 0 && x === logOf(axes[0], p.low) ? ""
             : tick(p.log ? Number((10 ** x).toPrecision(3)) : x)},
         interval: p.log ? 1 : undefined,
-        axisLine: {lineStyle: {color: "#8b979f", width: 1}}, splitLine: {lineStyle: {color: line}}};
+        axisLine: {lineStyle: {color: axisLine, width: 1}}, splitLine: {lineStyle: {color: line}}};
     };
     return {...common, xAxis3D: axis(0), yAxis3D: axis(1), zAxis3D: axis(2),
       grid3D: {boxWidth: 100, boxDepth: 100, boxHeight: 84, top: -10, bottom: 30,
@@ -87,7 +94,8 @@ function spaceChart() {
       option, "tall");
   const chooser = element("select", {id: "space-objective",
       onchange: (e) => { colorBy = Number(e.target.value); made.redraw(); }},
-      answered.map((o, k) => element("option", {value: k, selected: k === colorBy}, o.title)));
+      [...(scaleFactors.length > 1 ? [element("option", {value: -1, selected: true}, "scale factor")] : []),
+       ...answered.map((o, k) => element("option", {value: k, selected: k === colorBy}, o.title))]);
   const choices = [element("label", {}, "Colour by", chooser)];
   if (n > axes.length) {
     axes.forEach((_, a) => choices.push(element("label", {}, "xyz"[a], element("select",
@@ -105,22 +113,23 @@ const verticalMark = (x, text) => ({silent: true, symbol: "none", precision: 18,
 function sliceChart(slice, k) {
   const p = D.parameters[slice.parameter], o = D.campaign.objective;
   const v = D.headline ? D.headline.values[slice.parameter] : null;
-  return chart("slice-" + k, o.title + " along " + p.symbol, "", () => ({
+  const banded = slice.high[0] !== null;
+  return chart("slice-" + k, "Expected " + o.title + " along " + p.symbol, "", () => ({
     grid: {...margins, top: 24},
     tooltip: {...tooltipStyle, trigger: "axis", formatter: (list) => {
       const i = list[0].dataIndex;
       return lines([p.symbol + " = " + formatUnit(slice.x[i], p.unit),
-        o.title + " = " + formatUnit(slice.mean[i], o.unit),
-        "90 %: " + format(slice.low[i]) + " to " + formatUnit(slice.high[i], o.unit)]);
+        "expected " + o.title + " = " + formatUnit(slice.mean[i], o.unit),
+        ...(banded ? ["90 %: " + format(slice.low[i]) + " to " + formatUnit(slice.high[i], o.unit)] : [])]);
     }},
     xAxis: parameterAxis(p),
     yAxis: valueAxis(o.title + " (" + o.unit + ")", {min: 0}),
     series: [
-      {type: "line", stack: "band", data: slice.x.map((x, i) => [x, Math.max(0, slice.low[i])]), symbol: "none",
+      ...(banded ? [{type: "line", stack: "band", data: slice.x.map((x, i) => [x, slice.low[i]]), symbol: "none",
        lineStyle: {opacity: 0}, silent: true},
       {type: "line", stack: "band", symbol: "none", lineStyle: {opacity: 0}, silent: true,
-       data: slice.x.map((x, i) => [x, slice.high[i] - Math.max(0, slice.low[i])]),
-       areaStyle: {color: palette[0], opacity: .18}},
+       data: slice.x.map((x, i) => [x, slice.high[i] - slice.low[i]]),
+       areaStyle: {color: palette[0], opacity: .18}}] : []),
       {type: "line", data: slice.x.map((x, i) => [x, slice.mean[i]]), symbol: "none",
        lineStyle: {color: palette[0], width: 2},
        markLine: v ? verticalMark(v.value) : undefined,
@@ -130,22 +139,57 @@ function sliceChart(slice, k) {
   }), "small").figure;
 }
 
-// Density over a grid of cells between the edges pair.x and pair.y, drawn on the true axes.
-function pairChart(pair, k) {
+// How likely each value of a parameter is, beside the even density before the first simulation.
+function marginalChart(marginal, k) {
+  const p = D.parameters[marginal.parameter];
+  const v = D.headline ? D.headline.values[marginal.parameter] : null;
+  return chart("marginal-" + k, "Posterior of " + p.symbol, "", () => ({
+    grid: {...margins, top: 24},
+    tooltip: {...tooltipStyle, trigger: "axis", formatter: (list) => {
+      const i = list[0].dataIndex;
+      return lines([p.symbol + " = " + formatUnit(marginal.x[i], p.unit),
+        format(marginal.density[i], 2) + " times as likely as before the simulations"]);
+    }},
+    xAxis: parameterAxis(p),
+    yAxis: valueAxis("density / even density", {min: 0}),
+    series: [
+      {type: "line", data: marginal.x.map((x, i) => [x, marginal.density[i]]), symbol: "none",
+       lineStyle: {color: palette[0], width: 2}, areaStyle: {color: palette[0], opacity: .18},
+       markLine: v ? verticalMark(v.value) : undefined},
+      {type: "line", data: [[p.low, 1], [p.high, 1]], symbol: "none", silent: true,
+       lineStyle: {color: soft, type: "dashed", width: 1}},
+    ],
+  }), "small").figure;
+}
+
+const regionShade = (level) => level < .5 ? "#2b7ba8" : level < .9 ? "#b5d3e4" : paper;
+
+// Cells between the edges pair.x and pair.y, drawn on the true axes: the joint regions of a
+// posterior, or the chance to tie where the strategy works out none.
+function pairChart(pair, k, id = "pair-" + k, size = "small") {
   const [px, py] = [D.parameters[pair.i], D.parameters[pair.j]];
-  const nx = pair.x.length - 1, ny = pair.y.length - 1;
-  const top = Math.max(...pair.chance);
-  const shade = (d) => echarts.color.lerp(top > 0 ? d / top : 0, ["#ffffff", "#cfe3ee", "#7fb2cf", "#2b7ba8", "#07405e"]);
-  return chart("pair-" + k, px.symbol + " and " + py.symbol,
-      "White: no chance to tie with the best. Darkest: " + percent(top) + ".", () => ({
+  const nx = pair.x.length - 1, posterior = D.model.posterior;
+  const top = Math.max(...pair.value);
+  const shade = (v) => posterior ? regionShade(v)
+    : echarts.color.lerp(top > 0 ? v / top : 0, [paper, "#cfe3ee", "#7fb2cf", "#2b7ba8", "#07405e"]);
+  const meaning = (v) => posterior
+    ? (v < .9 ? "inside" : "outside") + " the joint 90 % region; the smallest region that holds it is that of " +
+      percent(Math.max(v, .001))
+    : percent(v) + " chance to tie with the best";
+  const sets = D.headline ? D.headline.representatives.filter((set) => !set.recommended) : [];
+  return chart(id, (posterior ? "Joint region of " : "") + px.symbol + " and " + py.symbol,
+      (posterior ? "Dark: 50\u00a0% of the posterior, light: 90\u00a0%. Blank: ruled out at that level."
+        : "Blank: no chance to tie with the best. Darkest: " + percent(top) + ".") +
+      (D.headline ? " Star: recommended." : "") +
+      (sets.length ? " Numbers: sets that fit equally." : ""), () => ({
     grid: {...margins, top: 16},
-    tooltip: {...tooltipStyle, formatter: (e) => e.seriesType !== "custom" ? "recommended" : lines([
+    tooltip: {...tooltipStyle, formatter: (e) => e.seriesType !== "custom" ? e.name : lines([
       px.symbol + ": " + format(pair.x[e.data[0]]) + " to " + formatUnit(pair.x[e.data[0] + 1], px.unit),
       py.symbol + ": " + format(pair.y[e.data[1]]) + " to " + formatUnit(pair.y[e.data[1] + 1], py.unit),
-      percent(e.data[2]) + " chance to tie with the best"])},
+      meaning(e.data[2])])},
     xAxis: parameterAxis(px), yAxis: parameterAxis(py, true),
     series: [
-      {type: "custom", data: pair.chance.map((d, c) => [c % nx, Math.floor(c / nx), d]),
+      {type: "custom", progressive: 0, data: pair.value.map((v, c) => [c % nx, Math.floor(c / nx), v]),
        encode: {x: -1, y: -1}, clip: true,
        renderItem: (params, api) => {
          const cx = api.value(0), cy = api.value(1);
@@ -155,7 +199,11 @@ function pairChart(pair, k) {
        }},
       ...(D.headline ? [{type: "scatter", symbol: star, symbolSize: 18, z: 5,
         itemStyle: {color: starColor, borderColor: "#fff", borderWidth: 1},
-        data: [[D.headline.values[pair.i].value, D.headline.values[pair.j].value]]}] : []),
+        data: [{name: "recommended", value: [D.headline.values[pair.i].value, D.headline.values[pair.j].value]}]}] : []),
+      ...(sets.length ? [{type: "scatter", symbol: "circle", symbolSize: 20, z: 6,
+        itemStyle: {color: "#ffffff", borderColor: "#1d2730", borderWidth: 1.5},
+        label: {show: true, formatter: (e) => String(e.dataIndex + 1), color: "#1d2730", fontSize: 12, fontWeight: 600},
+        data: sets.map((set, i) => ({name: "set " + (i + 1), value: [set.values[pair.i], set.values[pair.j]]}))}] : []),
     ],
-  }), "small").figure;
+  }), size).figure;
 }

@@ -9,6 +9,7 @@ function trialColumns() {
     column("trial", "Trial", "", (i) => t.id[i]),
     column("state", "State", "", (i) => t.state[i], true),
     column("purpose", "Purpose", "", (i) => t.purpose[i], true),
+    ...(scaleFactors.length > 1 ? [column("scale_factor", "Scale factor", "", (i) => t.scale[i])] : []),
     ...D.parameters.map((p, k) => column(p.name, p.symbol, p.unit, (i) => t.values[k][i])),
     ...D.metrics.map((m, k) => ({...column(m.name, m.title, m.unit, (i) => t.metrics[k][i]),
                                  more: /_(left|right)_deg$|_px$|relative|triangle|cohesive/.test(m.name)})),

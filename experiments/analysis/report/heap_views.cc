@@ -1,0 +1,177 @@
+#include "experiments/analysis/report/heap_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "experiments/analysis/compare/crop.h"
+#include "experiments/campaign/campaign_folder.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "imaging/formats/sphere_files.h"
+#include "imaging/photos/overlay.h"
+#include "imaging/photos/photo_set.h"
+#include "imaging/spheres/projection.h"
+#include "imaging/spheres/render.h"
+
+namespace talus::analysis {
+namespace {
+
+constexpr int kRenderedWidth = 520;    // [px]
+constexpr std::size_t kMostViews = 4;  // of a heap's photographs
+
+// The grains of a trial; none where the folder or the file is gone.
+std::vector<base::Sphere> GrainsOf(const Evidence& evidence, int trial) {
+  const auto file = campaign::CampaignFolder{evidence.folder}.trial(trial) / "heap.vtp";
+  std::error_code absent;
+  if (evidence.folder.empty() || !std::filesystem::exists(file, absent)) return {};
+  return imaging::ReadSpheres(file);
+}
+
+template <class Image>
+Picture PictureOf(const std::string& name, const std::string& title, const Image& image) {
+  return {.name = name,
+          .title = title,
+          .caption = {},
+          .width = image.width,
+          .height = image.height,
+          .png = imaging::EncodePng(image)};
+}
+
+Eigen::VectorXd PointOf(const Evidence& evidence, const std::vector<double>& values) {
+  Eigen::VectorXd point(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    point[static_cast<Eigen::Index>(k)] =
+        std::clamp(evidence.parameters[k].range.ToUnit(values[k]), 0.0, 1.0);
+  }
+  return point;
+}
+
+void FindNearest(const Evidence& evidence, const Eigen::VectorXd& point, RepresentativeView& view) {
+  for (const TrialEvidence& trial : evidence.trials) {
+    if (trial.state != journal::TrialStatus::kOk) continue;
+    if (trial.scale_factor != evidence.scale_factor) continue;
+    const double distance = (trial.point - point).lpNorm<Eigen::Infinity>();
+    if (view.trial != nullptr && distance >= view.distance) continue;
+    view.trial = &trial;
+    view.distance = distance;
+  }
+}
+
+void AddHeap(const Evidence& evidence, std::size_t index, RepresentativeView& view) {
+  if (view.trial == nullptr) return;
+  const std::vector<base::Sphere> grains = GrainsOf(evidence, view.trial->id);
+  if (grains.empty()) return;
+  const double plate = evidence.reference.aehp.frame.plate_diameter;
+  const auto on_plate = imaging::GrainsOnPlate(grains, plate);
+  const imaging::Camera camera = imaging::WholeHeap(on_plate, plate, kRenderedWidth);
+  view.heap = PictureOf("heap_" + std::to_string(index + 1),
+                        "Heap of trial " + std::to_string(view.trial->id),
+                        imaging::RenderSpheres(on_plate, camera));
+}
+
+// The spec's photographs of one run: a camera's few views say enough.
+imaging::ExperimentOptions FirstRun(imaging::ExperimentOptions options) {
+  if (options.runs.empty()) {
+    const imaging::PhotoSet set = imaging::FindPhotos(options.photos, options.pattern);
+    options.photos.clear();
+    options.runs.emplace_back();
+    for (const imaging::PhotoFile& view : set.runs.front().views) {
+      options.runs.front().photos.push_back(view.path);
+    }
+    options.runs.front().name = set.runs.front().run;
+  }
+  options.runs.resize(1);
+  options.allow_missing_views = true;
+  return options;
+}
+
+imaging::ExperimentOptions PhotographsOf(const Evidence& evidence) {
+  const campaign::CampaignSpec spec = campaign::ParseSpecText(evidence.spec_json);
+  return campaign::ExperimentsOf(spec).at(evidence.experiment).images;
+}
+
+// Views spread evenly over those there are.
+std::vector<imaging::MeasuredView> SomeViews(const std::vector<imaging::MeasuredView>& views) {
+  std::vector<imaging::MeasuredView> some;
+  const std::size_t count = std::min(views.size(), kMostViews);
+  for (std::size_t i = 0; i < count; ++i) some.push_back(views[i * views.size() / count]);
+  return some;
+}
+
+void AddPhotographs(const Evidence& evidence, const Box& box, PhotoOverlay& overlay) {
+  const imaging::ExperimentOptions options = FirstRun(PhotographsOf(evidence));
+  const imaging::Experiment measured = imaging::MeasureExperiment(options);
+  for (const imaging::MeasuredView& view : SomeViews(measured.runs.front().views)) {
+    const imaging::GrayImage photo =
+        imaging::PhotoInFrame(imaging::ReadGrayImage(view.photo), view.plate, measured.photo_pixel,
+                              evidence.reference.aehp.frame);
+    overlay.photographs.push_back(
+        PictureOf("photograph_" + std::to_string(overlay.photographs.size() + 1),
+                  view.photo.filename().string(), Cropped(photo, box)));
+  }
+}
+
+imaging::Camera CameraOf(const imaging::Frame& frame, const Box& box) {
+  return {.width = box.width,
+          .height = box.height,
+          .pixel_size = frame.pixel_size,
+          .center_x = frame.center_x - box.left,
+          .baseline = frame.baseline - box.top,
+          .plate_diameter = frame.plate_diameter};
+}
+
+}  // namespace
+
+std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
+  std::vector<RepresentativeView> views;
+  if (!evidence.conclusion) return views;
+  std::vector<double> recommended;
+  for (const RecommendedValue& v : evidence.conclusion->values) recommended.push_back(v.value);
+  std::vector<std::vector<double>> sets = evidence.conclusion->representative;
+  if (sets.empty()) sets.push_back(recommended);
+  // The middle one is the model's choice; what was confirmed better takes its place.
+  sets[sets.size() / 2] = recommended;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    RepresentativeView view{.values = sets[i], .is_recommended = i == sets.size() / 2, .heap = {}};
+    const Eigen::VectorXd point = PointOf(evidence, sets[i]);
+    if (evidence.model && evidence.model->predict) {
+      const optimizer::Moments at = evidence.model->predict(point.transpose());
+      view.expected = at.mean[0];
+      view.expected_sd = at.sd[0];
+    }
+    FindNearest(evidence, point, view);
+    AddHeap(evidence, i, view);
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
+                         std::string& absent) {
+  PhotoOverlay overlay{.photographs = {}, .simulated = {}};
+  if (shown.empty()) return overlay;
+  overlay.trial = shown.front().trial;
+  for (const ShownTrial& s : shown) {
+    if (s.trial->purpose == "confirm") overlay.trial = s.trial;
+  }
+  const std::vector<base::Sphere> grains = GrainsOf(evidence, overlay.trial->id);
+  const auto profile = evidence.profile(overlay.trial->id);
+  if (grains.empty() || !profile) return overlay;
+  const imaging::Frame& frame = evidence.reference.aehp.frame;
+  const Box box = HeapBox({&evidence.reference.aehp, &*profile});
+  const imaging::Camera camera = CameraOf(frame, box);
+  overlay.pixel_mm = 1e3 * frame.pixel_size;
+  overlay.center_x = camera.center_x;
+  overlay.baseline = camera.baseline;
+  overlay.simulated = PictureOf(
+      "simulated_beside_photograph", "trial " + std::to_string(overlay.trial->id),
+      imaging::RenderSpheres(imaging::GrainsOnPlate(grains, frame.plate_diameter), camera));
+  try {
+    AddPhotographs(evidence, box, overlay);
+  } catch (const base::ConfigError& error) {  // moved or renamed since: the report goes without
+    absent = error.what();
+  }
+  return overlay;
+}
+
+}  // namespace talus::analysis

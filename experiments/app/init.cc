@@ -1,0 +1,141 @@
+// talus init
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json_file.h"
+#include "base/problems.h"
+#include "experiments/app/commands.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/campaign/spec/spec_draft.h"
+#include "imaging/photos/photo_set.h"
+
+namespace talus::app {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> photos;
+  std::filesystem::path out = "campaign.json";
+  campaign::SpecAnswers answers;
+};
+
+// Something that only the bench knows.
+struct Question {
+  const char* flag;
+  const char* words;    // of the question and the help
+  const char* example;  // with its unit
+  std::string campaign::SpecAnswers::*answer;
+};
+constexpr Question kQuestions[] = {
+    {"--plate-diameter", "diameter of the plate", "10 mm", &campaign::SpecAnswers::plate_diameter},
+    {"--tube-diameter", "inner diameter of the tube", "10 mm",
+     &campaign::SpecAnswers::tube_diameter},
+    {"--lift-velocity", "speed at which the tube is lifted", "10 mm/s",
+     &campaign::SpecAnswers::lift_velocity},
+    {"--mass", "mass filled into the tube", "1.5 g", &campaign::SpecAnswers::mass},
+    {"--density", "density of the grains", "4400 kg/m^3", &campaign::SpecAnswers::density},
+    {"--grain-diameter", "median diameter of the grains", "80 um",
+     &campaign::SpecAnswers::grain_diameter},
+};
+
+// Asks on a terminal; elsewhere every missing flag is named at once.
+void Complete(campaign::SpecAnswers& answers) {
+  const bool asks = ::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1;
+  base::Problems problems;
+  for (const Question& question : kQuestions) {
+    std::string& answer = answers.*question.answer;
+    if (asks) {
+      while (answer.empty() && std::cin) {
+        std::cerr << question.words << " (such as " << question.example << "): " << std::flush;
+        std::getline(std::cin, answer);
+      }
+    }
+    if (answer.empty()) {
+      problems.Add(question.flag, std::string("is missing; give the ") + question.words + ": \"" +
+                                      question.example + "\"");
+    }
+  }
+  problems.ThrowIfAny();
+}
+
+// Names in the spec are as seen from the spec's own folder.
+std::filesystem::path SeenFrom(const std::filesystem::path& spec, const std::string& photo) {
+  const auto folder = std::filesystem::absolute(spec).parent_path();
+  return std::filesystem::absolute(photo).lexically_normal().lexically_proximate(
+      folder.lexically_normal());
+}
+
+void FindPhotographs(const Arguments& arguments, campaign::SpecAnswers& answers) {
+  if (arguments.photos.size() == 1 && std::filesystem::is_directory(arguments.photos.front())) {
+    const imaging::PhotoSet set = imaging::FindPhotos(arguments.photos.front(), answers.pattern);
+    std::size_t views = 0;
+    for (const imaging::PhotoFiles& run : set.runs) views += run.views.size();
+    std::cout << arguments.photos.front() << ": " << set.runs.size() << " runs, " << views
+              << " photographs\n";
+    answers.folder = SeenFrom(arguments.out, arguments.photos.front());
+    return;
+  }
+  base::Problems problems;
+  for (const std::string& photo : arguments.photos) {
+    problems.Require(std::filesystem::is_regular_file(photo), photo,
+                     "is not there; give a folder of photographs, or photographs of one heap");
+    answers.photos.push_back(SeenFrom(arguments.out, photo));
+  }
+  problems.ThrowIfAny();
+}
+
+void Init(const Arguments& arguments) {
+  if (std::filesystem::exists(arguments.out)) {
+    throw base::ConfigError(arguments.out.string() +
+                            ": is there already; name another file with --out");
+  }
+  campaign::SpecAnswers answers = arguments.answers;
+  FindPhotographs(arguments, answers);
+  Complete(answers);
+  const std::string text = campaign::DraftSpec(answers);
+  campaign::ReadCampaignSpec(base::ParseJson(text, arguments.out.string()));
+  base::WriteFileAtomically(arguments.out, text);
+  std::cout << arguments.out.string() << ": written; read its comments, then `talus validate "
+            << arguments.out.string() << "` says what it will cost\n";
+}
+
+}  // namespace
+
+void AddInitCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* verb =
+      app.add_subcommand("init", "Write a commented spec for photographs of a heap, to start from");
+  verb->add_option("PHOTOS", arguments->photos,
+                   "a folder of photographs, or the photographs of one heap one by one")
+      ->required();
+  verb->add_option("--out", arguments->out, "file to write")->capture_default_str();
+  verb->add_option("--name", arguments->answers.name, "of the powder; default: that of the folder");
+  verb->add_option("--pattern", arguments->answers.pattern,
+                   "of the file names in a folder: {run}, {view}, *")
+      ->capture_default_str();
+  for (const Question& question : kQuestions) {
+    verb->add_option(
+        question.flag, arguments->answers.*question.answer,
+        std::string(question.words) + " with its unit, such as \"" + question.example + "\"");
+  }
+  verb->add_flag("--cohesive", arguments->answers.cohesive,
+                 "search the surface energy, too: fine or moist powder");
+  verb->footer("On a terminal it asks for what is not given.");
+  verb->callback([arguments] {
+    if (arguments->answers.name.empty()) {
+      const auto path = std::filesystem::absolute(arguments->photos.front()).lexically_normal();
+      const bool ends_with_slash = path.filename().empty();
+      arguments->answers.name = (ends_with_slash ? path.parent_path() : path).stem().string();
+    }
+    Init(*arguments);
+  });
+}
+
+}  // namespace talus::app

@@ -1,0 +1,152 @@
+#include "experiments/campaign/alarms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/console.h"
+#include "experiments/campaign/describe_posterior.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr double kSurprise = 2;          // standard deviations that are no luck any more
+constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
+constexpr int kFewestLeftOut = 10;       // evaluations that a coverage is judged from
+constexpr double kLeastCoverage = 0.75;  // of nominal 90 % regions
+constexpr double kMostLeftOut = 0.8;     // error / standard deviation: a constant has 1
+
+double OrZero(double x) { return std::isfinite(x) ? x : 0; }
+
+// Error of the recommended set's confirmed mean.
+double ErrorOf(const CampaignResult& result, const ResultCandidate& confirmed) {
+  if (std::isfinite(confirmed.standard_error)) return confirmed.standard_error;
+  return OrZero(result.noise_sd) / std::sqrt(std::max(1, confirmed.num_trials));
+}
+
+// The best trial of the search at the target scale factor, of the first experiment.
+const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>& trials,
+                                         const Reference& reference, double scale_factor) {
+  const journal::TrialRecord* best = nullptr;
+  for (const journal::TrialRecord& trial : trials) {
+    if (!IsOfSearch(trial) || trial.experiment != 0 || trial.scale_factor != scale_factor) continue;
+    if (trial.status != journal::TrialStatus::kOk || !reference.Value(trial)) continue;
+    if (best == nullptr || *reference.Value(trial) < *reference.Value(*best)) best = &trial;
+  }
+  return best;
+}
+
+void AddBounds(const optimizer::Answer& answer, CampaignResult& result) {
+  for (const optimizer::BoundWarning& bound : answer.warnings) {
+    const auto i = static_cast<std::size_t>(bound.parameter);
+    result.warnings.push_back(Worded({.kind = WarningKind::kBound,
+                                      .parameter = result.parameters[i].name,
+                                      .side = bound.is_upper ? "upper" : "lower"}));
+  }
+}
+
+void AddCorrelation(CampaignResult& result) {
+  const auto pair = TiedPair(result.correlation);
+  if (!pair) return;
+  result.warnings.push_back(Worded({.kind = WarningKind::kCorrelated,
+                                    .parameter = result.parameters[pair->first].name,
+                                    .other_parameter = result.parameters[pair->second].name,
+                                    .value = result.correlation[pair->first][pair->second]}));
+}
+
+void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
+  constexpr double kAdvised = 30;  // grains across the plate
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    for (const double factor : spec.coarse_graining.Levels()) {
+      const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
+      if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
+      const double across =
+          heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
+      if (across >= kAdvised) continue;
+      result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
+                                        .experiment = experiments[e].name,
+                                        .scale_factor = factor,
+                                        .value = across}));
+    }
+  }
+}
+
+void AddPhotographs(const journal::CampaignRecord& campaign, CampaignResult& result) {
+  for (const journal::ExperimentRecord& experiment : campaign.experiments) {
+    for (const journal::PhotoWarningRecord& warning : experiment.warnings) {
+      result.warnings.push_back(PhotographWarning(warning, experiment.name));
+    }
+  }
+}
+
+void Append(const std::vector<ResultWarning>& more, std::vector<ResultWarning>& warnings) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<ResultWarning> DisappointmentAlarms(const CampaignResult& result,
+                                                const std::vector<journal::TrialRecord>& trials,
+                                                const Reference& reference) {
+  std::vector<ResultWarning> alarms;
+  const bool is_confirmed = !result.confirmed.empty();
+  const double shown = is_confirmed ? result.confirmed[0].mean : result.predicted;
+  const double error =
+      is_confirmed ? ErrorOf(result, result.confirmed[0]) : OrZero(result.predicted_sd);
+  if (is_confirmed && std::isfinite(result.predicted)) {
+    // A prediction may be of the mean heap: runs scatter about it, their mean profile does less.
+    const double mean = std::min(shown, result.confirmed[0].profile_sad_mm2.value_or(shown));
+    const double excess = mean - result.predicted;
+    if (excess > kSurprise * std::hypot(error, OrZero(result.predicted_sd)) &&
+        excess > kLeastShare * result.predicted) {
+      alarms.push_back(Worded({.kind = WarningKind::kWorseThanPredicted, .value = excess}));
+    }
+  }
+  const double factor =
+      is_confirmed ? result.confirmed[0].scale_factor : result.conditions.scale_factor;
+  const journal::TrialRecord* best = BestOfSearch(trials, reference, factor);
+  if (best == nullptr || !std::isfinite(shown)) return alarms;
+  const double excess = shown - *reference.Value(*best);
+  // The best of many trials owes something to luck: its own scatter counts.
+  if (excess > kSurprise * std::hypot(error, OrZero(result.noise_sd)) &&
+      excess > kLeastShare * shown) {
+    alarms.push_back(Worded({.kind = WarningKind::kWorseThanObserved,
+                             .scale_factor = factor,
+                             .trial = best->id,
+                             .value = excess}));
+  }
+  return alarms;
+}
+
+std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer) {
+  if (answer.posterior) {
+    const optimizer::PosteriorSummary& p = *answer.posterior;
+    if (p.num_left_out < kFewestLeftOut || p.raw_coverage >= kLeastCoverage) return {};
+    return {
+        Worded({.kind = WarningKind::kPoorModel,
+                .value = p.raw_coverage,
+                .text = "its 90 % regions hold " + NumberText4(std::round(100 * p.raw_coverage)) +
+                        " % of the trials left out; the ranges are widened for it"})};
+  }
+  if (!(answer.left_out_share > kMostLeftOut)) return {};
+  return {Worded({.kind = WarningKind::kPoorModel,
+                  .value = answer.left_out_share,
+                  .text = "trials left out are missed by " +
+                          NumberText4(std::round(100 * answer.left_out_share)) +
+                          " % of their standard deviation, and a constant would miss them by "
+                          "100 %"})};
+}
+
+void AddAlarms(const AlarmBasis& basis, CampaignResult& result) {
+  Append(DisappointmentAlarms(result, basis.trials, basis.reference), result.warnings);
+  Append(ModelAlarms(basis.answer), result.warnings);
+  if (result.posterior) Append(PosteriorWarnings(*result.posterior), result.warnings);
+  AddCorrelation(result);
+  AddBounds(basis.answer, result);
+  AddGrainWarnings(basis.spec, result);
+  AddPhotographs(basis.campaign, result);
+}
+
+}  // namespace talus::campaign

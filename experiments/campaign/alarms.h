@@ -1,0 +1,34 @@
+// What of a result must be said aloud: every alarm in one list, the gravest first, the same on the
+// terminal, in result.json and in the report.
+#pragma once
+
+#include <vector>
+
+#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/reference.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/records.h"
+#include "optimizer/strategies/strategy.h"
+
+namespace talus::campaign {
+
+struct AlarmBasis {
+  const optimizer::Answer& answer;
+  const CampaignSpec& spec;
+  const journal::CampaignRecord& campaign;
+  const Reference& reference;  // of the first experiment
+  const std::vector<journal::TrialRecord>& trials;
+};
+
+// Adds them to result.warnings; the result is complete but for these.
+void AddAlarms(const AlarmBasis& basis, CampaignResult& result);
+
+// The recommended set held against its prediction and against the best trial of the search.
+std::vector<ResultWarning> DisappointmentAlarms(const CampaignResult& result,
+                                                const std::vector<journal::TrialRecord>& trials,
+                                                const Reference& reference);
+
+// Whether the model predicts what it was not told.
+std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer);
+
+}  // namespace talus::campaign

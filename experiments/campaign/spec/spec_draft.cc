@@ -1,0 +1,132 @@
+#include "experiments/campaign/spec/spec_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/problems.h"
+#include "base/units.h"
+#include "experiments/campaign/console.h"
+
+namespace talus::campaign {
+namespace {
+
+// The heap's shape needs so many grains across the plate; twice as coarse ones find the region.
+constexpr double kFineAcross = 30;
+constexpr double kCoarseAcross = 12.5;
+
+double Read(const std::string& name, const std::string& text, base::Dimension dimension,
+            base::Problems& problems) {
+  try {
+    const double value = base::ParseQuantity(text, dimension);
+    problems.Require(value > 0, name, value, "must be positive");
+    return value;
+  } catch (const base::ConfigError& error) {
+    problems.Add(name, error.what());
+    return 1;
+  }
+}
+
+std::string Quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+
+// Halves are fine enough a step.
+double Rounded(double factor) { return std::max(1.0, std::floor(2 * factor) / 2); }
+
+std::string ScaleFactors(double grains_across) {
+  const double fine = Rounded(grains_across / kFineAcross);
+  const double coarse = Rounded(grains_across / kCoarseAcross);
+  if (coarse <= fine) return "[" + NumberText4(fine) + "]";
+  return "[" + NumberText4(coarse) + ", " + NumberText4(fine) + "]";
+}
+
+std::string Photographs(const SpecAnswers& answers) {
+  if (answers.photos.empty()) {
+    return "    \"photos\": " + Quoted(answers.folder.string()) +
+           ",\n    // {run} is the heap, {view} the direction it was photographed from; * is "
+           "anything\n    \"pattern\": " +
+           Quoted(answers.pattern) + ",\n";
+  }
+  std::string text =
+      "    // one heap; add a run for each further heap of the same powder\n"
+      "    \"runs\": [{\"name\": \"1\", \"photos\": [";
+  for (std::size_t i = 0; i < answers.photos.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + Quoted(answers.photos[i].string());
+  }
+  return text + "]}],\n";
+}
+
+std::string Models(bool cohesive) {
+  if (!cohesive) {
+    return "  // dry grains; \"jkr\" for cohesive ones, with a range of surface_energy below\n"
+           "  \"models\": {\"adhesion\": \"none\", \"rolling\": \"epsd\"},\n";
+  }
+  return "  // cohesive grains; \"none\" for dry ones, without surface_energy below\n"
+         "  \"models\": {\"adhesion\": \"jkr\", \"rolling\": \"epsd\"},\n";
+}
+
+std::string Searched(bool cohesive) {
+  std::string text =
+      "  // What is searched, and where. A parameter that you have measured: {\"fixed\": 0.4}.\n"
+      "  \"parameters\": {\n"
+      "    \"sliding_friction\": {\"min\": 0.05, \"max\": 0.9},\n"
+      "    \"rolling_friction\": {\"min\": 0.005, \"max\": 0.6}";
+  if (cohesive) {
+    text +=
+        ",\n    \"surface_energy\": {\"min\": \"1e-6 J/m^2\", \"max\": \"4e-4 J/m^2\", "
+        "\"scale\": \"log\"}";
+  }
+  return text + "\n  },\n";
+}
+
+double GrainsAcross(const SpecAnswers& answers) {
+  using base::Dimension;
+  base::Problems problems;
+  const double plate = Read("plate diameter", answers.plate_diameter, Dimension::kLength, problems);
+  Read("tube diameter", answers.tube_diameter, Dimension::kLength, problems);
+  Read("lift velocity", answers.lift_velocity, Dimension::kVelocity, problems);
+  Read("mass", answers.mass, Dimension::kMass, problems);
+  Read("density", answers.density, Dimension::kDensity, problems);
+  const double grain = Read("grain diameter", answers.grain_diameter, Dimension::kLength, problems);
+  problems.ThrowIfAny();
+  return plate / grain;
+}
+
+}  // namespace
+
+std::string DraftSpec(const SpecAnswers& answers) {
+  const double across = GrainsAcross(answers);
+  return "// " + answers.name +
+         ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
+         "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
+         "{\n  \"name\": " +
+         Quoted(answers.name) + ",\n  \"experiment\": {\n" + Photographs(answers) +
+         "    \"plate_diameter\": " + Quoted(answers.plate_diameter) +
+         " // the scale of the photographs\n  },\n"
+         "  \"powder\": {\n    \"material\": {\n      \"density\": " +
+         Quoted(answers.density) +
+         ", // of the grains, not of the bulk\n"
+         "      \"youngs_modulus\": \"10 MPa\", // softer than real: the heap hardly sees it, the "
+         "time step does\n"
+         "      \"poisson_ratio\": 0.3,\n"
+         "      \"restitution\": 0.5 // a heap at rest hardly depends on it\n    },\n"
+         "    // a measured distribution makes a better powder: see docs/campaigns.md\n"
+         "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
+         Quoted(answers.grain_diameter) + "},\n    \"mass\": " + Quoted(answers.mass) +
+         " // filled into the tube\n  },\n"
+         "  \"device\": {\n    \"tube_inner_diameter\": " +
+         Quoted(answers.tube_diameter) +
+         ",\n    \"plate_diameter\": " + Quoted(answers.plate_diameter) +
+         ",\n    \"plate\": \"disc\",\n    \"lift_velocity\": " + Quoted(answers.lift_velocity) +
+         "\n  },\n" + Models(answers.cohesive) +
+         "  // Grains so many times larger than real. The last decides and should leave 30 across "
+         "the "
+         "plate.\n  \"coarse_graining\": {\"scale_factors\": " +
+         ScaleFactors(across) + "},\n" + Searched(answers.cohesive) +
+         "  \"objective\": \"sad\",\n"
+         "  // at most; add \"core_time\": \"4 h\" for an evening\n"
+         "  \"budget\": {\"simulations\": 60},\n"
+         "  \"confirm\": {\"candidates\": 1, \"replicates\": 3},\n  \"seed\": 1\n}\n";
+}
+
+}  // namespace talus::campaign

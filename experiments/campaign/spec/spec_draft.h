@@ -1,0 +1,29 @@
+// A spec to start from: what a bench knows, the rest filled in and explained in comments.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus::campaign {
+
+// Quantities as the user wrote them, with their units.
+struct SpecAnswers {
+  std::string name;
+  std::filesystem::path folder;                   // of the photographs, or
+  std::string pattern = "run{run}_view{view}.*";  // … of their names in it
+  std::vector<std::filesystem::path> photos;      // these, of one heap
+  std::string plate_diameter;
+  std::string tube_diameter;
+  std::string lift_velocity;
+  std::string mass;
+  std::string density;
+  std::string grain_diameter;
+  bool cohesive = false;  // search the surface energy, too
+};
+
+// The text of a spec that `talus validate` accepts: comments say what each part is for and what to
+// change. Throws ConfigError with every answer that cannot be.
+std::string DraftSpec(const SpecAnswers& answers);
+
+}  // namespace talus::campaign

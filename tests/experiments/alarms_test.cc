@@ -1,0 +1,167 @@
+#include "experiments/campaign/alarms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "experiments/journal/journal.h"
+#include "imaging/photos/photo_warning.h"
+
+namespace talus::campaign {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+Reference EmptyReference() {
+  imaging::Profile aehp{.image = {.width = 8, .height = 8, .pixels = {}},
+                        .frame = {.width = 8,
+                                  .height = 8,
+                                  .pixel_size = 1e-3,
+                                  .center_x = 4,
+                                  .baseline = 7,
+                                  .plate_diameter = 6e-3}};
+  aehp.image.pixels.assign(64, 255);
+  for (int x = 2; x < 6; ++x) aehp.image.at(x, 6) = 0;
+  return {std::move(aehp), {}};
+}
+
+journal::TrialRecord TrialWith(std::int64_t id, double sad_mm2, double scale_factor = 1) {
+  journal::TrialRecord trial;
+  trial.id = id;
+  trial.scale_factor = scale_factor;
+  trial.status = journal::TrialStatus::kOk;
+  trial.metrics = {{.name = "sad_mm2", .value = sad_mm2, .unit = "mm2", .undefined = {}}};
+  return trial;
+}
+
+// Predicted 4 ± 0.1 where one simulation scatters by 0.3.
+CampaignResult ResultConfirmedAt(double mean) {
+  CampaignResult result;
+  result.predicted = 4;
+  result.predicted_sd = 0.1;
+  result.noise_sd = 0.3;
+  result.confirmed = {
+      {.values = {}, .scale_factor = 1, .num_trials = 3, .mean = mean, .standard_error = 0.2}};
+  return result;
+}
+
+TEST(Alarms, ConfirmedWorseThanPredictedIsSaid) {
+  // Twice √(0.2² + 0.1²) is 0.45.
+  EXPECT_THAT(DisappointmentAlarms(ResultConfirmedAt(4.3), {}, EmptyReference()), IsEmpty());
+  const auto alarms = DisappointmentAlarms(ResultConfirmedAt(7.99), {}, EmptyReference());
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_EQ(alarms[0].kind, WarningKind::kWorseThanPredicted);
+  EXPECT_NEAR(*alarms[0].value, 3.99, 1e-9);
+}
+
+// A prediction of the mean heap is held against the mean profile, not against runs that scatter.
+TEST(Alarms, MeanProfileAsPredictedIsNoAlarm) {
+  CampaignResult result = ResultConfirmedAt(5.5);
+  result.confirmed[0].profile_sad_mm2 = 4.1;
+  EXPECT_THAT(DisappointmentAlarms(result, {}, EmptyReference()), IsEmpty());
+}
+
+TEST(Alarms, ATrialThatCameOutBetterIsNamed) {
+  CampaignResult result = ResultConfirmedAt(4.2);
+  const Reference reference = EmptyReference();
+  // Twice √(0.2² + 0.3²) is 0.72: 3.6 may be luck, 3.0 is not. Coarse grains make another heap.
+  EXPECT_THAT(DisappointmentAlarms(result, {TrialWith(1, 3.6)}, reference), IsEmpty());
+  EXPECT_THAT(DisappointmentAlarms(result, {TrialWith(1, 1.0, 2)}, reference), IsEmpty());
+  const auto alarms =
+      DisappointmentAlarms(result, {TrialWith(1, 3.6), TrialWith(7, 3.0)}, reference);
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_EQ(alarms[0].kind, WarningKind::kWorseThanObserved);
+  EXPECT_EQ(alarms[0].trial, 7);
+  EXPECT_THAT(alarms[0].text, HasSubstr("trial 7 came out better"));
+}
+
+TEST(Alarms, UnconfirmedPredictionIsHeldAgainstTheTrials) {
+  CampaignResult result = ResultConfirmedAt(0);
+  result.confirmed.clear();
+  result.conditions.scale_factor = 1;
+  EXPECT_THAT(DisappointmentAlarms(result, {TrialWith(3, 2.0)}, EmptyReference()), SizeIs(1));
+}
+
+TEST(Alarms, ModelThatPredictsBadlyIsSaid) {
+  optimizer::Answer answer;
+  EXPECT_THAT(ModelAlarms(answer), IsEmpty());  // not known
+  answer.left_out_share = 0.4;
+  EXPECT_THAT(ModelAlarms(answer), IsEmpty());
+  answer.left_out_share = 0.95;
+  ASSERT_THAT(ModelAlarms(answer), SizeIs(1));
+  EXPECT_EQ(ModelAlarms(answer)[0].kind, WarningKind::kPoorModel);
+
+  answer.posterior.emplace();
+  answer.posterior->num_left_out = 40;
+  answer.posterior->raw_coverage = 0.88;
+  EXPECT_THAT(ModelAlarms(answer), IsEmpty());
+  answer.posterior->raw_coverage = 0.5;
+  ASSERT_THAT(ModelAlarms(answer), SizeIs(1));
+  EXPECT_THAT(ModelAlarms(answer)[0].text, HasSubstr("hold 50 % of the trials left out"));
+}
+
+// One vocabulary: what measure.json calls a doubt is what result.json calls it.
+TEST(Alarms, EveryDoubtOfAPhotographIsAWarningOfTheSameName) {
+  for (const auto& [name, doubt] : base::Names<imaging::PhotoDoubt>::kList) {
+    const journal::PhotoWarningRecord record{
+        .kind = std::string(name), .photo = "a.jpg", .value = 0.5, .text = "words"};
+    const ResultWarning warning = PhotographWarning(record, "heap");
+    EXPECT_EQ(base::NameOf(warning.kind), name);
+    EXPECT_EQ(warning.experiment, "heap");
+    EXPECT_EQ(warning.photo, "a.jpg");
+    EXPECT_EQ(Worded(warning).text, "words");
+  }
+}
+
+// What the photographs' measurement doubted when the campaign began is there when it concludes.
+TEST(Alarms, DoubtsOfPhotographsStandInTheJournal) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "talus_alarms_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  journal::CampaignRecord record;
+  record.experiments.resize(2);
+  record.experiments[0].name = "heap";
+  record.experiments[1].name = "wide plate";
+  record.experiments[1].warnings = {
+      {.kind = "overexposed", .photo = "b.jpg", .value = 0.6, .text = "b.jpg: too bright"}};
+  journal::Journal::Create(journal::JournalPath(folder), record);
+  const auto read = journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign();
+  EXPECT_THAT(read.experiments[0].warnings, IsEmpty());
+  ASSERT_THAT(read.experiments[1].warnings, SizeIs(1));
+  EXPECT_EQ(read.experiments[1].warnings[0].kind, "overexposed");
+  EXPECT_EQ(read.experiments[1].warnings[0].photo, "b.jpg");
+  EXPECT_EQ(read.experiments[1].warnings[0].value, 0.6);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Alarms, ARunThatDiffersMoreThanTheOthersDoIsFound) {
+  EXPECT_EQ(imaging::DisagreeingRuns({1, 1.2, 0.9, 1.1}), std::vector<double>(4, 0.0));
+  const std::vector<double> off = imaging::DisagreeingRuns({1, 1.2, 5, 0.9, 1.1});
+  EXPECT_NEAR(off[2], 5 / 1.1, 1e-9);  // the upper middle of the four others
+  EXPECT_EQ(off[0], 0);
+  EXPECT_EQ(imaging::DisagreeingRuns({1, 9, 1}), std::vector<double>(3, 0.0));  // too few to tell
+}
+
+TEST(Verdict, EndsOfABentValleyAreItsRepresentatives) {
+  Eigen::MatrixXd valley(500, 2);
+  for (Eigen::Index i = 0; i < valley.rows(); ++i) {
+    const double along = static_cast<double>(i) / 499;
+    valley.row(i) << 0.1 + 0.8 * along, 0.9 - 0.8 * along * along;
+  }
+  const Eigen::Vector2d recommended(0.5, 0.7);
+  const auto sets = RepresentativeSets(valley, recommended);
+  ASSERT_EQ(sets.size(), 3u);
+  EXPECT_EQ(sets[1], recommended);
+  // Each end is the middle of the points between the outermost 4 % and 12 %, some 0.07 of the way.
+  const double from = std::min(sets[0][0], sets[2][0]);
+  const double to = std::max(sets[0][0], sets[2][0]);
+  EXPECT_NEAR(from, 0.16, 0.03);
+  EXPECT_NEAR(to, 0.84, 0.03);
+  EXPECT_THAT(RepresentativeSets(0.1 * valley, recommended), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace talus::campaign
