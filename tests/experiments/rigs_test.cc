@@ -175,6 +175,14 @@ HeapCase Small(RigKind kind) {
   return c;
 }
 
+// How long it took, and the checksum that covers it, differ from run to run.
+nlohmann::json WithoutTiming(const std::string& text) {
+  auto result = nlohmann::json::parse(text);
+  result.erase("timing");
+  result.erase("checksum_xxh3");
+  return result;
+}
+
 TEST_P(EveryRig, GoesOnFromACheckpointWithTheSameBits) {
   const HeapCase c = Small(GetParam());
   const auto whole = Ran(c);
@@ -186,7 +194,8 @@ TEST_P(EveryRig, GoesOnFromACheckpointWithTheSameBits) {
   while (second->Advance()) {
   }
   EXPECT_EQ(second->simulation().step(), whole->simulation().step());
-  EXPECT_EQ(second->ResultText(second->Grains(), {}), whole->ResultText(whole->Grains(), {}));
+  EXPECT_EQ(WithoutTiming(second->ResultText(second->Grains(), {})),
+            WithoutTiming(whole->ResultText(whole->Grains(), {})));
   EXPECT_GT(EstimateHeap(c).simulated_time, 0.1 * whole->simulation().time());
   EXPECT_LT(EstimateHeap(c).simulated_time, 10 * whole->simulation().time());
 }

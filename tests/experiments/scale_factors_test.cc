@@ -100,7 +100,7 @@ TEST(Experiments, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(ErrorOfExperiments(heap + "}, " + heap + "}"),
               HasSubstr("experiments[1].name: \"heap\" stands there twice"));
   EXPECT_THAT(ErrorOfExperiments(R"({"name": "heap", "plate_diameter": "10 mm"})"),
-              HasSubstr("experiments[0]: needs exactly one of \"photos\""));
+              HasSubstr("experiments[0]: has no data: give photos, runs or a map"));
   EXPECT_THAT(ErrorOfExperiments(heap + R"(, "mass_fallen": {"value": "21 mg"}})"),
               HasSubstr("experiments[0].mass_fallen.sd: is missing"));
   EXPECT_THAT(ErrorOfExperiments(heap + R"(, "mass_fallen": {"value": "21 mg", "sd": 0}})"),
