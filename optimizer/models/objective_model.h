@@ -5,14 +5,9 @@
 #include <Eigen/Core>
 
 #include "base/random.h"
+#include "optimizer/models/moments.h"
 
 namespace talus::optimizer {
-
-// Posterior mean and standard deviation of the objective's mean function, one point each.
-struct Moments {
-  Eigen::VectorXd mean;
-  Eigen::VectorXd sd;
-};
 
 struct MomentsGradient {
   double mean = 0;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "optimizer/fidelity/posterior_summary.h"
-#include "optimizer/models/objective_model.h"
+#include "optimizer/models/moments.h"
 
 namespace talus::optimizer {
 

@@ -55,7 +55,7 @@ def talus(*arguments):
 
 def verbs():
     script = talus("completion", "bash").stdout
-    line = next(line for line in script.splitlines() if "compgen -W 'measure" in line)
+    line = next(line for line in script.splitlines() if "compgen -W 'init" in line)
     return [word for word in line.split("'")[1].split() if not word.startswith("-")]
 
 

@@ -195,9 +195,10 @@ function measuresTable() {
     table([{title: "Measure", text: true},
            ...D.measures.map((m) => ({title: m.title, unit: m.note, profile: true}))],
       shown.map((k) => [D.metrics[k].title +
-        (D.metrics[k].unit ? " (" + D.metrics[k].unit + ")" : ""), ...D.measures.map((m, column) => m.values[k] !== null ? format(m.values[k], 4)
-          // The experiment is not compared with itself.
-          : column === 0 && comparing.has(D.metrics[k].name) ? "–" : "not defined")])),
+        (D.metrics[k].unit ? " (" + D.metrics[k].unit + ")" : ""),
+        // The experiment is not compared with itself.
+        ...D.measures.map((m, column) => column === 0 && comparing.has(D.metrics[k].name) ? "–"
+          : m.values[k] !== null ? format(m.values[k], 4) : "not defined")])),
     element("p", {class: "note"}, "AOR: angle of repose by methods 1 (height over base radius), 2 (regression " +
       "over the slope) and 3 (over the part of the slope next to the base). NEBP: number of equivalent black " +
       "pixels, the area of the profile. SAD, RMSE and IoU compare with the experiment."));
