@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 
 namespace talus::python {
 

@@ -6,7 +6,7 @@
 #include "base/version.h"
 #include "experiments/trials/simulate/run_folder.h"
 #include "experiments/trials/simulate/simulate.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/spheres/projection.h"
 #include "python/arrays.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "engine/bytes.h"
 #include "engine/simulation.h"
 #include "engine/simulation_state.h"

@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include "base/checked_text.h"
-#include "base/file.h"
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "engine/run/resisted_spins.h"
 #include "engine/run/scaling_json.h"
 #include "engine/run/state_file.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "engine/run/state_file.h"
 
 namespace talus::engine {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 
 namespace talus::engine {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "engine/scene/scene_spec.h"
 
 namespace talus::engine {

@@ -4,7 +4,7 @@
 //   compare_profiles                  two cones of spheres, projected here
 #include <talus/base/error.h>
 #include <talus/base/sphere.h>
-#include <talus/imaging/formats/profile_file.h>
+#include <talus/imaging/formats/images/profile_file.h>
 #include <talus/imaging/heap/metrics.h>
 #include <talus/imaging/spheres/projection.h>
 

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"

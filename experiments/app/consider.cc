@@ -1,5 +1,5 @@
 // talus consider
-#include "experiments/campaign/consider.h"
+#include "experiments/campaign/answer/consider.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "experiments/app/commands.h"
-#include "experiments/campaign/hold_out.h"
+#include "experiments/campaign/answer/hold_out.h"
 
 namespace talus::app {
 namespace {

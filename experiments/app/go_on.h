@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/start.h"
 
 namespace CLI {

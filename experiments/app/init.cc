@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_file.h"
+#include "base/files/file.h"
+#include "base/json/json_file.h"
 #include "base/problems.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/spec/campaign_spec.h"

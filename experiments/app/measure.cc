@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "experiments/app/commands.h"
 #include "experiments/trials/measure/measure_request.h"
-#include "imaging/formats/profile_file.h"
+#include "imaging/formats/images/profile_file.h"
 
 namespace talus::app {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/json_reader.h"
-#include "base/json_schema.h"
-#include "base/output_folder.h"
+#include "base/files/output_folder.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_schema.h"
 #include "experiments/app/commands.h"
 #include "experiments/trials/optimize/evaluator.h"
 

@@ -13,7 +13,7 @@
 #include "experiments/analysis/search/search_folder.h"
 #include "experiments/analysis/search/search_page.h"
 #include "experiments/app/commands.h"
-#include "experiments/campaign/campaign_folder.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 
 namespace talus::app {
 

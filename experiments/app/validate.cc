@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/app/commands.h"
-#include "experiments/campaign/console.h"
 #include "experiments/campaign/estimate.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/trials/engines/command_engine.h"

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 #include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/core_time.h"
-#include "experiments/campaign/repair.h"
+#include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/start.h"
 
 namespace talus::campaign {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/folder/console.h"
 
 namespace talus::campaign {
 

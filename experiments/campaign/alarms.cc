@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign_strategy.h"
-#include "experiments/campaign/console.h"
-#include "experiments/campaign/describe_posterior.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
 namespace talus::campaign {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/answer/campaign_result.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
+#include "experiments/campaign/answer/conclude.h"
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign_strategy.h"
-#include "experiments/campaign/conclude.h"
-#include "experiments/campaign/describe_posterior.h"
-#include "experiments/campaign/repair.h"
+#include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
 namespace {

@@ -13,9 +13,9 @@
 #include <string>
 
 #include "base/interrupt.h"
-#include "experiments/campaign/campaign_folder.h"
-#include "experiments/campaign/campaign_result.h"
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/planner.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "experiments/campaign/core_time.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "optimizer/strategies/make_strategy.h"
 
 namespace talus::campaign {

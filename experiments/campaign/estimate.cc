@@ -5,7 +5,7 @@
 #include <cmath>
 #include <thread>
 
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
 

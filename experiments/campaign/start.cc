@@ -4,16 +4,16 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_reader.h"
-#include "base/json_writer.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "base/version.h"
 #include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
-#include "experiments/campaign/repair.h"
 #include "experiments/journal/record_json.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
 namespace {

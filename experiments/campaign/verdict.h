@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/field.h"
-#include "experiments/campaign/result_posterior.h"
+#include "experiments/campaign/answer/result_posterior.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::campaign {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 
 namespace talus::journal {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/json_writer.h"
+#include "base/json/json_writer.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/record_json.h"
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/experiment_tables.h"
 #include "experiments/journal/objective.h"

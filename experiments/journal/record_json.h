@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 
 namespace talus::journal {
 

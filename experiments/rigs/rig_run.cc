@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/sphere.h"
 #include "engine/run/state_file.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/rig_list.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {

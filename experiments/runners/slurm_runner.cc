@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/file_lock.h"
+#include "base/files/file.h"
+#include "base/files/file_lock.h"
 #include "experiments/runners/slurm_verdict.h"
 
 namespace talus::runners {

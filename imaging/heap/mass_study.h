@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::imaging {

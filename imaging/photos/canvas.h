@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::imaging {
 

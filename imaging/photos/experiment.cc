@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "imaging/formats/image_file.h"
-#include "imaging/formats/map_file.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/map_file.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/photo_collection.h"
 #include "imaging/photos/silhouette.h"

@@ -9,7 +9,7 @@
 
 #include "base/field.h"
 #include "base/problems.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/heap/profile.h"
 #include "imaging/photos/backlight.h"

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/experiment.h"
 #include "imaging/photos/plate_edges.h"

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel_for.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "imaging/formats/text_cursor.h"
+#include "imaging/formats/spheres/text_cursor.h"
 
 namespace talus::imaging {
 namespace {

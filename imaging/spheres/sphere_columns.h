@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/sphere.h"
-#include "imaging/formats/sphere_files.h"
+#include "imaging/formats/spheres/sphere_files.h"
 
 namespace talus::imaging {
 

@@ -1,4 +1,4 @@
-#include "base/checked_text.h"
+#include "base/files/checked_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

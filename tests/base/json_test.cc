@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "base/json_reader.h"
-#include "base/json_schema.h"
-#include "base/json_writer.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_schema.h"
+#include "base/json/json_writer.h"
 
 namespace talus::base {
 

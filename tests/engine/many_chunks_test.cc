@@ -1,7 +1,7 @@
 // A scene so large that it is cut into more chunks than a small one has.
 #include <gtest/gtest.h>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "engine/run/bed.h"
 #include "engine/run/scene_run.h"
 #include "engine/scene/scene_json.h"

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_schema.h"
+#include "base/files/file.h"
+#include "base/json/json_schema.h"
 
 namespace talus::engine {
 namespace {

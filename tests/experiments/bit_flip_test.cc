@@ -6,10 +6,10 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_writer.h"
+#include "base/files/file.h"
+#include "base/json/json_writer.h"
 #include "base/random.h"
-#include "experiments/campaign/repair.h"
+#include "experiments/campaign/folder/repair.h"
 #include "experiments/journal/journal.h"
 
 namespace talus::campaign {

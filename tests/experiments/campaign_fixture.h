@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "tests/experiments/fake_heap.h"
 #include "tests/experiments/scratch_folder.h"
 

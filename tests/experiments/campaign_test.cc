@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "experiments/analysis/export/export.h"
-#include "experiments/campaign/status.h"
+#include "experiments/campaign/folder/status.h"
 #include "experiments/journal/database.h"
 #include "tests/experiments/campaign_fixture.h"
 

@@ -8,11 +8,11 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
 namespace {

@@ -8,12 +8,12 @@
 #include <fstream>
 #include <string>
 
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "base/random.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/start.h"
 #include "experiments/runners/local_runner.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
 

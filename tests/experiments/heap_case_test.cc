@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_schema.h"
+#include "base/files/file.h"
+#include "base/json/json_schema.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 

@@ -1,4 +1,4 @@
-#include "experiments/campaign/hold_out.h"
+#include "experiments/campaign/answer/hold_out.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,9 +11,9 @@
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/export/export.h"
-#include "experiments/campaign/consider.h"
-#include "experiments/campaign/describe_posterior.h"
-#include "experiments/campaign/status.h"
+#include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/folder/status.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 

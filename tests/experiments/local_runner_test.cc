@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "base/file.h"
+#include "base/files/file.h"
 
 namespace talus::runners {
 namespace {

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/export/export.h"
-#include "experiments/campaign/consider.h"
-#include "experiments/campaign/status.h"
+#include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/folder/status.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {

@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
-#include "base/file.h"
-#include "base/json_reader.h"
-#include "base/json_schema.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_schema.h"
 
 namespace talus::trials {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/base64.h"
@@ -14,7 +14,7 @@
 #include "experiments/analysis/report/svg_chart.h"
 #include "experiments/analysis/report/tables.h"
 #include "experiments/analysis/report/write_report.h"
-#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/answer/campaign_result.h"
 #include "imaging/heap/metrics.h"
 #include "tests/experiments/synthetic_campaign.h"
 #include "tests/experiments/synthetic_journal.h"

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "base/file.h"
-#include "base/json_reader.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
 #include "experiments/rigs/phased/phased_rig.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/rig_run.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::rigs {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "experiments/campaign/core_time.h"
 #include "experiments/campaign/estimate.h"
 #include "experiments/campaign/spec/campaign_spec.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "experiments/analysis/search/search_folder.h"
 #include "experiments/analysis/search/search_page.h"
 #include "tests/experiments/scratch_folder.h"

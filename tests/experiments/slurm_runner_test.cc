@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "experiments/runners/slurm_verdict.h"
 #include "experiments/runners/tool.h"
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_schema.h"
+#include "base/files/file.h"
+#include "base/json/json_schema.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 
 namespace talus::campaign {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "base/json_writer.h"
-#include "experiments/campaign/campaign_result.h"
+#include "base/json/json_writer.h"
+#include "experiments/campaign/answer/campaign_result.h"
 #include "experiments/journal/journal.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::test {
 namespace {

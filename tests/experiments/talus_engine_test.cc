@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "base/checked_text.h"
-#include "base/file.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
 
 namespace talus::trials {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/random.h"
 #include "tests/fuzz/targets.h"
 

@@ -1,7 +1,7 @@
 #include <string>
 
-#include "base/file.h"
-#include "base/json_reader.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
 #include "engine/run/run.h"
 #include "engine/scene/scene_json.h"
 #include "engine/simulation.h"

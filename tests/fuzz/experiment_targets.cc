@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "base/file.h"
-#include "base/json_reader.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/record_json.h"

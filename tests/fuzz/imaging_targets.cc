@@ -1,5 +1,5 @@
-#include "imaging/formats/image_file.h"
-#include "imaging/formats/sphere_formats.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/spheres/sphere_formats.h"
 #include "imaging/photos/photo_set.h"
 #include "tests/fuzz/targets.h"
 

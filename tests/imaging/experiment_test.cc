@@ -11,7 +11,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/spheres/projection.h"
 #include "tests/imaging/synthetic_photo.h"
 

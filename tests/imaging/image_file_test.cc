@@ -1,4 +1,4 @@
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "imaging/formats/orientation.h"
+#include "base/files/file.h"
+#include "imaging/formats/images/orientation.h"
 
 namespace talus::imaging {
 namespace {

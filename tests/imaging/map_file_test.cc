@@ -1,4 +1,4 @@
-#include "imaging/formats/map_file.h"
+#include "imaging/formats/images/map_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::imaging {

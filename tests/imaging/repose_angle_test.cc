@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/photos/experiment.h"
 #include "tests/imaging/synthetic_photo.h"
 

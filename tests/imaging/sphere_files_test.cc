@@ -1,4 +1,4 @@
-#include "imaging/formats/sphere_files.h"
+#include "imaging/formats/spheres/sphere_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/random.h"
 
 namespace talus::imaging {

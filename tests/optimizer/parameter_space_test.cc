@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 
 namespace talus::optimizer {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "base/file.h"
+#include "base/files/file.h"
 
 namespace talus {
 namespace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 
 namespace talus {
 namespace {

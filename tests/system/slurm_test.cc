@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "experiments/runners/slurm_runner.h"
 #include "experiments/runners/tool.h"
 

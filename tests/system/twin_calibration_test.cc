@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
-#include "experiments/campaign/campaign_result.h"
-#include "imaging/formats/image_file.h"
+#include "base/files/file.h"
+#include "experiments/campaign/answer/campaign_result.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/spheres/projection.h"
 #include "tests/experiments/scratch_folder.h"
 

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/json_writer.h"
+#include "base/json/json_writer.h"
 #include "experiments/analysis/card/card_formats.h"
-#include "experiments/campaign/campaign_result.h"
+#include "experiments/campaign/answer/campaign_result.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/json_writer.h"
+#include "base/json/json_writer.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::analysis {

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/labels.h"
-#include "experiments/campaign/campaign_result.h"
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/verdict.h"
 #include "experiments/journal/objective.h"
 

@@ -10,13 +10,13 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/json_file.h"
-#include "base/json_reader.h"
+#include "base/json/json_file.h"
+#include "base/json/json_reader.h"
 #include "base/version.h"
 #include "engine/kernel/dispatch.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/journal/journal.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
 namespace {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "experiments/analysis/compare/gather_evidence.h"
-#include "experiments/campaign/joint_view.h"
+#include "experiments/campaign/answer/joint_view.h"
 
 namespace talus::analysis {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "experiments/analysis/compare/crop.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/difference_map.h"
 #include "imaging/photos/canvas.h"
 

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_writer.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
+#include "base/json/json_writer.h"
 
 namespace talus::analysis {
 namespace {

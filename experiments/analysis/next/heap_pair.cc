@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/folder/console.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {

@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "experiments/analysis/next/heap_pair.h"
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/core_time.h"
-#include "experiments/campaign/describe_posterior.h"
 #include "imaging/spheres/projection.h"
 #include "optimizer/answer/credible_ranges.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/json_reader.h"
+#include "base/json/json_reader.h"
 
 namespace talus::analysis {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/field.h"
 #include "base/problems.h"
-#include "experiments/campaign/joint_view.h"
+#include "experiments/campaign/answer/joint_view.h"
 
 namespace talus::analysis {
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/interrupt.h"
-#include "base/json_writer.h"
+#include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::analysis {

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "experiments/analysis/compare/crop.h"
-#include "experiments/campaign/campaign_folder.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"
-#include "imaging/formats/sphere_files.h"
+#include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"
 #include "imaging/spheres/projection.h"

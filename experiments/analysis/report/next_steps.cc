@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/folder/console.h"
 
 namespace talus::analysis {
 namespace {

@@ -1,7 +1,7 @@
 #include "experiments/analysis/report/write_report.h"
 
-#include "base/file.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "experiments/analysis/report/figures.h"
 #include "experiments/analysis/report/page.h"
 #include "experiments/analysis/report/tables.h"

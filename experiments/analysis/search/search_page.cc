@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "experiments/analysis/compare/csv.h"
 #include "experiments/analysis/search/search_figures.h"
 #include "page_files.h"  // made by talus_embed

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "experiments/campaign/spec/campaign_options.h"
 #include "experiments/campaign/spec/experiment_spec.h"
 #include "experiments/campaign/spec/grain_sizes.h"

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/problems.h"
 #include "base/units.h"
-#include "experiments/campaign/console.h"
+#include "experiments/campaign/folder/console.h"
 
 namespace talus::campaign {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/field.h"
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "base/problems.h"
 #include "engine/scene/material.h"
 #include "experiments/rigs/lifted_tube/device.h"

@@ -1,5 +1,5 @@
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
 namespace talus::rigs {

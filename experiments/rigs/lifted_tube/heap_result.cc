@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
-#include "base/checked_text.h"
-#include "base/file.h"
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "base/version.h"
 #include "engine/run/scaling_json.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"

@@ -1,9 +1,9 @@
 // result.json of a phased test.
 #include <nlohmann/json.hpp>
 
-#include "base/checked_text.h"
-#include "base/file.h"
-#include "base/json_writer.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/json/json_writer.h"
 #include "base/version.h"
 #include "engine/run/scaling_json.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"

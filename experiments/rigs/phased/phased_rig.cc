@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "engine/wall_motion.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
 #include "experiments/rigs/lifted_tube/rest.h"

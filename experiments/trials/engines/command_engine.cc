@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_reader.h"
-#include "base/json_writer.h"
+#include "base/files/file.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
@@ -17,8 +17,8 @@
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
-#include "imaging/formats/image_file.h"
-#include "imaging/formats/sphere_files.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::trials {

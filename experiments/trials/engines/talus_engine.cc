@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/checked_text.h"
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_file.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/json/json_file.h"
 #include "experiments/rigs/rig.h"
-#include "imaging/formats/image_file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
 

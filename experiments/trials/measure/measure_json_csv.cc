@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "base/json_writer.h"
+#include "base/json/json_writer.h"
 
 namespace talus::trials {
 namespace {

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "base/units.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"

@@ -3,11 +3,11 @@
 #include <ostream>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
-#include "imaging/formats/profile_file.h"
+#include "imaging/formats/images/profile_file.h"
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"
 

@@ -4,13 +4,13 @@
 #include <ostream>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_writer.h"
-#include "base/output_folder.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
+#include "base/json/json_writer.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
-#include "imaging/formats/profile_file.h"
-#include "imaging/formats/sphere_files.h"
+#include "imaging/formats/images/profile_file.h"
+#include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/heap/difference_map.h"
 #include "imaging/spheres/projection.h"
 

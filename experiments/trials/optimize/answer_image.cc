@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "imaging/formats/image_file.h"
+#include "base/files/file.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
 namespace {

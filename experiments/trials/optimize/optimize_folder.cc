@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/checked_text.h"
 #include "base/error.h"
-#include "base/file.h"
-#include "base/file_lock.h"
-#include "base/json_writer.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/files/file_lock.h"
+#include "base/json/json_writer.h"
 
 namespace talus::trials {
 namespace {

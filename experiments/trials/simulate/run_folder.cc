@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base/checked_text.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "base/interrupt.h"
-#include "base/json_file.h"
-#include "base/output_folder.h"
+#include "base/json/json_file.h"
 #include "base/version.h"
 #include "experiments/trials/simulate/run_log.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/json_file.h"
+#include "base/json/json_file.h"
 #include "experiments/trials/simulate/run_folder.h"
 
 namespace talus::trials {

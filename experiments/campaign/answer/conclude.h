@@ -1,0 +1,27 @@
+// From the finished trials to the result.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/planner.h"
+#include "experiments/journal/records.h"
+
+namespace talus::campaign {
+
+struct Evidenced {
+  const CampaignSpec& spec;
+  const journal::CampaignRecord& campaign;
+  const std::vector<Reference>& references;  // of the experiments
+  // A trial's ANHP.
+  std::function<std::optional<imaging::GrayImage>(std::int64_t)> profile;
+  double elapsed = 0;  // [s]
+};
+
+// Nothing when no trial has succeeded.
+std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of);
+
+}  // namespace talus::campaign

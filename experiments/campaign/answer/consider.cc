@@ -1,0 +1,154 @@
+#include "experiments/campaign/answer/consider.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/json/json_writer.h"
+#include "base/nearest.h"
+#include "base/problems.h"
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/joint_view.h"
+#include "experiments/campaign/folder/console.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr std::size_t kMostNear = 5;
+
+Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
+                        const std::map<std::string, std::string>& set) {
+  base::Problems problems;
+  std::vector<std::string> names;
+  const std::vector<int> free = space.Free();
+  Eigen::VectorXd point(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
+    names.push_back(p.name);
+    const auto given = set.find(p.name);
+    problems.Require(given != set.end(), p.name,
+                     "is missing; give NAME=VALUE for every calibrated parameter");
+    if (given == set.end()) continue;
+    try {
+      const double value = ParseProperty(p.name, given->second);
+      problems.Require(
+          value >= p.low && value <= p.high, p.name, value,
+          "must be in the searched range, " + NumberText4(p.low) + " to " + NumberText4(p.high));
+      point[static_cast<Eigen::Index>(i)] = p.ToUnit(value);
+    } catch (const base::ConfigError& error) {
+      problems.Add(p.name, error.what());
+    }
+  }
+  for (const auto& [name, value] : set) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    const std::string near = base::Nearest(name, names);
+    problems.Add(name, near.empty() ? "is no calibrated parameter of this campaign"
+                                    : "is not known here; did you mean \"" + near + "\"?");
+  }
+  problems.ThrowIfAny();
+  return point;
+}
+
+std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
+                                     const std::vector<Reference>& references,
+                                     const Eigen::VectorXd& point) {
+  std::vector<NearTrial> near;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status == journal::TrialStatus::kRunning) continue;
+    near.push_back(
+        {.trial = trial,
+         .distance = (PointOf(trial) - point).lpNorm<Eigen::Infinity>(),
+         .objective = references[static_cast<std::size_t>(trial.experiment)].Value(trial)});
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const NearTrial& a, const NearTrial& b) { return a.distance < b.distance; });
+  near.resize(std::min(near.size(), kMostNear));
+  return near;
+}
+
+std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
+                    const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + NumberText4(values[i]) +
+            (parameters[i].unit.empty() ? "" : " " + parameters[i].unit);
+  }
+  return text;
+}
+
+}  // namespace
+
+ConsideredSet ConsiderSet(const std::filesystem::path& root,
+                          const std::map<std::string, std::string>& set) {
+  const JointView view = ReadJointView(root);
+  const Eigen::VectorXd point = ReadSet(view.space, set);
+  const auto strategy = StrategyOf(view, view.All());
+  ConsideredSet considered{.parameters = view.record.parameters,
+                           .values = FreeValues(view.space, point),
+                           .target_scale_factor = view.spec.coarse_graining.Target(),
+                           .credible_level = {},
+                           .experiments = {},
+                           .nearest = NearestTrials(view.trials, view.references, point),
+                           .objective_unit = std::string(view.references.front().info().unit)};
+  if (const auto standing = strategy->Consider(point)) {
+    considered.credible_level = standing->credible_level;
+    considered.experiments = StandingsOf(standing->experiments);
+  }
+  return considered;
+}
+
+std::string ConsideredText(const ConsideredSet& c) {
+  std::string text = "  set               " + SetText(c.parameters, c.values) + "\n";
+  if (!c.credible_level) {
+    text += "  credible level    not known yet: too few trials\n";
+  } else {
+    const bool inside = *c.credible_level <= 0.9;
+    text += "  credible level    " + NumberText4(*c.credible_level) + ": " +
+            (inside ? "inside" : "outside") + " the joint 90 % region\n";
+  }
+  for (const ResultStanding& e : c.experiments) {
+    text += "  " + e.name + ": ";
+    if (std::isfinite(e.predicted)) {
+      text += "predicted " + NumberText4(e.predicted) + " " + c.objective_unit + " ± " +
+              NumberText4(e.predicted_sd) + " at scale factor " +
+              NumberText4(c.target_scale_factor) + ", ";
+    }
+    text += "implausibility " + NumberText4(e.implausibility) + "\n";
+  }
+  text += "  nearest trials\n";
+  for (const NearTrial& near : c.nearest) {
+    text += "    trial " + std::to_string(near.trial.id) + " at " +
+            SetText(c.parameters, near.trial.native) + ", scale factor " +
+            NumberText4(near.trial.scale_factor) + ": " +
+            (near.objective ? NumberText4(*near.objective) + " " + c.objective_unit
+                            : std::string(base::NameOf(near.trial.status))) +
+            "\n";
+  }
+  return text;
+}
+
+std::string ConsideredJson(const ConsideredSet& c) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    json["values"][c.parameters[i].name] = c.values[i];
+  }
+  json["target_scale_factor"] = c.target_scale_factor;
+  json["credible_level"] =
+      c.credible_level ? nlohmann::ordered_json(*c.credible_level) : nlohmann::ordered_json();
+  json["objective_unit"] = c.objective_unit;
+  json["experiments"] = base::ToJson(c.experiments);
+  json["nearest_trials"] = nlohmann::ordered_json::array();
+  for (const NearTrial& near : c.nearest) {
+    nlohmann::ordered_json trial{{"id", near.trial.id},
+                                 {"experiment", near.trial.experiment},
+                                 {"scale_factor", near.trial.scale_factor},
+                                 {"distance", near.distance},
+                                 {"values", near.trial.native}};
+    trial["objective"] =
+        near.objective ? nlohmann::ordered_json(*near.objective) : nlohmann::ordered_json();
+    json["nearest_trials"].push_back(std::move(trial));
+  }
+  return json.dump(2) + "\n";
+}
+
+}  // namespace talus::campaign

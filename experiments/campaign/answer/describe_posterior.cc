@@ -1,0 +1,93 @@
+#include "experiments/campaign/answer/describe_posterior.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "experiments/campaign/folder/console.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr double kAlarm = 3;  // implausibility above which no set fits
+
+std::string Exact(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
+                               const Eigen::VectorXd& point) {
+  std::vector<double> values;
+  const std::vector<double> all = space.ToNative(point);
+  for (const int i : space.Free()) values.push_back(all[static_cast<std::size_t>(i)]);
+  return values;
+}
+
+std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list) {
+  std::vector<ResultStanding> standings;
+  for (const optimizer::ExperimentStanding& s : list) {
+    standings.push_back({.name = s.name,
+                         .predicted = s.predicted_objective,
+                         .predicted_sd = s.predicted_sd,
+                         .implausibility = s.implausibility});
+  }
+  return standings;
+}
+
+ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
+                                  const optimizer::ParameterSpace& space) {
+  ResultPosterior posterior{.target_scale_factor = summary.target_scale_factor,
+                            .is_extrapolated = summary.is_extrapolated,
+                            .region_volume = summary.region_volume,
+                            .temper = summary.temper,
+                            .raw_coverage = summary.raw_coverage,
+                            .tempered_coverage = summary.tempered_coverage,
+                            .num_left_out = summary.num_left_out,
+                            .unlearnt_levels = summary.unlearnt_levels,
+                            .experiments = StandingsOf(summary.experiments)};
+  for (const optimizer::PosteriorBranch& branch : summary.branches) {
+    posterior.branches.push_back({.share = branch.share,
+                                  .values = FreeValues(space, branch.point),
+                                  .low = FreeValues(space, branch.low),
+                                  .high = FreeValues(space, branch.high)});
+  }
+  return posterior;
+}
+
+std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
+  std::vector<ResultWarning> warnings;
+  for (const ResultStanding& e : posterior.experiments) {
+    if (!(e.implausibility > kAlarm)) continue;
+    warnings.push_back(Worded(
+        {.kind = WarningKind::kImplausible, .experiment = e.name, .value = e.implausibility}));
+  }
+  if (posterior.is_extrapolated) {
+    warnings.push_back(Worded(
+        {.kind = WarningKind::kExtrapolated, .scale_factor = posterior.target_scale_factor}));
+  }
+  for (const double level : posterior.unlearnt_levels) {
+    warnings.push_back(Worded({.kind = WarningKind::kUnlearntLevel, .scale_factor = level}));
+  }
+  return warnings;
+}
+
+std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
+                         const optimizer::ParameterSpace& space,
+                         const std::vector<journal::ParameterRecord>& parameters) {
+  std::string csv;
+  for (const journal::ParameterRecord& p : parameters)
+    csv += (csv.empty() ? "" : ",") + journal::ColumnName(p);
+  csv += "\n";
+  for (Eigen::Index i = 0; i < summary.draws.rows(); ++i) {
+    std::string line;
+    for (const double value : FreeValues(space, summary.draws.row(i))) {
+      line += (line.empty() ? "" : ",") + Exact(value);
+    }
+    csv += line + "\n";
+  }
+  return csv;
+}
+
+}  // namespace talus::campaign

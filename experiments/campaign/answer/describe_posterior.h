@@ -1,0 +1,32 @@
+// An optimiser's posterior in a campaign's own words: SI values, names and warnings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/answer/result_posterior.h"
+#include "experiments/campaign/answer/result_warning.h"
+#include "experiments/journal/records.h"
+#include "optimizer/fidelity/posterior_summary.h"
+#include "optimizer/space/parameter_space.h"
+
+namespace talus::campaign {
+
+// Values of the free parameters at a point of the unit cube, SI.
+std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
+                               const Eigen::VectorXd& point);
+
+std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list);
+
+ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
+                                  const optimizer::ParameterSpace& space);
+
+// What of it must be said aloud.
+std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior);
+
+// Its draws, one a line, SI with the units in the head.
+std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
+                         const optimizer::ParameterSpace& space,
+                         const std::vector<journal::ParameterRecord>& parameters);
+
+}  // namespace talus::campaign

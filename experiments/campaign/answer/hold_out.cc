@@ -1,0 +1,165 @@
+#include "experiments/campaign/answer/hold_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "experiments/campaign/folder/console.h"
+
+namespace talus::campaign {
+namespace {
+
+using optimizer::ExperimentModel;
+
+constexpr int kDraws = 400;
+
+// Draws of what would be measured: the simulated mean, its uncertainty and the measurement's error.
+PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::Moments& at,
+                         std::uint64_t seed) {
+  base::Random random(seed, base::Stream("held out"));
+  std::vector<double> draws;
+  for (Eigen::Index i = 0; i < at.mean.size(); ++i) {
+    draws.push_back(at.mean[i] + std::hypot(at.sd[i], scalar.standard_error) * random.Normal());
+  }
+  std::sort(draws.begin(), draws.end());
+  // Nothing weighs less than nothing.
+  const double least = at.mean.minCoeff() >= 0 ? 0 : -std::numeric_limits<double>::infinity();
+  const auto quantile = [&](double share) {
+    return std::max(least,
+                    draws[static_cast<std::size_t>(share * static_cast<double>(draws.size() - 1))]);
+  };
+  return {.name = scalar.name,
+          .low = quantile(0.05),
+          .high = quantile(0.95),
+          .mean = at.mean.mean(),
+          .measured = scalar.value,
+          .measured_sd = scalar.standard_error};
+}
+
+std::string AnswerLine(const JointView& view, const PartialAnswer& answer) {
+  std::string line;
+  for (std::size_t i = 0; i < answer.values.size(); ++i) {
+    const journal::ParameterRecord& p = view.record.parameters[i];
+    line += (i == 0 ? "" : ", ") + p.name + " " + NumberText4(answer.values[i]) + " (" +
+            NumberText4(answer.low[i]) + " to " + NumberText4(answer.high[i]) + ")" +
+            (p.unit.empty() ? "" : " " + p.unit);
+  }
+  return line + "; region " + NumberText4(100 * answer.region_volume) + " % of the ranges";
+}
+
+nlohmann::ordered_json AnswerJson(const JointView& view, const PartialAnswer& answer) {
+  nlohmann::ordered_json json{{"experiments", answer.experiments}};
+  for (std::size_t i = 0; i < answer.values.size(); ++i) {
+    json["parameters"].push_back({{"name", view.record.parameters[i].name},
+                                  {"value", answer.values[i]},
+                                  {"credible_low", answer.low[i]},
+                                  {"credible_high", answer.high[i]}});
+  }
+  json["region_90_volume_fraction"] = answer.region_volume;
+  return json;
+}
+
+}  // namespace
+
+HeldOut HoldOut(const JointView& view, const std::string& name) {
+  const int held = view.IndexOf(name);
+  std::vector<int> others = view.All();
+  std::erase(others, held);
+  if (others.empty()) {
+    throw base::ConfigError("\"" + name +
+                            "\": is the campaign's only experiment; `talus "
+                            "add-experiment` gives it a second one");
+  }
+  const auto of_others = StrategyOf(view, others);
+  HeldOut result{.name = name,
+                 .others = AnswerOf(view, *of_others, others),
+                 .objective_unit = std::string(view.references.front().info().unit)};
+  const auto alone = StrategyOf(view, {held});
+  if (!alone->CanModel()) throw base::Error("too few trials of \"" + name + "\" to predict it");
+  const optimizer::Posterior& posterior = alone->Model();
+  const ExperimentModel& model = posterior.models().front();
+  const Eigen::VectorXd answer = of_others->Recommend().point;
+  const Eigen::MatrixXd draws = of_others->Sample().Draws(kDraws, view.spec.seed);
+  result.implausibility = posterior.Implausibility(0, answer);
+  result.least_implausibility = result.implausibility;
+  for (const auto& draw : draws.rowwise()) {
+    result.least_implausibility =
+        std::min(result.least_implausibility, posterior.Implausibility(0, draw.transpose()));
+  }
+  if (model.has_image()) {
+    const optimizer::Moments at = model.Objective(answer.transpose());
+    result.predicted = at.mean[0];
+    result.predicted_sd = at.sd[0];
+  }
+  const auto scalars = model.Scalars(draws);
+  const auto& measured = view.record.experiments[static_cast<std::size_t>(held)].scalars;
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    result.numbers.push_back(NumberOf(measured[s], scalars[s], view.spec.seed));
+  }
+  return result;
+}
+
+std::vector<PartialAnswer> AnswersAlone(const JointView& view) {
+  std::vector<PartialAnswer> answers;
+  for (const int e : view.All()) {
+    const auto strategy = StrategyOf(view, {e});
+    if (strategy->CanModel()) answers.push_back(AnswerOf(view, *strategy, {e}));
+  }
+  return answers;
+}
+
+std::string HeldOutText(const JointView& view, const HeldOut& h) {
+  std::string text = "  held out          " + h.name + "\n  others answer     " +
+                     AnswerLine(view, h.others) + "\n";
+  if (std::isfinite(h.predicted)) {
+    text += "  predicted         " + NumberText4(h.predicted) + " " + h.objective_unit + " ± " +
+            NumberText4(h.predicted_sd) + " from the images of " + h.name + "\n";
+  }
+  for (const PredictedNumber& n : h.numbers) {
+    text += "  " + n.name + "    predicted " + NumberText4(n.low) + " to " + NumberText4(n.high) +
+            ", measured " + NumberText4(n.measured) + " ± " + NumberText4(n.measured_sd) +
+            (n.IsInside() ? ": inside\n" : ": outside\n");
+  }
+  return text + "  implausibility    " + NumberText4(h.implausibility) + ", " +
+         NumberText4(h.least_implausibility) + " at the best set of the others' region\n";
+}
+
+std::string HeldOutJson(const JointView& view, const HeldOut& h) {
+  nlohmann::ordered_json json{{"held_out", h.name},
+                              {"others", AnswerJson(view, h.others)},
+                              {"implausibility", h.implausibility},
+                              {"least_implausibility", h.least_implausibility},
+                              {"objective_unit", h.objective_unit}};
+  if (std::isfinite(h.predicted)) {
+    json["predicted_objective"] = h.predicted;
+    json["predicted_objective_sd"] = h.predicted_sd;
+  }
+  json["numbers"] = nlohmann::ordered_json::array();
+  for (const PredictedNumber& n : h.numbers) {
+    json["numbers"].push_back({{"name", n.name},
+                               {"predicted", n.mean},
+                               {"predicted_low", n.low},
+                               {"predicted_high", n.high},
+                               {"measured", n.measured},
+                               {"measured_sd", n.measured_sd}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string AloneText(const JointView& view, const std::vector<PartialAnswer>& answers) {
+  std::string text;
+  for (const PartialAnswer& answer : answers) {
+    text += "  " + answer.experiments.front() + " alone: " + AnswerLine(view, answer) + "\n";
+  }
+  return text;
+}
+
+std::string AloneJson(const JointView& view, const std::vector<PartialAnswer>& answers) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const PartialAnswer& answer : answers) json.push_back(AnswerJson(view, answer));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,91 @@
+#include "experiments/campaign/answer/joint_view.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/start.h"
+
+namespace talus::campaign {
+
+int JointView::IndexOf(std::string_view name) const {
+  std::string names;
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    if (record.experiments[e].name == name) return static_cast<int>(e);
+    names += (e == 0 ? "\"" : ", \"") + record.experiments[e].name + "\"";
+  }
+  throw base::ConfigError("\"" + std::string(name) + "\": is no experiment of " +
+                          folder.root.string() + "; it has " + names);
+}
+
+std::vector<int> JointView::All() const {
+  std::vector<int> all(references.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+JointView ReadJointView(const std::filesystem::path& root) {
+  const CampaignFolder folder{root};
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
+  journal::CampaignRecord record = journal.Campaign();
+  const CampaignSpec spec = ParseSpecText(record.spec_json);
+  JointView view{.folder = folder,
+                 .spec = spec,
+                 .record = std::move(record),
+                 .references = {},
+                 .space = SpaceOf(spec),
+                 .trials = journal.Trials()};
+  view.references = ReferencesOf(view.record, spec);
+  for (const journal::TrialRecord& trial : InOrderOfFinish(view.trials)) {
+    if (!IsOfSearch(trial)) continue;
+    view.observations.push_back(
+        ObservationOf(trial, view.references[static_cast<std::size_t>(trial.experiment)],
+                      StoredField(journal, folder, view.references, trial)));
+  }
+  return view;
+}
+
+std::unique_ptr<optimizer::FidelityStrategy> StrategyOf(const JointView& view,
+                                                        const std::vector<int>& experiments) {
+  const std::vector<optimizer::ExperimentTarget> all =
+      TargetsOf(view.spec, view.record, view.references);
+  std::vector<optimizer::ExperimentTarget> targets;
+  for (const int e : experiments) targets.push_back(all[static_cast<std::size_t>(e)]);
+  auto strategy = MakeJointStrategyFor(view.spec, std::move(targets));
+  for (optimizer::Observation observation : view.observations) {
+    const auto at = std::find(experiments.begin(), experiments.end(), observation.experiment);
+    if (at == experiments.end()) continue;
+    observation.experiment = static_cast<int>(at - experiments.begin());
+    strategy->Tell(observation);
+  }
+  return strategy;
+}
+
+PartialAnswer AnswerOf(const JointView& view, optimizer::FidelityStrategy& strategy,
+                       const std::vector<int>& experiments) {
+  PartialAnswer partial;
+  for (const int e : experiments) {
+    partial.experiments.push_back(view.record.experiments[static_cast<std::size_t>(e)].name);
+  }
+  const optimizer::Answer answer = strategy.Recommend();
+  if (!answer.posterior) {
+    throw base::Error("too few trials of \"" + partial.experiments.front() +
+                      "\" for an answer by itself");
+  }
+  Eigen::VectorXd low(answer.point.size());
+  Eigen::VectorXd high(answer.point.size());
+  for (Eigen::Index i = 0; i < low.size(); ++i) {
+    low[i] = answer.credible[static_cast<std::size_t>(i)].low;
+    high[i] = answer.credible[static_cast<std::size_t>(i)].high;
+  }
+  partial.values = FreeValues(view.space, answer.point);
+  partial.low = FreeValues(view.space, low);
+  partial.high = FreeValues(view.space, high);
+  partial.region_volume = answer.posterior->region_volume;
+  return partial;
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,52 @@
+// What a campaign's finished trials say together, looked at without writing anything: the ground of
+// `talus consider` and `talus next`.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/reference.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/records.h"
+
+namespace talus::campaign {
+
+struct JointView {
+  CampaignFolder folder;
+  CampaignSpec spec;
+  journal::CampaignRecord record;
+  std::vector<Reference> references;
+  optimizer::ParameterSpace space;
+  std::vector<journal::TrialRecord> trials;            // all, by id
+  std::vector<optimizer::Observation> observations{};  // of the search, in the order of finish
+
+  // Of the experiment of this name; throws ConfigError that lists the names.
+  int IndexOf(std::string_view name) const;
+  // All of them, by index.
+  std::vector<int> All() const;
+};
+
+// The campaign may be running.
+JointView ReadJointView(const std::filesystem::path& folder);
+
+// Told what the trials of these experiments say, and nothing of others.
+std::unique_ptr<optimizer::FidelityStrategy> StrategyOf(const JointView& view,
+                                                        const std::vector<int>& experiments);
+
+// What some of the experiments answer by themselves.
+struct PartialAnswer {
+  std::vector<std::string> experiments;  // by name
+  std::vector<double> values;            // of the free parameters, SI
+  std::vector<double> low, high;         // joint 90 % ranges
+  double region_volume = 1;              // of the joint 90 % region, share of the searched box
+};
+// Throws base::Error when there are too few trials of them.
+PartialAnswer AnswerOf(const JointView& view, optimizer::FidelityStrategy& strategy,
+                       const std::vector<int>& experiments);
+
+}  // namespace talus::campaign

@@ -1,0 +1,79 @@
+#include "experiments/campaign/folder/campaign_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/files/file_lock.h"
+
+namespace talus::campaign {
+namespace {
+
+// A process that is killed while it starts a worker leaves its lock to the worker, until this
+// begins to run its own program a moment later.
+constexpr std::chrono::milliseconds kPatience{1000};
+constexpr std::chrono::milliseconds kPause{20};
+
+}  // namespace
+
+std::filesystem::path CampaignFolder::trial(std::int64_t id) const {
+  char name[32];
+  std::snprintf(name, sizeof name, "%04lld", static_cast<long long>(id));
+  return root / "trials" / name;
+}
+
+std::filesystem::path CampaignFolder::experiment(std::size_t index) const {
+  return index == 0 ? root : root / ("experiment_" + std::to_string(index + 1));
+}
+
+CampaignLock::CampaignLock(const std::filesystem::path& root) {
+  const std::string path = (root / "campaign.lock").string();
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) throw base::Error(path + ": cannot be written: " + std::strerror(errno));
+  if (!base::LockWithin(file_, kPatience, kPause)) {
+    char owner[32] = "";
+    if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
+    ::close(file_);
+    throw base::Error(root.string() + ": another process (number " + owner +
+                      ") works on this campaign; end it first, or wait");
+  }
+  const std::string owner = std::to_string(::getpid());
+  if (::ftruncate(file_, 0) != 0 ||
+      ::pwrite(file_, owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
+    const int code = errno;
+    ::close(file_);
+    throw base::Error(path + ": cannot be written: " + std::strerror(code));
+  }
+}
+
+CampaignLock::CampaignLock(CampaignLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+
+CampaignLock::~CampaignLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+bool IsWorkedOn(const std::filesystem::path& root) {
+  const int file = ::open((root / "campaign.lock").c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool free = ::flock(file, LOCK_SH | LOCK_NB) == 0;
+  ::close(file);
+  return !free;
+}
+
+void RequireWritable(const std::filesystem::path& root) {
+  constexpr std::size_t kEnoughForATrial = 256 * 1024;
+  const std::filesystem::path probe = root / ".probe";
+  base::WriteFileAtomically(probe, std::string(kEnoughForATrial, '.'));
+  std::filesystem::remove(probe);
+}
+
+}  // namespace talus::campaign

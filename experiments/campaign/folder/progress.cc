@@ -1,0 +1,45 @@
+#include "experiments/campaign/folder/progress.h"
+
+#include "experiments/campaign/folder/console.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::campaign {
+
+std::string ProgressText(const TrialProgress& trial) {
+  std::string text =
+      "trial " + std::to_string(trial.trial) + " (" + std::string(base::NameOf(trial.kind)) + ")";
+  for (std::size_t i = 0; i < trial.values.size(); ++i) {
+    text += (i == 0 ? " at " : " ") + NumberText4(trial.values[i]);
+  }
+  if (!trial.experiment.empty()) text += ", " + trial.experiment;
+  if (trial.scale_factor) text += " at scale factor " + NumberText4(*trial.scale_factor);
+  if (trial.status == journal::TrialStatus::kFailed) {
+    text += " failed: " + trial.reason;
+  } else if (trial.objective) {
+    text += ": " + NumberText4(*trial.objective) + " " + trial.unit;
+    if (trial.best) text += ", the best so far";
+  } else {
+    text += ": the objective is not defined";
+  }
+  return text + ", " + trials::DurationText(trial.duration);
+}
+
+std::string ProgressText(const CampaignProgress& campaign) {
+  std::string text = "trial " + std::to_string(campaign.num_search);
+  if (campaign.budget > 0) text += " of " + std::to_string(campaign.budget);
+  if (campaign.core_seconds_budget) {
+    text += ", " + trials::DurationText(campaign.core_seconds) + " of " +
+            trials::DurationText(*campaign.core_seconds_budget) + " core time";
+  }
+  text += ", " + std::to_string(campaign.num_running) + " running";
+  if (campaign.best) {
+    text += ", best " + NumberText4(*campaign.best) + " " + campaign.unit + " (trial " +
+            std::to_string(campaign.best_trial) + ")";
+  }
+  if (campaign.seconds_left) {
+    text += ", at most " + trials::DurationText(*campaign.seconds_left) + " left";
+  }
+  return text;
+}
+
+}  // namespace talus::campaign

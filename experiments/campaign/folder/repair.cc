@@ -1,0 +1,147 @@
+#include "experiments/campaign/folder/repair.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files/checked_text.h"
+#include "base/files/file.h"
+#include "base/json/json_writer.h"
+#include "experiments/journal/record_json.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr const char* kTrialFile = "trial.json";
+constexpr const char* kAehp = "aehp.png";
+constexpr const char* kAehpSd = "aehp_sd.png";
+
+std::string RunFile(std::size_t index) {
+  return "run_" + std::string(index < 9 ? "0" : "") + std::to_string(index + 1) + ".png";
+}
+
+template <class Record>
+std::string TextWithChecksum(const Record& record) {
+  return base::WithChecksum(base::JsonTextWriter::TextOf(record));
+}
+
+// The text without its checksum; nothing where it has none.
+std::optional<std::string> CheckedFile(const std::filesystem::path& path) {
+  return base::CheckedText(base::ReadFile(path), path.string());
+}
+
+template <class Record>
+Record ReadRecord(const std::filesystem::path& path) {
+  const std::optional<std::string> text = CheckedFile(path);
+  if (!text) throw base::Error(path.string() + ": is damaged: its checksum is not there");
+  return journal::ParseRecord<Record>(*text, path.string());
+}
+
+std::string IfThere(const std::filesystem::path& path) {
+  return std::filesystem::exists(path) ? base::ReadFile(path) : std::string();
+}
+
+// Moves the journal with its log out of the way, under a name that is free.
+void PutAside(const std::filesystem::path& journal) {
+  int number = 1;
+  const auto aside = [&](const std::string& suffix) {
+    return journal.string() + ".damaged" + std::to_string(number) + suffix;
+  };
+  while (std::filesystem::exists(aside(""))) ++number;
+  for (const char* suffix : {"", "-wal", "-shm"}) {
+    const std::string from = journal.string() + suffix;
+    if (std::filesystem::exists(from)) std::filesystem::rename(from, aside(suffix));
+  }
+}
+
+// Before schema 3 there was one experiment, whose keys stood beside the campaign's own, and no
+// checksum.
+std::string WithExperiments(const std::filesystem::path& path) {
+  if (const std::optional<std::string> checked = CheckedFile(path)) return *checked;
+  auto json = nlohmann::ordered_json::parse(base::ReadFile(path), nullptr, false);
+  if (!json.is_object() || json.contains("experiments")) {
+    throw base::Error(path.string() + ": is damaged: its checksum is not there");
+  }
+  nlohmann::ordered_json experiment;
+  experiment["name"] = "heap";
+  for (const char* key :
+       {"reference", "frame_json", "nebp_px", "num_heaps", "experimental_noise_floor_mm2"}) {
+    if (!json.contains(key)) continue;
+    experiment[key] = json[key];
+    json.erase(key);
+  }
+  json["experiments"] = nlohmann::ordered_json::array({experiment});
+  return json.dump();
+}
+
+journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
+  auto record = journal::ParseRecord<journal::CampaignRecord>(WithExperiments(folder.campaign()),
+                                                              folder.campaign().string());
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    journal::ExperimentRecord& experiment = record.experiments[e];
+    const std::filesystem::path place = folder.experiment(e);
+    experiment.aehp_png = IfThere(place / kAehp);
+    experiment.aehp_sd_png = IfThere(place / kAehpSd);
+    for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+      experiment.runs[r].png = base::ReadFile(place / RunFile(r));
+    }
+  }
+  return record;
+}
+
+std::vector<journal::TrialRecord> KeptTrials(const CampaignFolder& folder) {
+  std::vector<journal::TrialRecord> trials;
+  if (!std::filesystem::exists(folder.root / "trials")) return trials;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.root / "trials")) {
+    const std::filesystem::path file = entry.path() / kTrialFile;
+    // A folder without one was being made when the process ended: there is no such trial yet. An
+    // empty one is all that a power cut has left.
+    std::error_code absent;
+    const auto size = std::filesystem::file_size(file, absent);
+    if (!absent && size > 0) trials.push_back(ReadRecord<journal::TrialRecord>(file));
+  }
+  std::sort(trials.begin(), trials.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return trials;
+}
+
+}  // namespace
+
+void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& record) {
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    const journal::ExperimentRecord& experiment = record.experiments[e];
+    const std::filesystem::path place = folder.experiment(e);
+    std::filesystem::create_directories(place);
+    if (!experiment.aehp_png.empty()) base::WriteFileAtomically(place / kAehp, experiment.aehp_png);
+    if (!experiment.aehp_sd_png.empty()) {
+      base::WriteFileAtomically(place / kAehpSd, experiment.aehp_sd_png);
+    }
+    for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+      base::WriteFileAtomically(place / RunFile(r), experiment.runs[r].png);
+    }
+  }
+  base::WriteFileAtomically(folder.campaign(), TextWithChecksum(record));
+}
+
+void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) {
+  base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, TextWithChecksum(trial),
+                            base::Outlives::kProgram);
+}
+
+journal::Journal RebuildJournal(const CampaignFolder& folder) {
+  const journal::CampaignRecord record = KeptCampaign(folder);
+  const std::vector<journal::TrialRecord> trials = KeptTrials(folder);
+  PutAside(journal::JournalPath(folder.root));
+  journal::Journal journal = journal::Journal::Create(journal::JournalPath(folder.root), record);
+  for (const journal::TrialRecord& trial : trials) {
+    // After a gap nothing can be what an unbroken run would have made.
+    if (trial.id != journal.CountTrials() + 1) break;
+    journal.Start({&trial, 1});
+  }
+  journal.AddEvent("repair", 0,
+                   "the journal was damaged and has been made anew from the trials' folders");
+  return journal;
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,131 @@
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "base/error.h"
+#include "imaging/formats/images/image_codecs.h"
+
+namespace talus::imaging {
+namespace {
+
+// A file in memory, as libtiff's callbacks want it.
+struct Source {
+  std::string_view bytes;
+  std::size_t position = 0;
+};
+
+tmsize_t Read(thandle_t handle, void* out, tmsize_t count) {
+  auto& source = *static_cast<Source*>(handle);
+  const std::size_t left = source.bytes.size() - std::min(source.position, source.bytes.size());
+  const std::size_t taken = std::min(left, static_cast<std::size_t>(count));
+  std::memcpy(out, source.bytes.data() + source.position, taken);
+  source.position += taken;
+  return static_cast<tmsize_t>(taken);
+}
+tmsize_t Write(thandle_t, void*, tmsize_t) { return 0; }
+toff_t Seek(thandle_t handle, toff_t offset, int whence) {
+  auto& source = *static_cast<Source*>(handle);
+  const std::size_t from = whence == SEEK_SET   ? 0
+                           : whence == SEEK_CUR ? source.position
+                                                : source.bytes.size();
+  return source.position = from + offset;
+}
+int Close(thandle_t) { return 0; }
+toff_t Size(thandle_t handle) { return static_cast<Source*>(handle)->bytes.size(); }
+void OnWarning(const char*, const char*, std::va_list) {}
+
+struct Layout {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint16_t bits = 1;
+  std::uint16_t channels = 1;
+  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
+  std::uint16_t planar = PLANARCONFIG_CONTIG;
+  std::uint16_t format = SAMPLEFORMAT_UINT;
+  std::uint16_t orientation = ORIENTATION_TOPLEFT;  // numbered as in EXIF
+};
+
+Layout ReadLayout(TIFF* tiff, std::size_t num_bytes, const std::string& name) {
+  Layout layout;
+  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &layout.width);
+  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &layout.height);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &layout.bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &layout.channels);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PHOTOMETRIC, &layout.photometric);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &layout.planar);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &layout.format);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &layout.orientation);
+  // We turn the image ourselves: libtiff mirrors, but does not turn by a quarter.
+  TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  CheckImageSize({.width = layout.width, .height = layout.height, .num_bytes = num_bytes}, name);
+  return layout;
+}
+
+RawImage EmptyImage(const Layout& layout, int channels, int bits) {
+  RawImage image{.width = static_cast<int>(layout.width),
+                 .height = static_cast<int>(layout.height),
+                 .channels = channels,
+                 .bits = bits,
+                 .orientation = layout.orientation,
+                 .gray = {},
+                 .samples = {}};
+  return image;
+}
+
+// 16-bit rows in strips, which libtiff's ready-made conversion would cut to 8 bits.
+RawImage ReadDeep(TIFF* tiff, const Layout& layout, const std::string& name) {
+  RawImage image = EmptyImage(layout, layout.channels, 16);
+  const bool inverted = layout.photometric == PHOTOMETRIC_MINISWHITE;
+  std::vector<std::uint16_t> row(static_cast<std::size_t>(layout.width) * layout.channels);
+  for (std::uint32_t y = 0; y < layout.height; ++y) {
+    if (TIFFReadScanline(tiff, row.data(), y) != 1) ThrowDamaged(name, "row cannot be decoded");
+    if (inverted) {
+      for (std::uint16_t& sample : row) sample = static_cast<std::uint16_t>(65535 - sample);
+    }
+    image.AddRow(row);
+  }
+  return image;
+}
+
+// Everything else through libtiff's own conversion to RGBA (palettes, tiles, 1-bit, CMYK, YCbCr).
+RawImage ReadConverted(TIFF* tiff, const Layout& layout, const std::string& name) {
+  RawImage image = EmptyImage(layout, 4, 8);
+  std::vector<std::uint32_t> raster(static_cast<std::size_t>(layout.width) * layout.height);
+  if (TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, raster.data(),
+                                ORIENTATION_TOPLEFT, 1) != 1) {
+    ThrowDamaged(name, "cannot be decoded");
+  }
+  for (const std::uint32_t pixel : raster) {
+    std::uint16_t samples[4];
+    int channel = 0;
+    for (const std::uint32_t sample :
+         {TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel), TIFFGetA(pixel)}) {
+      samples[channel++] = static_cast<std::uint16_t>(sample);
+    }
+    image.AddRow(samples);
+  }
+  return image;
+}
+
+}  // namespace
+
+RawImage DecodeTiff(std::string_view bytes, const std::string& name) {
+  TIFFSetErrorHandler(OnWarning);  // the exception says it
+  TIFFSetWarningHandler(OnWarning);
+  Source source{.bytes = bytes};
+  const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(
+      TIFFClientOpen(name.c_str(), "rm", &source, Read, Write, Seek, Close, Size, nullptr, nullptr),
+      TIFFClose);
+  if (!tiff) ThrowDamaged(name, "not a readable TIFF");
+  const Layout layout = ReadLayout(tiff.get(), bytes.size(), name);
+  const bool deep = layout.bits == 16 && layout.channels <= 4 &&
+                    layout.planar == PLANARCONFIG_CONTIG && layout.format == SAMPLEFORMAT_UINT &&
+                    layout.photometric <= PHOTOMETRIC_RGB && !TIFFIsTiled(tiff.get());
+  return deep ? ReadDeep(tiff.get(), layout, name) : ReadConverted(tiff.get(), layout, name);
+}
+
+}  // namespace talus::imaging

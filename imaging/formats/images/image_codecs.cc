@@ -1,0 +1,52 @@
+#include "imaging/formats/images/image_codecs.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace talus::imaging {
+
+std::uint8_t GrayLevel(const std::uint16_t* s, int channels, double white) {
+  const bool color = channels >= 3;
+  double luma = color ? (0.299 * s[0] + 0.587 * s[1] + 0.114 * s[2]) / white : s[0] / white;
+  if (channels % 2 == 0) {
+    const double alpha = s[channels - 1] / white;
+    luma = luma * alpha + 1 - alpha;
+  }
+  return static_cast<std::uint8_t>(std::clamp(luma, 0.0, 1.0) * 255 + 0.5);
+}
+
+void RawImage::AddRow(std::span<const std::uint16_t> row) {
+  if (bits == 16) {
+    samples.insert(samples.end(), row.begin(), row.end());
+    return;
+  }
+  for (std::size_t i = 0; i < row.size(); i += static_cast<std::size_t>(channels)) {
+    gray.push_back(GrayLevel(&row[i], channels, 255));
+  }
+}
+
+void CheckImageSize(const ImageSize& size, const std::string& name) {
+  constexpr std::int64_t kLongest = 65500;
+  constexpr std::int64_t kLargest = 200'000'000;
+  // White of 1 bit a pixel, deflated 1032 to 1, and some more.
+  constexpr std::int64_t kMostOfOneByte = 9000;
+  const auto [width, height, num_bytes] = size;
+  const std::string pixels = std::to_string(width) + " x " + std::to_string(height) + " px";
+  if (!(width >= 1 && height >= 1 && width <= kLongest && height <= kLongest &&
+        width * height <= kLargest)) {
+    throw base::ConfigError(name + ": has " + pixels +
+                            "; give an image of at least one and at most 200 million pixels");
+  }
+  if (width * height / kMostOfOneByte > static_cast<std::int64_t>(num_bytes)) {
+    ThrowDamaged(name, "it says that it has " + pixels + ", which do not fit into its " +
+                           std::to_string(num_bytes) + " bytes");
+  }
+}
+
+void ThrowDamaged(const std::string& name, const std::string& reason) {
+  throw base::ConfigError(name + ": the image is damaged (" + reason +
+                          "); copy it from the camera again or leave it out");
+}
+
+}  // namespace talus::imaging

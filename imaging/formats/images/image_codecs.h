@@ -1,0 +1,53 @@
+// What each file format decodes to, before it becomes 8-bit grey.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "imaging/formats/images/orientation.h"
+
+namespace talus::imaging {
+
+// Filled row by row from the top, so that a header that promises more than the file holds takes no
+// memory. Rows of 8 bits become grey at once; those of 16 are kept, as the largest sample of all
+// says how many of the bits the camera has used.
+struct RawImage {
+  int width = 0;
+  int height = 0;
+  int channels = 1;                    // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
+  int bits = 8;                        // 8 or 16
+  int orientation = kUpright;          // how the camera was held, as EXIF numbers it
+  std::vector<std::uint8_t> gray;      // of 8 bits
+  std::vector<std::uint16_t> samples;  // of 16 bits
+
+  // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
+  void AddRow(std::span<const std::uint16_t> row);
+};
+
+// Samples of one pixel as a grey level, 0 … 255: luma (Rec. 601), transparency on white.
+std::uint8_t GrayLevel(const std::uint16_t* samples, int channels, double white);
+
+// Each throws ConfigError that starts with `name` when the bytes are damaged or of a kind it does
+// not read.
+RawImage DecodePng(std::string_view bytes, const std::string& name);
+RawImage DecodeJpeg(std::string_view bytes, const std::string& name);
+RawImage DecodeTiff(std::string_view bytes, const std::string& name);
+RawImage DecodeBmp(std::string_view bytes, const std::string& name);
+RawImage DecodePgm(std::string_view bytes, const std::string& name);
+
+struct ImageSize {
+  std::int64_t width = 0;     // [px]
+  std::int64_t height = 0;    // [px]
+  std::size_t num_bytes = 0;  // of the file
+};
+
+// Throws ConfigError unless both sides are 1 … 65500, the area is at most 200 Mpx, and the file's
+// bytes can hold that many pixels: a damaged header must not ask for all memory.
+void CheckImageSize(const ImageSize& size, const std::string& name);
+
+[[noreturn]] void ThrowDamaged(const std::string& name, const std::string& reason);
+
+}  // namespace talus::imaging

@@ -1,0 +1,91 @@
+// Tables of numbers with a line of names: talus, ParaView's exported tables, YADE's text export.
+#include <optional>
+
+#include "base/error.h"
+#include "imaging/formats/spheres/sphere_formats.h"
+#include "imaging/formats/spheres/text_cursor.h"
+
+namespace talus::imaging {
+namespace {
+
+// The separator is the first of these that the line of names has.
+char SeparatorOf(std::string_view line) {
+  for (const char separator : {',', ';', '\t'}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return ' ';
+}
+
+std::vector<std::string_view> Cells(std::string_view line, char separator) {
+  if (separator == ' ') return Words(line);
+  std::vector<std::string_view> cells;
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, start), line.size());
+    std::string_view cell = Trimmed(line.substr(start, end - start));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
+      cell = cell.substr(1, cell.size() - 2);
+    }
+    cells.push_back(cell);
+    start = end + 1;
+  }
+  return cells;
+}
+
+struct Head {
+  std::vector<std::string> names;
+  char separator = ',';
+};
+
+// "x,y,z,r", "# x y z r" (numpy) or "#format x_y_z_r" (YADE, whose rows are parted by tabs).
+Head ReadHead(TextCursor& cursor) {
+  std::string_view line = Trimmed(cursor.Line());
+  if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
+  while (line.starts_with('#')) line = Trimmed(line.substr(1));
+  constexpr std::string_view kYade = "format ";
+  const bool yade = line.starts_with(kYade);
+  const char separator = yade ? '_' : SeparatorOf(line);
+  Head head{.names = {}, .separator = yade ? '\t' : separator};
+  for (const std::string_view cell : Cells(yade ? line.substr(kYade.size()) : line, separator)) {
+    head.names.emplace_back(cell);
+  }
+  double number = 0;
+  if (!head.names.empty() && ParseNumber(head.names.front(), number)) {
+    cursor.Fail("the first line must name the columns, such as x_m,y_m,z_m,diameter_m");
+  }
+  return head;
+}
+
+void ReadRow(const TextCursor& cursor, const std::vector<std::string_view>& cells,
+             const SphereColumns& columns, std::vector<double>& row,
+             std::vector<base::Sphere>& spheres) {
+  if (cells.size() != row.size()) {
+    cursor.Fail("has " + std::to_string(cells.size()) + " values where the first line names " +
+                std::to_string(row.size()));
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    // A column that is not ours may hold a text; if it is ours, Row's value is refused later.
+    if (!ParseNumber(cells[c], row[c])) row[c] = std::numeric_limits<double>::quiet_NaN();
+  }
+  spheres.push_back(columns.Row(row));
+}
+
+}  // namespace
+
+std::vector<base::Sphere> ReadSphereCsv(std::string_view text, const std::string& file,
+                                        const SphereFileOptions& options) {
+  TextCursor cursor(text, file);
+  const Head head = ReadHead(cursor);
+  const SphereColumns columns(head.names, file, options.length_unit.value_or(1));
+  std::vector<base::Sphere> spheres;
+  std::vector<double> row(head.names.size());
+  while (!cursor.AtEnd()) {
+    const std::string_view line = cursor.Line();
+    const std::string_view trimmed = Trimmed(line);
+    if (trimmed.empty() || trimmed.starts_with('#')) continue;
+    ReadRow(cursor, Cells(head.separator == '\t' ? trimmed : line, head.separator), columns, row,
+            spheres);
+  }
+  return spheres;
+}
+
+}  // namespace talus::imaging
