@@ -81,7 +81,7 @@ void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
   if (evidence.parameters.size() < 2) return;
   steps.push_back({.what = "Add a test that moves the grains otherwise",
                    .cost = "its photographs, and as many simulations again",
-                   .leaves = "not known before its heaps are simulated",
+                   .leaves = "what `talus next DIR --simulate` says of it",
                    .remaining = 0.9});
 }
 
