@@ -80,7 +80,7 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   if (!alone->CanModel()) throw base::Error("too few trials of \"" + name + "\" to predict it");
   const optimizer::Posterior& posterior = alone->Model();
   const ExperimentModel& model = posterior.models().front();
-  const Eigen::VectorXd answer = of_others->Recommend().point;
+  const Eigen::VectorXd& answer = result.others.point;
   const Eigen::MatrixXd draws = of_others->Sample().Draws(kDraws, view.spec.seed);
   result.implausibility = posterior.Implausibility(0, answer);
   result.least_implausibility = result.implausibility;

@@ -81,6 +81,7 @@ PartialAnswer AnswerOf(const JointView& view, optimizer::FidelityStrategy& strat
     low[i] = answer.credible[static_cast<std::size_t>(i)].low;
     high[i] = answer.credible[static_cast<std::size_t>(i)].high;
   }
+  partial.point = answer.point;
   partial.values = FreeValues(view.space, answer.point);
   partial.low = FreeValues(view.space, low);
   partial.high = FreeValues(view.space, high);

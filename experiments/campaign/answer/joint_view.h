@@ -41,6 +41,7 @@ std::unique_ptr<optimizer::FidelityStrategy> StrategyOf(const JointView& view,
 // What some of the experiments answer by themselves.
 struct PartialAnswer {
   std::vector<std::string> experiments;  // by name
+  Eigen::VectorXd point;                 // recommended, unit cube
   std::vector<double> values;            // of the free parameters, SI
   std::vector<double> low, high;         // joint 90 % ranges
   double region_volume = 1;              // of the joint 90 % region, share of the searched box
