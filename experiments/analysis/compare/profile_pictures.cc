@@ -16,16 +16,6 @@ constexpr int kTitleHeight = 26;  // [px]
 constexpr int kGap = 14;          // between tiles [px]
 constexpr int kTileWidth = 400;   // at least, for the titles [px]
 
-template <class Image>
-Picture MakePicture(const std::string& name, const std::string& title, const Image& image) {
-  return {.name = name,
-          .title = title,
-          .caption = {},
-          .width = image.width,
-          .height = image.height,
-          .png = imaging::EncodePng(image)};
-}
-
 std::string TitleOf(const ShownTrial& shown) { return "trial " + std::to_string(shown.trial->id); }
 
 struct Tile {

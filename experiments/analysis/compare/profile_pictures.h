@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/analysis/compare/compare.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
 
@@ -26,6 +27,17 @@ struct Picture {
   int height = 0;       // [px]
   std::string png;
 };
+
+// Of a grey or a colour image, without a caption.
+template <class Image>
+Picture MakePicture(const std::string& name, const std::string& title, const Image& image) {
+  return {.name = name,
+          .title = title,
+          .caption = {},
+          .width = image.width,
+          .height = image.height,
+          .png = imaging::EncodePng(image)};
+}
 
 // The AEHP, then the ANHP and the signed difference map of each trial that has an image.
 std::vector<Picture> ProfilePictures(const Evidence& evidence,

@@ -27,16 +27,6 @@ std::vector<base::Sphere> GrainsOf(const Evidence& evidence, int trial) {
   return imaging::ReadSpheres(file);
 }
 
-template <class Image>
-Picture PictureOf(const std::string& name, const std::string& title, const Image& image) {
-  return {.name = name,
-          .title = title,
-          .caption = {},
-          .width = image.width,
-          .height = image.height,
-          .png = imaging::EncodePng(image)};
-}
-
 Eigen::VectorXd PointOf(const Evidence& evidence, const std::vector<double>& values) {
   Eigen::VectorXd point(static_cast<Eigen::Index>(values.size()));
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -64,9 +54,9 @@ void AddHeap(const Evidence& evidence, std::size_t index, RepresentativeView& vi
   const double plate = evidence.reference.aehp.frame.plate_diameter;
   const auto on_plate = imaging::GrainsOnPlate(grains, plate);
   const imaging::Camera camera = imaging::WholeHeap(on_plate, plate, kRenderedWidth);
-  view.heap = PictureOf("heap_" + std::to_string(index + 1),
-                        "Heap of trial " + std::to_string(view.trial->id),
-                        imaging::RenderSpheres(on_plate, camera));
+  view.heap = MakePicture("heap_" + std::to_string(index + 1),
+                          "Heap of trial " + std::to_string(view.trial->id),
+                          imaging::RenderSpheres(on_plate, camera));
 }
 
 // The spec's photographs of one run: a camera's few views say enough.
@@ -106,8 +96,8 @@ void AddPhotographs(const Evidence& evidence, const Box& box, PhotoOverlay& over
         imaging::PhotoInFrame(imaging::ReadGrayImage(view.photo), view.plate, measured.photo_pixel,
                               evidence.reference.aehp.frame);
     overlay.photographs.push_back(
-        PictureOf("photograph_" + std::to_string(overlay.photographs.size() + 1),
-                  view.photo.filename().string(), Cropped(photo, box)));
+        MakePicture("photograph_" + std::to_string(overlay.photographs.size() + 1),
+                    view.photo.filename().string(), Cropped(photo, box)));
   }
 }
 
@@ -163,7 +153,7 @@ PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>
   overlay.pixel_mm = 1e3 * frame.pixel_size;
   overlay.center_x = camera.center_x;
   overlay.baseline = camera.baseline;
-  overlay.simulated = PictureOf(
+  overlay.simulated = MakePicture(
       "simulated_beside_photograph", "trial " + std::to_string(overlay.trial->id),
       imaging::RenderSpheres(imaging::GrainsOnPlate(grains, frame.plate_diameter), camera));
   try {
