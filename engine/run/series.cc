@@ -1,16 +1,13 @@
 #include "engine/run/series.h"
 
-#include <charconv>
 #include <limits>
+
+#include "base/text/number_text.h"
 
 namespace talus::engine {
 namespace {
 
-void Append(std::string& text, double value) {
-  char digits[32];
-  text += ',';
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
+void Append(std::string& text, double value) { text += "," + base::ExactNumber(value); }
 
 }  // namespace
 
@@ -68,9 +65,7 @@ void Series::Leaves(const Particle& p, SeriesState& state) const {
 
 void Series::Write(const Simulation& simulation, SeriesState& state) const {
   if (NextTime(state) > simulation.time()) return;
-  std::string row;
-  Append(row, simulation.time());
-  row.erase(0, 1);
+  std::string row = base::ExactNumber(simulation.time());
   row += "," + std::to_string(simulation.num_particles());
   for (const WallLoad& load : simulation.WallLoads()) {
     for (const Vec3& v : {load.force, load.torque}) {

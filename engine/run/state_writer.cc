@@ -1,10 +1,10 @@
 #include "engine/run/state_writer.h"
 
-#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "base/files/file.h"
+#include "base/text/number_text.h"
 #include "engine/run/state_file.h"
 
 namespace talus::engine {
@@ -19,10 +19,9 @@ double StateWriter::NextTime() const {
 
 void StateWriter::Write(const Simulation& simulation) {
   for (; NextTime() <= simulation.time(); ++next_) {
-    char name[32];
-    std::snprintf(name, sizeof name, "state_%04zu", next_);
     const std::vector<Particle> particles = simulation.Particles();
-    const std::string stem = (folder_ / name).string();
+    const std::string stem =
+        (folder_ / ("state_" + base::FileNumber(static_cast<std::int64_t>(next_)))).string();
     if (formats_.vtp) base::WriteFileAtomically(stem + ".vtp", VtpOf(particles, simulation.time()));
     if (formats_.csv) base::WriteFileAtomically(stem + ".csv", CsvOf(particles));
   }

@@ -14,7 +14,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "experiments/app/command_line.h"
 
 namespace {

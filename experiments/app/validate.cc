@@ -5,10 +5,10 @@
 #include <string>
 
 #include "base/json/json_reader.h"
+#include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/estimate.h"
-#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/trials/engines/command_engine.h"
@@ -19,12 +19,12 @@ namespace {
 
 void PrintExperiment(const journal::ExperimentRecord& e, const journal::CampaignRecord& record) {
   std::cout << "  experiment        " << (record.experiments.size() > 1 ? e.name + ": " : "")
-            << (!e.aehp_png.empty() ? "NEBP " + campaign::NumberText4(e.nebp_px) + " px"
+            << (!e.aehp_png.empty() ? "NEBP " + base::ShortNumber(e.nebp_px) + " px"
                                     : "numbers only");
-  if (e.noise_mm2) std::cout << ", noise floor " << campaign::NumberText4(*e.noise_mm2) << " mm²";
+  if (e.noise_mm2) std::cout << ", noise floor " << base::ShortNumber(*e.noise_mm2) << " mm²";
   for (const journal::ScalarRecord& s : e.scalars) {
-    std::cout << ", " << s.name << " " << campaign::NumberText4(s.value) << " ± "
-              << campaign::NumberText4(s.standard_error);
+    std::cout << ", " << s.name << " " << base::ShortNumber(s.value) << " ± "
+              << base::ShortNumber(s.standard_error);
   }
   std::cout << '\n';
 }
@@ -33,15 +33,15 @@ void PrintExperiment(const journal::ExperimentRecord& e, const journal::Campaign
 std::string At(const campaign::CampaignSpec& spec, const std::string& experiment,
                double scale_factor) {
   if (!spec.IsJoint()) return "";
-  return experiment + " at scale factor " + campaign::NumberText4(scale_factor) + ": ";
+  return experiment + " at scale factor " + base::ShortNumber(scale_factor) + ": ";
 }
 
 void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
                    const campaign::CampaignSpec& spec) {
   std::cout << "  searched         ";
   for (const journal::ParameterRecord& p : parameters) {
-    std::cout << ' ' << p.name << " in " << campaign::NumberText4(p.low) << " … "
-              << campaign::NumberText4(p.high) << (p.unit.empty() ? "" : " " + p.unit) << ';';
+    std::cout << ' ' << p.name << " in " << base::ShortNumber(p.low) << " … "
+              << base::ShortNumber(p.high) << (p.unit.empty() ? "" : " " + p.unit) << ';';
   }
   std::cout << " minimising " << base::NameOf(spec.objective) << '\n';
 }
@@ -73,10 +73,10 @@ void ValidateHeap(const base::JsonFile& file, bool) {
   const rigs::HeapCase heap_case = rigs::LoadHeapCase(file.path);
   const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
   std::cout << file.path.string() << ": is a heap case in order\n  grains            "
-            << size.num_grains << " of " << campaign::NumberText4(1e3 * size.mean_diameter)
+            << size.num_grains << " of " << base::ShortNumber(1e3 * size.mean_diameter)
             << " mm (D50)\n  steps             about "
-            << campaign::NumberText4(size.simulated_time / size.time_step) << " of "
-            << campaign::NumberText4(size.time_step) << " s\n";
+            << base::ShortNumber(size.simulated_time / size.time_step) << " of "
+            << base::ShortNumber(size.time_step) << " s\n";
   for (const std::string& warning : rigs::HeapWarnings(heap_case)) {
     std::cout << "  warning: " << warning << '\n';
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign_strategy.h"
-#include "experiments/campaign/folder/console.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
 namespace talus::campaign {
@@ -124,17 +124,17 @@ std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer) {
   if (answer.posterior) {
     const optimizer::PosteriorSummary& p = *answer.posterior;
     if (p.num_left_out < kFewestLeftOut || p.raw_coverage >= kLeastCoverage) return {};
-    return {
-        Worded({.kind = WarningKind::kPoorModel,
-                .value = p.raw_coverage,
-                .text = "its 90 % regions hold " + NumberText4(std::round(100 * p.raw_coverage)) +
-                        " % of the trials left out; the ranges are widened for it"})};
+    return {Worded({.kind = WarningKind::kPoorModel,
+                    .value = p.raw_coverage,
+                    .text = "its 90 % regions hold " +
+                            base::ShortNumber(std::round(100 * p.raw_coverage)) +
+                            " % of the trials left out; the ranges are widened for it"})};
   }
   if (!(answer.left_out_share > kMostLeftOut)) return {};
   return {Worded({.kind = WarningKind::kPoorModel,
                   .value = answer.left_out_share,
                   .text = "trials left out are missed by " +
-                          NumberText4(std::round(100 * answer.left_out_share)) +
+                          base::ShortNumber(std::round(100 * answer.left_out_share)) +
                           " % of their standard deviation, and a constant would miss them by "
                           "100 %"})};
 }

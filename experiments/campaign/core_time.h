@@ -13,7 +13,7 @@ namespace talus::campaign {
 
 // Of a usual core [grain steps/s]. Estimates that a strategy is told use it rather than the speed
 // of this machine, so that equal specs and seeds make equal proposals everywhere.
-inline constexpr double kUsualSpeed = 1e7;
+inline constexpr double kUsualSpeed = 4e7;
 
 // Grain steps of a trial in the middle of the ranges.
 double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor);

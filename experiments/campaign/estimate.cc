@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -64,10 +65,10 @@ double ConfirmTime(const CampaignSpec& spec, double speed) {
 std::string OneTrialText(const CampaignEstimate& e) {
   const TrialEstimate& trial = e.trials.front();
   return "  a trial           " + std::to_string(trial.num_grains) + " grains of " +
-         NumberText4(1e3 * trial.mean_diameter) + " mm, " +
-         NumberText4(std::round(trial.num_steps)) + " steps of " +
-         NumberText4(1e6 * trial.time_step) + " us, " +
-         NumberText4(std::round(1e-6 * trial.memory)) + " MB\n";
+         base::ShortNumber(1e3 * trial.mean_diameter) + " mm, " +
+         base::ShortNumber(std::round(trial.num_steps)) + " steps of " +
+         base::ShortNumber(1e6 * trial.time_step) + " us, " +
+         base::ShortNumber(std::round(1e-6 * trial.memory)) + " MB\n";
 }
 
 // What the budget would buy, if it were all spent on such trials.
@@ -89,12 +90,12 @@ std::string TrialLines(const CampaignSpec& spec, const CampaignEstimate& e) {
   std::string text;
   for (const TrialEstimate& trial : e.trials) {
     const std::string& name = experiments[static_cast<std::size_t>(trial.experiment)].name;
-    text += "  scale factor " + NumberText4(trial.scale_factor) +
+    text += "  scale factor " + base::ShortNumber(trial.scale_factor) +
             (experiments.size() > 1 ? " (" + name + ")" : "") + ": " +
             std::to_string(trial.num_grains) + " grains of " +
-            NumberText4(1e3 * trial.mean_diameter) + " mm, " +
-            NumberText4(std::round(trial.num_steps)) + " steps, " +
-            NumberText4(std::round(1e-6 * trial.memory)) + " MB, " +
+            base::ShortNumber(1e3 * trial.mean_diameter) + " mm, " +
+            base::ShortNumber(std::round(trial.num_steps)) + " steps, " +
+            base::ShortNumber(std::round(1e-6 * trial.memory)) + " MB, " +
             trials::DurationText(trial.core_seconds) + " of a core" +
             BoughtText(spec.budget, trial) + "\n";
   }
@@ -143,7 +144,7 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
 
 std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& e) {
   const bool one = e.trials.size() == 1 && !spec.budget.core_time;
-  const std::string speed = "  this machine      " + NumberText4(1e-6 * e.grain_steps_per_s) +
+  const std::string speed = "  this machine      " + base::ShortNumber(1e-6 * e.grain_steps_per_s) +
                             " million grain steps a second on a core\n";
   if (one) return OneTrialText(e) + speed + TimeText(e);
   return TrialLines(spec, e) + speed + "  time              at most " +

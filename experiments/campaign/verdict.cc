@@ -3,7 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "base/text/number_text.h"
 
 namespace talus::campaign {
 namespace {
@@ -12,11 +13,7 @@ constexpr double kTied = 0.8;   // correlation above which two parameters are kn
 constexpr double kWide = 0.25;  // share of a searched range above which it is no point
 
 // Three digits: a verdict is no table.
-std::string Short(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string Short(double value) { return base::ShortNumber(value, 3); }
 
 std::string Percent(double share) { return Short(100 * share) + " %"; }
 

@@ -1,6 +1,6 @@
 #include "experiments/runners/slurm_options.h"
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace talus::runners {
 

@@ -2,18 +2,16 @@
 
 #include <cstdio>
 
-namespace talus::optimizer {
-namespace {
+#include "base/text/number_text.h"
 
-std::string Print(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
+namespace talus::optimizer {
+
+std::string Rounded(double value) { return base::ShortNumber(value, 3); }
+
+std::string Percent(double share) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
   return text;
 }
-
-}  // namespace
-
-std::string Rounded(double value) { return Print("%.3g", value); }
-std::string Percent(double share) { return Print("%.1f %%", 100 * share); }
 
 }  // namespace talus::optimizer

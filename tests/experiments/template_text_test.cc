@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text/number_text.h"
 
 namespace talus::trials {
 namespace {
@@ -64,9 +65,9 @@ TEST(TextTemplate, NumbersAreReadBackAsTheSame) {
   base::Random random(1, base::Stream("numbers"));
   for (int i = 0; i < 1000; ++i) {
     const double value = std::exp(random.Uniform(-40, 40));
-    EXPECT_EQ(std::stod(NumberText(value)), value);
+    EXPECT_EQ(std::stod(base::ExactNumber(value)), value);
   }
-  EXPECT_EQ(NumberText(0.25), "0.25");
+  EXPECT_EQ(base::ExactNumber(0.25), "0.25");
 }
 
 }  // namespace

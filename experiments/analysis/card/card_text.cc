@@ -1,18 +1,14 @@
 // The card for people and for scripts, and what the codes' cards share.
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
 
-std::string CardNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string CardNumber(double value) { return base::ShortNumber(value, 6); }
 
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark) {
   std::ostringstream text;

@@ -1,17 +1,17 @@
+#include "base/text/csv.h"
 #include "experiments/analysis/compare/compare_tables.h"
-#include "experiments/analysis/compare/csv.h"
 
 namespace talus::analysis {
 namespace {
 
-void ParameterHeads(Csv& csv, const Evidence& evidence) {
+void ParameterHeads(base::Csv& csv, const Evidence& evidence) {
   for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(parameter.column);
 }
 
 }  // namespace
 
 std::string ObjectivesCsv(const ComparedCampaign& compared) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("objective").Cell("from").Cell("metric").Cell("quantity").Cell("reference");
   csv.Cell("objective_value").Cell("noise_sd");
   ParameterHeads(csv, compared.evidence);
@@ -34,7 +34,7 @@ std::string ObjectivesCsv(const ComparedCampaign& compared) {
 }
 
 std::string TenBestCsv(const ComparedCampaign& compared) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("objective").Cell("rank").Cell("quantity").Cell("objective_value");
   ParameterHeads(csv, compared.evidence);
   csv.Cell("trials").EndRow();

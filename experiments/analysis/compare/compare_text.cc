@@ -1,26 +1,20 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "base/text/number_text.h"
 #include "experiments/analysis/compare/aligned.h"
 #include "experiments/analysis/compare/compare_tables.h"
 
 namespace talus::analysis {
 namespace {
 
-std::string Number(double x, int digits = 4) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, x);
-  return text;
-}
-
 using Row = TextRow;
 
 std::string Experiment(const ObjectiveFinding& f) {
   if (!f.info.is_angle) return "-";
   const std::string error =
-      std::isfinite(f.reference_error) ? " ± " + Number(f.reference_error, 2) : "";
-  return Number(f.reference) + error + " " + std::string(f.info.unit);
+      std::isfinite(f.reference_error) ? " ± " + base::ShortNumber(f.reference_error, 2) : "";
+  return base::ShortNumber(f.reference) + error + " " + std::string(f.info.unit);
 }
 
 Row Head(const Evidence& evidence, const std::string& first, const Row& more) {
@@ -35,18 +29,18 @@ Row Head(const Evidence& evidence, const std::string& first, const Row& more) {
 Row SetRow(const ObjectiveFinding& f, const std::string& measured,
            const std::vector<double>& values) {
   Row row{std::string(f.info.title), measured + " " + std::string(f.info.unit), Experiment(f)};
-  for (const double value : values) row.push_back(Number(value, 3));
+  for (const double value : values) row.push_back(base::ShortNumber(value, 3));
   return row;
 }
 
-std::string Percent(double fraction) { return Number(100 * fraction, 2) + " %"; }
+std::string Percent(double fraction) { return base::ShortNumber(100 * fraction, 2) + " %"; }
 
 std::string FromTrials(const ComparedCampaign& compared) {
   std::vector<Row> rows{Head(compared.evidence, "from the trials", {"tied sets", "tied volume"})};
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.absent.empty()) continue;
     const ComparedSet& best = f.from_trials.best.front();
-    Row row = SetRow(f, Number(best.quantity), best.values);
+    Row row = SetRow(f, base::ShortNumber(best.quantity), best.values);
     row.push_back(std::to_string(f.from_trials.num_tied) + " of " +
                   std::to_string(f.from_trials.num_sets));
     row.push_back(Percent(f.from_trials.tied_volume));
@@ -60,7 +54,8 @@ std::string FromModel(const ComparedCampaign& compared) {
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.from_model) continue;
     const ModelFinding& model = *f.from_model;
-    const std::string measured = Number(model.there.quantity) + " ± " + Number(model.there.sd, 2);
+    const std::string measured =
+        base::ShortNumber(model.there.quantity) + " ± " + base::ShortNumber(model.there.sd, 2);
     Row row = SetRow(f, measured, model.values);
     row.push_back(Percent(model.tied_volume));
     rows.push_back(row);
@@ -73,7 +68,7 @@ std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f)
       Head(compared.evidence, "ten best by " + std::string(f.info.title), {"trials"})};
   for (std::size_t i = 0; i < f.from_trials.best.size(); ++i) {
     const ComparedSet& set = f.from_trials.best[i];
-    Row row = SetRow(f, Number(set.quantity), set.values);
+    Row row = SetRow(f, base::ShortNumber(set.quantity), set.values);
     row[0] = std::to_string(i + 1);
     std::string ids;
     for (std::size_t k = 0; k < std::min<std::size_t>(set.trials.size(), 6); ++k) {
@@ -99,7 +94,7 @@ std::string ComparisonText(const ComparedCampaign& compared) {
   text += "  Sets tie when they differ by at most the scatter of one simulation:";
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.absent.empty()) continue;
-    text += " " + std::string(f.info.title) + " " + Number(f.noise_sd, 2) + " " +
+    text += " " + std::string(f.info.title) + " " + base::ShortNumber(f.noise_sd, 2) + " " +
             std::string(f.info.unit) + ";";
   }
   text.back() = '.';

@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/answer/campaign_result.h"
-#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/verdict.h"
 #include "experiments/journal/objective.h"
 
@@ -13,14 +13,14 @@ namespace {
 
 std::vector<std::string> ConditionTexts(const campaign::ResultConditions& c) {
   std::vector<std::string> texts{
-      "Young's modulus of the grains " + campaign::NumberText4(c.youngs_modulus / 1e6) + " MPa",
-      "lift velocity " + campaign::NumberText4(c.lift_velocity * 100) + " cm/s",
+      "Young's modulus of the grains " + base::ShortNumber(c.youngs_modulus / 1e6) + " MPa",
+      "lift velocity " + base::ShortNumber(c.lift_velocity * 100) + " cm/s",
       "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
   texts.push_back(c.scale_factor == 1
                       ? "grains at their true size"
-                      : "grains " + campaign::NumberText4(c.scale_factor) +
+                      : "grains " + base::ShortNumber(c.scale_factor) +
                             " times their true size, surface energy scaled with exponent " +
-                            campaign::NumberText4(c.surface_energy_exponent));
+                            base::ShortNumber(c.surface_energy_exponent));
   return texts;
 }
 

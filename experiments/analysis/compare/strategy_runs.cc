@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/compare/aligned.h"
-#include "experiments/analysis/compare/csv.h"
 #include "experiments/journal/objective.h"
 
 namespace talus::analysis {
 namespace {
 
-std::string Number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return std::isnan(x) ? "-" : text;
-}
+std::string Number(double x) { return std::isnan(x) ? "-" : base::ShortNumber(x); }
 
 void RequireSameTask(const Evidence& first, const Evidence& other, const std::string& name) {
   if (!(first.reference.aehp.frame == other.reference.aehp.frame) ||
@@ -107,7 +103,7 @@ std::string StrategiesText(const std::vector<StrategyRun>& runs, double margin) 
 }
 
 std::string StrategiesCsv(const std::vector<StrategyRun>& runs) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("campaign").Cell("strategy").Cell("simulations").Cell("best_objective").EndRow();
   for (const StrategyRun& run : runs) {
     for (std::size_t i = 0; i < run.best.size(); ++i) {

@@ -1,6 +1,5 @@
 #include "experiments/analysis/export/export.h"
 
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -8,23 +7,10 @@
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "base/json/json_writer.h"
+#include "base/text/csv.h"
 
 namespace talus::analysis {
 namespace {
-
-// Shortest text that reads back to the same number; nothing for what is not a number.
-std::string Exact(double value) {
-  if (!std::isfinite(value)) return "";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::vector<std::string> MetricNames(const std::vector<journal::TrialRecord>& trials) {
   std::set<std::string> names;
@@ -39,22 +25,27 @@ std::vector<std::string> MetricNames(const std::vector<journal::TrialRecord>& tr
 std::string TrialsCsv(const journal::CampaignRecord& campaign,
                       const std::vector<journal::TrialRecord>& trials) {
   const std::vector<std::string> metrics = MetricNames(trials);
-  std::string csv = "trial,kind,origin,status,seed,experiment,scale_factor";
-  for (const journal::ParameterRecord& p : campaign.parameters) csv += "," + journal::ColumnName(p);
-  for (const std::string& metric : metrics) csv += "," + metric;
-  csv += ",duration_s,cpu_s,num_steps,num_particles,attempts,finish_order,host,reason\n";
-  for (const journal::TrialRecord& t : trials) {
-    csv += std::to_string(t.id) + "," + std::string(base::NameOf(t.kind)) + "," + t.origin + "," +
-           std::string(base::NameOf(t.status)) + "," + std::to_string(t.seed) + "," +
-           Quoted(campaign.experiments.at(static_cast<std::size_t>(t.experiment)).name) + "," +
-           Exact(t.scale_factor);
-    for (const double value : t.native) csv += "," + Exact(value);
-    for (const std::string& metric : metrics) csv += "," + Exact(t.Metric(metric).value_or(NAN));
-    csv += "," + Exact(t.duration_s) + "," + Exact(t.cpu_s) + "," + std::to_string(t.num_steps) +
-           "," + std::to_string(t.num_particles) + "," + std::to_string(t.attempts) + "," +
-           std::to_string(t.finish_order) + "," + Quoted(t.host) + "," + Quoted(t.reason) + "\n";
+  base::Csv csv;
+  for (const char* head :
+       {"trial", "kind", "origin", "status", "seed", "experiment", "scale_factor"}) {
+    csv.Cell(head);
   }
-  return csv;
+  for (const journal::ParameterRecord& p : campaign.parameters) csv.Cell(journal::ColumnName(p));
+  for (const std::string& metric : metrics) csv.Cell(metric);
+  for (const char* head : {"duration_s", "cpu_s", "num_steps", "num_particles", "attempts",
+                           "finish_order", "host", "reason"}) {
+    csv.Cell(head);
+  }
+  csv.EndRow();
+  for (const journal::TrialRecord& t : trials) {
+    csv.Cell(t.id).Cell(base::NameOf(t.kind)).Cell(t.origin).Cell(base::NameOf(t.status));
+    csv.Cell(t.seed).Cell(campaign.experiments.at(static_cast<std::size_t>(t.experiment)).name);
+    csv.Cell(t.scale_factor).Cells(t.native);
+    for (const std::string& metric : metrics) csv.Cell(t.Metric(metric).value_or(NAN));
+    csv.Cell(t.duration_s).Cell(t.cpu_s).Cell(t.num_steps).Cell(t.num_particles);
+    csv.Cell(t.attempts).Cell(t.finish_order).Cell(t.host).Cell(t.reason).EndRow();
+  }
+  return csv.Take();
 }
 
 std::string TrialsJson(const journal::CampaignRecord& campaign,

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
 
-using campaign::NumberText4;
+using base::ShortNumber;
 
 // A range's width as people read it: "0.12", or "× 3" of a logarithmic one.
 std::string WidthText(const NextTable& table, std::size_t parameter, double width) {
@@ -36,7 +37,7 @@ std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
 std::string SetText(const std::vector<double>& values) {
   std::string text = "(";
   for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + NumberText4(values[i]);
+    text += (i == 0 ? "" : ", ") + base::ShortNumber(values[i]);
   }
   return text + ")";
 }

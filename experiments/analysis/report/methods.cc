@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/campaign/folder/console.h"
+#include "base/text/number_text.h"
 
 namespace talus::analysis {
 namespace {
@@ -14,7 +14,7 @@ std::string Spaced(std::string name) {
 }
 
 std::string WithUnit(double value, const std::string& unit) {
-  return campaign::NumberText4(value) + (unit.empty() ? "" : " " + unit);
+  return base::ShortNumber(value) + (unit.empty() ? "" : " " + unit);
 }
 
 // "a, b and c"
@@ -31,8 +31,8 @@ std::string Searched(const Evidence& evidence) {
   std::vector<std::string> words;
   for (const ParameterInfo& p : evidence.parameters) {
     words.push_back(
-        Spaced(p.range.name) + " " + p.symbol + " in [" + campaign::NumberText4(p.range.low) +
-        ", " + WithUnit(p.range.high, p.unit) + "]" +
+        Spaced(p.range.name) + " " + p.symbol + " in [" + base::ShortNumber(p.range.low) + ", " +
+        WithUnit(p.range.high, p.unit) + "]" +
         (p.range.scale == optimizer::Scale::kLog ? " (searched on a logarithmic scale)" : ""));
   }
   return Listed(words);
@@ -45,8 +45,8 @@ std::string Answered(const Evidence& evidence, const ObjectiveFinding& own) {
     const ParameterInfo& p = evidence.parameters[k];
     std::string word = p.symbol + " = " + WithUnit(c.values[k].value, p.unit);
     if (std::isfinite(c.values[k].low)) {
-      word += " (90 % credible range " + campaign::NumberText4(c.values[k].low) + " to " +
-              campaign::NumberText4(c.values[k].high) + ")";
+      word += " (90 % credible range " + base::ShortNumber(c.values[k].low) + " to " +
+              base::ShortNumber(c.values[k].high) + ")";
     }
     words.push_back(word);
   }
@@ -84,7 +84,7 @@ std::string MethodsText(const ReportData& data) {
   text += failed > 0 ? "; " + std::to_string(failed) + " failed." : ".";
   if (std::isfinite(e.reference.noise_floor)) {
     text += " The experiment's runs differ from the mean of the others by " +
-            campaign::NumberText4(e.reference.noise_floor) + " mm² (leave-one-run-out SAD).";
+            base::ShortNumber(e.reference.noise_floor) + " mm² (leave-one-run-out SAD).";
   }
   if (e.conclusion) text += Answered(e, data.own());
   return text;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/campaign/folder/console.h"
+#include "base/text/number_text.h"
 
 namespace talus::analysis {
 namespace {
@@ -12,7 +12,7 @@ constexpr double kMeasured = 0.05;        // of a searched range: what a direct 
 constexpr Eigen::Index kFewestNear = 30;  // draws that a conditional range is made of
 constexpr double kWorthAWord = 0.7;       // of the ranges' volume
 
-std::string Number(double value) { return campaign::NumberText4(value); }
+std::string Number(double value) { return base::ShortNumber(value); }
 
 // The middle 90 % of a column, unit cube.
 std::pair<double, double> RangeOf(const Eigen::MatrixXd& draws, Eigen::Index column) {

@@ -1,13 +1,13 @@
 #include "experiments/analysis/report/tables.h"
 
+#include "base/text/csv.h"
 #include "experiments/analysis/compare/compare_tables.h"
-#include "experiments/analysis/compare/csv.h"
 
 namespace talus::analysis {
 namespace {
 
 std::string Trials(const Evidence& evidence) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("trial").Cell("state").Cell("purpose").Cell("seed").Cell("scale_factor");
   for (const ParameterInfo& parameter : evidence.parameters) csv.Cell(parameter.column);
   for (const MetricInfo& metric : evidence.metrics) csv.Cell(metric.name);
@@ -21,7 +21,7 @@ std::string Trials(const Evidence& evidence) {
 }
 
 std::string Measures(const ReportData& data) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("profile").Cell("why");
   for (const MetricInfo& metric : data.evidence.metrics) csv.Cell(metric.name);
   csv.EndRow();
@@ -32,7 +32,7 @@ std::string Measures(const ReportData& data) {
 }
 
 std::string Outlines(const ReportData& data) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("profile").Cell("x_m").Cell("height_m").EndRow();
   for (const OutlineCurve& outline : data.outlines) {
     for (std::size_t i = 0; i < outline.x.size(); ++i) {

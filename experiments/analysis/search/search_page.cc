@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 #include <vector>
 
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
-#include "experiments/analysis/compare/csv.h"
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/search/search_figures.h"
 #include "page_files.h"  // made by talus_embed
 
@@ -26,12 +26,7 @@ std::string Escaped(std::string_view text) {
 }
 
 // A dash where there is no number.
-std::string Print(double x) {
-  if (!std::isfinite(x)) return "–";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
+std::string Print(double x) { return std::isfinite(x) ? base::ShortNumber(x) : "–"; }
 
 std::string Row(const std::vector<std::string>& cells, const char* tag = "td") {
   std::string row = "<tr>";
@@ -113,7 +108,7 @@ std::string EvaluationTable(const SearchFolder& search) {
 }
 
 std::string EvaluationCsv(const SearchFolder& search) {
-  Csv csv;
+  base::Csv csv;
   for (const std::string& name : Head(search)) csv.Cell(name);
   csv.EndRow();
   for (const SearchEvaluation& one : search.evaluations) {

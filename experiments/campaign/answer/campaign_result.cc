@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
-#include "experiments/campaign/folder/console.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::campaign {
@@ -18,8 +18,9 @@ std::string Padded(std::string text, std::size_t width) {
 std::string ParameterLines(const CampaignResult& result) {
   std::string text;
   for (const ResultParameter& p : result.parameters) {
-    text += "  " + Padded(p.name, 18) + Padded(NumberText4(p.value) + " " + p.unit, 18) +
-            "90 % in " + NumberText4(p.credible_low) + " … " + NumberText4(p.credible_high) + "\n";
+    text += "  " + Padded(p.name, 18) + Padded(base::ShortNumber(p.value) + " " + p.unit, 18) +
+            "90 % in " + base::ShortNumber(p.credible_low) + " … " +
+            base::ShortNumber(p.credible_high) + "\n";
   }
   if (result.parameters.size() > 1) text += "  (90 % for all of them together)\n";
   return text;
@@ -30,13 +31,14 @@ std::string ExperimentLines(const std::vector<ResultConfirmed>& experiments,
   std::string text;
   for (const ResultConfirmed& e : experiments) {
     text += "    " + Padded(e.name, 16);
-    if (std::isfinite(e.mean)) text += NumberText4(e.mean) + unit;
+    if (std::isfinite(e.mean)) text += base::ShortNumber(e.mean) + unit;
     if (e.over_floor) {
-      text += ", its mean profile " + NumberText4(*e.over_floor) + " times the noise floor";
+      text += ", its mean profile " + base::ShortNumber(*e.over_floor) + " times the noise floor";
     }
     for (const ResultScalar& s : e.scalars) {
-      text += (text.ends_with(' ') ? "" : "; ") + s.name + " " + NumberText4(s.mean) +
-              ", measured " + NumberText4(s.measured) + " ± " + NumberText4(s.measured_sd);
+      text += (text.ends_with(' ') ? "" : "; ") + s.name + " " + base::ShortNumber(s.mean) +
+              ", measured " + base::ShortNumber(s.measured) + " ± " +
+              base::ShortNumber(s.measured_sd);
     }
     text += "\n";
   }
@@ -49,13 +51,14 @@ std::string ConfirmedLines(const CampaignResult& result) {
   for (std::size_t i = 0; i < result.confirmed.size(); ++i) {
     const ResultCandidate& c = result.confirmed[i];
     std::string line = i == 0 ? "  confirmed" : "  candidate " + std::to_string(i + 1);
-    text += Padded(line, 20) + (std::isfinite(c.mean) ? NumberText4(c.mean) + unit : "by numbers");
-    if (std::isfinite(c.standard_error)) text += " ± " + NumberText4(c.standard_error);
+    text += Padded(line, 20) +
+            (std::isfinite(c.mean) ? base::ShortNumber(c.mean) + unit : "by numbers");
+    if (std::isfinite(c.standard_error)) text += " ± " + base::ShortNumber(c.standard_error);
     text += " (" + std::to_string(c.num_trials) + " fresh seeds, scale factor " +
-            NumberText4(c.scale_factor) + ")";
+            base::ShortNumber(c.scale_factor) + ")";
     if (i > 0) {
       text += " at";
-      for (const double value : c.values) text += " " + NumberText4(value);
+      for (const double value : c.values) text += " " + base::ShortNumber(value);
     }
     text += "\n";
     if (c.experiments) text += ExperimentLines(*c.experiments, unit);
@@ -66,18 +69,18 @@ std::string ConfirmedLines(const CampaignResult& result) {
 std::string FloorLine(const CampaignResult& result) {
   if (!result.noise_floor)
     return "  noise floor       not known: the experiment has one run only\n";
-  std::string text = "  noise floor       " + NumberText4(*result.noise_floor) +
+  std::string text = "  noise floor       " + base::ShortNumber(*result.noise_floor) +
                      " mm² SAD from run to run of the experiment";
   if (result.confirmed_over_floor) {
     text += "; the mean profile of the confirming runs is at " +
-            NumberText4(*result.confirmed_over_floor) + " times that";
+            base::ShortNumber(*result.confirmed_over_floor) + " times that";
   }
   return text + "\n";
 }
 
 std::string BranchLine(const ResultBranch& branch) {
-  std::string text = "    " + NumberText4(100 * branch.share) + " % at";
-  for (const double value : branch.values) text += " " + NumberText4(value);
+  std::string text = "    " + base::ShortNumber(100 * branch.share) + " % at";
+  for (const double value : branch.values) text += " " + base::ShortNumber(value);
   return text + "\n";
 }
 
@@ -88,19 +91,21 @@ std::string PosteriorLines(const CampaignResult& result) {
     for (const ResultBranch& branch : p.branches) text += BranchLine(branch);
   }
   for (const ResultStanding& e : p.experiments) {
-    text += "  " + Padded(e.name, 18) + "implausibility " + NumberText4(e.implausibility) + "\n";
+    text +=
+        "  " + Padded(e.name, 18) + "implausibility " + base::ShortNumber(e.implausibility) + "\n";
   }
   for (const ResultAlone& a : p.alone) {
     text += "  " + a.name + " alone:";
     for (std::size_t i = 0; i < a.values.size(); ++i) {
-      text += (i == 0 ? " " : ", ") + result.parameters[i].name + " " + NumberText4(a.values[i]) +
-              " (" + NumberText4(a.low[i]) + " to " + NumberText4(a.high[i]) + ")";
+      text += (i == 0 ? " " : ", ") + result.parameters[i].name + " " +
+              base::ShortNumber(a.values[i]) + " (" + base::ShortNumber(a.low[i]) + " to " +
+              base::ShortNumber(a.high[i]) + ")";
     }
     text += "\n";
   }
   return text + "  coverage          of 90 % regions, leave-one-out over " +
-         std::to_string(p.num_left_out) + " trials: " + NumberText4(100 * p.raw_coverage) +
-         " % raw, " + NumberText4(100 * p.tempered_coverage) + " % tempered\n";
+         std::to_string(p.num_left_out) + " trials: " + base::ShortNumber(100 * p.raw_coverage) +
+         " % raw, " + base::ShortNumber(100 * p.tempered_coverage) + " % tempered\n";
 }
 
 }  // namespace
@@ -127,23 +132,23 @@ std::string ResultSummary(const CampaignResult& r) {
   if (r.verdict) text += "  verdict           " + r.verdict->text + "\n";
   const bool has_image = std::isfinite(r.predicted);
   if (has_image) {
-    text += "  predicted         " + NumberText4(r.predicted) + " " + r.objective_unit + " ± " +
-            NumberText4(r.predicted_sd) + "; one simulation scatters by " +
-            NumberText4(r.noise_sd) + "\n";
+    text += "  predicted         " + base::ShortNumber(r.predicted) + " " + r.objective_unit +
+            " ± " + base::ShortNumber(r.predicted_sd) + "; one simulation scatters by " +
+            base::ShortNumber(r.noise_sd) + "\n";
   }
   text += ConfirmedLines(r);
   if (has_image) text += FloorLine(r);
   text += r.posterior ? PosteriorLines(r)
-                      : "  tied within noise " + NumberText4(100 * r.tied_volume) +
+                      : "  tied within noise " + base::ShortNumber(100 * r.tied_volume) +
                             " % of the searched ranges\n";
   text += "  stopped because   " + r.stop_reason + "\n";
-  text += "  holds for         scale factor " + NumberText4(r.conditions.scale_factor) + ", Y " +
-          NumberText4(r.conditions.youngs_modulus) + " Pa, lift velocity " +
-          NumberText4(r.conditions.lift_velocity) + " m/s, adhesion " + r.conditions.adhesion +
-          ", rolling " + r.conditions.rolling + "\n";
+  text += "  holds for         scale factor " + base::ShortNumber(r.conditions.scale_factor) +
+          ", Y " + base::ShortNumber(r.conditions.youngs_modulus) + " Pa, lift velocity " +
+          base::ShortNumber(r.conditions.lift_velocity) + " m/s, adhesion " +
+          r.conditions.adhesion + ", rolling " + r.conditions.rolling + "\n";
   text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
-          std::to_string(r.cost.num_failed) + " failed), " + NumberText4(r.cost.core_hours) +
-          " core hours, " + NumberText4(r.cost.elapsed / 60) + " min\n";
+          std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
+          " core hours, " + base::ShortNumber(r.cost.elapsed / 60) + " min\n";
   text += "  model             " + r.model + "\n";
   for (const ResultWarning& warning : r.warnings) text += "  warning: " + warning.text + "\n";
   return text;

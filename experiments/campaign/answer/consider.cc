@@ -7,9 +7,9 @@
 #include "base/json/json_writer.h"
 #include "base/nearest.h"
 #include "base/problems.h"
+#include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
-#include "experiments/campaign/folder/console.h"
 
 namespace talus::campaign {
 namespace {
@@ -31,9 +31,9 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
     if (given == set.end()) continue;
     try {
       const double value = ParseProperty(p.name, given->second);
-      problems.Require(
-          value >= p.low && value <= p.high, p.name, value,
-          "must be in the searched range, " + NumberText4(p.low) + " to " + NumberText4(p.high));
+      problems.Require(value >= p.low && value <= p.high, p.name, value,
+                       "must be in the searched range, " + base::ShortNumber(p.low) + " to " +
+                           base::ShortNumber(p.high));
       point[static_cast<Eigen::Index>(i)] = p.ToUnit(value);
     } catch (const base::ConfigError& error) {
       problems.Add(p.name, error.what());
@@ -70,7 +70,7 @@ std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
                     const std::vector<double>& values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + NumberText4(values[i]) +
+    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + base::ShortNumber(values[i]) +
             (parameters[i].unit.empty() ? "" : " " + parameters[i].unit);
   }
   return text;
@@ -103,24 +103,24 @@ std::string ConsideredText(const ConsideredSet& c) {
     text += "  credible level    not known yet: too few trials\n";
   } else {
     const bool inside = *c.credible_level <= 0.9;
-    text += "  credible level    " + NumberText4(*c.credible_level) + ": " +
+    text += "  credible level    " + base::ShortNumber(*c.credible_level) + ": " +
             (inside ? "inside" : "outside") + " the joint 90 % region\n";
   }
   for (const ResultStanding& e : c.experiments) {
     text += "  " + e.name + ": ";
     if (std::isfinite(e.predicted)) {
-      text += "predicted " + NumberText4(e.predicted) + " " + c.objective_unit + " ± " +
-              NumberText4(e.predicted_sd) + " at scale factor " +
-              NumberText4(c.target_scale_factor) + ", ";
+      text += "predicted " + base::ShortNumber(e.predicted) + " " + c.objective_unit + " ± " +
+              base::ShortNumber(e.predicted_sd) + " at scale factor " +
+              base::ShortNumber(c.target_scale_factor) + ", ";
     }
-    text += "implausibility " + NumberText4(e.implausibility) + "\n";
+    text += "implausibility " + base::ShortNumber(e.implausibility) + "\n";
   }
   text += "  nearest trials\n";
   for (const NearTrial& near : c.nearest) {
     text += "    trial " + std::to_string(near.trial.id) + " at " +
             SetText(c.parameters, near.trial.native) + ", scale factor " +
-            NumberText4(near.trial.scale_factor) + ": " +
-            (near.objective ? NumberText4(*near.objective) + " " + c.objective_unit
+            base::ShortNumber(near.trial.scale_factor) + ": " +
+            (near.objective ? base::ShortNumber(*near.objective) + " " + c.objective_unit
                             : std::string(base::NameOf(near.trial.status))) +
             "\n";
   }

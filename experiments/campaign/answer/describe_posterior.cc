@@ -1,19 +1,13 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 
-#include <charconv>
 #include <cmath>
 
-#include "experiments/campaign/folder/console.h"
+#include "base/text/csv.h"
 
 namespace talus::campaign {
 namespace {
 
 constexpr double kAlarm = 3;  // implausibility above which no set fits
-
-std::string Exact(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 }  // namespace
 
@@ -76,18 +70,13 @@ std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
                          const optimizer::ParameterSpace& space,
                          const std::vector<journal::ParameterRecord>& parameters) {
-  std::string csv;
-  for (const journal::ParameterRecord& p : parameters)
-    csv += (csv.empty() ? "" : ",") + journal::ColumnName(p);
-  csv += "\n";
+  base::Csv csv;
+  for (const journal::ParameterRecord& p : parameters) csv.Cell(journal::ColumnName(p));
+  csv.EndRow();
   for (Eigen::Index i = 0; i < summary.draws.rows(); ++i) {
-    std::string line;
-    for (const double value : FreeValues(space, summary.draws.row(i))) {
-      line += (line.empty() ? "" : ",") + Exact(value);
-    }
-    csv += line + "\n";
+    csv.Cells(FreeValues(space, summary.draws.row(i))).EndRow();
   }
-  return csv;
+  return csv.Take();
 }
 
 }  // namespace talus::campaign

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "experiments/campaign/folder/console.h"
+#include "base/text/number_text.h"
 
 namespace talus::campaign {
 namespace {
@@ -42,11 +42,11 @@ std::string AnswerLine(const JointView& view, const PartialAnswer& answer) {
   std::string line;
   for (std::size_t i = 0; i < answer.values.size(); ++i) {
     const journal::ParameterRecord& p = view.record.parameters[i];
-    line += (i == 0 ? "" : ", ") + p.name + " " + NumberText4(answer.values[i]) + " (" +
-            NumberText4(answer.low[i]) + " to " + NumberText4(answer.high[i]) + ")" +
+    line += (i == 0 ? "" : ", ") + p.name + " " + base::ShortNumber(answer.values[i]) + " (" +
+            base::ShortNumber(answer.low[i]) + " to " + base::ShortNumber(answer.high[i]) + ")" +
             (p.unit.empty() ? "" : " " + p.unit);
   }
-  return line + "; region " + NumberText4(100 * answer.region_volume) + " % of the ranges";
+  return line + "; region " + base::ShortNumber(100 * answer.region_volume) + " % of the ranges";
 }
 
 nlohmann::ordered_json AnswerJson(const JointView& view, const PartialAnswer& answer) {
@@ -114,16 +114,16 @@ std::string HeldOutText(const JointView& view, const HeldOut& h) {
   std::string text = "  held out          " + h.name + "\n  others answer     " +
                      AnswerLine(view, h.others) + "\n";
   if (std::isfinite(h.predicted)) {
-    text += "  predicted         " + NumberText4(h.predicted) + " " + h.objective_unit + " ± " +
-            NumberText4(h.predicted_sd) + " from the images of " + h.name + "\n";
+    text += "  predicted         " + base::ShortNumber(h.predicted) + " " + h.objective_unit +
+            " ± " + base::ShortNumber(h.predicted_sd) + " from the images of " + h.name + "\n";
   }
   for (const PredictedNumber& n : h.numbers) {
-    text += "  " + n.name + "    predicted " + NumberText4(n.low) + " to " + NumberText4(n.high) +
-            ", measured " + NumberText4(n.measured) + " ± " + NumberText4(n.measured_sd) +
-            (n.IsInside() ? ": inside\n" : ": outside\n");
+    text += "  " + n.name + "    predicted " + base::ShortNumber(n.low) + " to " +
+            base::ShortNumber(n.high) + ", measured " + base::ShortNumber(n.measured) + " ± " +
+            base::ShortNumber(n.measured_sd) + (n.IsInside() ? ": inside\n" : ": outside\n");
   }
-  return text + "  implausibility    " + NumberText4(h.implausibility) + ", " +
-         NumberText4(h.least_implausibility) + " at the best set of the others' region\n";
+  return text + "  implausibility    " + base::ShortNumber(h.implausibility) + ", " +
+         base::ShortNumber(h.least_implausibility) + " at the best set of the others' region\n";
 }
 
 std::string HeldOutJson(const JointView& view, const HeldOut& h) {

@@ -2,15 +2,15 @@
 
 #include <cmath>
 
-#include "experiments/campaign/folder/console.h"
+#include "base/text/number_text.h"
 
 namespace talus::campaign {
 namespace {
 
 std::string TextOf(const ResultWarning& w) {
-  const std::string factor = "scale factor " + NumberText4(w.scale_factor.value_or(1));
+  const std::string factor = "scale factor " + base::ShortNumber(w.scale_factor.value_or(1));
   const std::string experiment = "\"" + w.experiment.value_or("") + "\"";
-  const std::string value = NumberText4(w.value.value_or(0));
+  const std::string value = base::ShortNumber(w.value.value_or(0));
   switch (w.kind) {
     case WarningKind::kBound:
       return w.parameter.value_or("") + " lies on its " + w.side.value_or("") +
@@ -43,7 +43,7 @@ std::string TextOf(const ResultWarning& w) {
     case WarningKind::kCorrelated:
       return w.parameter.value_or("") + " and " + w.other_parameter.value_or("") +
              " are known together only (correlation " +
-             NumberText4(std::round(100 * w.value.value_or(0)) / 100) +
+             base::ShortNumber(std::round(100 * w.value.value_or(0)) / 100) +
              "): use them as a pair, or measure one of them in another test";
     case WarningKind::kPoorModel:
       return "the model predicts badly what it was not told: " + w.text;

@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
+#include "base/text/number_text.h"
 
 namespace talus::campaign {
 namespace {
@@ -26,9 +26,7 @@ constexpr std::chrono::milliseconds kPause{20};
 }  // namespace
 
 std::filesystem::path CampaignFolder::trial(std::int64_t id) const {
-  char name[32];
-  std::snprintf(name, sizeof name, "%04lld", static_cast<long long>(id));
-  return root / "trials" / name;
+  return root / "trials" / base::FileNumber(id);
 }
 
 std::filesystem::path CampaignFolder::experiment(std::size_t index) const {

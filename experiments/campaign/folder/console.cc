@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/json/json_writer.h"
-#include "base/printable.h"
+#include "base/text/printable.h"
 #include "experiments/journal/journal.h"
 
 namespace talus::campaign {
@@ -63,12 +63,6 @@ void Console::Status(const CampaignProgress& progress) {
   base::EraseTerminalLine(STDERR_FILENO);
   std::cerr << ProgressText(progress) << std::flush;
   status_shown_ = true;
-}
-
-std::string NumberText4(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
 }
 
 }  // namespace talus::campaign

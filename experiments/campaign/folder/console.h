@@ -38,7 +38,4 @@ class Console {
   std::string last_status_;  // for scripts
 };
 
-// Four significant digits: more than a calibration knows.
-std::string NumberText4(double value);
-
 }  // namespace talus::campaign

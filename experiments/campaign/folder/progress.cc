@@ -1,5 +1,6 @@
 #include "experiments/campaign/folder/progress.h"
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -9,14 +10,14 @@ std::string ProgressText(const TrialProgress& trial) {
   std::string text =
       "trial " + std::to_string(trial.trial) + " (" + std::string(base::NameOf(trial.kind)) + ")";
   for (std::size_t i = 0; i < trial.values.size(); ++i) {
-    text += (i == 0 ? " at " : " ") + NumberText4(trial.values[i]);
+    text += (i == 0 ? " at " : " ") + base::ShortNumber(trial.values[i]);
   }
   if (!trial.experiment.empty()) text += ", " + trial.experiment;
-  if (trial.scale_factor) text += " at scale factor " + NumberText4(*trial.scale_factor);
+  if (trial.scale_factor) text += " at scale factor " + base::ShortNumber(*trial.scale_factor);
   if (trial.status == journal::TrialStatus::kFailed) {
     text += " failed: " + trial.reason;
   } else if (trial.objective) {
-    text += ": " + NumberText4(*trial.objective) + " " + trial.unit;
+    text += ": " + base::ShortNumber(*trial.objective) + " " + trial.unit;
     if (trial.best) text += ", the best so far";
   } else {
     text += ": the objective is not defined";
@@ -33,7 +34,7 @@ std::string ProgressText(const CampaignProgress& campaign) {
   }
   text += ", " + std::to_string(campaign.num_running) + " running";
   if (campaign.best) {
-    text += ", best " + NumberText4(*campaign.best) + " " + campaign.unit + " (trial " +
+    text += ", best " + base::ShortNumber(*campaign.best) + " " + campaign.unit + " (trial " +
             std::to_string(campaign.best_trial) + ")";
   }
   if (campaign.seconds_left) {

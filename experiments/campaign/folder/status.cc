@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/answer/campaign_result.h"
 #include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/folder/console.h"
@@ -60,11 +61,11 @@ std::string BestLine(const std::vector<journal::TrialRecord>& trials,
     best_value = *value;
   }
   if (best == nullptr) return "no trial has succeeded yet\n";
-  std::string text = NumberText4(best_value) + " " + std::string(reference.info().unit) +
+  std::string text = base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
                      ", trial " + std::to_string(best->id) + ":";
   for (std::size_t i = 0; i < best->native.size(); ++i) {
     text += (i == 0 ? " " : ", ") + campaign.parameters[i].name + " " +
-            NumberText4(best->native[i]) +
+            base::ShortNumber(best->native[i]) +
             (campaign.parameters[i].unit.empty() ? "" : " " + campaign.parameters[i].unit);
   }
   return text + "\n";
@@ -84,8 +85,8 @@ std::string BestLines(const std::vector<journal::TrialRecord>& trials,
       const auto count =
           std::count_if(trials.begin(), trials.end(),
                         [&](const journal::TrialRecord& t) { return kind.Is(t) && IsOfSearch(t); });
-      text += "  " + campaign.experiments[e].name + " at scale factor " + NumberText4(factor) +
-              ": " + std::to_string(count) + " trials, best " +
+      text += "  " + campaign.experiments[e].name + " at scale factor " +
+              base::ShortNumber(factor) + ": " + std::to_string(count) + " trials, best " +
               BestLine(trials, campaign, references[e], kind);
     }
   }
@@ -133,7 +134,7 @@ std::string StatusText(const std::filesystem::path& root) {
   text += BestLines(trials, campaign, spec);
   for (const journal::ExperimentRecord& e : campaign.experiments) {
     if (!e.noise_mm2) continue;
-    text += "  noise floor       " + NumberText4(*e.noise_mm2) + " mm² (" +
+    text += "  noise floor       " + base::ShortNumber(*e.noise_mm2) + " mm² (" +
             (campaign.experiments.size() > 1 ? e.name : "experiment") + ")\n";
   }
   if (counts.finished > 0) {

@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/problems.h"
+#include "base/text/number_text.h"
 #include "base/units.h"
-#include "experiments/campaign/folder/console.h"
 
 namespace talus::campaign {
 namespace {
@@ -36,8 +36,8 @@ double Rounded(double factor) { return std::max(1.0, std::floor(2 * factor) / 2)
 std::string ScaleFactors(double grains_across) {
   const double fine = Rounded(grains_across / kFineAcross);
   const double coarse = Rounded(grains_across / kCoarseAcross);
-  if (coarse <= fine) return "[" + NumberText4(fine) + "]";
-  return "[" + NumberText4(coarse) + ", " + NumberText4(fine) + "]";
+  if (coarse <= fine) return "[" + base::ShortNumber(fine) + "]";
+  return "[" + base::ShortNumber(coarse) + ", " + base::ShortNumber(fine) + "]";
 }
 
 std::string Photographs(const SpecAnswers& answers) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/text/number_text.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -31,7 +32,7 @@ using Scalars = std::map<std::string, std::string, std::less<>>;
 
 void AddMaterial(const std::string& prefix, const engine::Material& material, Scalars& scalars) {
   engine::Material::Visit(material, [&](std::string_view key, double value, base::FieldInfo) {
-    scalars[prefix + std::string(key)] = NumberText(value);
+    scalars[prefix + std::string(key)] = base::ExactNumber(value);
   });
 }
 
@@ -44,7 +45,7 @@ void AddDevice(const rigs::HeapCase& c, Scalars& scalars) {
       {"plate_radius", device.plate_diameter / 2},
       {"plate_height", device.plate_height},
       {"lift_velocity", device.lift_velocity}};
-  for (const auto& [name, value] : kLengths) scalars[name] = NumberText(value);
+  for (const auto& [name, value] : kLengths) scalars[name] = base::ExactNumber(value);
   const engine::Material& powder = c.powder.material;
   AddMaterial("tube_", device.tube_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
   AddMaterial("plate_", device.plate_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
@@ -59,7 +60,7 @@ struct RigValues {
     scalars[prefix + std::string(key)] = base::NameOf(kind);
   }
   void operator()(std::string_view key, double value, base::FieldInfo = {}) {
-    scalars[prefix + std::string(key)] = NumberText(value);
+    scalars[prefix + std::string(key)] = base::ExactNumber(value);
   }
   void operator()(std::string_view key, const std::optional<double>& value, base::FieldInfo = {}) {
     if (value) (*this)(key, *value);
@@ -74,18 +75,18 @@ void AddSizes(const rigs::HeapCase& c, Scalars& scalars) {
   const double factor = c.coarse_graining.scale_factor;
   const engine::SizeCurve curve(c.powder.sizes);
   const rigs::HeapSize size = rigs::EstimateHeap(c);
-  scalars["scale_factor"] = NumberText(factor);
-  scalars["smallest_diameter"] = NumberText(factor * curve.smallest());
-  scalars["largest_diameter"] = NumberText(factor * curve.largest());
-  scalars["mean_diameter"] = NumberText(size.mean_diameter);
+  scalars["scale_factor"] = base::ExactNumber(factor);
+  scalars["smallest_diameter"] = base::ExactNumber(factor * curve.smallest());
+  scalars["largest_diameter"] = base::ExactNumber(factor * curve.largest());
+  scalars["mean_diameter"] = base::ExactNumber(size.mean_diameter);
   scalars["num_grains"] = std::to_string(size.num_grains);
-  scalars["mass"] = NumberText(c.powder.mass);
-  scalars["filled_height"] = NumberText(size.filled_height);
-  scalars["tube_length"] = NumberText(c.device.tube_length.value_or(size.filled_height));
+  scalars["mass"] = base::ExactNumber(c.powder.mass);
+  scalars["filled_height"] = base::ExactNumber(size.filled_height);
+  scalars["tube_length"] = base::ExactNumber(c.device.tube_length.value_or(size.filled_height));
   // The tube is lifted by little more than the powder's height.
-  scalars["box_height"] = NumberText(4 * c.device.tube_length.value_or(size.filled_height) +
-                                     2 * c.device.plate_diameter);
-  scalars["time_step"] = NumberText(size.time_step);
+  scalars["box_height"] = base::ExactNumber(4 * c.device.tube_length.value_or(size.filled_height) +
+                                            2 * c.device.plate_diameter);
+  scalars["time_step"] = base::ExactNumber(size.time_step);
 }
 
 }  // namespace
@@ -94,13 +95,13 @@ TemplateValues CaseValues(const rigs::HeapCase& c) {
   TemplateValues values;
   Scalars& scalars = values.scalars;
   AddMaterial("", c.powder.material, scalars);
-  scalars["surface_energy_used"] = NumberText(rigs::UsedMaterial(c).surface_energy);
-  scalars["full_mobilisation_damping"] = NumberText(c.models.full_mobilisation_damping);
-  scalars["adhesion_cutoff"] = NumberText(c.models.adhesion_cutoff);
-  scalars["rayleigh_fraction"] = NumberText(c.rayleigh_fraction);
-  scalars["gravity"] = NumberText(c.gravity);
-  scalars["settling_time"] = NumberText(c.rules.settling.max_time);
-  scalars["rest_time"] = NumberText(c.rules.heap.max_time);
+  scalars["surface_energy_used"] = base::ExactNumber(rigs::UsedMaterial(c).surface_energy);
+  scalars["full_mobilisation_damping"] = base::ExactNumber(c.models.full_mobilisation_damping);
+  scalars["adhesion_cutoff"] = base::ExactNumber(c.models.adhesion_cutoff);
+  scalars["rayleigh_fraction"] = base::ExactNumber(c.rayleigh_fraction);
+  scalars["gravity"] = base::ExactNumber(c.gravity);
+  scalars["settling_time"] = base::ExactNumber(c.rules.settling.max_time);
+  scalars["rest_time"] = base::ExactNumber(c.rules.heap.max_time);
   scalars["seed"] = std::to_string(PlainSeed(c.seed));
   scalars["prime_seed"] = std::to_string(PrimeSeed(c.seed));
   scalars["threads"] = std::to_string(c.threads);
@@ -120,9 +121,9 @@ void AddGrains(const rigs::HeapCase& c, TemplateValues& values) {
   // The exact number, which the estimate may miss by one.
   values.scalars["num_grains"] = std::to_string(made.scene.particles.size());
   for (const engine::Particle& p : made.scene.particles) {
-    table.rows.push_back({std::to_string(table.rows.size() + 1), NumberText(p.position.x),
-                          NumberText(p.position.y), NumberText(p.position.z),
-                          NumberText(2 * p.radius), NumberText(p.radius)});
+    table.rows.push_back({std::to_string(table.rows.size() + 1), base::ExactNumber(p.position.x),
+                          base::ExactNumber(p.position.y), base::ExactNumber(p.position.z),
+                          base::ExactNumber(2 * p.radius), base::ExactNumber(p.radius)});
   }
 }
 

@@ -1,7 +1,6 @@
 #include "experiments/trials/engines/template_text.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -165,12 +164,6 @@ std::string TextTemplate::FillRows(std::size_t open, std::size_t close,
     }
   }
   return text;
-}
-
-std::string NumberText(double value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  return std::string(text, end);
 }
 
 }  // namespace talus::trials

@@ -57,7 +57,4 @@ class TextTemplate {
   std::vector<Part> parts_;
 };
 
-// A number as a deck needs it: the shortest text that reads back to the same double.
-std::string NumberText(double value);
-
 }  // namespace talus::trials

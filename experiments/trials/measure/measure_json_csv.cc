@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "base/json/json_writer.h"
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
 
 namespace talus::trials {
 namespace {
@@ -17,10 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
 // With enough digits for any use, and no more than are true of a measurement.
 std::string Number(double value, int digits = 8) {
-  if (!std::isfinite(value)) return "";
-  std::ostringstream text;
-  text << std::setprecision(digits) << value;
-  return text.str();
+  return std::isfinite(value) ? base::ShortNumber(value, digits) : "";
 }
 
 void AddMeasured(const imaging::Measured& measured, ordered_json& json) {
@@ -73,13 +72,6 @@ std::string WithError(const imaging::Measured& measured) {
 
 }  // namespace
 
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 ordered_json MetricsJson(const std::vector<imaging::Metric>& metrics) {
   ordered_json json;
   for (const imaging::Metric& metric : metrics) {
@@ -100,15 +92,18 @@ ordered_json MetricsJson(const std::vector<imaging::Metric>& metrics) {
 }
 
 std::string MetricsCsv(const std::vector<imaging::Metric>& metrics) {
-  std::string csv =
-      "metric,unit,value,standard_error,reference,reference_standard_error,not_defined\n";
-  for (const imaging::Metric& metric : metrics) {
-    csv += metric.name + "," + metric.unit + "," + Number(metric.value.value) + "," +
-           Number(metric.value.standard_error) + "," + Number(metric.reference.value) + "," +
-           Number(metric.reference.standard_error) + "," + CsvField(metric.value.not_defined) +
-           "\n";
+  base::Csv csv;
+  for (const char* head : {"metric", "unit", "value", "standard_error", "reference",
+                           "reference_standard_error", "not_defined"}) {
+    csv.Cell(head);
   }
-  return csv;
+  csv.EndRow();
+  for (const imaging::Metric& metric : metrics) {
+    csv.Cell(metric.name).Cell(metric.unit).Cell(Number(metric.value.value));
+    csv.Cell(Number(metric.value.standard_error)).Cell(Number(metric.reference.value));
+    csv.Cell(Number(metric.reference.standard_error)).Cell(metric.value.not_defined).EndRow();
+  }
+  return csv.Take();
 }
 
 std::string MetricsText(const std::vector<imaging::Metric>& metrics) {
@@ -144,23 +139,27 @@ ordered_json ExperimentJson(const imaging::Experiment& experiment) {
 }
 
 std::string ViewsCsv(const imaging::Experiment& experiment) {
-  std::string csv = "run,photo,plate_width_px,plate_center_x_px,baseline_px,tilt_deg,nebp_px";
+  base::Csv csv;
+  for (const char* head : {"run", "photo", "plate_width_px", "plate_center_x_px", "baseline_px",
+                           "tilt_deg", "nebp_px"}) {
+    csv.Cell(head);
+  }
   const ordered_json names = AnglesJson({});
-  for (const auto& [name, value] : names.items()) csv += "," + name;
-  csv += "\n";
+  for (const auto& [name, value] : names.items()) csv.Cell(name);
+  csv.EndRow();
   for (const imaging::MeasuredRun& run : experiment.runs) {
     for (const imaging::MeasuredView& view : run.views) {
-      csv += CsvField(run.name);
+      csv.Cell(run.name);
       const ordered_json fields = ViewJson(view);
       for (const auto& [name, value] : fields.items()) {
-        csv += "," + (value.is_string() ? CsvField(value.get<std::string>())
-                      : value.is_null() ? std::string()
-                                        : Number(value.get<double>()));
+        csv.Cell(value.is_string() ? value.get<std::string>()
+                 : value.is_null() ? ""
+                                   : Number(value.get<double>()));
       }
-      csv += "\n";
+      csv.EndRow();
     }
   }
-  return csv;
+  return csv.Take();
 }
 
 }  // namespace talus::trials

@@ -26,7 +26,4 @@ nlohmann::ordered_json ExperimentJson(const imaging::Experiment& experiment);
 // One line a photograph: plate, NEBP, angles.
 std::string ViewsCsv(const imaging::Experiment& experiment);
 
-// Fields with a comma, a quote or a line break are quoted [rfc4180].
-std::string CsvField(const std::string& text);
-
 }  // namespace talus::trials

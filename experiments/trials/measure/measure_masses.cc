@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
 #include "base/units.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
@@ -134,14 +136,16 @@ std::string StudyText(const imaging::MassStudy& study) {
 }
 
 std::string RunsCsv(const std::vector<imaging::MassRun>& runs) {
-  std::ostringstream csv;
-  csv.precision(8);
-  csv << "mass_kg,day,run,nebp_mm2,base_over_plate\n";
+  base::Csv csv;
+  for (const char* head : {"mass_kg", "day", "run", "nebp_mm2", "base_over_plate"}) csv.Cell(head);
+  csv.EndRow();
   for (const imaging::MassRun& run : runs) {
-    csv << run.mass << ',' << CsvField(run.day) << ',' << CsvField(run.run) << ',' << run.nebp_mm2
-        << ',' << run.base_share << '\n';
+    csv.Cell(base::ShortNumber(run.mass, 8)).Cell(run.day).Cell(run.run);
+    csv.Cell(base::ShortNumber(run.nebp_mm2, 8))
+        .Cell(base::ShortNumber(run.base_share, 8))
+        .EndRow();
   }
-  return csv.str();
+  return csv.Take();
 }
 
 nlohmann::ordered_json StudyJson(const imaging::MassStudy& study) {

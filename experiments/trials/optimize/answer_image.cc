@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/number_text.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
@@ -78,9 +79,7 @@ AnswerImage FromRows(const std::vector<std::vector<double>>& rows, const std::st
 std::string ToCsv(std::span<const float> field, int width) {
   std::string csv;
   for (std::size_t i = 0; i < field.size(); ++i) {
-    char number[32];
-    const auto end = std::to_chars(number, number + sizeof number, field[i]).ptr;  // shortest exact
-    csv.append(number, end);
+    csv += base::ExactNumber(field[i]);
     csv += (i + 1) % static_cast<std::size_t>(width) == 0 ? '\n' : ',';
   }
   return csv;

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 
 namespace talus::trials {
 namespace {
@@ -85,9 +85,7 @@ void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const
 }
 
 std::filesystem::path OptimizeFolder::ImagePath(int number) const {
-  char name[32];
-  std::snprintf(name, sizeof name, "%04d.csv", number);
-  return root_ / "images" / name;
+  return root_ / "images" / (base::FileNumber(number) + ".csv");
 }
 
 // A line that a kill has cut off is no evaluation: it is taken away, and made again. One that was

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "base/printable.h"
+#include "base/text/printable.h"
 
 namespace talus::trials {
 namespace {

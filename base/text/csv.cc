@@ -1,9 +1,10 @@
-#include "experiments/analysis/compare/csv.h"
+#include "base/text/csv.h"
 
-#include <charconv>
 #include <cmath>
 
-namespace talus::analysis {
+#include "base/text/number_text.h"
+
+namespace talus::base {
 
 Csv& Csv::Cell(std::string_view text) {
   Separate();
@@ -18,11 +19,7 @@ Csv& Csv::Cell(std::string_view text) {
 }
 
 Csv& Csv::Cell(double value) {
-  Separate();
-  if (!std::isfinite(value)) return *this;
-  char digits[32];
-  text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-  return *this;
+  return Cell(std::string_view(std::isfinite(value) ? ExactNumber(value) : ""));
 }
 
 Csv& Csv::Cells(const std::vector<double>& values) {
@@ -40,4 +37,4 @@ void Csv::Separate() {
   first_ = false;
 }
 
-}  // namespace talus::analysis
+}  // namespace talus::base

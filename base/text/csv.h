@@ -1,16 +1,18 @@
 // A table as CSV [rfc4180], a cell after the other.
 #pragma once
 
+#include <concepts>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace talus::analysis {
+namespace talus::base {
 
 class Csv {
  public:
   Csv& Cell(std::string_view text);  // quoted where it must be
   Csv& Cell(double value);           // exact; empty where it is not finite
+  Csv& Cell(std::integral auto value) { return Cell(std::string_view(std::to_string(value))); }
   Csv& Cells(const std::vector<double>& values);
   void EndRow();
   std::string Take() { return std::move(text_); }
@@ -22,4 +24,4 @@ class Csv {
   bool first_ = true;
 };
 
-}  // namespace talus::analysis
+}  // namespace talus::base

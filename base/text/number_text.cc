@@ -1,0 +1,33 @@
+#include "base/text/number_text.h"
+
+#include <charconv>
+#include <cstdio>
+
+namespace talus::base {
+namespace {
+
+template <class T>
+std::string Shortest(T x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
+}
+
+}  // namespace
+
+std::string ShortNumber(double x, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
+  return text;
+}
+
+std::string ExactNumber(double x) { return Shortest(x); }
+
+std::string ExactNumber(float x) { return Shortest(x); }
+
+std::string FileNumber(std::int64_t n) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%04lld", static_cast<long long>(n));
+  return text;
+}
+
+}  // namespace talus::base

@@ -1,0 +1,36 @@
+// Numbers and tables as text.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
+
+namespace talus::base {
+namespace {
+
+TEST(NumberText, ShortRoundsAndExactReadsBack) {
+  EXPECT_EQ(ShortNumber(0.123456), "0.1235");
+  EXPECT_EQ(ShortNumber(1234567, 3), "1.23e+06");
+  EXPECT_EQ(ShortNumber(-std::numeric_limits<double>::max(), 17).size(), 24U);
+  for (const double x : {0.1, 1.0 / 3, 1e300, 5e-324, -0.0}) {
+    EXPECT_EQ(std::strtod(ExactNumber(x).c_str(), nullptr), x) << x;
+  }
+  EXPECT_EQ(ExactNumber(0.1F), "0.1");
+}
+
+TEST(NumberText, FileNumbersSortUpToTenThousand) {
+  EXPECT_EQ(FileNumber(7), "0007");
+  EXPECT_EQ(FileNumber(12345), "12345");
+}
+
+TEST(Csv, QuotesWhatTheFormatNeedsAndLeavesWhatIsNotFinite) {
+  Csv csv;
+  csv.Cell("plain").Cell("a,b").Cell("say \"so\"").Cell("two\nlines").EndRow();
+  csv.Cell(3).Cell(0.1).Cell(NAN).Cells({1, 2.5}).EndRow();
+  EXPECT_EQ(csv.Take(), "plain,\"a,b\",\"say \"\"so\"\"\",\"two\nlines\"\n3,0.1,,1,2.5\n");
+}
+
+}  // namespace
+}  // namespace talus::base
