@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/random.h"
@@ -10,6 +9,7 @@
 #include "optimizer/models/feasibility.h"
 #include "optimizer/models/history.h"
 #include "optimizer/models/size_to_fit.h"
+#include "optimizer/stopping/stopping_rule.h"
 #include "optimizer/strategies/make_strategy.h"
 
 namespace talus::optimizer {
@@ -300,13 +300,7 @@ std::optional<std::string> FidelityStrategy::StopReason() {
     outputs += model.num_outputs();
   }
   const double share = std::expm1(2 * gain / outputs);  // V/B of the typical output
-  if (share >= options_.stop_share) return std::nullopt;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "over the posterior the surrogate's variance is %.2g of what the experiment leaves "
-                "open, below %.2g",
-                share, options_.stop_share);
-  return text;
+  return StopByShare(share, options_.stop_share);
 }
 
 std::optional<Moments> FidelityStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {

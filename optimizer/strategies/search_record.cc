@@ -4,18 +4,16 @@
 #include <utility>
 
 #include "base/random.h"
-#include "optimizer/answer/words.h"
 #include "optimizer/designs/design.h"
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/space/point_rows.h"
+#include "optimizer/stopping/stopping_rule.h"
 
 namespace talus::optimizer {
 namespace {
 
 // Two evaluations this close to each other teach under noise what a replicate would.
 constexpr double kReplicateDistance = 0.005;
-// Without noise the search ends when this share of (mean - lowest value) is left to gain.
-constexpr double kStopShare = 1e-6;
 
 int DesignSize(const Domain& domain, const SurrogateOptions& options) {
   return options.num_initial > 0 ? options.num_initial : 2 * domain.num_parameters + 3;
@@ -146,15 +144,10 @@ bool SearchRecord::MayStop(int num_evaluations) const {
 }
 
 std::optional<std::string> SearchRecord::ReasonToStop(double gain, double noise) const {
-  const std::string left = "what is left to gain, at most " + Rounded(std::max(0.0, gain));
   if (noise_free()) {
-    const double typical = history_.values.mean() - history_.values.minCoeff();
-    if (!(gain <= kStopShare * typical)) return std::nullopt;
-    return left + ", is below a millionth of the mean value less the lowest, " + Rounded(typical);
+    return StopByExactGain(gain, history_.values.mean() - history_.values.minCoeff());
   }
-  if (!(gain < options_.stop_multiple * noise)) return std::nullopt;
-  return left + ", is below " + Rounded(options_.stop_multiple) +
-         " x the noise sd of one evaluation, " + Rounded(noise);
+  return StopByGain(gain, noise, options_.stop_multiple);
 }
 
 }  // namespace talus::optimizer

@@ -58,8 +58,7 @@ class SearchRecord {
 
   bool WasEvaluated(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> asked) const;
 
-  // In words, when `gain`, what going on would improve by at most, is small: below stop_multiple ×
-  // `noise`, or, without noise, below a millionth of the mean value less the lowest.
+  // By the rule of stopping_rule.h, when `gain`, what going on would improve by at most, is small.
   std::optional<std::string> ReasonToStop(double gain, double noise) const;
   // A search never stops before `num_evaluations` is twice the design and the noise is known.
   bool MayStop(int num_evaluations) const;

@@ -4,37 +4,17 @@
 #include <gtest/gtest.h>
 #include <png.h>
 #include <sys/resource.h>
-#include <tiffio.h>
 #include <zlib.h>
-// clang-format off
-#include <cstdio>  // jpeglib.h needs it first
-#include <jpeglib.h>
-// clang-format on
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "imaging/formats/images/orientation.h"
+#include "tests/imaging/stored_images.h"
 
 namespace talus::imaging {
 namespace {
-
-// A slanted ramp: no row or column equals another, so that a wrong stride or order shows.
-GrayImage Ramp() {
-  GrayImage image{.width = 37, .height = 21, .pixels = {}};
-  for (int y = 0; y < 21; ++y) {
-    for (int x = 0; x < 37; ++x) image.pixels.push_back(static_cast<std::uint8_t>(5 * x + 3 * y));
-  }
-  return image;
-}
-
-std::filesystem::path TempFile(const std::string& name) {
-  return std::filesystem::path(testing::TempDir()) / name;
-}
 
 TEST(ImageFile, PngComesBackUnchanged) {
   WritePng(TempFile("ramp.png"), Ramp());
@@ -76,36 +56,6 @@ TEST(ImageFile, TwelveBitsInSixteenAreRecognised) {
   }
 }
 
-std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = {}) {
-  jpeg_compress_struct jpeg;
-  jpeg_error_mgr errors;
-  jpeg.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&jpeg);
-  unsigned char* buffer = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&jpeg, &buffer, &size);
-  jpeg.image_width = static_cast<JDIMENSION>(image.width);
-  jpeg.image_height = static_cast<JDIMENSION>(image.height);
-  jpeg.input_components = 1;
-  jpeg.in_color_space = JCS_GRAYSCALE;
-  jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, 95, TRUE);
-  jpeg_start_compress(&jpeg, TRUE);
-  if (!app1.empty()) {
-    jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(app1.data()),
-                      static_cast<unsigned>(app1.size()));
-  }
-  for (int y = 0; y < image.height; ++y) {
-    JSAMPLE* row = const_cast<JSAMPLE*>(&image.pixels[static_cast<std::size_t>(image.width * y)]);
-    jpeg_write_scanlines(&jpeg, &row, 1);
-  }
-  jpeg_finish_compress(&jpeg);
-  jpeg_destroy_compress(&jpeg);
-  const std::string bytes(reinterpret_cast<char*>(buffer), size);
-  std::free(buffer);
-  return bytes;
-}
-
 // Quality 95 leaves a few grey levels of error on a smooth ramp.
 TEST(ImageFile, Jpeg) {
   const GrayImage ramp = Ramp();
@@ -118,137 +68,6 @@ TEST(ImageFile, Jpeg) {
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, bytes.size() / 2), "half.jpg"), base::ConfigError);
 }
 
-// Where the stored row 0 and column 0 are in the upright image, as the EXIF standard lists them.
-struct Orientation {
-  int tag;
-  const char* row_0;
-  const char* column_0;
-};
-constexpr Orientation kOrientations[] = {
-    {1, "top", "left"}, {2, "top", "right"}, {3, "bottom", "right"}, {4, "bottom", "left"},
-    {5, "left", "top"}, {6, "right", "top"}, {7, "right", "bottom"}, {8, "left", "bottom"},
-};
-
-// What the sensor of a camera held so has stored of an upright image.
-GrayImage Stored(const GrayImage& upright, const Orientation& orientation) {
-  const bool turned = orientation.tag >= 5;
-  GrayImage stored{.width = turned ? upright.height : upright.width,
-                   .height = turned ? upright.width : upright.height,
-                   .pixels = {}};
-  int x = 0;
-  int y = 0;
-  const auto go = [&](std::string_view from, int index) {
-    if (from == "left") x = index;
-    if (from == "right") x = upright.width - 1 - index;
-    if (from == "top") y = index;
-    if (from == "bottom") y = upright.height - 1 - index;
-  };
-  for (int row = 0; row < stored.height; ++row) {
-    for (int column = 0; column < stored.width; ++column) {
-      go(orientation.row_0, row);
-      go(orientation.column_0, column);
-      stored.pixels.push_back(upright.at(x, y));
-    }
-  }
-  return stored;
-}
-
-// A TIFF structure with one other tag before the orientation.
-std::string Exif(int orientation, bool big_endian) {
-  const auto number = [&](std::uint32_t value, int size) {
-    std::string text;
-    for (int i = 0; i < size; ++i) {
-      const int shift = 8 * (big_endian ? size - 1 - i : i);
-      text += static_cast<char>(value >> shift & 255);
-    }
-    return text;
-  };
-  return (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) + number(2, 2) +
-         number(0x0100, 2) + number(4, 2) + number(1, 4) + number(640, 4) + number(0x0112, 2) +
-         number(3, 2) + number(1, 4) + number(static_cast<std::uint32_t>(orientation), 2) +
-         number(0, 2) + number(0, 4);
-}
-
-// The JPEG's smooth ramp comes back within a few grey levels; a wrong turn is off by up to 255.
-TEST(ImageFile, JpegIsTurnedUprightAsExifSays) {
-  for (const Orientation& orientation : kOrientations) {
-    for (const bool big_endian : {false, true}) {
-      const std::string app1 = std::string("Exif\0\0", 6) + Exif(orientation.tag, big_endian);
-      const GrayImage image =
-          DecodeGrayImage(EncodeJpeg(Stored(Ramp(), orientation), app1), "held.jpg");
-      ASSERT_EQ(image.width, 37) << orientation.tag;
-      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        ASSERT_NEAR(image.pixels[i], Ramp().pixels[i], 6) << orientation.tag;
-      }
-    }
-  }
-}
-
-TEST(ImageFile, DamagedExifLeavesTheImageAsItIs) {
-  const std::string whole = Exif(6, true);
-  for (std::size_t size = 0; size + 6 < whole.size(); ++size) {
-    EXPECT_EQ(ExifOrientation(whole.substr(0, size)), kUpright) << size;
-  }
-  EXPECT_EQ(ExifOrientation(Exif(0, true)), kUpright);
-  EXPECT_EQ(ExifOrientation(Exif(9, false)), kUpright);
-}
-
-// With a chunk eXIf after the header, as libpng writes it.
-TEST(ImageFile, PngIsTurnedUprightAsExifSays) {
-  for (const Orientation& orientation : kOrientations) {
-    const GrayImage stored = Stored(Ramp(), orientation);
-    std::string exif = Exif(orientation.tag, true);
-    std::string bytes;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop info = png_create_info_struct(png);
-    const auto append = [](png_structp p, png_bytep data, png_size_t count) {
-      static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), count);
-    };
-    png_set_write_fn(png, &bytes, append, nullptr);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(stored.width),
-                 static_cast<png_uint_32>(stored.height), 8, PNG_COLOR_TYPE_GRAY,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif.size()),
-                   reinterpret_cast<png_bytep>(exif.data()));
-    png_write_info(png, info);
-    for (int y = 0; y < stored.height; ++y) {
-      png_write_row(png, &stored.pixels[static_cast<std::size_t>(y * stored.width)]);
-    }
-    png_write_end(png, info);
-    png_destroy_write_struct(&png, &info);
-    EXPECT_EQ(DecodeGrayImage(bytes, "held.png"), Ramp()) << orientation.tag;
-  }
-}
-
-struct TiffImage {
-  GrayImage stored;
-  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
-  int orientation = 1;
-};
-
-template <class Sample>
-void WriteTiff(const std::filesystem::path& path, Sample scale, const TiffImage& image) {
-  const auto& [ramp, photometric, orientation] = image;
-  const auto width = static_cast<std::uint32_t>(ramp.width);
-  TIFF* const tiff = TIFFOpen(path.c_str(), "w");
-  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, ramp.width);
-  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, ramp.height);
-  TIFFSetField(tiff, TIFFTAG_ORIENTATION, orientation);
-  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8 * sizeof(Sample));
-  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
-  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, photometric);
-  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
-  for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(ramp.height); ++y) {
-    std::vector<Sample> row;
-    for (std::uint32_t x = 0; x < width; ++x) {
-      const auto level = static_cast<Sample>(ramp.pixels[width * y + x] * scale);
-      row.push_back(photometric == PHOTOMETRIC_MINISWHITE ? static_cast<Sample>(~level) : level);
-    }
-    TIFFWriteScanline(tiff, row.data(), y);
-  }
-  TIFFClose(tiff);
-}
-
 TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   for (const std::uint16_t photometric : {PHOTOMETRIC_MINISBLACK, PHOTOMETRIC_MINISWHITE}) {
     const TiffImage ramp{.stored = Ramp(), .photometric = photometric};
@@ -259,17 +78,6 @@ TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   }
   const std::string bytes = base::ReadFile(TempFile("ramp16.tif"));
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, 300), "half.tif"), base::ConfigError);
-}
-
-// 8 bits go through libtiff's own conversion, which must not turn a second time; 16 bits do not.
-TEST(ImageFile, TiffIsTurnedUprightAsItsTagSays) {
-  for (const Orientation& orientation : kOrientations) {
-    const TiffImage held{.stored = Stored(Ramp(), orientation), .orientation = orientation.tag};
-    WriteTiff<std::uint8_t>(TempFile("held8.tif"), 1, held);
-    EXPECT_EQ(ReadGrayImage(TempFile("held8.tif")), Ramp()) << orientation.tag;
-    WriteTiff<std::uint16_t>(TempFile("held16.tif"), 257, held);
-    EXPECT_EQ(ReadGrayImage(TempFile("held16.tif")), Ramp()) << orientation.tag;
-  }
 }
 
 // 24 bits, bottom row first, rows padded to four bytes, as Windows writes them.

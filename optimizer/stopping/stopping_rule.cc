@@ -1,0 +1,36 @@
+#include "optimizer/stopping/stopping_rule.h"
+
+#include <algorithm>
+
+#include "base/text/number_text.h"
+#include "optimizer/answer/words.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kExactShare = 1e-6;
+
+std::string LeftToGain(double gain) {
+  return "what is left to gain, at most " + Rounded(std::max(0.0, gain)) + ", is below ";
+}
+
+}  // namespace
+
+std::optional<std::string> StopByGain(double gain, double noise, double stop_multiple) {
+  if (!(gain < stop_multiple * noise)) return std::nullopt;
+  return LeftToGain(gain) + Rounded(stop_multiple) + " x the noise sd of one evaluation, " +
+         Rounded(noise);
+}
+
+std::optional<std::string> StopByExactGain(double gain, double typical) {
+  if (!(gain <= kExactShare * typical)) return std::nullopt;
+  return LeftToGain(gain) + "a millionth of the mean value less the lowest, " + Rounded(typical);
+}
+
+std::optional<std::string> StopByShare(double share, double stop_share) {
+  if (!(share < stop_share)) return std::nullopt;
+  return "over the posterior the surrogate's variance is " + base::ShortNumber(share, 2) +
+         " of what the experiment leaves open, below " + base::ShortNumber(stop_share, 2);
+}
+
+}  // namespace talus::optimizer

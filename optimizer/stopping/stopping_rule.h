@@ -1,0 +1,26 @@
+// When a search ends by itself. Each rule answers with the reason in words, or with nothing while
+// the search should go on. A campaign's budget ends it at the latest (campaign/planner.h).
+//
+//   one objective, noisy      StopByGain: what is left to gain is small against the noise
+//   one objective, exact      StopByExactGain: … against the values seen
+//   several grain sizes       StopByShare: the surrogate knows the images better than the
+//   or experiments            experiments do
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace talus::optimizer {
+
+// `gain`: what going on could improve the best value by, at most. `noise`: standard deviation of
+// one evaluation, same unit.
+std::optional<std::string> StopByGain(double gain, double noise, double stop_multiple);
+
+// `typical`: mean of the values less the lowest.
+std::optional<std::string> StopByExactGain(double gain, double typical);
+
+// `share`: the surrogate's variance over the posterior, as a share of what the experiments' own
+// errors leave open [-].
+std::optional<std::string> StopByShare(double share, double stop_share);
+
+}  // namespace talus::optimizer

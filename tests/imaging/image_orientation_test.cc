@@ -1,0 +1,125 @@
+// Photographs are turned upright as their files say.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include "imaging/formats/images/orientation.h"
+#include "tests/imaging/stored_images.h"
+
+namespace talus::imaging {
+namespace {
+
+// Where the stored row 0 and column 0 are in the upright image, as the EXIF standard lists them.
+struct Orientation {
+  int tag;
+  const char* row_0;
+  const char* column_0;
+};
+constexpr Orientation kOrientations[] = {
+    {1, "top", "left"}, {2, "top", "right"}, {3, "bottom", "right"}, {4, "bottom", "left"},
+    {5, "left", "top"}, {6, "right", "top"}, {7, "right", "bottom"}, {8, "left", "bottom"},
+};
+
+// What the sensor of a camera held so has stored of an upright image.
+GrayImage Stored(const GrayImage& upright, const Orientation& orientation) {
+  const bool turned = orientation.tag >= 5;
+  GrayImage stored{.width = turned ? upright.height : upright.width,
+                   .height = turned ? upright.width : upright.height,
+                   .pixels = {}};
+  int x = 0;
+  int y = 0;
+  const auto go = [&](std::string_view from, int index) {
+    if (from == "left") x = index;
+    if (from == "right") x = upright.width - 1 - index;
+    if (from == "top") y = index;
+    if (from == "bottom") y = upright.height - 1 - index;
+  };
+  for (int row = 0; row < stored.height; ++row) {
+    for (int column = 0; column < stored.width; ++column) {
+      go(orientation.row_0, row);
+      go(orientation.column_0, column);
+      stored.pixels.push_back(upright.at(x, y));
+    }
+  }
+  return stored;
+}
+
+// A TIFF structure with one other tag before the orientation.
+std::string Exif(int orientation, bool big_endian) {
+  const auto number = [&](std::uint32_t value, int size) {
+    std::string text;
+    for (int i = 0; i < size; ++i) {
+      const int shift = 8 * (big_endian ? size - 1 - i : i);
+      text += static_cast<char>(value >> shift & 255);
+    }
+    return text;
+  };
+  return (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) + number(2, 2) +
+         number(0x0100, 2) + number(4, 2) + number(1, 4) + number(640, 4) + number(0x0112, 2) +
+         number(3, 2) + number(1, 4) + number(static_cast<std::uint32_t>(orientation), 2) +
+         number(0, 2) + number(0, 4);
+}
+
+// The JPEG's smooth ramp comes back within a few grey levels; a wrong turn is off by up to 255.
+TEST(ImageOrientation, JpegIsTurnedUprightAsExifSays) {
+  for (const Orientation& orientation : kOrientations) {
+    for (const bool big_endian : {false, true}) {
+      const std::string app1 = std::string("Exif\0\0", 6) + Exif(orientation.tag, big_endian);
+      const GrayImage image =
+          DecodeGrayImage(EncodeJpeg(Stored(Ramp(), orientation), app1), "held.jpg");
+      ASSERT_EQ(image.width, 37) << orientation.tag;
+      for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        ASSERT_NEAR(image.pixels[i], Ramp().pixels[i], 6) << orientation.tag;
+      }
+    }
+  }
+}
+
+TEST(ImageOrientation, DamagedExifLeavesTheImageAsItIs) {
+  const std::string whole = Exif(6, true);
+  for (std::size_t size = 0; size + 6 < whole.size(); ++size) {
+    EXPECT_EQ(ExifOrientation(whole.substr(0, size)), kUpright) << size;
+  }
+  EXPECT_EQ(ExifOrientation(Exif(0, true)), kUpright);
+  EXPECT_EQ(ExifOrientation(Exif(9, false)), kUpright);
+}
+
+// With a chunk eXIf after the header, as libpng writes it.
+TEST(ImageOrientation, PngIsTurnedUprightAsExifSays) {
+  for (const Orientation& orientation : kOrientations) {
+    const GrayImage stored = Stored(Ramp(), orientation);
+    std::string exif = Exif(orientation.tag, true);
+    std::string bytes;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    const auto append = [](png_structp p, png_bytep data, png_size_t count) {
+      static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<char*>(data), count);
+    };
+    png_set_write_fn(png, &bytes, append, nullptr);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(stored.width),
+                 static_cast<png_uint_32>(stored.height), 8, PNG_COLOR_TYPE_GRAY,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif.size()),
+                   reinterpret_cast<png_bytep>(exif.data()));
+    png_write_info(png, info);
+    for (int y = 0; y < stored.height; ++y) {
+      png_write_row(png, &stored.pixels[static_cast<std::size_t>(y * stored.width)]);
+    }
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    EXPECT_EQ(DecodeGrayImage(bytes, "held.png"), Ramp()) << orientation.tag;
+  }
+}
+
+// 8 bits go through libtiff's own conversion, which must not turn a second time; 16 bits do not.
+TEST(ImageOrientation, TiffIsTurnedUprightAsItsTagSays) {
+  for (const Orientation& orientation : kOrientations) {
+    const TiffImage held{.stored = Stored(Ramp(), orientation), .orientation = orientation.tag};
+    WriteTiff<std::uint8_t>(TempFile("held8.tif"), 1, held);
+    EXPECT_EQ(ReadGrayImage(TempFile("held8.tif")), Ramp()) << orientation.tag;
+    WriteTiff<std::uint16_t>(TempFile("held16.tif"), 257, held);
+    EXPECT_EQ(ReadGrayImage(TempFile("held16.tif")), Ramp()) << orientation.tag;
+  }
+}
+
+}  // namespace
+}  // namespace talus::imaging

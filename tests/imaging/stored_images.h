@@ -1,0 +1,93 @@
+// Images that the tests of readers write, as other programs store them.
+#pragma once
+
+#include <tiffio.h>
+// clang-format off
+#include <cstdio>  // jpeglib.h needs it first
+#include <jpeglib.h>
+// clang-format on
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "imaging/formats/images/image_file.h"
+
+namespace talus::imaging {
+
+// A slanted ramp: no row or column equals another, so that a wrong stride or order shows.
+inline GrayImage Ramp() {
+  GrayImage image{.width = 37, .height = 21, .pixels = {}};
+  for (int y = 0; y < 21; ++y) {
+    for (int x = 0; x < 37; ++x) image.pixels.push_back(static_cast<std::uint8_t>(5 * x + 3 * y));
+  }
+  return image;
+}
+
+inline std::filesystem::path TempFile(const std::string& name) {
+  return std::filesystem::path(testing::TempDir()) / name;
+}
+
+inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = {}) {
+  jpeg_compress_struct jpeg;
+  jpeg_error_mgr errors;
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &buffer, &size);
+  jpeg.image_width = static_cast<JDIMENSION>(image.width);
+  jpeg.image_height = static_cast<JDIMENSION>(image.height);
+  jpeg.input_components = 1;
+  jpeg.in_color_space = JCS_GRAYSCALE;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, 95, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  if (!app1.empty()) {
+    jpeg_write_marker(&jpeg, JPEG_APP0 + 1, reinterpret_cast<const JOCTET*>(app1.data()),
+                      static_cast<unsigned>(app1.size()));
+  }
+  for (int y = 0; y < image.height; ++y) {
+    JSAMPLE* row = const_cast<JSAMPLE*>(&image.pixels[static_cast<std::size_t>(image.width * y)]);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  const std::string bytes(reinterpret_cast<char*>(buffer), size);
+  std::free(buffer);
+  return bytes;
+}
+
+struct TiffImage {
+  GrayImage stored;
+  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
+  int orientation = 1;
+};
+
+template <class Sample>
+void WriteTiff(const std::filesystem::path& path, Sample scale, const TiffImage& image) {
+  const auto& [ramp, photometric, orientation] = image;
+  const auto width = static_cast<std::uint32_t>(ramp.width);
+  TIFF* const tiff = TIFFOpen(path.c_str(), "w");
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, ramp.width);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, ramp.height);
+  TIFFSetField(tiff, TIFFTAG_ORIENTATION, orientation);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8 * sizeof(Sample));
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, photometric);
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
+  for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(ramp.height); ++y) {
+    std::vector<Sample> row;
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const auto level = static_cast<Sample>(ramp.pixels[width * y + x] * scale);
+      row.push_back(photometric == PHOTOMETRIC_MINISWHITE ? static_cast<Sample>(~level) : level);
+    }
+    TIFFWriteScanline(tiff, row.data(), y);
+  }
+  TIFFClose(tiff);
+}
+
+}  // namespace talus::imaging
