@@ -14,7 +14,7 @@
 #include "imaging/heap/profile.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/photo_warning.h"
-#include "imaging/photos/plate_fit.h"
+#include "imaging/photos/plate/plate_fit.h"
 
 namespace talus::imaging {
 

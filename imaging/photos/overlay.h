@@ -6,7 +6,7 @@
 #include "imaging/formats/images/image_file.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/experiment.h"
-#include "imaging/photos/plate_edges.h"
+#include "imaging/photos/plate/plate_edges.h"
 
 namespace talus::imaging {
 

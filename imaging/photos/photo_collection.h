@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "imaging/photos/experiment.h"
-#include "imaging/photos/plate_edges.h"
+#include "imaging/photos/plate/plate_edges.h"
 
 namespace talus::imaging {
 

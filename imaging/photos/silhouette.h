@@ -3,7 +3,7 @@
 
 #include "imaging/heap/profile.h"
 #include "imaging/photos/backlight.h"
-#include "imaging/photos/plate_fit.h"
+#include "imaging/photos/plate/plate_fit.h"
 
 namespace talus::imaging {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "imaging/photos/backlight.h"
-#include "imaging/photos/plate_edges.h"
+#include "imaging/photos/plate/plate_edges.h"
 
 namespace talus::imaging {
 

@@ -1,4 +1,4 @@
-#include "imaging/photos/plate_fit.h"
+#include "imaging/photos/plate/plate_fit.h"
 
 #include <ceres/ceres.h>
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "imaging/photos/plate_edges.h"
+#include "imaging/photos/plate/plate_edges.h"
 
 namespace talus::imaging {
 

@@ -1,10 +1,10 @@
-#include "imaging/photos/plate_edges.h"
+#include "imaging/photos/plate/plate_edges.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
-#include "imaging/photos/side_lines.h"
+#include "imaging/photos/plate/side_lines.h"
 #include "imaging/photos/tilted_view.h"
 
 namespace talus::imaging {

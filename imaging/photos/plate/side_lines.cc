@@ -1,4 +1,4 @@
-#include "imaging/photos/side_lines.h"
+#include "imaging/photos/plate/side_lines.h"
 
 #include <algorithm>
 #include <cmath>
