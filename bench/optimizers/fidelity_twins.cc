@@ -1,11 +1,13 @@
 // Twin calibrations with coarse levels on synthetic heaps: does the joint 90 % region hold the
 // truth, how large is it, and how far is the recommended set? The same core seconds are spent with
-// all scale factors, and with one alone. docs/posterior.md says what came out.
+// all scale factors, and with one alone. bench/optimizers/README.md says what came out.
 //
 //   fidelity_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
+//                  [--useless yes]
 //
 // A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
-// and scatters more, as measured on heaps of three grain sizes (docs/validation.md).
+// and scatters more, as measured on heaps of three grain sizes (docs/validation.md). --useless: a
+// coarse heap is that of other parameters altogether, and tells nothing of the true one.
 #include <cstdio>
 #include <ctime>
 #include <sstream>
@@ -17,8 +19,9 @@
 namespace talus::bench {
 namespace {
 
-constexpr double kBias = 0.08;  // displacement of each parameter per unit of f - 1, unit cube
-constexpr int kHeaps = 5;       // the target is the mean of
+constexpr double kBias = 0.08;   // displacement of each parameter per unit of f - 1, unit cube
+constexpr int kHeaps = 5;        // the target is the mean of
+constexpr double kSolved = 0.1;  // distance of the answer from the truth, unit cube
 
 struct Options {
   int first = 1;
@@ -26,6 +29,7 @@ struct Options {
   double core_time = 100;
   std::vector<double> factors{2, 1.5, 1};
   double target = 0;
+  bool useless = false;
 };
 
 Options Parse(int argc, char** argv) {
@@ -36,6 +40,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--last") options.last = std::stoi(argv[i + 1]);
     if (key == "--core-time") options.core_time = std::stod(argv[i + 1]);
     if (key == "--target") options.target = std::stod(argv[i + 1]);
+    if (key == "--useless") options.useless = true;
     if (key != "--factors") continue;
     options.factors.clear();
     std::stringstream list(argv[i + 1]);
@@ -46,13 +51,30 @@ Options Parse(int argc, char** argv) {
 
 int NoiseLevel(double factor) { return factor < 1.2 ? 1 : factor < 1.8 ? 3 : 2; }
 
-Image Heap(const Problem& problem, const Vec& x, double factor, std::uint64_t run) {
+// The parameters whose true heap a coarse one looks like.
+Vec Displaced(const Vec& x, double factor) {
   const Vec direction{1, -1, 0.5};
   Vec displaced = x;
   for (std::size_t k = 0; k < displaced.size(); ++k) {
     displaced[k] = std::clamp(x[k] + kBias * (factor - 1) * direction[k], 0.0, 1.0);
   }
-  return problem.MakeImage(displaced, run, NoiseLevel(factor));
+  return displaced;
+}
+
+// Folded often enough that near places are as far apart as any.
+Vec Scrambled(const Vec& x) {
+  Vec scrambled = x;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double folded = 17 * x[k] + 5 * x[(k + 1) % x.size()];
+    scrambled[k] = folded - std::floor(folded);
+  }
+  return scrambled;
+}
+
+Image Heap(const Problem& problem, const Vec& x, double factor, std::uint64_t run,
+           bool useless = false) {
+  const bool scramble = useless && factor > 1;
+  return problem.MakeImage(scramble ? Scrambled(x) : Displaced(x, factor), run, NoiseLevel(factor));
 }
 
 optimizer::ExperimentTarget TargetOf(const Problem& problem, const Vec& truth, int instance) {
@@ -75,6 +97,7 @@ optimizer::ExperimentTarget TargetOf(const Problem& problem, const Vec& truth, i
 
 struct Tally {
   int covered = 0;
+  int solved = 0;
   double volume = 0;
   double distance = 0;
   double simulations = 0;
@@ -95,7 +118,7 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
     const double cost = std::pow(p.scale_factor, -4);
     spent += cost;
     const Image image = Heap(*problem, {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
-                             1000 * seed + static_cast<std::uint64_t>(told));
+                             1000 * seed + static_cast<std::uint64_t>(told), options.useless);
     strategy->Tell({.point = p.point,
                     .scale_factor = p.scale_factor,
                     .cost = cost,
@@ -114,6 +137,7 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
       answer.posterior->experiments[0].implausibility, told);
   std::fflush(stdout);
   tally.covered += standing->credible_level <= 0.9 ? 1 : 0;
+  tally.solved += distance < kSolved ? 1 : 0;
   tally.volume += answer.posterior->region_volume;
   tally.distance += distance;
   tally.simulations += told;
@@ -128,10 +152,11 @@ int Main(int argc, char** argv) {
   }
   const int count = options.last - options.first + 1;
   std::printf(
-      "covered %d of %d, mean volume %.4f, mean distance %.3f, mean simulations %.0f, %.0f s of "
+      "covered %d of %d, solved %d, mean volume %.4f, mean distance %.3f, mean simulations %.0f, "
+      "%.0f s of "
       "processor time\n",
-      tally.covered, count, tally.volume / count, tally.distance / count, tally.simulations / count,
-      static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+      tally.covered, count, tally.solved, tally.volume / count, tally.distance / count,
+      tally.simulations / count, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   return 0;
 }
 

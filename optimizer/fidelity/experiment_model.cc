@@ -252,16 +252,26 @@ Eigen::MatrixXd ExperimentModel::LeaveOneOut() const {
   return z;
 }
 
-double ExperimentModel::Gain(const Eigen::VectorXd& x, int level) const {
-  double gain = 0;
+Eigen::MatrixXd ExperimentModel::Gains(const Eigen::MatrixXd& draws,
+                                       const Eigen::MatrixXd& sites) const {
+  Eigen::MatrixXd gains = Eigen::MatrixXd::Zero(sites.rows(), setup_.levels->size());
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::FidelityProcess& output = outputs_[static_cast<std::size_t>(k)];
-    const auto bridge = output.BridgeAt({.x = x, .growth = setup_.levels->growth(level)});
-    const double seen = bridge.coarse_variance + output.noise_variance(level);
-    const double left = bridge.variance - bridge.covariance * bridge.covariance / seen;
-    gain += 0.5 * std::log((bridge.variance + open_[k]) / (std::max(0.0, left) + open_[k]));
+    const auto watched = output.Watch(draws);
+    const Eigen::ArrayXd before = watched.variance.array() + open_[k];
+    for (int level = 0; level < setup_.levels->size(); ++level) {
+      const double noise = output.noise_variance(level);
+      for (Eigen::Index i = 0; i < sites.rows(); ++i) {
+        const auto teaching =
+            output.TeachingOf(watched, {.x = sites.row(i), .growth = setup_.levels->growth(level)});
+        const Eigen::ArrayXd taken =
+            teaching.covariance.array().square() / (teaching.site_variance + noise);
+        const Eigen::ArrayXd after = (watched.variance.array() - taken).max(0.0) + open_[k];
+        gains(i, level) += 0.5 * (before / after).log().mean();
+      }
+    }
   }
-  return gain;
+  return gains;
 }
 
 Eigen::VectorXd ExperimentModel::GainOfAll(const Eigen::MatrixXd& points) const {

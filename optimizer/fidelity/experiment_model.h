@@ -70,10 +70,11 @@ class ExperimentModel {
   // Of each evaluation, predicted from the others, in their sd: one evaluation a row.
   Eigen::MatrixXd LeaveOneOut() const;
 
-  // How much one more simulation at x and `level` narrows the misfit's sd: Σ over outputs of
-  // ½ ln((V + B)/(V' + B)), V and V' the surrogate's variance at the target before and after, B
-  // what the experiment itself leaves open.
-  double Gain(const Eigen::VectorXd& x, int level) const;
+  // How much one more simulation at a site (a row) and a level (a column) narrows the misfit's sd
+  // at the points `draws`: the mean over them of Σ over outputs of ½ ln((V + B)/(V' + B)), V and V'
+  // the surrogate's variance at the target before and after, B what the experiment itself leaves
+  // open. A simulation at the target teaches the discrepancy far around, a coarse one does not.
+  Eigen::MatrixXd Gains(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& sites) const;
   // The same for perfect knowledge at each point (V' = 0): where something is left to learn.
   Eigen::VectorXd GainOfAll(const Eigen::MatrixXd& points) const;
 

@@ -249,34 +249,35 @@ Proposal FidelityStrategy::ByGain(std::span<const Proposal> asked) {
   const double softness = turn % 2 == 0 ? 1 : kExploring;
   const int start = domain_.num_parameters <= 2 ? 1000 : 2000;
   const PosteriorSample sample = Model().Sample(domain_, start, softness, seed);
-  Eigen::MatrixXd points = sample.Draws(kCandidates, seed);
-  Eigen::VectorXd score = Eigen::VectorXd::Zero(points.rows());
-  for (const ExperimentModel& model : with_fantasies.models()) score += model.GainOfAll(points);
+  const Eigen::MatrixXd draws = sample.Draws(kCandidates, seed);
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(draws.rows());
+  for (const ExperimentModel& model : with_fantasies.models()) score += model.GainOfAll(draws);
   const Feasibility feasibility(MakeHistory(observations_, domain_.num_parameters));
-  score += feasibility.Penalty(points);
+  score += feasibility.Penalty(draws);
   constexpr Eigen::Index kBest = 6;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.rows()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
   std::stable_sort(order.begin(), order.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return score[a] > score[b]; });
   order.resize(std::min<std::size_t>(order.size(), kBest));
-  points = Eigen::MatrixXd(points(order, Eigen::all));
-  if (auto few = TooFewAt(points.row(0), asked)) return *few;
-  return MostPerCost(with_fantasies, points);
+  const Eigen::MatrixXd sites = draws(order, Eigen::all);
+  if (auto few = TooFewAt(sites.row(0), asked)) return *few;
+  return MostPerCost(with_fantasies, draws, sites);
 }
 
 Proposal FidelityStrategy::MostPerCost(const Posterior& with_fantasies,
-                                       const Eigen::MatrixXd& points) const {
+                                       const Eigen::MatrixXd& draws,
+                                       const Eigen::MatrixXd& sites) const {
   Proposal best;
   double most = -1;
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    for (std::size_t e = 0; e < targets_.size(); ++e) {
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    const Eigen::MatrixXd gains = with_fantasies.models()[e].Gains(draws, sites);
+    for (Eigen::Index i = 0; i < sites.rows(); ++i) {
       for (int level = 0; level < levels_.size(); ++level) {
-        const double rate =
-            with_fantasies.models()[e].Gain(points.row(i), level) / CostOf(e, level);
+        const double rate = gains(i, level) / CostOf(e, level);
         if (rate <= most) continue;
         most = rate;
-        best = {.point = points.row(i),
+        best = {.point = sites.row(i),
                 .origin = Origin::kModel,
                 .experiment = static_cast<int>(e),
                 .scale_factor = levels_.factor(level)};

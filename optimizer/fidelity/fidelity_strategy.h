@@ -61,7 +61,8 @@ class FidelityStrategy : public Strategy {
   Proposal ByGain(std::span<const Proposal> asked);
   // Which of the points, for which experiment and how coarse, narrows the misfit most a core
   // second.
-  Proposal MostPerCost(const Posterior& with_fantasies, const Eigen::MatrixXd& points) const;
+  Proposal MostPerCost(const Posterior& with_fantasies, const Eigen::MatrixXd& draws,
+                       const Eigen::MatrixXd& sites) const;
   // A finer scale factor that has too few evaluations to tell its discrepancy.
   std::optional<Proposal> TooFewAt(const Eigen::VectorXd& point,
                                    std::span<const Proposal> asked) const;

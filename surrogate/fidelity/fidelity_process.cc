@@ -129,20 +129,38 @@ Predictions FidelityProcess::Predict(const Eigen::MatrixXd& points, double growt
   return result;
 }
 
-FidelityProcess::Bridge FidelityProcess::BridgeAt(const FidelityPoint& at) const {
-  const Eigen::MatrixXd warped = WarpAll(at.x, state_.hyper.warp);
-  const auto lower = lower_.triangularView<Eigen::Lower>();
-  const Eigen::VectorXd fine = lower.solve(Cross(warped, 0));
-  const Eigen::VectorXd coarse = lower.solve(Cross(warped, at.growth));
-  const FidelityPair same =
-      FidelityPair::Of(state_.hyper, warped.col(0).data(), warped.col(0).data());
-  const double prior = FidelityCovarianceOf(state_.hyper, same, 0);
-  const double coarse_prior =
-      FidelityCovarianceOf(state_.hyper, same, SharedGrowth(at.growth, at.growth));
+FidelityProcess::Watched FidelityProcess::Watch(const Eigen::MatrixXd& points) const {
+  Watched watched;
+  watched.warped = WarpAll(points.transpose(), state_.hyper.warp);
+  watched.half = lower_.triangularView<Eigen::Lower>().solve(Cross(watched.warped, 0));
+  watched.variance.resize(points.rows());
+  for (Eigen::Index j = 0; j < points.rows(); ++j) {
+    const double* x = watched.warped.col(j).data();
+    const double prior =
+        FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x), 0);
+    watched.variance[j] =
+        state_.scale * state_.scale * std::max(0.0, prior - watched.half.col(j).squaredNorm());
+  }
+  return watched;
+}
+
+FidelityProcess::Teaching FidelityProcess::TeachingOf(const Watched& watched,
+                                                      const FidelityPoint& site) const {
+  const Eigen::MatrixXd warped = WarpAll(site.x, state_.hyper.warp);
+  const double* x = warped.col(0).data();
+  const Eigen::VectorXd half =
+      lower_.triangularView<Eigen::Lower>().solve(Cross(warped, site.growth));
   const double unit = state_.scale * state_.scale;
-  return {.variance = unit * std::max(0.0, prior - fine.squaredNorm()),
-          .covariance = unit * (prior - fine.dot(coarse)),
-          .coarse_variance = unit * std::max(0.0, coarse_prior - coarse.squaredNorm())};
+  const double prior = FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x),
+                                            SharedGrowth(site.growth, site.growth));
+  Teaching teaching{.covariance = -unit * (watched.half.transpose() * half),
+                    .site_variance = unit * std::max(0.0, prior - half.squaredNorm())};
+  for (Eigen::Index j = 0; j < teaching.covariance.size(); ++j) {
+    const FidelityPair pair = FidelityPair::Of(state_.hyper, watched.warped.col(j).data(), x);
+    teaching.covariance[j] +=
+        unit * FidelityCovarianceOf(state_.hyper, pair, SharedGrowth(0, site.growth));
+  }
+  return teaching;
 }
 
 // Residuals and variances from the inverse [dubrule1983].

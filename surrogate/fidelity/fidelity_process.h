@@ -38,14 +38,22 @@ class FidelityProcess {
   // Mean and variance of the output without noise, one point a row, all with growth `growth`.
   Predictions Predict(const Eigen::MatrixXd& points, double growth) const;
 
-  // Posterior covariance of the output at the target with the output at the same x and growth
-  // `growth`, and the variance of the latter: what an evaluation there would teach.
-  struct Bridge {
-    double variance = 0;  // at the target
-    double covariance = 0;
-    double coarse_variance = 0;  // at `growth`, without noise
+  // Points at the target about which evaluations elsewhere would teach something.
+  struct Watched {
+    Eigen::MatrixXd warped;    // d × m
+    Eigen::MatrixXd half;      // n × m, L⁻¹ of their covariances with the evaluations
+    Eigen::VectorXd variance;  // of the output there
   };
-  Bridge BridgeAt(const FidelityPoint& at) const;
+  Watched Watch(const Eigen::MatrixXd& points) const;  // one point a row
+
+  // Posterior covariance of the output at each watched point with the output at `site`, and the
+  // variance of the latter without noise: an evaluation there takes covariance²/(site_variance +
+  // noise) from the variance of a watched point.
+  struct Teaching {
+    Eigen::VectorXd covariance;
+    double site_variance = 0;
+  };
+  Teaching TeachingOf(const Watched& watched, const FidelityPoint& site) const;
 
   // Each evaluation from all others; the variance includes its noise.
   Predictions LeaveOneOut() const;

@@ -110,14 +110,22 @@ TEST(FidelityProcess, LeaveOneOutIsThePredictionFromTheOthers) {
   EXPECT_NEAR(left_out.variance[kLeft], at.variance[0] + process.noise_variance(1), 1e-7);
 }
 
-TEST(FidelityProcess, BridgeSaysWhatAnEvaluationTeaches) {
-  auto process = FidelityProcess::Fit(TwoLevels(8, 3), kOptions);
-  const FidelityPoint at{.x = Eigen::VectorXd::Constant(1, 0.3), .growth = 1};
-  const auto bridge = process.BridgeAt(at);
-  const double seen = bridge.coarse_variance + process.noise_variance(0);
-  const double expected = bridge.variance - bridge.covariance * bridge.covariance / seen;
-  process.AddFantasy(at, 0);
-  EXPECT_NEAR(process.Predict(at.x.transpose(), 0).variance[0], expected, 1e-6);
+// Against the variance once the evaluation is there, at its own place and elsewhere.
+TEST(FidelityProcess, TeachingIsWhatAnEvaluationTakesFromTheVariance) {
+  for (const double growth : {0.0, 1.0}) {
+    auto process = FidelityProcess::Fit(TwoLevels(8, 3), kOptions);
+    const FidelityPoint site{.x = Eigen::VectorXd::Constant(1, 0.3), .growth = growth};
+    const int level = growth > 0 ? 0 : 1;
+    const Eigen::MatrixXd points = Eigen::Vector3d(0.3, 0.35, 0.9);
+    const auto watched = process.Watch(points);
+    const auto teaching = process.TeachingOf(watched, site);
+    const Eigen::ArrayXd expected =
+        watched.variance.array() - teaching.covariance.array().square() /
+                                       (teaching.site_variance + process.noise_variance(level));
+    process.AddFantasy(site, level);
+    const Predictions after = process.Predict(points, 0);
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(after.variance[j], expected[j], 1e-6) << growth << j;
+  }
 }
 
 }  // namespace
