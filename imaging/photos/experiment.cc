@@ -136,9 +136,10 @@ struct MeasuredPhoto {
   std::vector<PhotoWarning> warnings;
 };
 
-MeasuredPhoto MeasurePhoto(const Photo& photo, const PlatePose& pose, const Placement& placement,
+MeasuredPhoto MeasurePhoto(Photo& photo, const PlatePose& pose, const Placement& placement,
                            const ExperimentOptions& options) {
-  const GrayImage image = ReadGrayImage(photo.path);
+  const GrayImage image =
+      photo.image.pixels.empty() ? ReadGrayImage(photo.path) : std::exchange(photo.image, {});
   const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
   MeasuredPhoto measured;
   measured.silhouette = MakeSilhouette(flat, pose, placement.photo_pixel, placement.frame);
@@ -147,7 +148,7 @@ MeasuredPhoto MeasurePhoto(const Photo& photo, const PlatePose& pose, const Plac
   return measured;
 }
 
-void MeasureRuns(const ExperimentOptions& options, const PhotoCollection& collection,
+void MeasureRuns(const ExperimentOptions& options, PhotoCollection& collection,
                  const Placement& placement, Experiment& result) {
   std::vector<std::vector<GrayImage>> silhouettes(collection.runs.size());
   for (const std::string& name : collection.runs) {
@@ -253,7 +254,7 @@ Experiment MeasureExperiment(const ExperimentOptions& options, const PictureSink
   if (!options.map.empty()) {
     result.aehp = ReadMap(options.map, options.plate_diameter, options.frame);
   } else {
-    const PhotoCollection collection = CollectPhotos(options, keep, result.warnings);
+    PhotoCollection collection = CollectPhotos(options, keep, result.warnings);
     WarnOfLight(options, collection, result.warnings);
     const Placement placement = Place(options, collection, result);
     result.photo_pixel = placement.photo_pixel;

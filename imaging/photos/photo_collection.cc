@@ -24,8 +24,11 @@ using DroppedPhotos = std::vector<bool>;
 PhotoCollection NameFiles(const ExperimentOptions& options) {
   PhotoCollection collection;
   const auto add = [&](const std::filesystem::path& path) {
-    collection.photos.push_back(
-        {.path = path, .run = collection.runs.size(), .edges = {}, .front_lit = false});
+    collection.photos.push_back({.path = path,
+                                 .run = collection.runs.size(),
+                                 .edges = {},
+                                 .front_lit = false,
+                                 .image = {}});
   };
   if (!options.runs.empty()) {
     std::size_t most = 0;
@@ -71,17 +74,22 @@ struct Reading {
   PlateEdges edges;
   bool front_lit = false;
   std::string fault;  // "": none
+  GrayImage image;    // kept where there is room for all
 };
 
-Reading Read(const ExperimentOptions& options, const Photo& photo) {
+constexpr std::size_t kMostKept = 256'000'000;  // [bytes]
+
+// One of `num_photos`, which are all of one size.
+Reading Read(const ExperimentOptions& options, const Photo& photo, std::size_t num_photos) {
   Reading reading;
   try {
-    const GrayImage image = ReadGrayImage(photo.path);
+    GrayImage image = ReadGrayImage(photo.path);
     reading.width = image.width;
     reading.height = image.height;
     const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
     reading.front_lit = flat.negative;
     if (!options.frame) reading.edges = FindPlateEdges(flat, photo.path.string());
+    if (image.pixels.size() <= kMostKept / num_photos) reading.image = std::move(image);
   } catch (const base::ConfigError& error) {
     reading.fault = error.what();
   }
@@ -116,12 +124,13 @@ std::string KeepPicture(const ExperimentOptions& options, const Photo& photo,
   }
 }
 
-// Reads every photograph once; one that cannot be used becomes a fault.
+// Reads every photograph; one that cannot be used becomes a fault.
 void FindPlates(const ExperimentOptions& options, const PictureSink& keep,
                 PhotoCollection& collection) {
   std::vector<Reading> readings(collection.photos.size());
-  ForEachPhoto(readings.size(),
-               [&](std::size_t i) { readings[i] = Read(options, collection.photos[i]); });
+  ForEachPhoto(readings.size(), [&](std::size_t i) {
+    readings[i] = Read(options, collection.photos[i], readings.size());
+  });
   DroppedPhotos bad(collection.photos.size(), false);
   for (std::size_t i = 0; i < collection.photos.size(); ++i) {
     Photo& photo = collection.photos[i];
@@ -131,6 +140,7 @@ void FindPlates(const ExperimentOptions& options, const PictureSink& keep,
       if (!reading.fault.empty()) throw base::ConfigError(reading.fault);
       photo.front_lit = reading.front_lit;
       photo.edges = std::move(reading.edges);
+      photo.image = std::move(reading.image);
     } catch (const base::ConfigError& error) {
       collection.faults.push_back(
           {.photo = photo.path,

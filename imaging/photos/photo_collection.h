@@ -18,6 +18,7 @@ struct Photo {
   std::size_t run = 0;
   PlateEdges edges;        // unless the frame is given
   bool front_lit = false;  // powder is brighter than its background
+  GrayImage image;         // empty where all of them together would take too much memory
 };
 
 struct PhotoFault {
@@ -33,8 +34,9 @@ struct PhotoCollection {
   std::vector<PhotoFault> faults;
 };
 
-// Reads every photograph once. Faults end the work with a ConfigError that lists them all, or, with
-// `allow_missing_views`, become warnings. The faulty photographs that can be drawn go to `keep`.
+// Reads every photograph, and keeps it as long as all fit into 256 MB. Faults end the work with a
+// ConfigError that lists them all, or, with `allow_missing_views`, become warnings. The faulty
+// photographs that can be drawn go to `keep`.
 PhotoCollection CollectPhotos(const ExperimentOptions& options, const PictureSink& keep,
                               std::vector<PhotoWarning>& warnings);
 
