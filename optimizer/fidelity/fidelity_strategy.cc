@@ -301,7 +301,7 @@ std::optional<std::string> FidelityStrategy::StopReason() {
     outputs += model.num_outputs();
   }
   const double share = std::expm1(2 * gain / outputs);  // V/B of the typical output
-  return StopByShare(share, options_.stop_share);
+  return StopByShare(share, Model().temper(), options_.stop_share);
 }
 
 std::optional<Moments> FidelityStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {

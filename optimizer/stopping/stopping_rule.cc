@@ -9,6 +9,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kExactShare = 1e-6;
+constexpr double kMostTemper = 1.5;
 
 std::string LeftToGain(double gain) {
   return "what is left to gain, at most " + Rounded(std::max(0.0, gain)) + ", is below ";
@@ -27,8 +28,8 @@ std::optional<std::string> StopByExactGain(double gain, double typical) {
   return LeftToGain(gain) + "a millionth of the mean value less the lowest, " + Rounded(typical);
 }
 
-std::optional<std::string> StopByShare(double share, double stop_share) {
-  if (!(share < stop_share)) return std::nullopt;
+std::optional<std::string> StopByShare(double share, double temper, double stop_share) {
+  if (!(share < stop_share) || temper > kMostTemper) return std::nullopt;
   return "over the posterior the surrogate's variance is " + base::ShortNumber(share, 2) +
          " of what the experiment leaves open, below " + base::ShortNumber(stop_share, 2);
 }

@@ -20,7 +20,8 @@ std::optional<std::string> StopByGain(double gain, double noise, double stop_mul
 std::optional<std::string> StopByExactGain(double gain, double typical);
 
 // `share`: the surrogate's variance over the posterior, as a share of what the experiments' own
-// errors leave open [-].
-std::optional<std::string> StopByShare(double share, double stop_share);
+// errors leave open [-]. `temper`: by how much the variance had to be raised until the trials, each
+// left out in turn, were covered; a model that needs much does not know how little it knows.
+std::optional<std::string> StopByShare(double share, double temper, double stop_share);
 
 }  // namespace talus::optimizer
