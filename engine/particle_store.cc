@@ -22,10 +22,8 @@ void ParticleStore::Resize(std::int64_t count) {
   materials.resize(count);
 }
 
-void ParticleStore::NotePositions() {
-  // A search looks at whole vectors, up to a block beyond a range.
-  for (auto* list : {&old_x, &old_y, &old_z, &radius}) list->resize(Padded(num) + kBlock);
-  for (std::int64_t i = 0; i < Padded(num); ++i) {
+void ParticleStore::NotePositions(std::int64_t begin, std::int64_t end) {
+  for (std::int64_t i = begin; i < end; ++i) {
     old_x[i] = motion[8 * i];
     old_y[i] = motion[8 * i + 1];
     old_z[i] = motion[8 * i + 2];
@@ -71,20 +69,33 @@ void ParticleStore::SetMasses(std::span<const Material> list) {
   }
 }
 
-void ParticleStore::Reorder(std::span<const std::int32_t> order) {
+void ParticleStore::Reorder(std::span<const std::int32_t> order, Team& team) {
   motion_scratch_.swap(motion);
   spin_scratch_.swap(spin);
   ids_scratch_.swap(ids);
   materials_scratch_.swap(materials);
-  Resize(static_cast<std::int64_t>(order.size()));
-  for (std::int64_t i = 0; i < num; ++i) {
-    const std::int64_t from = order[i];
-    std::copy_n(&motion_scratch_[8 * from], 8, &motion[8 * i]);
-    std::copy_n(&spin_scratch_[4 * from], 4, &spin[4 * i]);
-    ids[i] = ids_scratch_[from];
-    materials[i] = materials_scratch_[from];
-  }
-  NotePositions();
+  num = static_cast<std::int64_t>(order.size());
+  motion.resize(8 * Padded(num));
+  spin.resize(4 * Padded(num));
+  single.resize(8 * Padded(num));
+  spot.resize(4 * Padded(num));
+  ids.resize(num);
+  materials.resize(num);
+  // A search looks at whole vectors, up to a block beyond a range.
+  for (auto* list : {&old_x, &old_y, &old_z, &radius}) list->resize(Padded(num) + kBlock);
+  std::fill(motion.begin() + 8 * num, motion.end(), 0.0);
+  std::fill(spin.begin() + 4 * num, spin.end(), 0.0);
+  NotePositions(num, Padded(num));
+  team.ForParts(num, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t from = order[i];
+      std::copy_n(&motion_scratch_[8 * from], 8, &motion[8 * i]);
+      std::copy_n(&spin_scratch_[4 * from], 4, &spin[4 * i]);
+      ids[i] = ids_scratch_[from];
+      materials[i] = materials_scratch_[from];
+    }
+    NotePositions(begin, end);
+  });
 }
 
 }  // namespace talus::engine

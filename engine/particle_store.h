@@ -8,6 +8,7 @@
 
 #include "engine/aligned.h"
 #include "engine/scene/scene.h"
+#include "engine/team.h"
 
 namespace talus::engine {
 
@@ -31,8 +32,9 @@ struct ParticleStore {
   // Masses and inertias from radii and densities.
   void SetMasses(std::span<const Material> list);
 
-  // Keeps the particles that `order` names, in that order, and notes where they are.
-  void Reorder(std::span<const std::int32_t> order);
+  // Keeps the particles that `order` names, in that order, and notes where they are. The rounded
+  // rows are then to be made again.
+  void Reorder(std::span<const std::int32_t> order, Team& team);
 
   Vec3 Position(std::int64_t i) const {
     return {motion[8 * i], motion[8 * i + 1], motion[8 * i + 2]};
@@ -48,7 +50,7 @@ struct ParticleStore {
  private:
   void Resize(std::int64_t count);
   void Put(std::int64_t i, const Particle& p);
-  void NotePositions();
+  void NotePositions(std::int64_t begin, std::int64_t end);
 
   AlignedVector<double> motion_scratch_, spin_scratch_;
   std::vector<std::int64_t> ids_scratch_;

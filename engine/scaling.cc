@@ -1,7 +1,6 @@
 #include "engine/scaling.h"
 
 #include <algorithm>
-#include <ctime>
 
 namespace talus::engine {
 
@@ -47,12 +46,6 @@ double SearchPath(std::span<const ChunkTimes> chunks, std::int64_t cores) {
 
 }  // namespace
 
-double ThreadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 void ScalingProbe::AddStep(std::span<const ChunkTimes> chunks, std::int64_t reach, double alone) {
   double sum = 0, longest = 0;
   for (const ChunkTimes& chunk : chunks) {
@@ -67,10 +60,15 @@ void ScalingProbe::AddStep(std::span<const ChunkTimes> chunks, std::int64_t reac
   num_chunks_ = static_cast<std::int64_t>(chunks.size());
 }
 
-void ScalingProbe::AddList(std::span<const ChunkTimes> chunks, double alone) {
+void ScalingProbe::AddList(std::span<const ChunkTimes> chunks, double alone, double even) {
   for (int k = 0; k < kNumCores; ++k) lists_.shared[k] += SearchPath(chunks, kCores[k]);
+  AddEven(even);
   lists_.alone += alone;
   ++lists_.count;
+}
+
+void ScalingProbe::AddEven(double seconds) {
+  for (int k = 0; k < kNumCores; ++k) lists_.shared[k] += seconds / kCores[k];
 }
 
 ScalingEstimate ScalingProbe::Estimate(std::int64_t num_steps) const {

@@ -13,9 +13,6 @@
 
 namespace talus::engine {
 
-// CPU time of this thread [s].
-double ThreadSeconds();
-
 // Of one chunk [s].
 struct ChunkTimes {
   double forces = 0;  // in a step
@@ -42,8 +39,9 @@ class ScalingProbe {
   // `reach` ones move at once.
   void AddStep(std::span<const ChunkTimes> chunks, std::int64_t reach, double alone);
 
-  // A list has been made.
-  void AddList(std::span<const ChunkTimes> chunks, double alone);
+  // A list has been made; `even` is work that any number of cores share evenly [s].
+  void AddList(std::span<const ChunkTimes> chunks, double alone, double even);
+  void AddEven(double seconds);
 
   // After `num_steps` steps.
   ScalingEstimate Estimate(std::int64_t num_steps) const;

@@ -1,11 +1,13 @@
 // The step: forces, motion, walls, and the list when it is due.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 #include "base/error.h"
 #include "engine/run/blow_up.h"
 #include "engine/simulation_state.h"
+#include "engine/thread_seconds.h"
 #include "engine/wall_motion.h"
 
 namespace talus::engine {
@@ -15,6 +17,12 @@ namespace {
 void Add(const MotionCheck& part, MotionCheck& all) {
   all.max_speed_squared = std::max(all.max_speed_squared, part.max_speed_squared);
   all.sound = all.sound && part.sound;
+}
+
+void Add(const Displacements& part, Displacements& all) {
+  all.second_squared = std::max({std::min(part.largest_squared, all.largest_squared),
+                                 part.second_squared, all.second_squared});
+  all.largest_squared = std::max(part.largest_squared, all.largest_squared);
 }
 
 // Calls `work`, and adds its time if asked to.
@@ -80,7 +88,11 @@ void SimulationState::SetConstants() {
 }
 
 void SimulationState::RoundMotion() {
-  kernels->round_motion(View(), 0, static_cast<std::int64_t>(particles.single.size() / 8));
+  const StepView view = View();
+  const auto count = static_cast<std::int64_t>(particles.single.size()) / 8;
+  team->ForParts(count, kBlock, [&](std::int64_t begin, std::int64_t end) {
+    kernels->round_motion(view, begin, end);
+  });
 }
 
 void SimulationState::RebuildAll() {
@@ -118,12 +130,15 @@ std::span<const ChunkTimes> SimulationState::Times() {
   return chunk_times;
 }
 
-// Of the time of this thread, which made the list, its own chunks' search was shared.
+// Of the time of this thread, which made the list, its own chunks' search was shared, and its part
+// of what the team shared evenly.
 void SimulationState::AddListTimes(double seconds) {
   const std::span<const ChunkTimes> times = Times();
   const auto own = team->ShareOf(0, static_cast<std::int64_t>(times.size()));
   for (std::int64_t c = own.begin; c < own.end; ++c) seconds -= times[c].search;
-  scaling.AddList(times, std::max(seconds, 0.0));
+  const double even = team->TakeEvenSeconds();
+  seconds -= even / team->size();
+  scaling.AddList(times, std::max(seconds, 0.0), even);
 }
 
 void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& panel) {
@@ -174,8 +189,17 @@ void SimulationState::Watch(double max_speed) {
   if (!tuner.Step(distance)) return;
   const CloudView cloud{particles.old_x.data(), particles.old_y.data(), particles.old_z.data(),
                         particles.radius.data()};
-  const Displacements moved = kernels->displacements(
-      cloud, particles.motion.data(), 0, static_cast<std::int64_t>(particles.motion.size() / 8));
+  const double start = ThreadSeconds();
+  Displacements moved{0, 0};
+  std::mutex mutex;
+  const auto count = static_cast<std::int64_t>(particles.motion.size()) / 8;
+  team->ForParts(count, kBlock, [&](std::int64_t begin, std::int64_t end) {
+    const Displacements part = kernels->displacements(cloud, particles.motion.data(), begin, end);
+    const std::lock_guard lock(mutex);
+    Add(part, moved);
+  });
+  scaling.AddEven(team->TakeEvenSeconds());
+  list_seconds += ThreadSeconds() - start;
   const double largest = std::sqrt(moved.largest_squared);
   const double used = largest + std::max(std::sqrt(moved.second_squared), wall_moved);
   if (tuner.CheckDisplacement(used, distance)) RebuildAll();

@@ -11,7 +11,10 @@
 #include <cstdint>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "engine/thread_seconds.h"
 
 namespace talus::engine {
 
@@ -70,6 +73,37 @@ class Team {
     return {count * member / size(), count * (member + 1) / size()};
   }
 
+  // Calls part(begin, end) of the members' shares of `count` things; the shares begin at multiples
+  // of `unit`. Few things are not worth waking anybody.
+  template <class Part>
+  void ForParts(std::int64_t count, std::int64_t unit, const Part& part) {
+    constexpr std::int64_t kWorthSharing = 16384;
+    if (count < kWorthSharing) return part(std::int64_t{0}, count);
+    const std::int64_t num_units = (count + unit - 1) / unit;
+    RunEvenly([&](int member) {
+      const Share share = ShareOf(member, num_units);
+      const std::int64_t begin = unit * share.begin, end = std::min(unit * share.end, count);
+      if (begin < end) part(begin, end);
+    });
+  }
+
+  // Calls visit(c) of the chunks 0 … num_chunks − 1, each member its own.
+  template <class Visit>
+  void ForChunks(std::int64_t num_chunks, const Visit& visit) {
+    constexpr std::int64_t kWorthSharing = 24;
+    const auto visit_all = [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t c = begin; c < end; ++c) visit(c);
+    };
+    if (num_chunks < kWorthSharing) return visit_all(0, num_chunks);
+    RunEvenly([&](int member) {
+      const Share share = ShareOf(member, num_chunks);
+      visit_all(share.begin, share.end);
+    });
+  }
+
+  // What the two above have shared since the last call, taken as even [s].
+  double TakeEvenSeconds() { return std::exchange(even_seconds_, 0.0); }
+
   // Within a task: the member is through its first part; wait until all before `member` are.
   void FinishFirstPart(int member) { halves_[member].Reach(num_tasks_); }
   void AwaitFirstPartsBefore(int member);
@@ -77,12 +111,19 @@ class Team {
  private:
   using PlainTask = void (*)(const void* task, int member);
 
+  template <class Task>
+  void RunEvenly(const Task& task) {
+    const double start = ThreadSeconds();
+    Run(task);
+    even_seconds_ += size() * (ThreadSeconds() - start);
+  }
   void RunPlain(PlainTask call, const void* task);
   void Work(int member);
 
   PlainTask call_ = nullptr;  // null: the team breaks up
   const void* task_ = nullptr;
   std::int64_t num_tasks_ = 0;
+  double even_seconds_ = 0;
   Milestone given_;                 // number of the last task
   std::vector<Milestone> halves_;   // of each member, the last task that it did the first part of
   std::vector<Milestone> done_;     // … and that it did

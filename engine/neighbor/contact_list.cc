@@ -1,9 +1,11 @@
 #include "engine/neighbor/contact_list.h"
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
 #include "base/error.h"
+#include "engine/thread_seconds.h"
 
 namespace talus::engine {
 
@@ -40,30 +42,33 @@ PanelView Chunk::View(const Panel& panel) {
           .forces = forces + 8 * (panel.begin - begin)};
 }
 
-// Calls visit(first, second, block, lane) for each touching pair of the list; `second` of a wall
+// Calls visit(first, second, block, lane) for each touching pair of the chunk; `second` of a wall
 // is -1 - wall.
 template <class Visitor>
-void ContactList::VisitTouching(Visitor&& visit) const {
-  for (const Chunk& chunk : chunks_) {
-    for (const PairRun& run : chunk.runs) {
-      for (std::int64_t k = 0; k < run.num_pairs; ++k) {
-        const std::int64_t at = run.first_block + k / kBlock;
-        const int lane = static_cast<int>(k % kBlock);
-        if ((chunk.touching[at] >> lane & 1) == 0) continue;
-        const PairBlock& block = chunk.blocks[at];
-        visit(block.first[lane], run.wall < 0 ? block.second[lane] : -1 - run.wall, block, lane);
-      }
+void ContactList::VisitTouching(const Chunk& chunk, Visitor&& visit) {
+  for (const PairRun& run : chunk.runs) {
+    for (std::int64_t k = 0; k < run.num_pairs; ++k) {
+      const std::int64_t at = run.first_block + k / kBlock;
+      const int lane = static_cast<int>(k % kBlock);
+      if ((chunk.touching[at] >> lane & 1) == 0) continue;
+      const PairBlock& block = chunk.blocks[at];
+      visit(block.first[lane], run.wall < 0 ? block.second[lane] : -1 - run.wall, block, lane);
     }
   }
 }
 
 // Puts the memory of touching pairs aside, under the new numbers of their particles. Seen from the
-// other side, springs and moments have the opposite sign.
-void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num) {
+// other side, springs and moments have the opposite sign. Members of the team may meet at a
+// particle; the order of its contacts does not matter, as each is found by its other particle.
+void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num,
+                               Team& team) {
   AssignWithRoom(new_of_old_, old_num, -1);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    new_of_old_[order[k]] = static_cast<std::int32_t>(k);
-  }
+  const auto num = static_cast<std::int64_t>(order.size());
+  team.ForParts(num, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      new_of_old_[order[k]] = static_cast<std::int32_t>(k);
+    }
+  });
   const auto renamed = [&](std::int32_t first, std::int32_t second, auto&& use) {
     const std::int32_t a = new_of_old_[first];
     const std::int32_t b = second < 0 ? second : new_of_old_[second];
@@ -74,15 +79,24 @@ void ContactList::SaveContacts(std::span<const std::int32_t> order, std::int64_t
       use(a, b, 1.0f);
     }
   };
-  AssignWithRoom(old_start_, static_cast<std::int64_t>(order.size()) + 1, 0);
-  VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock&, int) {
-    renamed(first, second, [&](std::int32_t a, std::int32_t, float) { ++old_start_[a + 1]; });
+  const bool alone = team.size() == 1;
+  const auto next = [&](std::int64_t& place) {
+    return alone ? place++
+                 : std::atomic_ref<std::int64_t>(place).fetch_add(1, std::memory_order_relaxed);
+  };
+  const auto visit_all = [&](const auto& visit) {
+    team.ForChunks(static_cast<std::int64_t>(chunks_.size()),
+                   [&](std::int64_t c) { VisitTouching(chunks_[c], visit); });
+  };
+  AssignWithRoom(old_start_, num + 1, 0);
+  visit_all([&](std::int32_t first, std::int32_t second, const PairBlock&, int) {
+    renamed(first, second, [&](std::int32_t a, std::int32_t, float) { next(old_start_[a + 1]); });
   });
-  for (std::size_t i = 0; i < order.size(); ++i) old_start_[i + 1] += old_start_[i];
+  for (std::int64_t i = 0; i < num; ++i) old_start_[i + 1] += old_start_[i];
   old_.resize(old_start_.back());
-  VisitTouching([&](std::int32_t first, std::int32_t second, const PairBlock& block, int lane) {
+  visit_all([&](std::int32_t first, std::int32_t second, const PairBlock& block, int lane) {
     renamed(first, second, [&](std::int32_t a, std::int32_t b, float sign) {
-      OldContact& contact = old_[old_start_[a]++];
+      OldContact& contact = old_[next(old_start_[a])];
       contact.second = b;
       for (int c = 0; c < 3; ++c) {
         contact.memory[c] = sign * block.spring[c][lane];
@@ -230,7 +244,7 @@ void ContactList::Fill(const RebuildInput& input, Chunk& chunk, Panel& panel, Sc
   panel.window_end = RoundUp(last + 1);
 }
 
-void ContactList::PrepareForces(int num_threads) {
+void ContactList::PrepareForces(Team& team) {
   const auto num_chunks = static_cast<std::int64_t>(chunks_.size());
   std::int64_t num_rows = 0;
   reach_ = 0;
@@ -245,8 +259,13 @@ void ContactList::PrepareForces(int num_threads) {
     }
   }
   // Rows are free again when the last chunk that they reach into has been moved.
-  const std::int64_t num_sets = num_threads == 1 ? reach_ + 1 : num_chunks;
-  AssignWithRoom(force_rows_, 8 * num_rows * num_sets, 0.0);
+  const std::int64_t num_sets = team.size() == 1 ? reach_ + 1 : num_chunks;
+  // Each member empties the rows that it will use, which also puts them into its own memory.
+  const std::int64_t set_size = 8 * num_rows;
+  ExtendWithRoom(force_rows_, set_size * num_sets, 0.0);
+  team.ForChunks(num_sets, [&](std::int64_t set) {
+    std::fill_n(force_rows_.data() + set * set_size, set_size, 0.0);
+  });
   for (std::int64_t c = 0; c < num_chunks; ++c) {
     Chunk& chunk = chunks_[c];
     chunk.forces = force_rows_.data() + 8 * num_rows * (c % num_sets);
@@ -307,13 +326,13 @@ void ContactList::FindAll(const RebuildInput& input) {
 
 void ContactList::Rebuild(const RebuildInput& input, std::span<const std::int32_t> alive) {
   ParticleStore& p = input.particles;
-  search_.Sort(p, alive, input.reach);
-  SaveContacts(search_.order(), p.num);
-  p.Reorder(search_.order());
+  search_.Sort(p, alive, input.reach, input.team);
+  SaveContacts(search_.order(), p.num, input.team);
+  p.Reorder(search_.order(), input.team);
   search_.NoteLarge(p);
   CutChunks(p.num);
   FindAll(input);
-  PrepareForces(input.team.size());
+  PrepareForces(input.team);
 }
 
 }  // namespace talus::engine

@@ -78,7 +78,7 @@ class ContactList {
   // Force rows and overhangs of the chunks as they are now. One thread computes a chunk and moves
   // it before it goes to the next: then the chunks share a few sets of rows, which stay in the
   // cache.
-  void PrepareForces(int num_threads);
+  void PrepareForces(Team& team);
 
  private:
   struct OldContact {
@@ -98,8 +98,8 @@ class ContactList {
   };
 
   template <class Visitor>
-  void VisitTouching(Visitor&& visit) const;
-  void SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num);
+  static void VisitTouching(const Chunk& chunk, Visitor&& visit);
+  void SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num, Team& team);
   static void CutPanels(Chunk& chunk);
   void CutChunks(std::int64_t num_particles);
   void FindAll(const RebuildInput& input);

@@ -69,7 +69,7 @@ std::int64_t Grid::CellAlong(const Axis& axis, double coordinate) const {
 }
 
 void Grid::Build(const double* rows, std::int64_t stride, std::span<const std::int32_t> alive,
-                 double reach) {
+                 double reach, Team& team) {
   const auto num_points = static_cast<std::int64_t>(alive.size());
   const std::int64_t limit = kCellsPerPoint * num_points + 64;
   // The factor: so that rounding does not put neighbours two cells apart.
@@ -84,10 +84,12 @@ void Grid::Build(const double* rows, std::int64_t stride, std::span<const std::i
   const std::int64_t num_cells = axes_[0].num_cells * axes_[1].num_cells * axes_[2].num_cells;
   start_.assign(num_cells + 1, 0);
   unsorted_.resize(num_points);
-  for (std::int64_t k = 0; k < num_points; ++k) {
-    unsorted_[k] = static_cast<std::int32_t>(CellOf(rows + stride * alive[k]));
-    ++start_[unsorted_[k] + 1];
-  }
+  team.ForParts(num_points, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      unsorted_[k] = static_cast<std::int32_t>(CellOf(rows + stride * alive[k]));
+    }
+  });
+  for (const std::int32_t cell : unsorted_) ++start_[cell + 1];
   for (std::int64_t c = 0; c < num_cells; ++c) start_[c + 1] += start_[c];
   order_.resize(num_points);
   cell_of_.resize(num_points);

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/team.h"
+
 namespace talus::engine {
 
 struct IndexRange {
@@ -23,7 +25,7 @@ class Grid {
   // Sorts the points `alive` of rows {x, y, z, …}, `stride` numbers apart. Points far from all
   // others are put into the outermost cells, so that they do not make the cells large.
   void Build(const double* rows, std::int64_t stride, std::span<const std::int32_t> alive,
-             double reach);
+             double reach, Team& team);
 
   // Index in `rows` of each point, cell after cell; points of one cell in the order of `alive`.
   std::span<const std::int32_t> order() const { return order_; }

@@ -14,8 +14,8 @@ constexpr double kSmallOverMedian = 1.25;
 constexpr double kLargestOverMedian = 4;
 
 // For spheres at most this large the cells must be wide enough.
-double LargestSmall(std::vector<double>& radii, double largest) {
-  if (radii.empty()) return largest;
+double LargestSmall(std::vector<double>& radii, double smallest, double largest) {
+  if (radii.empty() || largest <= kLargestOverMedian * smallest) return largest;
   const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   return largest <= kLargestOverMedian * *middle ? largest : kSmallOverMedian * *middle;
@@ -24,18 +24,20 @@ double LargestSmall(std::vector<double>& radii, double largest) {
 }  // namespace
 
 void PairSearch::Sort(const ParticleStore& particles, std::span<const std::int32_t> alive,
-                      double reach) {
+                      double reach, Team& team) {
   reach_ = reach;
   largest_ = 0;
+  double smallest = std::numeric_limits<double>::infinity();
   scratch_.clear();
   for (const std::int32_t i : alive) {
     scratch_.push_back(particles.Radius(i));
     largest_ = std::max(largest_, scratch_.back());
+    smallest = std::min(smallest, scratch_.back());
   }
-  const double small = LargestSmall(scratch_, largest_);
+  const double small = LargestSmall(scratch_, smallest, largest_);
   smallest_large_ =
       small < largest_ ? std::nextafter(small, largest_) : std::numeric_limits<double>::infinity();
-  grid_.Build(particles.motion.data(), 8, alive, 2 * small + reach);
+  grid_.Build(particles.motion.data(), 8, alive, 2 * small + reach, team);
 }
 
 void PairSearch::NoteLarge(const ParticleStore& particles) {

@@ -26,7 +26,8 @@ struct NearSpheres {
 class PairSearch {
  public:
   // Sorts the particles `alive` into cells, for pairs with a gap below `reach`.
-  void Sort(const ParticleStore& particles, std::span<const std::int32_t> alive, double reach);
+  void Sort(const ParticleStore& particles, std::span<const std::int32_t> alive, double reach,
+            Team& team);
 
   // Index of each particle, cell after cell.
   std::span<const std::int32_t> order() const { return grid_.order(); }

@@ -176,7 +176,7 @@ Simulation Simulation::Restore(std::string_view bytes, int num_threads) {
   if (!reader.AtEnd()) throw base::Error("the checkpoint is damaged");
   state->first_step = state->step;
   state->SetThreads(num_threads);
-  state->list.PrepareForces(state->team->size());
+  state->list.PrepareForces(*state->team);
   state->SetConstants();
   state->particles.single.resize(state->particles.motion.size());
   state->particles.spot.resize(state->particles.motion.size() / 2);

@@ -28,7 +28,8 @@ class OverlapCheck {
     double largest = 0;
     for (const Particle& p : scene_.particles) largest = std::max(largest, p.radius);
     Grid grid;
-    grid.Build(particles_.motion.data(), 8, all, 2 * largest);
+    Team team(1);
+    grid.Build(particles_.motion.data(), 8, all, 2 * largest, team);
     for (std::size_t i = 0; i < all.size(); ++i) {
       for (const IndexRange& range : grid.LaterNeighbors(static_cast<std::int64_t>(i))) {
         for (std::int64_t j = range.begin; j < range.end; ++j) {

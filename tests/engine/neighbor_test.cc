@@ -90,7 +90,8 @@ TEST(Grid, FindsWhatLookingAtEveryPairFinds) {
     std::vector<std::int32_t> all(count);
     std::iota(all.begin(), all.end(), 0);
     Grid grid;
-    grid.Build(cloud.rows.data(), 3, all, 1.0);
+    Team team(2);
+    grid.Build(cloud.rows.data(), 3, all, 1.0, team);
     ASSERT_EQ(static_cast<std::int64_t>(grid.order().size()), count);
     const Pairs found = Near(cloud.rows, [&](auto&& candidate) {
       for (std::int64_t k = 0; k < count; ++k) {
@@ -116,7 +117,8 @@ TEST(Grid, OutliersDoNotMakeTheCellsLarge) {
   std::vector<std::int32_t> all(cloud.rows.size() / 3);
   std::iota(all.begin(), all.end(), 0);
   Grid grid;
-  grid.Build(cloud.rows.data(), 3, all, 1.0);
+  Team team(1);
+  grid.Build(cloud.rows.data(), 3, all, 1.0, team);
   std::int64_t candidates = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
     for (const IndexRange& range : grid.LaterNeighbors(static_cast<std::int64_t>(k))) {
@@ -186,8 +188,9 @@ TEST(PairSearch, FindsEveryPairOnceWhateverTheSizes) {
       std::vector<std::int32_t> all(store.num);
       std::iota(all.begin(), all.end(), 0);
       PairSearch search;
-      search.Sort(store, all, kReach);
-      store.Reorder(search.order());
+      Team team(2);
+      search.Sort(store, all, kReach, team);
+      store.Reorder(search.order(), team);
       search.NoteLarge(store);
       Pairs touching, near, expected_touching, expected_near;
       for (std::int64_t i = 0; i < store.num; ++i) {
