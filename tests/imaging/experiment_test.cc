@@ -274,6 +274,53 @@ TEST(Experiment, DoubtfulPhotographsAreWarnedOf) {
                                                    std::pair(Name(1, 6), kOverexposed)));
 }
 
+std::vector<PhotoDoubt> DoubtsOf(const fs::path& folder) {
+  std::vector<PhotoDoubt> doubts;
+  for (const PhotoWarning& warning : MeasureExperiment(Options(folder)).warnings) {
+    doubts.push_back(warning.doubt);
+  }
+  return doubts;
+}
+
+TEST(Experiment, AnEmptyPlateIsWarnedOf) {
+  const fs::path folder = GoodFolder("empty_plate");
+  WritePng(folder / Name(2, 1), Photograph(SmallScene(), [](double) { return 0.0; }));
+  EXPECT_THAT(DoubtsOf(folder), testing::ElementsAre(PhotoDoubt::kNoPowder));
+}
+
+TEST(Experiment, PhotographsOfTwoKindsOfLightAreWarnedOf) {
+  const fs::path folder = GoodFolder("mixed");
+  GrayImage front_lit = Triangle(SmallScene());
+  for (std::uint8_t& level : front_lit.pixels) level = static_cast<std::uint8_t>(255 - level);
+  WritePng(folder / Name(2, 1), front_lit);
+  EXPECT_THAT(DoubtsOf(folder), testing::ElementsAre(PhotoDoubt::kMixedLight));
+}
+
+// Grains that hang over the rim on both sides: no corner of the plate is seen.
+TEST(Experiment, APlateWhoseTopNoPhotographShowsIsWarnedOf) {
+  const fs::path folder = EmptyFolder("hidden_top");
+  const Scene scene = SmallScene();
+  const auto overhanging = [](double x, double up) {
+    return up > -4 && up < 0.5 * (170 - std::abs(x)) && std::abs(x) < 156;
+  };
+  WritePng(folder / Name(1, 0), Expose(scene, Cover(scene, overhanging)));
+  EXPECT_THAT(DoubtsOf(folder), testing::Contains(PhotoDoubt::kHiddenTop));
+}
+
+// Four heaps whose slopes differ by 1 %, and one by 12 %.
+TEST(Experiment, ARunUnlikeTheOthersIsWarnedOf) {
+  const fs::path folder = EmptyFolder("odd_run");
+  int run = 0;
+  for (const double slope : {0.5, 0.505, 0.56, 0.495, 0.5}) {
+    WritePng(folder / Name(++run, 0),
+             Photograph(SmallScene(), [&](double x) { return slope * (150 - std::abs(x)); }));
+  }
+  const auto warnings = MeasureExperiment(Options(folder)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].doubt, PhotoDoubt::kRunDisagrees);
+  EXPECT_EQ(warnings[0].reason, "3");
+}
+
 TEST(Experiment, NothingIsLeft) {
   const fs::path folder = EmptyFolder("nothing");
   std::ofstream(folder / Name(1, 0)) << "no image";
