@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/analysis/report/profile_views.h"
+#include "experiments/analysis/report/views/profile_views.h"
 
 namespace talus::analysis {
 namespace {

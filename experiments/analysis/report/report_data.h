@@ -7,9 +7,9 @@
 
 #include "experiments/analysis/compare/compare.h"
 #include "experiments/analysis/compare/profile_pictures.h"
-#include "experiments/analysis/report/heap_views.h"
-#include "experiments/analysis/report/model_views.h"
-#include "experiments/analysis/report/next_steps.h"
+#include "experiments/analysis/report/views/heap_views.h"
+#include "experiments/analysis/report/views/model_views.h"
+#include "experiments/analysis/report/views/next_steps.h"
 
 namespace talus::analysis {
 

@@ -2,8 +2,8 @@
 
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
-#include "experiments/analysis/report/figures.h"
-#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/charts/figures.h"
+#include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/tables.h"
 
 namespace talus::analysis {

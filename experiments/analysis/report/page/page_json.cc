@@ -2,10 +2,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/analysis/report/base64.h"
+#include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/analysis/report/methods.h"
-#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/page/base64.h"
+#include "experiments/analysis/report/page/page.h"
 
 namespace talus::analysis {
 namespace {
@@ -254,6 +255,14 @@ Json OverlayJson(const ReportData& data) {
           {"outlines", List(data.overlay_outlines, OutlineJson)}};
 }
 
+Json ColorsJson() {
+  return {{"palette", kPalette},
+          {"chance", kChance},
+          {"regions", {kRegion50, kRegion90}},
+          {"scatter_band", kScatterBand},
+          {"light_ink", kInk}};
+}
+
 }  // namespace
 
 std::string PageJson(const ReportData& data) {
@@ -263,6 +272,7 @@ std::string PageJson(const ReportData& data) {
     return Json{{"name", m.name}, {"title", MetricTitle(m.name)}, {"unit", PrettyUnit(m.unit)}};
   });
   const Json page{
+      {"colors", ColorsJson()},
       {"campaign", CampaignJson(data)},
       {"parameters", ParametersJson(e)},
       {"metrics", metrics},

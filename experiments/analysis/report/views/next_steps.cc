@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/next_steps.h"
+#include "experiments/analysis/report/views/next_steps.h"
 
 #include <algorithm>
 #include <cmath>
