@@ -48,7 +48,8 @@ ReportData MakeReportData(Evidence evidence) {
   data.objective = IndexOf(data.findings, data.evidence.objective);
   AddModelViews(data);
   AddProfileViews(data);
-  data.next_steps = NextSteps(data.evidence);
+  data.next_table = ReadNextTable(data.evidence);
+  data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;
 }
 

@@ -20,6 +20,12 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
     if (view.heap.png.empty()) continue;
     base::WriteFileAtomically(folder / "figures" / (view.heap.name + ".png"), view.heap.png);
   }
+  for (const CandidateView& candidate :
+       data.next_table ? data.next_table->candidates : std::vector<CandidateView>{}) {
+    if (candidate.picture.png.empty()) continue;
+    base::WriteFileAtomically(folder / "figures" / (candidate.picture.name + ".png"),
+                              candidate.picture.png);
+  }
   for (const NamedText& figure : ReportFigures(data)) {
     base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.text);
   }

@@ -137,6 +137,11 @@ std::string ResultSummary(const CampaignResult& r) {
                       : "  tied within noise " + NumberText4(100 * r.tied_volume) +
                             " % of the searched ranges\n";
   text += "  stopped because   " + r.stop_reason + "\n";
+  if (r.verdict && r.verdict->kind != VerdictKind::kPoint) {
+    text +=
+        "  next              `talus next DIR` ranks what would narrow it; `talus report DIR` shows "
+        "it\n";
+  }
   text += "  holds for         scale factor " + NumberText4(r.conditions.scale_factor) + ", Y " +
           NumberText4(r.conditions.youngs_modulus) + " Pa, lift velocity " +
           NumberText4(r.conditions.lift_velocity) + " m/s, adhesion " + r.conditions.adhesion +

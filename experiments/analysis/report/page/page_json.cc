@@ -130,6 +130,24 @@ Json StepJson(const NextStep& step) {
   return {{"what", step.what}, {"cost", step.cost}, {"leaves", step.leaves}};
 }
 
+Json NextTableJson(const NextTableView& table) {
+  const auto candidate = [](const CandidateView& c) {
+    return Json{{"name", c.name},
+                {"what", c.what},
+                {"bits", Number(c.bits)},
+                {"width", Numbers(c.width)},
+                {"simulations", c.num_simulations},
+                {"core_time", Number(c.core_time)},
+                {"apart", List(c.apart, Numbers)},
+                {"uri", UriOf(c.picture)},
+                {"picture_width", c.picture.width},
+                {"picture_height", c.picture.height}};
+  };
+  return {{"width", Numbers(table.width)},
+          {"outdated", table.is_outdated},
+          {"candidates", List(table.candidates, candidate)}};
+}
+
 Json HeadlineJson(const ReportData& data) {
   const Conclusion& c = *data.evidence.conclusion;
   return {{"values", List(c.values,
@@ -277,6 +295,7 @@ std::string PageJson(const ReportData& data) {
       {"parameters", ParametersJson(e)},
       {"metrics", metrics},
       {"headline", conclusion ? HeadlineJson(data) : Json(nullptr)},
+      {"next", data.next_table ? NextTableJson(*data.next_table) : Json(nullptr)},
       {"warnings", conclusion ? Json(conclusion->warnings) : Json::array()},
       {"conditions", conclusion ? Json(conclusion->conditions) : Json::array()},
       {"trials", TrialsJson(e)},
