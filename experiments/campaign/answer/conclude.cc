@@ -10,6 +10,7 @@
 #include "experiments/campaign/answer/best_confirmed.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/cores.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
@@ -187,7 +188,7 @@ ResultCost CostOf(const Planner& planner, const Evidenced& of) {
     if (trial.status == journal::TrialStatus::kRunning) continue;
     ++cost.num_trials;
     if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
-    const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * of.spec.threads;
+    const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * CoresOfTrial(of.spec);
     if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
   }
   return cost;

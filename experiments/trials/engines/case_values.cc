@@ -101,6 +101,11 @@ TemplateValues CaseValues(const rigs::HeapCase& c) {
   scalars["gravity"] = NumberText(c.gravity);
   scalars["settling_time"] = NumberText(c.rules.settling.max_time);
   scalars["rest_time"] = NumberText(c.rules.heap.max_time);
+  // For decks that cannot calculate.
+  const double lifted = c.rules.settling.max_time +
+                        1.2 * rigs::EstimateHeap(c).filled_height / c.device.lift_velocity;
+  scalars["lifted_time"] = NumberText(lifted);
+  scalars["end_time"] = NumberText(lifted + c.rules.heap.max_time);
   scalars["seed"] = std::to_string(PlainSeed(c.seed));
   scalars["prime_seed"] = std::to_string(PrimeSeed(c.seed));
   scalars["threads"] = std::to_string(c.threads);
