@@ -12,6 +12,7 @@
 #include "base/files/file.h"
 #include "base/json/json_file.h"
 #include "base/problems.h"
+#include "base/units.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/spec_draft.h"
@@ -31,19 +32,39 @@ struct Question {
   const char* flag;
   const char* words;    // of the question and the help
   const char* example;  // with its unit
+  base::Dimension dimension;
   std::string campaign::SpecAnswers::*answer;
 };
+using enum base::Dimension;
 constexpr Question kQuestions[] = {
-    {"--plate-diameter", "diameter of the plate", "10 mm", &campaign::SpecAnswers::plate_diameter},
-    {"--tube-diameter", "inner diameter of the tube", "10 mm",
+    {"--plate-diameter", "diameter of the plate", "10 mm", kLength,
+     &campaign::SpecAnswers::plate_diameter},
+    {"--tube-diameter", "inner diameter of the tube", "10 mm", kLength,
      &campaign::SpecAnswers::tube_diameter},
-    {"--lift-velocity", "speed at which the tube is lifted", "10 mm/s",
+    {"--lift-velocity", "speed at which the tube is lifted", "10 mm/s", kVelocity,
      &campaign::SpecAnswers::lift_velocity},
-    {"--mass", "mass filled into the tube", "1.5 g", &campaign::SpecAnswers::mass},
-    {"--density", "density of the grains", "4400 kg/m^3", &campaign::SpecAnswers::density},
-    {"--grain-diameter", "median diameter of the grains", "80 um",
+    {"--mass", "mass filled into the tube", "1.5 g", kMass, &campaign::SpecAnswers::mass},
+    {"--density", "density of the grains", "4400 kg/m^3", kDensity,
+     &campaign::SpecAnswers::density},
+    {"--grain-diameter", "median diameter of the grains", "80 um", kLength,
      &campaign::SpecAnswers::grain_diameter},
 };
+
+// Until the answer is a quantity; nothing where there is no more input.
+std::string Ask(const Question& question) {
+  std::string answer;
+  while (std::cin) {
+    std::cerr << question.words << " (such as " << question.example << "): " << std::flush;
+    if (!std::getline(std::cin, answer) || answer.empty()) continue;
+    try {
+      base::ParseQuantity(answer, question.dimension);
+      return answer;
+    } catch (const base::ConfigError& error) {
+      std::cerr << error.what() << '\n';
+    }
+  }
+  return {};
+}
 
 // Asks on a terminal; elsewhere every missing flag is named at once.
 void Complete(campaign::SpecAnswers& answers) {
@@ -51,12 +72,7 @@ void Complete(campaign::SpecAnswers& answers) {
   base::Problems problems;
   for (const Question& question : kQuestions) {
     std::string& answer = answers.*question.answer;
-    if (asks) {
-      while (answer.empty() && std::cin) {
-        std::cerr << question.words << " (such as " << question.example << "): " << std::flush;
-        std::getline(std::cin, answer);
-      }
-    }
+    if (asks && answer.empty()) answer = Ask(question);
     if (answer.empty()) {
       problems.Add(question.flag, std::string("is missing; give the ") + question.words + ": \"" +
                                       question.example + "\"");
@@ -125,6 +141,10 @@ void AddInitCommand(CLI::App& app) {
         question.flag, arguments->answers.*question.answer,
         std::string(question.words) + " with its unit, such as \"" + question.example + "\"");
   }
+  verb->add_option(
+      "--scale", arguments->answers.scale,
+      "of a heap on a table without a plate: two points in pixels and the length between "
+      "them, such as \"104,310-884,312=30mm\"");
   verb->add_flag("--cohesive", arguments->answers.cohesive,
                  "search the surface energy, too: fine or moist powder");
   verb->footer("On a terminal it asks for what is not given.");

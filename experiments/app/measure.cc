@@ -17,6 +17,7 @@ struct MeasureFlags {
   std::vector<std::string> inputs;
   std::string out;
   std::string plate_diameter;
+  std::string scale;
   std::string pattern;
   std::string frame;
   std::string tilt;
@@ -59,8 +60,13 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
     if (name == flags.powder) options.powder = look;
   }
   options.allow_missing_views = flags.allow_missing_views;
-  if (options.plate_diameter == 0 && flags.like.empty()) {
-    throw base::ConfigError("--plate-diameter is missing; give it with its unit: 10mm");
+  options.scale = flags.scale;
+  if (options.plate_diameter == 0 && flags.like.empty() && flags.scale.empty()) {
+    throw base::ConfigError(
+        "--plate-diameter is missing; give it with its unit: 10mm; or, of a heap on a table "
+        "without a "
+        "plate, two points in pixels and the length between them: --scale "
+        "\"104,310-884,312=30mm\"");
   }
   return options;
 }
@@ -89,6 +95,10 @@ void Measure(const MeasureFlags& flags) {
 void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_option("--plate-diameter", flags.plate_diameter,
                   "diameter of the plate with its unit, such as 10mm");
+  verb.add_option(
+      "--scale", flags.scale,
+      "of a heap on a table without a plate: two points in pixels and the length between "
+      "them, such as \"104,310-884,312=30mm\"");
   verb.add_option("--pattern", flags.pattern,
                   "file names in a folder: {run}, {view}, * (default: run{run}_view{view}.*)");
   verb.add_flag("--map", flags.map, "the input is a grey average map, black = powder");

@@ -1,9 +1,11 @@
 // talus next
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
+#include "base/files/file.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/make_parts.h"
@@ -29,6 +31,10 @@ void Next(const Arguments& arguments) {
   const analysis::NextTable table = analysis::RankNext(view, options);
   std::cout << (arguments.json ? analysis::NextJson(table) : analysis::NextText(table))
             << std::flush;
+  // For the report.
+  const std::filesystem::path folder = view.folder.root / "next";
+  std::filesystem::create_directories(folder);
+  base::WriteFileAtomically(folder / "next.json", analysis::NextJson(table));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/app/commands.h"
+#include "experiments/campaign/cores.h"
 #include "experiments/campaign/estimate.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
@@ -57,6 +58,9 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   std::cout << std::flush;
   if (spec.engine.kind == campaign::EngineKind::kTalus) {
     std::cout << campaign::EstimateText(spec, campaign::EstimateCampaign(spec));
+  }
+  if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
+    std::cout << "  warning: " << *warning << '\n';
   }
   const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {

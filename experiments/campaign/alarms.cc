@@ -7,6 +7,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign_strategy.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "optimizer/answer/answer.h"
 
 namespace talus::campaign {
 namespace {
@@ -35,24 +36,6 @@ const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>
     if (best == nullptr || *reference.Value(trial) < *reference.Value(*best)) best = &trial;
   }
   return best;
-}
-
-void AddBounds(const optimizer::Answer& answer, CampaignResult& result) {
-  for (const optimizer::BoundWarning& bound : answer.warnings) {
-    const auto i = static_cast<std::size_t>(bound.parameter);
-    result.warnings.push_back(Worded({.kind = WarningKind::kBound,
-                                      .parameter = result.parameters[i].name,
-                                      .side = bound.is_upper ? "upper" : "lower"}));
-  }
-}
-
-void AddCorrelation(CampaignResult& result) {
-  const auto pair = TiedPair(result.correlation);
-  if (!pair) return;
-  result.warnings.push_back(Worded({.kind = WarningKind::kCorrelated,
-                                    .parameter = result.parameters[pair->first].name,
-                                    .other_parameter = result.parameters[pair->second].name,
-                                    .value = result.correlation[pair->first][pair->second]}));
 }
 
 void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
@@ -120,6 +103,36 @@ std::vector<ResultWarning> DisappointmentAlarms(const CampaignResult& result,
   return alarms;
 }
 
+std::vector<ResultWarning> CorrelationAlarms(const CampaignResult& result) {
+  const auto pair = TiedPair(result.correlation);
+  // Draws of a small region may correlate as strongly as they like.
+  const bool is_open = result.verdict && (result.verdict->kind == VerdictKind::kCurve ||
+                                          result.verdict->kind == VerdictKind::kSeparate);
+  if (!pair || !is_open) return {};
+  return {Worded({.kind = WarningKind::kCorrelated,
+                  .parameter = result.parameters[pair->first].name,
+                  .other_parameter = result.parameters[pair->second].name,
+                  .value = result.correlation[pair->first][pair->second]})};
+}
+
+std::vector<ResultWarning> BoundAlarms(const CampaignResult& result,
+                                       const optimizer::ParameterSpace& space) {
+  const std::vector<int> free = space.Free();
+  Eigen::VectorXd point(static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    point[static_cast<Eigen::Index>(i)] =
+        space.parameters[static_cast<std::size_t>(free[i])].ToUnit(result.parameters[i].value);
+  }
+  std::vector<ResultWarning> alarms;
+  for (const optimizer::BoundWarning& bound : optimizer::BoundWarnings(point)) {
+    alarms.push_back(
+        Worded({.kind = WarningKind::kBound,
+                .parameter = result.parameters[static_cast<std::size_t>(bound.parameter)].name,
+                .side = bound.is_upper ? "upper" : "lower"}));
+  }
+  return alarms;
+}
+
 std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer) {
   if (answer.posterior) {
     const optimizer::PosteriorSummary& p = *answer.posterior;
@@ -143,8 +156,8 @@ void AddAlarms(const AlarmBasis& basis, CampaignResult& result) {
   Append(DisappointmentAlarms(result, basis.trials, basis.reference), result.warnings);
   Append(ModelAlarms(basis.answer), result.warnings);
   if (result.posterior) Append(PosteriorWarnings(*result.posterior), result.warnings);
-  AddCorrelation(result);
-  AddBounds(basis.answer, result);
+  Append(CorrelationAlarms(result), result.warnings);
+  Append(BoundAlarms(result, basis.space), result.warnings);
   AddGrainWarnings(basis.spec, result);
   AddPhotographs(basis.campaign, result);
 }

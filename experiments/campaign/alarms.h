@@ -8,12 +8,14 @@
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
+#include "optimizer/space/parameter_space.h"
 #include "optimizer/strategies/strategy.h"
 
 namespace talus::campaign {
 
 struct AlarmBasis {
   const optimizer::Answer& answer;
+  const optimizer::ParameterSpace& space;
   const CampaignSpec& spec;
   const journal::CampaignRecord& campaign;
   const Reference& reference;  // of the first experiment
@@ -27,6 +29,14 @@ void AddAlarms(const AlarmBasis& basis, CampaignResult& result);
 std::vector<ResultWarning> DisappointmentAlarms(const CampaignResult& result,
                                                 const std::vector<journal::TrialRecord>& trials,
                                                 const Reference& reference);
+
+// Two parameters that are known together only; none where each is known well, or the pair is not
+// what leaves the answer open.
+std::vector<ResultWarning> CorrelationAlarms(const CampaignResult& result);
+
+// Parameters of the recommended set that lie on an end of their range.
+std::vector<ResultWarning> BoundAlarms(const CampaignResult& result,
+                                       const optimizer::ParameterSpace& space);
 
 // Whether the model predicts what it was not told.
 std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer);

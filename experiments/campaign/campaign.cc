@@ -10,6 +10,7 @@
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/cores.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -57,6 +58,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
   journal_.SetProgress({.elapsed_s = Elapsed()});
   TellFinished();
   TakeUpRunning();
+  if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
   bool announced = false;
   while (true) {
     const base::Interrupt asked = interrupt.Asked();

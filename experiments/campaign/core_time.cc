@@ -2,13 +2,15 @@
 
 #include <cmath>
 
+#include "experiments/campaign/cores.h"
+
 namespace talus::campaign {
 namespace {
 
 // 0 where it is not known.
-double Measured(const journal::TrialRecord& trial, int threads) {
+double Measured(const journal::TrialRecord& trial, int num_cores) {
   if (trial.status == journal::TrialStatus::kRunning) return 0;
-  const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * threads;
+  const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * num_cores;
   return std::isfinite(seconds) ? seconds : 0;
 }
 
@@ -42,7 +44,7 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   measured_.clear();
   double sum = 0;
   for (const journal::TrialRecord& trial : trials) {
-    const double seconds = Measured(trial, spec_.threads);
+    const double seconds = Measured(trial, CoresOfTrial(spec_));
     if (seconds == 0) continue;
     GrainSteps(trial);
     Total& total = measured_[{trial.experiment, trial.scale_factor}];
@@ -51,7 +53,7 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
     sum += seconds;
   }
   for (const journal::TrialRecord& trial : trials) {
-    if (Measured(trial, spec_.threads) == 0) sum += Estimate(trial);
+    if (Measured(trial, CoresOfTrial(spec_)) == 0) sum += Estimate(trial);
   }
   return sum;
 }

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "base/text/number_text.h"
-#include "experiments/campaign/folder/console.h"
+#include "experiments/campaign/cores.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -131,9 +130,7 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
   const int num_confirming = spec.confirm.candidates * spec.confirm.replicates;
   if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
-  e.num_workers = spec.workers > 0
-                      ? spec.workers
-                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  e.num_workers = LocalWorkers(spec, NumCores());
   const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations
                                                     : spec.budget.core_time.value_or(0);
   e.campaign_time =

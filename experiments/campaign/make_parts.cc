@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "experiments/campaign/cores.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/slurm_runner.h"
 #include "experiments/trials/engines/command_engine.h"
@@ -14,12 +15,13 @@ std::unique_ptr<runners::Runner> MakeRunner(const CampaignSpec& spec,
                                             const std::filesystem::path& folder) {
   switch (spec.runner.kind) {
     case RunnerKind::kLocal:
-      return std::make_unique<runners::LocalRunner>(
-          runners::LocalRunnerOptions{.workers = spec.workers, .threads_per_job = spec.threads});
+      return std::make_unique<runners::LocalRunner>(runners::LocalRunnerOptions{
+          .workers = LocalWorkers(spec, NumCores()), .threads_per_job = spec.threads});
     case RunnerKind::kSlurm: {
       runners::SlurmOptions options = spec.runner.slurm;
       if (spec.workers > 0) options.max_jobs = std::min(options.max_jobs, spec.workers);
       options.cores = std::max(options.cores, spec.threads);
+      options.ranks = RanksOf(spec);
       return std::make_unique<runners::SlurmRunner>(options, folder);
     }
   }

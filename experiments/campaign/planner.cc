@@ -9,6 +9,7 @@
 #include "base/parallel_for.h"
 #include "base/random.h"
 #include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/cores.h"
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/designs/design.h"
 
@@ -216,7 +217,7 @@ void Planner::LeaveCoresToTrials() const {
       std::count_if(trials_.begin(), trials_.end(), [](const journal::TrialRecord& trial) {
         return trial.status == journal::TrialStatus::kRunning;
       });
-  base::SetMostLoopThreads(most_threads_ - static_cast<int>(num_running) * spec_.threads);
+  base::SetMostLoopThreads(most_threads_ - static_cast<int>(num_running) * CoresOfTrial(spec_));
 }
 
 bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) {

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "experiments/runners/mpi_environment.h"
 
 namespace talus::runners {
 namespace {
@@ -142,6 +143,9 @@ std::vector<std::string> Environment(int threads, const std::string& mark) {
   }
   list.push_back("OMP_NUM_THREADS=" + std::to_string(threads));
   list.push_back("OMP_WAIT_POLICY=passive");
+  for (const auto& [name, value] : kUnboundRanks) {
+    if (std::getenv(name) == nullptr) list.push_back(std::string(name) + "=" + value);
+  }
   list.push_back(MarkEntry(mark));
   return list;
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text/printable.h"
+#include "experiments/runners/mpi_environment.h"
 
 namespace talus::runners {
 namespace {
@@ -70,7 +71,7 @@ void AddDirectives(std::ostream& out, const Batch& batch, const SlurmOptions& op
   const long minutes = Minutes(batch, options);
   if (minutes > 0) add("time", std::to_string(minutes));
   add("mem", options.memory);
-  add("ntasks", "1");
+  add("ntasks", std::to_string(options.ranks));
   add("cpus-per-task", std::to_string(options.cores));
   out << "#SBATCH --requeue\n";
   for (const std::string& line : options.directives) out << "#SBATCH " << line << '\n';
@@ -107,8 +108,9 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
     out << " || exit 1\n";
   }
   for (const std::string& line : options.setup) out << line << '\n';
-  out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n"
-      << "started=${EPOCHREALTIME//[!0-9]/}\n"
+  out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n";
+  for (const auto& [name, value] : kUnboundRanks) out << "export " << name << '=' << value << '\n';
+  out << "started=${EPOCHREALTIME//[!0-9]/}\n"
       << "\"${command[@]}\" >log.txt 2>&1 </dev/null\n"
       << "status=$?\n"
       << "took=$((${EPOCHREALTIME//[!0-9]/} - started))\n";

@@ -16,7 +16,8 @@ struct SlurmOptions {
   std::string qos{};                   // "": the user's default
   std::optional<double> time{};        // limit of a trial [s], > 0; default: the trial's time cap
   std::string memory{};                // of a trial, as Slurm writes it: "2G"; "": the default
-  int cores = 1;                       // of a trial, >= 1
+  int cores = 1;                       // of each rank of a trial, >= 1
+  int ranks = 1;                       // MPI processes of a trial, >= 1; the engine says how many
   std::vector<std::string> modules{};  // `module load`ed before the trial
   std::vector<std::string> directives{};  // more options of sbatch: "--constraint=avx512"
   std::vector<std::string> setup{};       // shell lines before the trial
@@ -35,7 +36,7 @@ struct SlurmOptions {
           {.dimension = Dimension::kTime,
            .doc = "limit of a trial, > 0; default: the trial's time cap"});
     visit("memory", self.memory, {.doc = "of a trial, as Slurm writes it: 2G"});
-    visit("cores", self.cores, {.doc = "of a trial, >= 1"});
+    visit("cores", self.cores, {.doc = "of a trial, or of each of its MPI ranks, >= 1"});
     visit("modules", self.modules, {.doc = "loaded with `module load` before a trial"});
     visit("directives", self.directives, {.doc = "more options of sbatch: --constraint=avx512"});
     visit("setup", self.setup, {.doc = "shell lines to run before a trial"});

@@ -10,6 +10,7 @@
 #include "imaging/formats/images/map_file.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/photo_collection.h"
+#include "imaging/photos/scale_mark.h"
 #include "imaging/photos/silhouette.h"
 #include "imaging/spheres/projection.h"
 
@@ -64,9 +65,32 @@ Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& 
   return placement;
 }
 
+// A heap on a table: its middle is where a plate's would be, and the table counts as far as
+// `plate_diameter` says, or a little farther than the heap reaches.
+Placement PlaceByScale(const ExperimentOptions& options, const PhotoCollection& collection) {
+  constexpr double kBeyondHeap = 1.1;
+  Placement placement{
+      .frame = {}, .photo_pixel = ParseScale(options.scale).pixel_size(), .poses = {}};
+  double reach = 0;  // [px]
+  for (const Photo& photo : collection.photos) reach = std::max(reach, photo.table.reach);
+  ExperimentOptions of = options;
+  if (of.plate_diameter == 0) {
+    of.plate_diameter = 1e-3 * std::ceil(1e3 * 2 * kBeyondHeap * reach * placement.photo_pixel);
+  }
+  for (const Photo& photo : collection.photos) {
+    placement.poses.push_back({.width = of.plate_diameter / placement.photo_pixel,
+                               .center_x = photo.table.center_x,
+                               .baseline = photo.table.baseline,
+                               .tilt = photo.table.tilt});
+  }
+  placement.frame = FrameFor(of, collection, placement);
+  return placement;
+}
+
 Placement Place(const ExperimentOptions& options, const PhotoCollection& collection,
                 Experiment& result) {
   if (options.frame) return PlaceByFrame(options, collection);
+  if (!options.scale.empty()) return PlaceByScale(options, collection);
   std::vector<PhotographedPlate> plates;
   for (const Photo& photo : collection.photos) {
     plates.push_back({.edges = photo.edges, .run = photo.run});
@@ -140,7 +164,7 @@ MeasuredPhoto MeasurePhoto(Photo& photo, const PlatePose& pose, const Placement&
                            const ExperimentOptions& options) {
   const GrayImage image =
       photo.image.pixels.empty() ? ReadGrayImage(photo.path) : std::exchange(photo.image, {});
-  const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
+  const BacklitPhoto flat = Flatten(options, image, photo.path);
   MeasuredPhoto measured;
   measured.silhouette = MakeSilhouette(flat, pose, placement.photo_pixel, placement.frame);
   measured.view = MeasureView(measured.silhouette, photo, pose, placement, options);
@@ -227,18 +251,26 @@ void Summarise(const ExperimentOptions& options, Experiment& result) {
 void ExperimentOptions::Validate(base::Problems& problems) const {
   const int sources = !photos.empty() + !runs.empty() + !map.empty();
   problems.Require(sources == 1, "", "needs exactly one of \"photos\", \"runs\" and \"map\"");
-  problems.Require(plate_diameter > 0 && plate_diameter <= 2, "plate_diameter", plate_diameter,
-                   "must be positive and at most 2 m; write \"10 mm\" for 10 mm");
+  const bool as_wide_as_heap = !scale.empty() && plate_diameter == 0;
+  problems.Require(as_wide_as_heap || (plate_diameter > 0 && plate_diameter <= 2), "plate_diameter",
+                   plate_diameter, "must be positive and at most 2 m; write \"10 mm\" for 10 mm");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(!pattern.empty(), "pattern", "must not be empty");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
-  problems.Require(!pixel_size || (*pixel_size > 0 && *pixel_size < plate_diameter / 8),
-                   "pixel_size", pixel_size.value_or(0),
-                   "must be positive and below an eighth of the plate");
+  problems.Require(
+      !pixel_size || (*pixel_size > 0 && (as_wide_as_heap || *pixel_size < plate_diameter / 8)),
+      "pixel_size", pixel_size.value_or(0), "must be positive and below an eighth of the plate");
   problems.Require(!pixel_size || *pixel_size >= plate_diameter / kMostPixels, "pixel_size",
                    pixel_size.value_or(0), "must be at least a 20000th of the plate");
   problems.Require(!threshold || (*threshold > 0 && *threshold < 1), "threshold",
                    threshold.value_or(0), "must be in (0, 1)");
+  problems.Require(scale.empty() || (map.empty() && !frame), "scale",
+                   "is of photographs of a heap on a table; leave it out with a map or a frame");
+  try {
+    if (!scale.empty()) ParseScale(scale);
+  } catch (const base::ConfigError& error) {
+    problems.Add("scale", error.what());
+  }
   for (const PhotoRun& run : runs) {
     problems.Require(!run.photos.empty(), "runs", "run \"" + run.name + "\" has no photographs");
   }

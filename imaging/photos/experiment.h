@@ -37,7 +37,8 @@ struct ExperimentOptions {
   std::vector<PhotoRun> runs;                     // or the photographs one by one
   std::filesystem::path map;                      // or the grey average, black = powder
   int map_heaps = 1;                              // so many heaps the map is the average of, > 0
-  double plate_diameter = 0;                      // [m], > 0
+  double plate_diameter = 0;                      // [m], > 0; with `scale` 0: as wide as the heap
+  std::string scale;                              // ParseScale: a heap on a table, no plate
   std::optional<Frame> frame;                     // where the plate is, instead of finding it
   double tilt = 0;  // of the plate, with `frame` [rad], > 0 if its right end is lower
   std::optional<double> pixel_size;  // of the profiles [m]; as photographed without it
@@ -61,6 +62,11 @@ struct ExperimentOptions {
                   "not known of the mean heap widens the credible ranges"});
     visit("plate_diameter", self.plate_diameter,
           {.dimension = Dimension::kLength, .doc = "plate diameter, > 0; needed with images"});
+    visit("scale", self.scale,
+          {.doc =
+               "of a heap on a table without a plate: two points of a photograph in pixels and the "
+               "length between them, \"104,310-884,312 = 30 mm\"; plate_diameter is then the part "
+               "of the table that counts"});
     visit("frame", self.frame, {.doc = "where the plate is, instead of finding it in the images"});
     visit("tilt", self.tilt,
           {.dimension = Dimension::kAngle,

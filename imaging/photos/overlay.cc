@@ -7,6 +7,7 @@
 
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/canvas.h"
+#include "imaging/photos/photo_collection.h"
 #include "imaging/photos/silhouette.h"
 
 namespace talus::imaging {
@@ -93,7 +94,7 @@ ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat,
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
                      double photo_pixel) {
   const GrayImage photo = ReadGrayImage(view.photo);
-  const BacklitPhoto flat = FlattenPhoto(photo, options.light(), view.photo.string());
+  const BacklitPhoto flat = Flatten(options, photo, view.photo);
   return DrawOverlay(photo, view.plate, MakeSilhouette(flat, view.plate, photo_pixel, frame),
                      frame);
 }

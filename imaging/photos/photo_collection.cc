@@ -27,6 +27,7 @@ PhotoCollection NameFiles(const ExperimentOptions& options) {
     collection.photos.push_back({.path = path,
                                  .run = collection.runs.size(),
                                  .edges = {},
+                                 .table = {},
                                  .front_lit = false,
                                  .image = {}});
   };
@@ -72,6 +73,7 @@ struct Reading {
   int width = 0;   // [px]; 0: unreadable
   int height = 0;  // [px]
   PlateEdges edges;
+  TableLine table;
   bool front_lit = false;
   std::string fault;  // "": none
   GrayImage image;    // kept where there is room for all
@@ -86,9 +88,13 @@ Reading Read(const ExperimentOptions& options, const Photo& photo, std::size_t n
     GrayImage image = ReadGrayImage(photo.path);
     reading.width = image.width;
     reading.height = image.height;
-    const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
+    const BacklitPhoto flat = Flatten(options, image, photo.path);
     reading.front_lit = flat.negative;
-    if (!options.frame) reading.edges = FindPlateEdges(flat, photo.path.string());
+    if (!options.scale.empty()) {
+      reading.table = FindTable(flat, photo.path.string());
+    } else if (!options.frame) {
+      reading.edges = FindPlateEdges(flat, photo.path.string());
+    }
     if (image.pixels.size() <= kMostKept / num_photos) reading.image = std::move(image);
   } catch (const base::ConfigError& error) {
     reading.fault = error.what();
@@ -117,7 +123,7 @@ std::string KeepPicture(const ExperimentOptions& options, const Photo& photo,
   if (!keep) return {};
   try {
     const GrayImage image = ReadGrayImage(photo.path);
-    const BacklitPhoto flat = FlattenPhoto(image, options.light(), photo.path.string());
+    const BacklitPhoto flat = Flatten(options, image, photo.path);
     return " (see " + keep(photo.path, DrawFault(image, flat, edges)).string() + ")";
   } catch (const base::ConfigError&) {
     return {};  // unreadable, black or blank: the fault says so
@@ -141,6 +147,7 @@ void FindPlates(const ExperimentOptions& options, const PictureSink& keep,
       photo.front_lit = reading.front_lit;
       photo.edges = std::move(reading.edges);
       photo.image = std::move(reading.image);
+      photo.table = reading.table;
     } catch (const base::ConfigError& error) {
       collection.faults.push_back(
           {.photo = photo.path,
@@ -197,6 +204,12 @@ void SettleFaults(const ExperimentOptions& options, const PictureSink& keep,
 
 }  // namespace
 
+BacklitPhoto Flatten(const ExperimentOptions& options, const GrayImage& image,
+                     const std::filesystem::path& photo) {
+  return options.scale.empty() ? FlattenPhoto(image, options.light(), photo.string())
+                               : FlattenAboveTable(image, options.light(), photo.string());
+}
+
 void ForEachPhoto(std::size_t num_photos, const std::function<void(std::size_t)>& body) {
   constexpr double kPhotoWork = 1e9;
   base::ParallelFor({.num_items = static_cast<std::int64_t>(num_photos), .item_work = kPhotoWork},
@@ -207,7 +220,7 @@ PhotoCollection CollectPhotos(const ExperimentOptions& options, const PictureSin
                               std::vector<PhotoWarning>& warnings) {
   PhotoCollection collection = NameFiles(options);
   FindPlates(options, keep, collection);
-  if (!options.frame) CheckScale(options, keep, collection);
+  if (!options.frame && options.scale.empty()) CheckScale(options, keep, collection);
   SettleFaults(options, keep, collection, warnings);
   return collection;
 }

@@ -10,13 +10,15 @@
 
 #include "imaging/photos/experiment.h"
 #include "imaging/photos/plate/plate_edges.h"
+#include "imaging/photos/table_line.h"
 
 namespace talus::imaging {
 
 struct Photo {
   std::filesystem::path path;
   std::size_t run = 0;
-  PlateEdges edges;        // unless the frame is given
+  PlateEdges edges;        // unless the frame or a scale is given
+  TableLine table;         // with a scale
   bool front_lit = false;  // powder is brighter than its background
   GrayImage image;         // empty where all of them together would take too much memory
 };
@@ -39,6 +41,10 @@ struct PhotoCollection {
 // photographs that can be drawn go to `keep`.
 PhotoCollection CollectPhotos(const ExperimentOptions& options, const PictureSink& keep,
                               std::vector<PhotoWarning>& warnings);
+
+// A photograph made independent of its light, as the options say what it shows: a plate or a table.
+BacklitPhoto Flatten(const ExperimentOptions& options, const GrayImage& image,
+                     const std::filesystem::path& photo);
 
 // Calls body(i) for each of the photographs, several at once.
 void ForEachPhoto(std::size_t num_photos, const std::function<void(std::size_t)>& body);

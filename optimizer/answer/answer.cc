@@ -209,6 +209,10 @@ std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point) {
   return warnings;
 }
 
+std::string BoundText(const std::string& parameter, bool is_upper) {
+  return parameter + " lies on its " + (is_upper ? "upper" : "lower") + " bound: widen its range";
+}
+
 Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
                        const Eigen::VectorXd& point, const AnswerOptions& options) {
   Answer answer;

@@ -29,4 +29,7 @@ Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
 // Of coordinates within 0.5 % of an end of their range.
 std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point);
 
+// The same in words: of a campaign's answer and of a plain search's.
+std::string BoundText(const std::string& parameter, bool is_upper);
+
 }  // namespace talus::optimizer

@@ -26,7 +26,7 @@ TEST(NumberText, FileNumbersSortUpToTenThousand) {
 }
 
 TEST(Csv, QuotesWhatTheFormatNeedsAndLeavesWhatIsNotFinite) {
-  Csv csv;
+  base::Csv csv;
   csv.Cell("plain").Cell("a,b").Cell("say \"so\"").Cell("two\nlines").EndRow();
   csv.Cell(3).Cell(0.1).Cell(NAN).Cells({1, 2.5}).EndRow();
   EXPECT_EQ(csv.Take(), "plain,\"a,b\",\"say \"\"so\"\"\",\"two\nlines\"\n3,0.1,,1,2.5\n");

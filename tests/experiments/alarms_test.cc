@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
+#include "experiments/campaign/answer/best_confirmed.h"
 #include "experiments/journal/journal.h"
 #include "imaging/photos/photo_warning.h"
 
@@ -101,6 +103,94 @@ TEST(Alarms, ModelThatPredictsBadlyIsSaid) {
   answer.posterior->raw_coverage = 0.5;
   ASSERT_THAT(ModelAlarms(answer), SizeIs(1));
   EXPECT_THAT(ModelAlarms(answer)[0].text, HasSubstr("hold 50 % of the trials left out"));
+}
+
+// Sliding friction from 0 to 1 and surface energy from 1 µJ/m² to 100 µJ/m², logarithmic;
+// restitution is fixed between them.
+optimizer::ParameterSpace TwoFree() {
+  return {{{.name = "sliding_friction", .low = 0, .high = 1},
+           {.name = "restitution", .fixed = 0.4},
+           {.name = "surface_energy", .low = 1e-6, .high = 1e-4, .scale = optimizer::Scale::kLog}}};
+}
+
+CampaignResult ResultWithSet(double sliding, double energy) {
+  CampaignResult result;
+  result.parameters = {{.name = "sliding_friction", .unit = {}, .value = sliding},
+                       {.name = "surface_energy", .unit = "J/m²", .value = energy}};
+  return result;
+}
+
+// 0.5 % of a range is an end of it; of a logarithmic one, of its logarithm.
+TEST(Alarms, AParameterOnTheEndOfItsRangeIsSaid) {
+  EXPECT_THAT(BoundAlarms(ResultWithSet(0.5, 1e-5), TwoFree()), IsEmpty());
+  EXPECT_THAT(BoundAlarms(ResultWithSet(0.01, 1.1e-6), TwoFree()), IsEmpty());
+  const auto alarms = BoundAlarms(ResultWithSet(0.998, 1.01e-6), TwoFree());
+  ASSERT_THAT(alarms, SizeIs(2));
+  EXPECT_EQ(alarms[0].kind, WarningKind::kBound);
+  EXPECT_EQ(alarms[0].parameter, "sliding_friction");
+  EXPECT_EQ(alarms[0].side, "upper");
+  EXPECT_EQ(alarms[0].text, "sliding_friction lies on its upper bound: widen its range");
+  EXPECT_EQ(alarms[1].parameter, "surface_energy");
+  EXPECT_EQ(alarms[1].side, "lower");
+}
+
+TEST(Alarms, ParametersKnownTogetherOnlyAreSaidUnlessTheAnswerIsAPoint) {
+  CampaignResult result = ResultWithSet(0.5, 1e-5);
+  result.correlation = {{1, -0.93}, {-0.93, 1}};
+  EXPECT_THAT(CorrelationAlarms(result), IsEmpty());  // no ranges, so no verdict
+  for (const VerdictKind kind : {VerdictKind::kPoint, VerdictKind::kRegion}) {
+    result.verdict = ResultVerdict{.kind = kind, .text = {}};
+    EXPECT_THAT(CorrelationAlarms(result), IsEmpty());
+  }
+  for (const VerdictKind kind : {VerdictKind::kCurve, VerdictKind::kSeparate}) {
+    result.verdict = ResultVerdict{.kind = kind, .text = {}};
+    const auto alarms = CorrelationAlarms(result);
+    ASSERT_THAT(alarms, SizeIs(1));
+    EXPECT_EQ(alarms[0].kind, WarningKind::kCorrelated);
+    EXPECT_EQ(alarms[0].value, -0.93);
+    EXPECT_THAT(alarms[0].text, HasSubstr("sliding_friction and surface_energy are known together"
+                                          " only (correlation -0.93)"));
+  }
+  result.correlation = {{1, -0.7}, {-0.7, 1}};
+  EXPECT_THAT(CorrelationAlarms(result), IsEmpty());
+}
+
+// Sets 1 and 2, with three runs each: 5 ± 0.2, and another mean ± 0.3.
+CampaignResult ResultWithRivalAt(double mean) {
+  CampaignResult result = ResultWithSet(0.3, 1e-5);
+  result.confirmed = {
+      {.values = {0.3, 1e-5}, .num_trials = 3, .mean = 5, .standard_error = 0.2},
+      {.values = {0.6, 2e-5}, .num_trials = 3, .mean = mean, .standard_error = 0.3}};
+  TakeBestConfirmed(result);
+  return result;
+}
+
+TEST(Alarms, ACandidateConfirmedClearlyBetterIsRecommendedAndThatIsSaid) {
+  // Twice √(0.2² + 0.3²) is 0.72.
+  const CampaignResult kept = ResultWithRivalAt(4.4);
+  EXPECT_THAT(kept.warnings, IsEmpty());
+  EXPECT_EQ(kept.parameters[0].value, 0.3);
+  const CampaignResult taken = ResultWithRivalAt(4.2);
+  ASSERT_THAT(taken.warnings, SizeIs(1));
+  EXPECT_EQ(taken.warnings[0].kind, WarningKind::kNotModelsChoice);
+  EXPECT_EQ(taken.parameters[0].value, 0.6);
+  EXPECT_EQ(taken.parameters[1].value, 2e-5);
+  EXPECT_EQ(taken.confirmed[0].mean, 4.2);
+  EXPECT_EQ(taken.confirmed[1].mean, 5);
+}
+
+// Those of photographs come with words; each other kind has its own.
+TEST(Alarms, EveryKindHasWordsOfItsOwn) {
+  std::set<std::string> texts;
+  int of_results = 0;
+  for (const auto& [name, kind] : base::Names<WarningKind>::kList) {
+    if (kind == WarningKind::kLeftOut) break;
+    ++of_results;
+    texts.insert(Worded({.kind = kind}).text);
+  }
+  EXPECT_EQ(of_results, 10);
+  EXPECT_THAT(texts, SizeIs(10));
+  EXPECT_FALSE(texts.contains(""));
 }
 
 // One vocabulary: what measure.json calls a doubt is what result.json calls it.

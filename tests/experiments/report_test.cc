@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -7,14 +8,15 @@
 #include "base/files/file.h"
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
-#include "experiments/analysis/report/base64.h"
-#include "experiments/analysis/report/figures.h"
-#include "experiments/analysis/report/page.h"
-#include "experiments/analysis/report/posterior_density.h"
-#include "experiments/analysis/report/svg_chart.h"
+#include "experiments/analysis/report/charts/figures.h"
+#include "experiments/analysis/report/charts/svg_chart.h"
+#include "experiments/analysis/report/page/base64.h"
+#include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/tables.h"
+#include "experiments/analysis/report/views/posterior_density.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/answer/campaign_result.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "tests/experiments/synthetic_campaign.h"
 #include "tests/experiments/synthetic_journal.h"
@@ -296,7 +298,66 @@ TEST(NextSteps, MeasuringOneOfTwoTiedParametersLeavesANarrowRangeOfTheOther) {
   for (std::size_t i = 1; i < data.next_steps.size(); ++i) {
     EXPECT_LE(data.next_steps[i - 1].remaining, data.next_steps[i].remaining);
   }
-  EXPECT_TRUE(NextSteps(test::MakeSyntheticCampaign()).empty());  // no posterior, nothing to say
+  EXPECT_TRUE(
+      NextSteps(test::MakeSyntheticCampaign(), {}).empty());  // no posterior, nothing to say
+}
+
+constexpr const char* kNextJson = R"({"after_trial": 60,
+  "width_90": {"sliding_friction": 0.5, "rolling_friction": 0.4},
+  "candidates": [
+    {"kind": "test", "name": "wide plate", "what": "make it, 3 runs", "num_simulations": 38,
+     "core_time_s": 150.0, "bits": 1.91,
+     "width_90": {"sliding_friction": 0.25, "rolling_friction": 0.1},
+     "told_apart": [[0.1, 0.6], [0.6, 0.1]], "picture": "/elsewhere/next/wide-plate.png"},
+    {"kind": "test", "name": "rough plate", "what": "make it, 3 runs", "num_simulations": 38,
+     "core_time_s": 150.0, "bits": null, "width_90": null}]})";
+
+// The folder of a synthetic campaign with what `talus next` leaves there.
+Evidence WithNext(const std::string& name, const std::string& text) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2, .posterior = true});
+  evidence.folder = std::filesystem::path(testing::TempDir()) / ("talus_next_" + name);
+  std::filesystem::remove_all(evidence.folder);
+  std::filesystem::create_directories(evidence.folder / "next");
+  base::WriteFileAtomically(evidence.folder / "next" / "next.json", text);
+  imaging::WritePng(
+      evidence.folder / "next" / "wide-plate.png",
+      imaging::GrayImage{.width = 4, .height = 2, .pixels = {0, 0, 0, 0, 9, 9, 9, 9}});
+  return evidence;
+}
+
+TEST(NextTable, OfTheCampaignIsShownWithItsPicturesAndAmongTheSteps) {
+  const ReportData data = MakeReportData(WithNext("whole", kNextJson));
+  ASSERT_TRUE(data.next_table.has_value());
+  EXPECT_FALSE(data.next_table->is_outdated);
+  // Half of one range and a quarter of the other; searched from 0.001 to 0.7.
+  const auto step = std::find_if(data.next_steps.begin(), data.next_steps.end(),
+                                 [](const NextStep& s) { return s.remaining == 0.5 * 0.25; });
+  ASSERT_NE(step, data.next_steps.end());
+  EXPECT_EQ(step->what, "wide plate: make it, 3 runs");
+  EXPECT_THAT(step->leaves, HasSubstr("μ_t known within 0.17 (now 0.35)"));
+  for (const NextStep& s : data.next_steps) EXPECT_THAT(s.what, Not(HasSubstr("rough plate")));
+  const json next = json::parse(PageJson(data))["next"];
+  EXPECT_EQ(next["candidates"][0]["bits"], 1.91);
+  EXPECT_EQ(next["candidates"][0]["picture_width"], 4);
+  EXPECT_THAT(next["candidates"][0]["uri"].get<std::string>(), StartsWith("data:image/png"));
+  EXPECT_TRUE(next["candidates"][1]["bits"].is_null());
+  EXPECT_TRUE(next["candidates"][1]["uri"].is_null());
+}
+
+TEST(NextTable, MadeBeforeTheLastTrialsIsCalledOutdated) {
+  std::string old = kNextJson;
+  old.replace(old.find("60"), 2, "59");
+  EXPECT_TRUE(ReadNextTable(WithNext("old", old))->is_outdated);
+}
+
+TEST(NextTable, ADamagedOneIsNamedWithTheRemedy) {
+  try {
+    ReadNextTable(WithNext("damaged", R"({"candidates": 3})"));
+    FAIL();
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("next.json"));
+    EXPECT_THAT(error.what(), HasSubstr("run it again"));
+  }
 }
 
 TEST(RepresentativeViews, RecommendedStandsInTheMiddleWithWhatTheModelExpects) {

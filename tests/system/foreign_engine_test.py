@@ -5,6 +5,7 @@ It is killed in between and resumed. Skipped (77) where the example's program is
 import csv
 import json
 import math
+import os
 import pathlib
 import re
 import shutil
@@ -89,6 +90,23 @@ def check(trial, out, spec):
     return on_heap
 
 
+def check_ranks(trial):
+    """One trial of the campaign again as two MPI ranks: LAMMPS says how many it has."""
+    case = read(trial / "case.json")
+    case["engine"]["ranks"] = 2
+    path = trial.parent / "ranks.json"
+    path.write_text(json.dumps(case))
+    # Containers, where tests often run, have no other user than root and may have one core.
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                      OMPI_MCA_rmaps_base_oversubscribe="1")
+    run("simulate", path, "--out", trial.parent / "ranks")
+    log = (trial.parent / "ranks/log.txt").read_text()
+    grid = re.search(r"(\d+) by (\d+) by (\d+) MPI processor grid", log)
+    assert grid and math.prod(map(int, grid.groups())) == 2, log[-2000:]
+    counts = read(trial.parent / "ranks/result.json")["counts"]
+    assert 20 < counts["on_heap"], counts
+
+
 def main(root):
     path, spec = cheap(root)
     program = spec["engine"]["command"][0]
@@ -111,6 +129,8 @@ def main(root):
     assert grains[3] < grains[4], grains
     # Two packings of one set differ: the seed reaches the engine.
     assert trials[0]["sad_mm2"] != trials[1]["sad_mm2"], trials
+    if name == "lammps" and shutil.which("mpirun"):
+        check_ranks(out / "trials/0001")
     text = run("compare", out)
     assert "SAD" in text and "μ_t" in text, text
     run("report", out)

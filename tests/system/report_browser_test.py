@@ -5,11 +5,13 @@ the table of trials sorts and filters. With a third argument, it keeps screensho
 import base64
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
@@ -28,6 +30,15 @@ for (let i = 0; i < pixels.length; i += 4) {
 }
 return count;
 """
+
+
+def grey_png(width, height):
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+    rows = b"".join(b"\0" + bytes(x * 255 // width for x in range(width)) for _ in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 class ReportInABrowser(unittest.TestCase):
@@ -199,6 +210,40 @@ class ReportInABrowser(unittest.TestCase):
         self.assertIn("single runs", text)  # both figures of the confirmed SAD
         self.check_log()
         self.keep_screenshot("posterior")
+
+    # What `talus next` leaves in the folder, with a test whose simulations have been run.
+    def test_next_steps_are_those_that_talus_next_ranks(self):
+        self.open_report("next", 60, 2, "finished", posterior=True)
+        campaign = pathlib.Path(self.folder.name) / "next"
+        self.assertEqual(self.driver.find_elements(By.ID, "next-table"), [])
+        subprocess.run([self.talus, "next", campaign], check=True, stdout=subprocess.DEVNULL)
+        path = campaign / "next" / "next.json"
+        table = json.loads(path.read_text())
+        widths = table["width_90"]
+        table["candidates"].insert(0, {
+            "kind": "test", "name": "wide plate", "what": "make it, 3 runs", "num_simulations": 38,
+            "core_time_s": 150, "bits": 2.5, "width_90": {k: w / 4 for k, w in widths.items()},
+            "told_apart": [[0.15, 0.5], [0.6, 0.15]], "picture": "wide-plate.png"})
+        path.write_text(json.dumps(table))
+        (campaign / "next" / "wide-plate.png").write_bytes(grey_png(320, 100))
+        subprocess.run([self.talus, "report", campaign], check=True, stdout=subprocess.DEVNULL)
+        self.open_report("next", 60, 2, "finished", posterior=True)
+        self.check_charts()
+        steps = self.driver.find_element(By.ID, "next").text
+        self.assertIn("wide plate: make it, 3 runs", steps)
+        self.assertNotIn("more simulations of heap", steps)  # of no gain: in the table only
+        rows = self.driver.execute_script(
+            "return [...document.querySelectorAll('#next-table tbody tr')].map((r) => "
+            "[...r.cells].map((c) => c.textContent))")
+        self.assertEqual(len(rows), len(table["candidates"]))
+        self.assertEqual(rows[0][:2], ["wide plate: make it, 3 runs", "2.5"])
+        self.assertEqual(rows[0][-1], "38 simulations, 2.50 min")
+        self.assertEqual(rows[-1][1], "?")  # nothing of it has been simulated
+        figure = self.driver.find_element(By.CSS_SELECTOR, "#told-apart figure")
+        self.assertIn("left μ_t 0.150, μ_r 0.500", figure.text)
+        self.assertEqual(figure.find_element(By.TAG_NAME, "img").get_property("naturalWidth"), 320)
+        self.check_log()
+        self.keep_screenshot("next")
 
     def test_verdict_comes_before_any_number(self):
         self.open_report("posterior", 60, 2, "finished", posterior=True)

@@ -41,13 +41,13 @@ std::pair<const char*, const char*> ContactNames(engine::Adhesion adhesion) {
 const char* RollingName(engine::Rolling rolling) {
   switch (rolling) {
     case engine::Rolling::kNone:
-      return "no_resistance";
+      return "none";
     case engine::Rolling::kConstant:
-      return "constant_resistance";
+      return "constant";
     case engine::Rolling::kViscous:
-      return "viscous_resistance";
+      return "viscous";
     case engine::Rolling::kEpsd:
-      return "epsd_resistance";
+      return "epsd";
   }
   return "";
 }

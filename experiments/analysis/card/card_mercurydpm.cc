@@ -1,5 +1,7 @@
 // MercuryDPM, HertzianViscoelasticMindlinRollingTorsionSpecies. Converted:
-//   Y, ν     effective moduli of the pair: E* (P3) and G* (P4)
+//   Y, ν     effective moduli of the pair: E* (P3), and 3/2 G* (P4): its tangential spring is
+//            (2/3) 8 G √(R*δ) per length, ours 8 G* √(R*δ)
+//   η_t      sliding dissipation × √(m* 8 G √(R*δ)) is our dashpot (N4)
 //   μ_r      the rolling force is limited by μ |F_n| and acts on an arm of 2R*, ours on R*: μ_r/2
 //   k_r      the rolling stiffness is a constant [N/m] on that arm: k_r/(2R*)² = (9/16) k_n μ_r²,
 //            at the typical contact; the dissipation is C_r/(2R*)²
@@ -22,8 +24,10 @@ std::string MercuryDpmCard(const Card& card) {
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   std::ostringstream text;
   text << CardHead(card, "MercuryDPM", "// ")
-       << "// Converted: effective moduli; rolling friction mu_r/2 (its arm is 2 R*); rolling\n"
-       << "// stiffness and dissipation of a contact that bears ten grain weights.\n";
+       << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's); rolling "
+          "friction\n"
+       << "// mu_r/2 (its arm is 2 R*); rolling stiffness and dissipation of a contact that bears "
+          "ten grain weights.\n";
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text << "// NOT INCLUDED: the adhesion; choose an adhesive species and calibrate with it.\n";
   }
@@ -35,7 +39,10 @@ std::string MercuryDpmCard(const Card& card) {
        << "species.setDensity(" << CardNumber(powder.density) << ");\n"
        << "species.setEffectiveElasticModulusAndRestitutionCoefficient("
        << CardNumber(typical.pair.y_star) << ", " << CardNumber(powder.restitution) << ");\n"
-       << "species.setEffectiveShearModulus(" << CardNumber(typical.pair.shear_stiffness / 8)
+       << "species.setEffectiveShearModulus(" << CardNumber(1.5 * typical.pair.shear_stiffness / 8)
+       << ");\nspecies.setSlidingDissipation("
+       << CardNumber(typical.pair.tangential_damping /
+                     std::sqrt(1.5 * typical.pair.shear_stiffness))
        << ");\nspecies.setSlidingFrictionCoefficient(" << CardNumber(powder.sliding_friction)
        << ");\n";
   if (rolls) {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text/number_text.h"
-#include "experiments/campaign/folder/console.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -94,7 +93,7 @@ std::string NextJson(const NextTable& table) {
     }
     return json;
   };
-  nlohmann::ordered_json json{{"width_90", widths(table.width)}};
+  nlohmann::ordered_json json{{"after_trial", table.last_trial}, {"width_90", widths(table.width)}};
   json["candidates"] = nlohmann::ordered_json::array();
   for (const NextCandidate& c : table.candidates) {
     nlohmann::ordered_json candidate{{"kind", KindName(c.kind)},

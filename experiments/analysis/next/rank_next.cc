@@ -237,6 +237,9 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   for (const int i : view.space.Free()) {
     table.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);
   }
+  for (const journal::TrialRecord& trial : view.trials) {
+    if (trial.status != journal::TrialStatus::kRunning) table.last_trial = trial.id;
+  }
   table.width = ground.Learn(Eigen::MatrixXd(kDraws, 0), {}).width;
   AddMoreOfTheSame(ground, table.candidates);
   AddNumbers(ground, table.candidates);

@@ -1,6 +1,7 @@
 // What to do next, by what it is expected to teach about the parameters.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct NextCandidate {
 struct NextTable {
   std::vector<journal::ParameterRecord> parameters;
   std::vector<optimizer::Scale> scales{};   // of the parameters
+  std::int64_t last_trial = 0;              // the latest that had ended, by id; 0: none
   Eigen::VectorXd width{};                  // of the joint 90 % ranges now, unit cube
   std::vector<NextCandidate> candidates{};  // the most informative first, unknown ones last
 };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/analysis/report/profile_views.h"
+#include "experiments/analysis/report/views/profile_views.h"
 
 namespace talus::analysis {
 namespace {
@@ -48,7 +48,8 @@ ReportData MakeReportData(Evidence evidence) {
   data.objective = IndexOf(data.findings, data.evidence.objective);
   AddModelViews(data);
   AddProfileViews(data);
-  data.next_steps = NextSteps(data.evidence);
+  data.next_table = ReadNextTable(data.evidence);
+  data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;
 }
 

@@ -2,14 +2,16 @@
 // ways to write it down.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/analysis/compare/compare.h"
 #include "experiments/analysis/compare/profile_pictures.h"
-#include "experiments/analysis/report/heap_views.h"
-#include "experiments/analysis/report/model_views.h"
-#include "experiments/analysis/report/next_steps.h"
+#include "experiments/analysis/report/views/heap_views.h"
+#include "experiments/analysis/report/views/model_views.h"
+#include "experiments/analysis/report/views/next_steps.h"
+#include "experiments/analysis/report/views/next_table_view.h"
 
 namespace talus::analysis {
 
@@ -36,6 +38,7 @@ struct ReportData {
   std::vector<PairMap> pairs;
   std::vector<RepresentativeView> representative;  // of the recommended set and its equals
   std::vector<NextStep> next_steps;
+  std::optional<NextTableView> next_table;  // none where `talus next` has not been run
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
   std::string overlay_absent;                  // why there are no photographs to show

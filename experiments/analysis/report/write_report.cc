@@ -2,8 +2,8 @@
 
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
-#include "experiments/analysis/report/figures.h"
-#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/charts/figures.h"
+#include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/tables.h"
 
 namespace talus::analysis {
@@ -19,6 +19,12 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
   for (const RepresentativeView& view : data.representative) {
     if (view.heap.png.empty()) continue;
     base::WriteFileAtomically(folder / "figures" / (view.heap.name + ".png"), view.heap.png);
+  }
+  for (const CandidateView& candidate :
+       data.next_table ? data.next_table->candidates : std::vector<CandidateView>{}) {
+    if (candidate.picture.png.empty()) continue;
+    base::WriteFileAtomically(folder / "figures" / (candidate.picture.name + ".png"),
+                              candidate.picture.png);
   }
   for (const NamedText& figure : ReportFigures(data)) {
     base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.text);

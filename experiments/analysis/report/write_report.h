@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/report_data.h"
 
 namespace talus::analysis {

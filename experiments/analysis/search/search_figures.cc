@@ -4,12 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "experiments/analysis/report/svg_chart.h"
+#include "experiments/analysis/report/charts/colors.h"
+#include "experiments/analysis/report/charts/svg_chart.h"
 
 namespace talus::analysis {
 namespace {
-
-constexpr const char* kPale = "#d5e6ef";
 
 // Of the values, a twentieth wider on each side.
 SvgAxis ValueAxis(const SearchFolder& search) {
@@ -38,7 +37,7 @@ SearchFigure Convergence(const SearchFolder& search) {
     best.push_back({number, best.empty() ? *one.value : std::min(best.back().y, *one.value)});
   }
   best.push_back({last, best.back().y});
-  chart.Line(best, {.color = SvgColor(0), .width = 2}, "lowest so far");
+  chart.Line(best, {.color = PaletteColor(0), .width = 2}, "lowest so far");
   chart.Points(values, {.width = 6, .opacity = 0.6}, "value");
   return {.name = "convergence",
           .caption = "The value of each evaluation, and the lowest so far.",
@@ -56,7 +55,7 @@ SearchFigure Along(const SearchFolder& search, std::size_t k) {
     const ParameterAnswer& answer = search.answer->parameters[k];
     const SvgPoint from{answer.low, y.low};
     const SvgPoint to{answer.high, y.high};
-    chart.Cell({.from = from, .to = to}, kPale);
+    chart.Cell({.from = from, .to = to}, kAccentPale);
     caption += "; shaded its credible range, 90 % for all parameters together";
   }
   std::vector<SvgPoint> points;

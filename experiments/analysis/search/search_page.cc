@@ -9,6 +9,7 @@
 #include "base/files/output_folder.h"
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/search/search_figures.h"
 #include "page_files.h"  // made by talus_embed
 
@@ -135,7 +136,7 @@ std::string SearchPage(const SearchFolder& search) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       Escaped(search.name) + " – search report</title>\n<link rel=\"icon\" href=\"data:,\">\n" +
-      "<style>\n" + std::string(page_files::kPageCss) +
+      "<style>\n" + ColorProperties() + std::string(page_files::kPageCss) +
       "svg { max-width: 100%; height: auto; }\n</style>\n</head>\n<body>\n"
       "<header class=\"top\"><div class=\"wrap\"><p class=\"eyebrow\">Search report</p><h1>" +
       Escaped(search.name) + "</h1><p id=\"standing\">" + Escaped(Standing(search)) +

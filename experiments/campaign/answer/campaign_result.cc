@@ -142,6 +142,11 @@ std::string ResultSummary(const CampaignResult& r) {
                       : "  tied within noise " + base::ShortNumber(100 * r.tied_volume) +
                             " % of the searched ranges\n";
   text += "  stopped because   " + r.stop_reason + "\n";
+  if (r.verdict && r.verdict->kind != VerdictKind::kPoint) {
+    text +=
+        "  next              `talus next DIR` ranks what would narrow it; `talus report DIR` shows "
+        "it\n";
+  }
   text += "  holds for         scale factor " + base::ShortNumber(r.conditions.scale_factor) +
           ", Y " + base::ShortNumber(r.conditions.youngs_modulus) + " Pa, lift velocity " +
           base::ShortNumber(r.conditions.lift_velocity) + " m/s, adhesion " +

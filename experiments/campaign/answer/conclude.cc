@@ -7,8 +7,10 @@
 
 #include "base/version.h"
 #include "experiments/campaign/alarms.h"
+#include "experiments/campaign/answer/best_confirmed.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/cores.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
@@ -113,20 +115,6 @@ ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::si
   return candidate;
 }
 
-// The model's choice stays unless fresh seeds say clearly that another candidate is better: the
-// luckiest run is no argument, a mean that is lower by twice its error is one.
-std::size_t BestCandidate(const std::vector<ResultCandidate>& candidates) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const double error = std::hypot(candidates[i].standard_error, candidates[0].standard_error);
-    if (candidates[i].mean < candidates[0].mean - 2 * error &&
-        candidates[i].mean < candidates[best].mean) {
-      best = i;
-    }
-  }
-  return best;
-}
-
 void AddParameters(const optimizer::Answer& answer, const Planner& planner,
                    CampaignResult& result) {
   const auto& space = planner.space();
@@ -154,15 +142,7 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, co
   }
   if (result.confirmed.empty()) return;
   // Where several experiments are to be met, none of them alone decides.
-  const std::size_t best = of.references.size() > 1 ? 0 : BestCandidate(result.confirmed);
-  if (best > 0) {
-    std::rotate(result.confirmed.begin(), result.confirmed.begin() + static_cast<long>(best),
-                result.confirmed.begin() + static_cast<long>(best) + 1);
-    for (std::size_t i = 0; i < result.parameters.size(); ++i) {
-      result.parameters[i].value = result.confirmed[0].values[i];
-    }
-    result.warnings.push_back(Worded({.kind = WarningKind::kNotModelsChoice}));
-  }
+  if (of.references.size() == 1) TakeBestConfirmed(result);
   if (result.noise_floor && result.confirmed[0].profile_sad_mm2) {
     result.confirmed_over_floor = *result.confirmed[0].profile_sad_mm2 / *result.noise_floor;
   }
@@ -208,7 +188,7 @@ ResultCost CostOf(const Planner& planner, const Evidenced& of) {
     if (trial.status == journal::TrialStatus::kRunning) continue;
     ++cost.num_trials;
     if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
-    const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * of.spec.threads;
+    const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * CoresOfTrial(of.spec);
     if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
   }
   return cost;
@@ -282,6 +262,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   AddConfirmation(*answer, planner, of, result);
   result.conditions = ConditionsOf(of.spec);
   AddAlarms({.answer = *answer,
+             .space = planner.space(),
              .spec = of.spec,
              .campaign = of.campaign,
              .reference = of.references.front(),

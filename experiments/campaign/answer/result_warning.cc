@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "optimizer/answer/answer.h"
 
 namespace talus::campaign {
 namespace {
@@ -13,8 +14,7 @@ std::string TextOf(const ResultWarning& w) {
   const std::string value = base::ShortNumber(w.value.value_or(0));
   switch (w.kind) {
     case WarningKind::kBound:
-      return w.parameter.value_or("") + " lies on its " + w.side.value_or("") +
-             " bound: widen its range";
+      return optimizer::BoundText(w.parameter.value_or(""), w.side == "upper");
     case WarningKind::kFewGrains:
       return "only " + value + " grains across the plate of " + experiment + " at " + factor +
              "; 30 or more are advised";

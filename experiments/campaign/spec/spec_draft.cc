@@ -92,6 +92,14 @@ double GrainsAcross(const SpecAnswers& answers) {
   return plate / grain;
 }
 
+std::string ScaleOf(const SpecAnswers& answers) {
+  const std::string plate = "    \"plate_diameter\": " + Quoted(answers.plate_diameter);
+  if (answers.scale.empty()) return plate + " // the scale of the photographs\n";
+  return plate + ", // the part of the table that counts, as wide as the simulated plate\n" +
+         "    \"scale\": " + Quoted(answers.scale) +
+         " // two points in pixels, and their distance\n";
+}
+
 }  // namespace
 
 std::string DraftSpec(const SpecAnswers& answers) {
@@ -101,8 +109,8 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
          "{\n  \"name\": " +
          Quoted(answers.name) + ",\n  \"experiment\": {\n" + Photographs(answers) +
-         "    \"plate_diameter\": " + Quoted(answers.plate_diameter) +
-         " // the scale of the photographs\n  },\n"
+         ScaleOf(answers) +
+         "  },\n"
          "  \"powder\": {\n    \"material\": {\n      \"density\": " +
          Quoted(answers.density) +
          ", // of the grains, not of the bulk\n"

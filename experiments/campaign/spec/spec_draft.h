@@ -14,6 +14,7 @@ struct SpecAnswers {
   std::string pattern = "run{run}_view{view}.*";  // … of their names in it
   std::vector<std::filesystem::path> photos;      // these, of one heap
   std::string plate_diameter;
+  std::string scale;  // of a heap on a table; empty with a plate
   std::string tube_diameter;
   std::string lift_velocity;
   std::string mass;

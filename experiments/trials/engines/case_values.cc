@@ -102,6 +102,11 @@ TemplateValues CaseValues(const rigs::HeapCase& c) {
   scalars["gravity"] = base::ExactNumber(c.gravity);
   scalars["settling_time"] = base::ExactNumber(c.rules.settling.max_time);
   scalars["rest_time"] = base::ExactNumber(c.rules.heap.max_time);
+  // For decks that cannot calculate.
+  const double lifted = c.rules.settling.max_time +
+                        1.2 * rigs::EstimateHeap(c).filled_height / c.device.lift_velocity;
+  scalars["lifted_time"] = base::ExactNumber(lifted);
+  scalars["end_time"] = base::ExactNumber(lifted + c.rules.heap.max_time);
   scalars["seed"] = std::to_string(PlainSeed(c.seed));
   scalars["prime_seed"] = std::to_string(PrimeSeed(c.seed));
   scalars["threads"] = std::to_string(c.threads);

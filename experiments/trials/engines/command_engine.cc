@@ -30,6 +30,7 @@ using base::Outlives;
 constexpr const char* kKind = "command";
 // Left by the shell that runs the command, when it has ended well.
 constexpr const char* kDone = ".command_done";
+constexpr const char* kMpiLauncher = "mpirun";
 // The filled command, as a list.
 constexpr const char* kCommandFile = ".command.json";
 
@@ -154,6 +155,19 @@ std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured
   return result.dump(2) + "\n";
 }
 
+// What the placeholders mean: the case's values, and how the command is to run.
+TemplateValues ValuesOf(const CommandOptions& options, const rigs::HeapCase& heap_case) {
+  TemplateValues values = CaseValues(heap_case);
+  values.scalars["ranks"] = std::to_string(options.ranks.value_or(1));
+  return values;
+}
+
+// Whether the command is one process that `mpirun` starts as often as there are ranks. A command or
+// a template that knows the number starts them itself.
+bool IsLaunchedByUs(const CommandOptions& options, const TemplateFolder& templates) {
+  return options.ranks.value_or(1) > 1 && !templates.Uses(options, "ranks");
+}
+
 void RunCommand(CommandEngine& engine, int threads, const fs::path& folder) {
   runners::LocalRunner runner({.workers = 1, .threads_per_job = threads});
   runners::Job job;
@@ -184,10 +198,14 @@ void CommandEngine::Prepare(const rigs::HeapCase& heap_case, const fs::path& fol
   if (IsComplete(folder)) return;
   RemoveResults(options_, folder);
   RemoveScalars(folder);
-  TemplateValues values = CaseValues(heap_case);
+  TemplateValues values = ValuesOf(options_, heap_case);
   if (templates_.Uses(options_, "grains")) AddGrains(heap_case, values);
   templates_.Fill(values, folder);
-  const nlohmann::json command = FilledCommand(options_, values);
+  std::vector<std::string> filled = FilledCommand(options_, values);
+  if (IsLaunchedByUs(options_, templates_)) {
+    filled.insert(filled.begin(), {kMpiLauncher, "-np", values.scalars["ranks"]});
+  }
+  const nlohmann::json command = filled;
   base::WriteFileAtomically(folder / kCommandFile, command.dump(), Outlives::kProgram);
 }
 
@@ -222,8 +240,14 @@ TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::pa
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems) {
   const TemplateFolder templates(options.templates.value());
-  templates.Check(options, CaseValues(check.heap_case), check.calibrated, problems);
-  problems.Require(check.elsewhere || !FindProgram(options).empty(), "command",
+  templates.Check(options, ValuesOf(options, check.heap_case), check.calibrated, problems);
+  if (check.elsewhere) return;
+  problems.Require(
+      !IsLaunchedByUs(options, templates) || !FindProgram(options, kMpiLauncher).empty(), "ranks",
+      std::string(kMpiLauncher) +
+          " is not found, which is to start them; install an MPI, or start them yourself with "
+          "{{ ranks }} in the command");
+  problems.Require(!FindProgram(options, options.command.front()).empty(), "command",
                    "\"" + options.command.front() +
                        "\" is not found, or not executable: neither on the PATH nor, if it has a "
                        "\"/\", in the templates' folder");

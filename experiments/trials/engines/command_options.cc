@@ -29,6 +29,9 @@ void CommandOptions::Validate(base::Problems& problems) const {
                          ", which talus itself writes there; name the result more closely, such as "
                          "\"heap.*\"");
   }
+  constexpr int kMostRanks = 10000;
+  problems.Require(!ranks || (*ranks >= 1 && *ranks <= kMostRanks), "ranks", ranks.value_or(0),
+                   "must be from 1 to 10000");
   problems.Require(!length_unit || *length_unit > 0, "length_unit", length_unit.value_or(0),
                    "must be positive");
 }

@@ -21,6 +21,7 @@ struct CommandOptions {
   std::optional<std::filesystem::path>
       templates{};                   // a folder; all it holds goes into a trial's folder, filled in
   std::vector<std::string> command;  // run in the trial's folder; may hold placeholders
+  std::optional<int> ranks{};        // MPI processes of a trial, >= 1; default: 1
   std::string result = "heap.*";     // file the command leaves, `*` and `?` allowed
   std::optional<double> length_unit{};  // of the result [m]; default: what the file says, else 1 m
   UpAxis up = UpAxis::kZ;
@@ -32,6 +33,9 @@ struct CommandOptions {
     constexpr auto kLength = base::Dimension::kLength;
     visit("templates", self.templates, {.doc = "folder of input files with {{ placeholders }}"});
     visit("command", self.command, {.doc = "program and arguments, run in the trial's folder"});
+    visit("ranks", self.ranks,
+          {.doc = "MPI processes of a trial, >= 1: `mpirun -np` is put in front of the command "
+                  "unless it or a template has {{ ranks }}; default: 1"});
     visit("result", self.result,
           {.doc = "file the command leaves: spheres, or a PNG that is the profile; of several the "
                   "last in natural order"});

@@ -126,11 +126,10 @@ std::vector<std::string> FilledCommand(const CommandOptions& engine, const Templ
   return command;
 }
 
-fs::path FindProgram(const CommandOptions& engine) {
+fs::path FindProgram(const CommandOptions& engine, const std::string& program) {
   const auto executable = [](const fs::path& path) {
     return ::access(path.c_str(), X_OK) == 0 && !fs::is_directory(path);
   };
-  const std::string& program = engine.command.front();
   if (program.find('/') != std::string::npos) {
     const fs::path path =
         engine.templates.value() / program;  // an absolute program stays what it is

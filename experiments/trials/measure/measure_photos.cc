@@ -70,7 +70,8 @@ void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experi
   base::WriteFileAtomically(out / "measure.json", ExperimentJson(experiment).dump(2) + "\n");
 }
 
-void PrintSummary(const imaging::Experiment& experiment, std::ostream& print) {
+void PrintSummary(const imaging::Experiment& experiment, const std::string& scale,
+                  std::ostream& print) {
   const imaging::Frame& frame = experiment.aehp.frame;
   std::size_t num_views = 0;
   for (const imaging::MeasuredRun& run : experiment.runs) num_views += run.views.size();
@@ -79,10 +80,10 @@ void PrintSummary(const imaging::Experiment& experiment, std::ostream& print) {
   } else {
     print << "AEHP from a map\n";
   }
-  print << "  plate " << frame.plate_diameter / frame.pixel_size << " px wide, "
-        << frame.pixel_size * 1e6 << " um a pixel, centre at column " << frame.center_x
-        << ", baseline at row " << frame.baseline << " of " << frame.width << " x " << frame.height
-        << " px\n"
+  print << (scale.empty() ? "  plate " : "  table, by " + scale + ", of which count ")
+        << frame.plate_diameter / frame.pixel_size << " px wide, " << frame.pixel_size * 1e6
+        << " um a pixel, centre at column " << frame.center_x << ", baseline at row "
+        << frame.baseline << " of " << frame.width << " x " << frame.height << " px\n"
         << MetricsText(experiment.metrics);
   if (experiment.noise_floor) {
     const imaging::NoiseFloor& floor = *experiment.noise_floor;
@@ -146,7 +147,7 @@ void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {
   SetSource(request.inputs, request.is_map, complete.experiment);
   const imaging::Experiment experiment =
       imaging::MeasureExperiment(complete.experiment, KeepFaults(request.out));
-  PrintSummary(experiment, print);
+  PrintSummary(experiment, complete.experiment.scale, print);
   PrintWarnings(experiment, request.out, print);
   if (request.out.empty()) return;
   WriteFiles(complete, experiment);

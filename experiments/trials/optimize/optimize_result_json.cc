@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "optimizer/answer/answer.h"
+
 namespace talus::trials {
 namespace {
 
@@ -15,8 +17,9 @@ json Warnings(const OptimizeProblem& problem, const optimizer::Answer& answer) {
   json texts = json::array();
   if (answer.is_guess) texts.push_back("no evaluation has succeeded: the point is only a guess");
   for (const optimizer::BoundWarning& warning : answer.warnings) {
-    texts.push_back(Free(problem, static_cast<std::size_t>(warning.parameter)).name +
-                    " lies on its " + (warning.is_upper ? "upper" : "lower") + " bound");
+    const optimizer::Parameter& parameter =
+        Free(problem, static_cast<std::size_t>(warning.parameter));
+    texts.push_back(optimizer::BoundText(parameter.name, warning.is_upper));
   }
   return texts;
 }

@@ -28,7 +28,8 @@ constexpr double kCornerRms = 0.25;       // of them to a line [px]
       name +
       ": no plate found (two straight parallel sides below the heap, clear of the image's border); "
       "check that the plate is in the picture and sharp, give its place with \"frame\", or leave "
-      "the photograph out");
+      "the photograph out; a heap on a table without a plate needs a known length, such as two "
+      "marks of a ruler, in pixels: --scale \"104,310-884,312=30 mm\" (\"scale\" in a spec)");
 }
 
 const StraightSides* ChoosePlate(const std::vector<StraightSides>& straight) {

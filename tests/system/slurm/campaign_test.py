@@ -2,12 +2,14 @@
 """campaign_test.py TALUS SOURCE_DIR: a campaign of 24 trials on a one-node Slurm ends with the trial
 table of the local runner with one worker, also when its process is killed five times in between, when
 its node fails while it is dead, and when its jobs are cancelled with Ctrl-C. Trials that are proposed
-together are one job array, and Slurm is not asked more than once in 5 s."""
+together are one job array, and Slurm is not asked more than once in 5 s. A trial of two MPI ranks gets two
+tasks."""
 import csv
 import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -161,6 +163,25 @@ def check_array():
     assert gap is None or float(gap[1]) > 4.9, done.stdout
 
 
+def check_ranks(root):
+    """Two MPI ranks a trial: Slurm gives two tasks, and mpirun starts the deck twice."""
+    folder, out = root / "ranks", root / "ranks/out"
+    as_root = ["export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"]
+    path = spec(folder, {"kind": "slurm", "setup": as_root}, num_trials=4)
+    deck = folder / "deck/run.sh"
+    deck.write_text('echo "$OMPI_COMM_WORLD_SIZE $SLURM_NTASKS" >rank_$OMPI_COMM_WORLD_RANK\n'
+                    '[ "$OMPI_COMM_WORLD_RANK" = 0 ] || exit 0\n' + DECK)
+    text = json.loads(path.read_text())
+    text["engine"]["ranks"] = 2
+    path.write_text(json.dumps(text))
+    run("calibrate", path, "--out", out)
+    trials = sorted((out / "trials").iterdir())
+    for trial in trials:
+        ranks = {file.name: file.read_text() for file in trial.glob("rank_*")}
+        assert ranks == {"rank_0": "2 2\n", "rank_1": "2 2\n"}, (ranks, (trial / "log.txt").read_text())
+    assert len(trials) == 4 and all(row[2] == "ok" for row in table(out))
+
+
 def main(root):
     run("calibrate", spec(root / "local", {"kind": "local"}), "--out", root / "local/out")
     expected = table(root / "local/out")
@@ -178,6 +199,8 @@ def main(root):
         lost = run_twice(root, "lost", die_and_lose_node, by_us)
         dropped = run_twice(root, "dropped", press_ctrl_c_twice, {"kind": "slurm"})
         check_array()
+        if shutil.which("mpirun"):
+            check_ranks(root)
     finally:
         subprocess.run([cluster, "stop", root / "slurm"])
     for name in ("unbroken", "killed"):

@@ -162,7 +162,7 @@ function marginalChart(marginal, k) {
   }), "small").figure;
 }
 
-const regionShade = (level) => level < .5 ? "#2b7ba8" : level < .9 ? "#b5d3e4" : paper;
+const regionShade = (level) => level < .5 ? regionShades[0] : level < .9 ? regionShades[1] : paper;
 
 // Cells between the edges pair.x and pair.y, drawn on the true axes: the joint regions of a
 // posterior, or the chance to tie where the strategy works out none.
@@ -171,7 +171,7 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
   const nx = pair.x.length - 1, posterior = D.model.posterior;
   const top = Math.max(...pair.value);
   const shade = (v) => posterior ? regionShade(v)
-    : echarts.color.lerp(top > 0 ? v / top : 0, [paper, "#cfe3ee", "#7fb2cf", "#2b7ba8", "#07405e"]);
+    : echarts.color.lerp(top > 0 ? v / top : 0, [paper, ...chanceShades]);
   const meaning = (v) => posterior
     ? (v < .9 ? "inside" : "outside") + " the joint 90 % region; the smallest region that holds it is that of " +
       percent(Math.max(v, .001))
@@ -201,8 +201,8 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
         itemStyle: {color: starColor, borderColor: "#fff", borderWidth: 1},
         data: [{name: "recommended", value: [D.headline.values[pair.i].value, D.headline.values[pair.j].value]}]}] : []),
       ...(sets.length ? [{type: "scatter", symbol: "circle", symbolSize: 20, z: 6,
-        itemStyle: {color: "#ffffff", borderColor: "#1d2730", borderWidth: 1.5},
-        label: {show: true, formatter: (e) => String(e.dataIndex + 1), color: "#1d2730", fontSize: 12, fontWeight: 600},
+        itemStyle: {color: "#ffffff", borderColor: lightInk, borderWidth: 1.5},
+        label: {show: true, formatter: (e) => String(e.dataIndex + 1), color: lightInk, fontSize: 12, fontWeight: 600},
         data: sets.map((set, i) => ({name: "set " + (i + 1), value: [set.values[pair.i], set.values[pair.j]]}))}] : []),
     ],
   }), size).figure;

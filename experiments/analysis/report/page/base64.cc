@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/base64.h"
+#include "experiments/analysis/report/page/base64.h"
 
 #include <cstdint>
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/analysis/report/charts/colors.h"
+
 namespace talus::analysis {
 
 struct SvgAxis {
@@ -24,7 +26,7 @@ struct SvgBox {
 };
 
 struct SvgStyle {
-  std::string color = "#1d2730";
+  std::string color = kInk;
   double width = 1.5;   // of a line; diameter of a point [px]
   bool dashed = false;  // a line
   double opacity = 1;
@@ -65,8 +67,5 @@ class SvgChart {
   std::string body_;
   std::vector<Entry> legend_;
 };
-
-// "#0072B2", …: Okabe and Ito's colours, as in the page.
-const std::string& SvgColor(std::size_t index);
 
 }  // namespace talus::analysis

@@ -1,11 +1,11 @@
-#include "experiments/analysis/report/figures.h"
+#include "experiments/analysis/report/charts/figures.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
-#include "experiments/analysis/report/svg_chart.h"
+#include "experiments/analysis/report/charts/colors.h"
+#include "experiments/analysis/report/charts/svg_chart.h"
 
 namespace talus::analysis {
 namespace {
@@ -59,16 +59,16 @@ std::string Convergence(const ReportData& data, const std::vector<Valued>& value
     if (best.empty() || v.objective < best.back().y) extend(id, v.objective);
   }
   if (noise > 0) {
-    chart.Band(low, high, {.color = "#9fb3c0", .opacity = 0.4}, "± scatter of one simulation");
+    chart.Band(low, high, {.color = kScatterBand, .opacity = 0.4}, "± scatter of one simulation");
   }
   std::size_t k = 0;
   for (const auto& [purpose, points] : by_purpose) {
-    chart.Points(points, {.color = SvgColor(k++), .width = 6, .opacity = 0.8}, purpose);
+    chart.Points(points, {.color = PaletteColor(k++), .width = 6, .opacity = 0.8}, purpose);
   }
   chart.Line(best, {.width = 2}, "best so far");
   const double floor = data.evidence.reference.noise_floor;
   if (info.objective == journal::Objective::kSad && std::isfinite(floor)) {
-    chart.Line({{0, floor}, {last, floor}}, {.color = "#55626d", .dashed = true},
+    chart.Line({{0, floor}, {last, floor}}, {.color = kSoft, .dashed = true},
                "noise floor of the experiment");
   }
   return chart.Text();
@@ -92,7 +92,7 @@ std::string Outlines(const ReportData& data) {
     for (std::size_t i = 0; i < data.outlines[k].x.size(); ++i) {
       points.push_back({1e3 * data.outlines[k].x[i], 1e3 * data.outlines[k].height[i]});
     }
-    const SvgStyle style{.color = k == 0 ? "#1d2730" : SvgColor(k - 1), .width = k == 0 ? 3 : 1.5};
+    const SvgStyle style{.color = k == 0 ? kInk : PaletteColor(k - 1), .width = k == 0 ? 3 : 1.5};
     chart.Line(points, style, data.outlines[k].title);
   }
   return chart.Text();
@@ -113,12 +113,12 @@ std::string Slice(const ReportData& data, const ModelSlice& slice) {
   SvgChart chart(AxisOf(parameter),
                  {.title = WithUnit(info.title, info.unit), .low = 0, .high = 1.05 * top});
   if (has_band) {
-    chart.Band(low, high, {.color = SvgColor(0), .opacity = 0.2}, "90 % band of the mean");
+    chart.Band(low, high, {.color = PaletteColor(0), .opacity = 0.2}, "90 % band of the mean");
   }
-  chart.Line(mean, {.color = SvgColor(0), .width = 2}, "expected");
+  chart.Line(mean, {.color = PaletteColor(0), .width = 2}, "expected");
   if (data.evidence.conclusion) {
     const double x = data.evidence.conclusion->values[slice.parameter].value;
-    chart.Line({{x, 0}, {x, 1.05 * top}}, {.color = "#c1121f"}, "recommended");
+    chart.Line({{x, 0}, {x, 1.05 * top}}, {.color = kStar}, "recommended");
   }
   return chart.Text();
 }
@@ -131,16 +131,8 @@ std::string MarginalFigure(const ReportData& data, const Marginal& marginal) {
   for (std::size_t i = 0; i < marginal.x.size(); ++i) {
     points.push_back({marginal.x[i], marginal.density[i]});
   }
-  chart.Line(points, {.color = SvgColor(0), .width = 2}, "posterior");
+  chart.Line(points, {.color = PaletteColor(0), .width = 2}, "posterior");
   return chart.Text();
-}
-
-// From white to dark blue.
-std::string Shade(double share) {
-  char text[8];
-  const auto mix = [&](int dark) { return static_cast<int>(255 + share * (dark - 255)); };
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", mix(7), mix(64), mix(94));
-  return text;
 }
 
 void AddStar(const ReportData& data, std::size_t i, std::size_t j, SvgChart& chart) {
@@ -155,16 +147,16 @@ std::string PairFigure(const ReportData& data, const PairMap& pair) {
                  AxisOf(data.evidence.parameters[pair.j]));
   const std::size_t num_x = pair.x_edges.size() - 1;
   const double top = *std::max_element(pair.value.begin(), pair.value.end());
-  const auto share = [&](double value) {
-    if (!data.has_posterior()) return top > 0 ? value / top : 0;
-    return value < 0.5 ? 0.75 : value < 0.9 ? 0.3 : 0.0;
+  const auto shade = [&](double value) -> std::string {
+    if (!data.has_posterior()) return ChanceShade(top > 0 ? value / top : 0);
+    return value < 0.5 ? kRegion50 : value < 0.9 ? kRegion90 : "#ffffff";
   };
   for (std::size_t cell = 0; cell < pair.value.size(); ++cell) {
     const std::size_t x = cell % num_x;
     const std::size_t y = cell / num_x;
     chart.Cell({.from = {pair.x_edges[x], pair.y_edges[y]},
                 .to = {pair.x_edges[x + 1], pair.y_edges[y + 1]}},
-               Shade(share(pair.value[cell])));
+               shade(pair.value[cell]));
   }
   AddStar(data, pair.i, pair.j, chart);
   return chart.Text();
@@ -177,7 +169,7 @@ std::string Scatter(const ReportData& data, const PairMap& pair) {
   for (const TrialEvidence& t : data.evidence.trials) {
     if (t.state == journal::TrialStatus::kOk) all.push_back({t.values[pair.i], t.values[pair.j]});
   }
-  chart.Points(all, {.color = "#9aa5ad", .width = 5}, "trials");
+  chart.Points(all, {.color = kTrials, .width = 5}, "trials");
   for (std::size_t k = 0; k < data.findings.size(); ++k) {
     std::vector<SvgPoint> best;
     for (const ComparedSet& set : data.findings[k].from_trials.best) {
@@ -185,7 +177,7 @@ std::string Scatter(const ReportData& data, const PairMap& pair) {
     }
     if (best.empty()) continue;
     // Smaller from one objective to the next, so that sets that several prefer show all of them.
-    const SvgStyle style{.color = SvgColor(k), .width = 13 - 2 * static_cast<double>(k)};
+    const SvgStyle style{.color = PaletteColor(k), .width = 13 - 2 * static_cast<double>(k)};
     chart.Points(best, style, "ten best by " + std::string(data.findings[k].info.title));
   }
   AddStar(data, pair.i, pair.j, chart);

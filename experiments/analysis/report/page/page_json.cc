@@ -2,10 +2,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/analysis/report/base64.h"
+#include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/analysis/report/methods.h"
-#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/page/base64.h"
+#include "experiments/analysis/report/page/page.h"
 
 namespace talus::analysis {
 namespace {
@@ -127,6 +128,24 @@ Json RepresentativeJson(const ReportData& data, const RepresentativeView& view) 
 
 Json StepJson(const NextStep& step) {
   return {{"what", step.what}, {"cost", step.cost}, {"leaves", step.leaves}};
+}
+
+Json NextTableJson(const NextTableView& table) {
+  const auto candidate = [](const CandidateView& c) {
+    return Json{{"name", c.name},
+                {"what", c.what},
+                {"bits", Number(c.bits)},
+                {"width", Numbers(c.width)},
+                {"simulations", c.num_simulations},
+                {"core_time", Number(c.core_time)},
+                {"apart", List(c.apart, Numbers)},
+                {"uri", UriOf(c.picture)},
+                {"picture_width", c.picture.width},
+                {"picture_height", c.picture.height}};
+  };
+  return {{"width", Numbers(table.width)},
+          {"outdated", table.is_outdated},
+          {"candidates", List(table.candidates, candidate)}};
 }
 
 Json HeadlineJson(const ReportData& data) {
@@ -254,6 +273,14 @@ Json OverlayJson(const ReportData& data) {
           {"outlines", List(data.overlay_outlines, OutlineJson)}};
 }
 
+Json ColorsJson() {
+  return {{"palette", kPalette},
+          {"chance", kChance},
+          {"regions", {kRegion50, kRegion90}},
+          {"scatter_band", kScatterBand},
+          {"light_ink", kInk}};
+}
+
 }  // namespace
 
 std::string PageJson(const ReportData& data) {
@@ -263,10 +290,12 @@ std::string PageJson(const ReportData& data) {
     return Json{{"name", m.name}, {"title", MetricTitle(m.name)}, {"unit", PrettyUnit(m.unit)}};
   });
   const Json page{
+      {"colors", ColorsJson()},
       {"campaign", CampaignJson(data)},
       {"parameters", ParametersJson(e)},
       {"metrics", metrics},
       {"headline", conclusion ? HeadlineJson(data) : Json(nullptr)},
+      {"next", data.next_table ? NextTableJson(*data.next_table) : Json(nullptr)},
       {"warnings", conclusion ? Json(conclusion->warnings) : Json::array()},
       {"conditions", conclusion ? Json(conclusion->conditions) : Json::array()},
       {"trials", TrialsJson(e)},

@@ -68,6 +68,33 @@ function nextSteps(h) {
       element("div", {}, "Costs " + step.cost + "."), element("div", {}, "Leaves " + step.leaves + ".")))));
 }
 
+// "0.12", of a logarithmic range "a factor of 3".
+const widthText = (p, w) => p.log ? "a factor of " + format((p.high / p.low) ** w, 2)
+  : formatUnit(w * (p.high - p.low), p.unit, 2);
+
+// What `talus next` has found: every candidate, and the heaps that the best ones would tell apart.
+function nextTable() {
+  if (!D.next) return [];
+  const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : "no simulation";
+  const pictured = D.next.candidates.filter((c) => c.uri);
+  return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
+    D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus next again.") : null,
+    table([{title: "Candidate", text: true, wide: true}, {title: "Expected", unit: "bits"},
+        ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
+        {title: "Costs", text: true}],
+      D.next.candidates.map((c) => [c.name + ": " + c.what, c.bits === null ? "?" : format(c.bits, 2),
+        ...D.parameters.map((p, k) => c.bits === null ? "?" : widthText(p, c.width[k])), cost(c)])),
+    element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
+      "possible." + (D.next.candidates.some((c) => c.bits === null)
+        ? " ?: talus next DIR --simulate runs the simulations that tell." : ""))),
+    pictured.length ? element("div", {class: "grid three stacked", id: "told-apart"}, pictured.slice(0, 3).map((c) =>
+      element("figure", {class: "card"}, element("h3", {}, c.name),
+        element("img", {src: c.uri, alt: "Two simulated heaps that fit equally and that " + c.name + " tells apart",
+          width: c.picture_width, height: c.picture_height}),
+        element("figcaption", {}, "Both fit so far: left " + setText(c.apart[0]) + ", right " + setText(c.apart[1]) +
+          ". This is how they come out of it.")))) : null];
+}
+
 // Heaps of sets that fit equally, side by side; of one set alone, its heap.
 function representativeHeaps(h) {
   const o = D.campaign.objective;
@@ -101,12 +128,12 @@ function answerSection() {
         (h.predicted_sd ? " ± " + format(h.predicted_sd, 2) : ""), "by the model that answers"));
     }
     const inProfile = h.confirmed_profile === null ? ""
-      : objectiveValue(h.confirmed_profile) + (o.key === "sad" ? "" : " SAD") + " of their mean profile" +
+      : "; " + objectiveValue(h.confirmed_profile) + (o.key === "sad" ? "" : " SAD") + " of their mean profile" +
         (h.confirmed_over_floor === null ? "" : ", " + format(h.confirmed_over_floor, 2) + " × the noise floor");
     facts.push(h.num_confirmed
       ? fact("Confirmed " + o.title, objectiveValue(h.confirmed) +
           (h.num_confirmed > 1 ? " in single runs" : " in a single run"),
-          h.num_confirmed > 1 ? "mean of " + h.num_confirmed + " fresh seeds; " + inProfile : inProfile)
+          h.num_confirmed > 1 ? "mean of " + h.num_confirmed + " fresh seeds" + inProfile : inProfile.slice(2))
       : fact("Confirmed " + o.title, "not yet", "no fresh seed has been run"));
     facts.push(o.noise_floor === null
       ? fact("Noise floor of the experiment", "unknown", "needs more than one run of photographs")
@@ -125,6 +152,7 @@ function answerSection() {
       h.model ? element("p", {class: "note"}, h.model) : null));
     parts.push(representativeHeaps(h));
   }
+  parts.push(...nextTable());
   if (D.warnings.length) {
     parts.splice(1, 0, element("div", {class: "notice", role: "note", id: "alarms"}, element("strong", {}, "Before you use it"),
       element("ul", {}, D.warnings.map((w) => element("li", {}, w)))));

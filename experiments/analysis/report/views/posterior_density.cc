@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/posterior_density.h"
+#include "experiments/analysis/report/views/posterior_density.h"
 
 #include <algorithm>
 #include <cmath>

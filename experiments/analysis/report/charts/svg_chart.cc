@@ -1,7 +1,6 @@
-#include "experiments/analysis/report/svg_chart.h"
+#include "experiments/analysis/report/charts/svg_chart.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -82,16 +81,10 @@ std::string StarPath(double x, double y, double radius) {
     path += (k == 0 ? "M" : "L") + Pixel(x + r * std::cos(angle)) + " " +
             Pixel(y + r * std::sin(angle));
   }
-  return "<path d=\"" + path + "Z\" fill=\"#c1121f\" stroke=\"#fff\"/>\n";
+  return "<path d=\"" + path + "Z\" fill=\"" + kStar + "\" stroke=\"#fff\"/>\n";
 }
 
 }  // namespace
-
-const std::string& SvgColor(std::size_t index) {
-  static const std::array<std::string, 7> kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                  "#E69F00", "#56B4E9", "#6b6b6b"};
-  return kColors[index % kColors.size()];
-}
 
 SvgChart::SvgChart(SvgAxis x, SvgAxis y, bool equal_scale)
     : x_(std::move(x)), y_(std::move(y)), plot_height_(kPlotHeight) {
@@ -159,16 +152,17 @@ void SvgChart::Cell(const SvgBox& box, const std::string& color) {
 }
 
 std::string SvgChart::AxesText() const {
+  const std::string stroke = std::string(" stroke=\"") + kInk + "\"";
   std::string text = "<path d=\"M0 0V" + Pixel(plot_height_) + "H" + Pixel(kPlotWidth) +
-                     "\" fill=\"none\" stroke=\"#1d2730\"/>\n";
+                     "\" fill=\"none\"" + stroke + "/>\n";
   for (const double tick : TicksOf(x_)) {
     const double x = PixelX(tick);
-    text += "<path d=\"M" + Pixel(x) + " " + Pixel(plot_height_) + "v5\" stroke=\"#1d2730\"/>\n" +
+    text += "<path d=\"M" + Pixel(x) + " " + Pixel(plot_height_) + "v5\"" + stroke + "/>\n" +
             Words(x, plot_height_ + 20, "middle", Number(tick, 4));
   }
   for (const double tick : TicksOf(y_)) {
     const double y = PixelY(tick);
-    text += "<path d=\"M0 " + Pixel(y) + "h-5\" stroke=\"#1d2730\"/>\n" +
+    text += "<path d=\"M0 " + Pixel(y) + "h-5\"" + stroke + "/>\n" +
             Words(-9, y + 5, "end", Number(tick, 4));
   }
   text += Words(kPlotWidth / 2, plot_height_ + 44, "middle", x_.title);
@@ -191,12 +185,12 @@ std::string SvgChart::Text() const {
   const double top = 14 + kLegendLine * static_cast<double>(legend_.size());
   const std::string height = Pixel(top + plot_height_ + kBottom);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Pixel(kWidth) + "\" height=\"" +
-         height + "\" viewBox=\"0 0 " + Pixel(kWidth) + " " + height + "\" " + kFont +
-         " fill=\"#1d2730\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-         LegendText() + "<clipPath id=\"plot\"><rect width=\"" + Pixel(kPlotWidth) +
-         "\" height=\"" + Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" +
-         Pixel(kLeft) + " " + Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ +
-         "</g>\n" + AxesText() + "</g>\n</svg>\n";
+         height + "\" viewBox=\"0 0 " + Pixel(kWidth) + " " + height + "\" " + kFont + " fill=\"" +
+         kInk + "\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + LegendText() +
+         "<clipPath id=\"plot\"><rect width=\"" + Pixel(kPlotWidth) + "\" height=\"" +
+         Pixel(plot_height_) + "\"/></clipPath>\n<g transform=\"translate(" + Pixel(kLeft) + " " +
+         Pixel(top) + ")\">\n<g clip-path=\"url(#plot)\">\n" + body_ + "</g>\n" + AxesText() +
+         "</g>\n</svg>\n";
 }
 
 }  // namespace talus::analysis

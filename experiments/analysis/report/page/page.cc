@@ -1,7 +1,8 @@
-#include "experiments/analysis/report/page.h"
+#include "experiments/analysis/report/page/page.h"
 
 #include <string_view>
 
+#include "experiments/analysis/report/charts/colors.h"
 #include "page_files.h"  // made by talus_embed
 
 namespace talus::analysis {
@@ -56,7 +57,7 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
           reloads
               ? "<meta http-equiv=\"refresh\" content=\"" + std::to_string(options.reload) + "\">"
               : "");
-  Replace(page, "{{css}}", page_files::kPageCss);
+  Replace(page, "{{css}}", ColorProperties() + std::string(page_files::kPageCss));
   Replace(page, "{{js}}", scripts);
   Replace(page, "{{echarts}}", page_files::kEchartsMinJs);
   Replace(page, "{{echarts_gl}}", page_files::kEchartsGlMinJs);

@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/heap_views.h"
+#include "experiments/analysis/report/views/heap_views.h"
 
 #include <algorithm>
 #include <cmath>

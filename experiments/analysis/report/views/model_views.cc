@@ -1,10 +1,10 @@
-#include "experiments/analysis/report/model_views.h"
+#include "experiments/analysis/report/views/model_views.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "experiments/analysis/compare/objective_model.h"
-#include "experiments/analysis/report/posterior_density.h"
+#include "experiments/analysis/report/views/posterior_density.h"
 
 namespace talus::analysis {
 namespace {

@@ -10,8 +10,7 @@ function readTheme() {
     .map((name) => style.getPropertyValue("--" + name).trim());
 }
 readTheme();
-// Okabe and Ito's colours: told apart with every common colour blindness.
-const palette = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#6b6b6b"];
+const {palette, chance: chanceShades, regions: regionShades, light_ink: lightInk} = D.colors;
 const sequence = ["#fde725", "#7ad151", "#22a884", "#2a788e", "#414487", "#440154"];  // best is dark
 const star = "path://M0,-10 L2.6,-3.2 L9.8,-3.1 L4,1.3 L6.2,8.2 L0,4.1 L-6.2,8.2 L-4,1.3 " +
     "L-9.8,-3.1 L-2.6,-3.2 Z";
@@ -118,7 +117,7 @@ const margins = {left: 70, right: 24, top: 36, bottom: 52};
 const legendStyle = {top: 0, left: 0, icon: "circle", itemHeight: 11, itemWidth: 14, itemGap: 14, type: "scroll",
                      get textStyle() { return {color: soft, fontSize: 13}; }};
 const tooltipStyle = {confine: true, borderColor: "#dfe4e8", backgroundColor: "#ffffff",
-                      textStyle: {color: "#1d2730", fontSize: 13}};
+                      textStyle: {color: lightInk, fontSize: 13}};
 const lines = (texts) => texts.map((t) => echarts.format.encodeHTML(t)).join("<br>");
 
 const doneTrials = () => D.trials.id.map((_, i) => i).filter((i) => D.trials.state[i] === "ok");

@@ -41,7 +41,7 @@ function convergenceChart() {
          stack: "noise", symbol: "none", lineStyle: {opacity: 0}, silent: true},
         {type: "line", step: "end", data: best.map(([x, y]) => [x, y + noise - Math.max(0, y - noise)]),
          stack: "noise", name: "± noise of one trial", symbol: "none", lineStyle: {opacity: 0},
-         areaStyle: {color: "#9fb3c0", opacity: .38}, itemStyle: {color: "#c3ced6"}, silent: true}] : []),
+         areaStyle: {color: D.colors.scatter_band, opacity: .38}, itemStyle: {color: "#c3ced6"}, silent: true}] : []),
       {type: "line", step: "end", name: "best so far", data: best, symbol: "none", silent: true,
        lineStyle: {color: ink, width: 2}, itemStyle: {color: ink}},
       ...(o.noise_floor === null ? [] : [

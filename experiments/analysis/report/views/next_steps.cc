@@ -1,9 +1,10 @@
-#include "experiments/analysis/report/next_steps.h"
+#include "experiments/analysis/report/views/next_steps.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -12,7 +13,8 @@ constexpr double kMeasured = 0.05;        // of a searched range: what a direct 
 constexpr Eigen::Index kFewestNear = 30;  // draws that a conditional range is made of
 constexpr double kWorthAWord = 0.7;       // of the ranges' volume
 
-std::string Number(double value) { return base::ShortNumber(value); }
+// Three digits: none of these ranges is known better.
+std::string Number(double value) { return base::ShortNumber(value, 3); }
 
 // The middle 90 % of a column, unit cube.
 std::pair<double, double> RangeOf(const Eigen::MatrixXd& draws, Eigen::Index column) {
@@ -71,7 +73,8 @@ void AddPhotographing(const Evidence& evidence, std::vector<NextStep>& steps) {
   const auto dimension = static_cast<double>(evidence.parameters.size());
   steps.push_back(
       {.what = "Photograph " + std::to_string(runs) + " more " + (runs == 1 ? "heap" : "heaps"),
-       .cost = std::to_string(runs) + " more runs of the test; no simulation",
+       .cost = std::to_string(runs) + (runs == 1 ? " more run" : " more runs") +
+               " of the test; no simulation",
        .leaves = "ranges at best " + Number(std::round(100 * factor) / 100) +
                  " times as wide, where the experiment's scatter sets them",
        .remaining = std::pow(factor, dimension)});
@@ -81,7 +84,7 @@ void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
   if (evidence.parameters.size() < 2) return;
   steps.push_back({.what = "Add a test that moves the grains otherwise",
                    .cost = "its photographs, and as many simulations again",
-                   .leaves = "what `talus next DIR --simulate` says of it",
+                   .leaves = "what `talus next DIR --simulate` works out: this page then shows it",
                    .remaining = 0.9});
 }
 
@@ -93,15 +96,70 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
                    .remaining = 0.95});
 }
 
+// "0.12", of a logarithmic range "a factor of 3".
+std::string WithinText(const ParameterInfo& parameter, double width) {
+  const auto two_digits = [](double x) {
+    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
+    return Number(std::round(x / unit) * unit);
+  };
+  const optimizer::Parameter& range = parameter.range;
+  if (range.scale != optimizer::Scale::kLog) {
+    return two_digits(std::max(width, 1e-6) * (range.high - range.low)) +
+           (parameter.unit.empty() ? "" : " " + parameter.unit);
+  }
+  return "a factor of " + two_digits(std::pow(range.high / range.low, width));
+}
+
+NextStep StepOf(const Evidence& evidence, const NextTableView& table,
+                const CandidateView& candidate) {
+  NextStep step{.what = candidate.name + ": " + candidate.what,
+                .cost = candidate.num_simulations == 0
+                            ? "no simulation"
+                            : std::to_string(candidate.num_simulations) + " simulations, " +
+                                  trials::DurationText(candidate.core_time) + " of core time",
+                .leaves = {}};
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    const ParameterInfo& parameter = evidence.parameters[k];
+    step.remaining *= std::min(1.0, candidate.width[k] / std::max(table.width[k], 1e-6));
+    step.leaves += (k == 0 ? "" : ", ") + parameter.symbol + " known within " +
+                   WithinText(parameter, candidate.width[k]) + " (now " +
+                   WithinText(parameter, table.width[k]) + ")";
+  }
+  return step;
+}
+
+void AddCandidates(const Evidence& evidence, const NextTableView& table,
+                   std::vector<NextStep>& steps) {
+  constexpr int kMost = 3;
+  constexpr double kWorth = 0.9;  // of the ranges' volume
+  int taken = 0;
+  for (const CandidateView& candidate : table.candidates) {
+    if (std::isnan(candidate.bits) || taken == kMost) continue;
+    const NextStep step = StepOf(evidence, table, candidate);
+    if (taken > 0 && step.remaining > kWorth) continue;
+    ++taken;
+    steps.push_back(step);
+  }
+}
+
 }  // namespace
 
-std::vector<NextStep> NextSteps(const Evidence& evidence) {
+std::vector<NextStep> NextSteps(const Evidence& evidence,
+                                const std::optional<NextTableView>& table) {
   std::vector<NextStep> steps;
-  if (!evidence.conclusion || !evidence.model || evidence.model->draws.rows() == 0) return steps;
-  for (Eigen::Index k = 0; k < evidence.model->draws.cols(); ++k) AddMeasuring(evidence, k, steps);
-  AddPhotographing(evidence, steps);
-  AddSecondTest(evidence, steps);
-  AddSimulating(evidence, steps);
+  const bool has_draws = evidence.conclusion && evidence.model && evidence.model->draws.rows() > 0;
+  if (has_draws) {
+    for (Eigen::Index k = 0; k < evidence.model->draws.cols(); ++k) {
+      AddMeasuring(evidence, k, steps);
+    }
+  }
+  if (table) {
+    AddCandidates(evidence, *table, steps);
+  } else if (has_draws) {
+    AddPhotographing(evidence, steps);
+    AddSecondTest(evidence, steps);
+    AddSimulating(evidence, steps);
+  }
   std::stable_sort(steps.begin(), steps.end(),
                    [](const NextStep& a, const NextStep& b) { return a.remaining < b.remaining; });
   return steps;

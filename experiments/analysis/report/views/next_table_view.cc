@@ -1,0 +1,77 @@
+#include "experiments/analysis/report/views/next_table_view.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "imaging/formats/images/image_file.h"
+
+namespace talus::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// In the order of the parameters.
+std::vector<double> WidthsOf(const Json& by_name, const Evidence& evidence) {
+  std::vector<double> widths;
+  for (const ParameterInfo& parameter : evidence.parameters) {
+    widths.push_back(by_name.at(parameter.range.name).get<double>());
+  }
+  return widths;
+}
+
+CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::path& folder) {
+  CandidateView candidate{.kind = json.at("kind").get<std::string>(),
+                          .name = json.at("name").get<std::string>(),
+                          .what = json.at("what").get<std::string>(),
+                          .width = {},
+                          .num_simulations = json.at("num_simulations").get<int>(),
+                          .core_time = json.at("core_time_s").get<double>(),
+                          .apart = {},
+                          .picture = {}};
+  if (!json.at("bits").is_null()) {
+    candidate.bits = json["bits"].get<double>();
+    candidate.width = WidthsOf(json.at("width_90"), evidence);
+  }
+  if (!json.contains("picture")) return candidate;
+  candidate.apart = json.at("told_apart").get<std::vector<std::vector<double>>>();
+  // Beside the table, wherever the campaign was when that was written.
+  const fs::path path = folder / fs::path(json["picture"].get<std::string>()).filename();
+  if (!fs::exists(path)) return candidate;
+  candidate.picture =
+      MakePicture("next_" + path.stem().string(), candidate.name, imaging::ReadGrayImage(path));
+  return candidate;
+}
+
+NextTableView ViewOf(const Json& json, const Evidence& evidence, const fs::path& folder) {
+  NextTableView view{.width = WidthsOf(json.at("width_90"), evidence), .candidates = {}};
+  const auto after = json.at("after_trial").get<std::int64_t>();
+  view.is_outdated =
+      std::any_of(evidence.trials.begin(), evidence.trials.end(), [&](const TrialEvidence& trial) {
+        return trial.id > after && trial.state != journal::TrialStatus::kRunning;
+      });
+  for (const Json& candidate : json.at("candidates")) {
+    view.candidates.push_back(CandidateOf(candidate, evidence, folder));
+  }
+  return view;
+}
+
+}  // namespace
+
+std::optional<NextTableView> ReadNextTable(const Evidence& evidence) {
+  const fs::path folder = evidence.folder / "next";
+  const fs::path path = folder / "next.json";
+  if (evidence.folder.empty() || !fs::exists(path)) return std::nullopt;
+  try {
+    return ViewOf(Json::parse(base::ReadFile(path)), evidence, folder);
+  } catch (const Json::exception&) {
+    throw base::ConfigError(path.string() +
+                            ": is not what `talus next` writes here; run it again, or remove the "
+                            "file");
+  }
+}
+
+}  // namespace talus::analysis

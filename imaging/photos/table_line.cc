@@ -1,0 +1,188 @@
+#include "imaging/photos/table_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kMostTilt = 0.09;      // slope of the table's top: a heap's are steeper
+constexpr double kOnLine = 1.5;         // of an outline that is the table's top [px]
+constexpr double kAboveLine = 2;        // of an outline that is something on it [px]
+constexpr double kFewestOnLine = 0.15;  // of the picture's width
+constexpr double kFewestDark = 0.95;    // of the lower border
+constexpr int kWidestGap = 3;           // between columns of one heap [px]
+
+// y of the outline's top in every column, NaN where the lower border is light.
+std::vector<double> OutlineOf(const BacklitPhoto& photo) {
+  const RelativeImage& image = photo.image;
+  std::vector<double> outline(static_cast<std::size_t>(image.width), std::nan(""));
+  for (int x = 0; x < image.width; ++x) {
+    int y = image.height - 1;
+    if (image.at(x, y) >= photo.threshold) continue;
+    while (y > 0 && image.at(x, y - 1) < photo.threshold) --y;
+    double top = y;
+    if (y > 0) {
+      const double dark = image.at(x, y);
+      const double light = image.at(x, y - 1);
+      top = y + 0.5 - (photo.threshold - dark) / (light - dark);
+    }
+    outline[static_cast<std::size_t>(x)] = top;
+  }
+  return outline;
+}
+
+struct Line {
+  double at_zero = 0;
+  double slope = 0;
+  double At(double x) const { return at_zero + slope * x; }
+};
+
+int CountOn(const Line& line, const std::vector<double>& outline) {
+  int count = 0;
+  for (std::size_t x = 0; x < outline.size(); ++x) {
+    count += std::abs(outline[x] - line.At(static_cast<double>(x) + 0.5)) < kOnLine;
+  }
+  return count;
+}
+
+// Through the columns that lie on it already.
+Line Refit(const Line& line, const std::vector<double>& outline) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const double x = static_cast<double>(i) + 0.5;
+    if (!(std::abs(outline[i] - line.At(x)) < kOnLine)) continue;
+    n += 1;
+    sx += x;
+    sy += outline[i];
+    sxx += x * x;
+    sxy += x * outline[i];
+  }
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  return {.at_zero = (sy - slope * sx) / n, .slope = slope};
+}
+
+// Of the lines through two columns the one that holds most others.
+Line BestLine(const std::vector<double>& outline) {
+  constexpr int kTried = 48;  // columns
+  Line best;
+  int most = 0;
+  const double step = static_cast<double>(outline.size() - 1) / (kTried - 1);
+  for (int i = 0; i < kTried; ++i) {
+    for (int j = 0; j < i; ++j) {
+      const auto a = static_cast<std::size_t>(j * step);
+      const auto b = static_cast<std::size_t>(i * step);
+      if (a == b) continue;
+      const double slope = (outline[b] - outline[a]) / static_cast<double>(b - a);
+      if (!(std::abs(slope) <= kMostTilt)) continue;
+      const Line line{.at_zero = outline[a] - slope * (static_cast<double>(a) + 0.5),
+                      .slope = slope};
+      const int count = CountOn(line, outline);
+      if (count <= most) continue;
+      most = count;
+      best = line;
+    }
+  }
+  if (most < kFewestOnLine * static_cast<double>(outline.size())) return {.at_zero = std::nan("")};
+  for (int round = 0; round < 3; ++round) best = Refit(best, outline);
+  return best;
+}
+
+// What stands above the line, column by column, [from, to).
+struct Heap {
+  int from = 0;
+  int to = 0;
+  double area = 0;
+};
+
+Heap LargestAbove(const std::vector<double>& above) {
+  Heap largest;
+  Heap heap;
+  for (int x = 0; x < static_cast<int>(above.size()); ++x) {
+    const double height = above[static_cast<std::size_t>(x)];
+    if (!(height > kAboveLine)) continue;
+    if (heap.area == 0 || x > heap.to + kWidestGap) heap = {.from = x, .to = x, .area = 0};
+    heap.to = x + 1;
+    heap.area += height;
+    if (heap.area > largest.area) largest = heap;
+  }
+  return largest;
+}
+
+// Where the table reaches across the whole picture, with a margin; the height where it does not.
+int FirstTableRow(const GrayImage& photo, PowderLook look) {
+  constexpr int kMargin = 4;  // [px]
+  const std::vector<float> levels(photo.pixels.begin(), photo.pixels.end());
+  const double middle = SplitByOtsu(levels).middle();
+  const auto num_dark = [&](int y) {
+    int count = 0;
+    for (int x = 0; x < photo.width; ++x) count += photo.at(x, y) < middle;
+    return count;
+  };
+  const bool bright = look == PowderLook::kBright ||
+                      (look == PowderLook::kAuto && num_dark(photo.height - 1) * 2 < photo.width);
+  const auto all = [&](int y) { return num_dark(y) == (bright ? 0 : photo.width); };
+  int row = photo.height;
+  while (row > 0 && all(row - 1)) --row;
+  return std::min(row + kMargin, photo.height);
+}
+
+[[noreturn]] void ThrowNoTable(const std::string& name, const std::string& what) {
+  throw base::ConfigError(
+      name + ": " + what +
+      "; with \"scale\" the heap stands on a dark table that reaches across the "
+      "picture's lower border and is level to 5 degrees; take it so, or give "
+      "its place with \"frame\"");
+}
+
+}  // namespace
+
+BacklitPhoto FlattenAboveTable(const GrayImage& photo, const LightOptions& light,
+                               const std::string& name) {
+  GrayImage above = photo;
+  above.height = FirstTableRow(photo, light.powder);
+  above.pixels.resize(static_cast<std::size_t>(above.width) *
+                      static_cast<std::size_t>(above.height));
+  BacklitPhoto flat = FlattenPhoto(above, light, name);
+  flat.image.height = photo.height;
+  flat.image.pixels.resize(photo.pixels.size(), 0.0F);
+  return flat;
+}
+
+TableLine FindTable(const BacklitPhoto& photo, const std::string& name) {
+  const std::vector<double> outline = OutlineOf(photo);
+  const auto dark =
+      std::count_if(outline.begin(), outline.end(), [](double top) { return std::isfinite(top); });
+  if (static_cast<double>(dark) < kFewestDark * static_cast<double>(outline.size())) {
+    ThrowNoTable(name, "no table found: the picture's lower border is not dark");
+  }
+  const Line line = BestLine(outline);
+  if (std::isnan(line.at_zero)) ThrowNoTable(name, "no table found: no straight, level top");
+  const double tilt = std::atan(line.slope);
+  std::vector<double> above;
+  for (std::size_t x = 0; x < outline.size(); ++x) {
+    above.push_back((line.At(static_cast<double>(x) + 0.5) - outline[x]) * std::cos(tilt));
+  }
+  const Heap heap = LargestAbove(above);
+  if (heap.area == 0) ThrowNoTable(name, "nothing stands on the table");
+  // The middle of a column of a tilted heap stands beside its foot.
+  double moment = 0;
+  for (int x = heap.from; x < heap.to; ++x) {
+    const double height = std::max(above[static_cast<std::size_t>(x)], 0.0);
+    moment += height * (x + 0.5 - height / 2 * std::sin(tilt));
+  }
+  double area = 0;
+  for (int x = heap.from; x < heap.to; ++x) {
+    area += std::max(above[static_cast<std::size_t>(x)], 0.0);
+  }
+  const double center = moment / area;
+  return {.center_x = center,
+          .baseline = line.At(center),
+          .tilt = tilt,
+          .reach = std::max(center - heap.from, heap.to - center)};
+}
+
+}  // namespace talus::imaging

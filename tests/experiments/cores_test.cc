@@ -1,0 +1,43 @@
+#include "experiments/campaign/cores.h"
+
+#include <gmock/gmock.h>
+
+namespace talus::campaign {
+namespace {
+
+using ::testing::HasSubstr;
+
+CampaignSpec WithRanks(int workers, int ranks, int threads) {
+  CampaignSpec spec;
+  spec.workers = workers;
+  spec.threads = threads;
+  spec.engine.kind = EngineKind::kCommand;
+  spec.engine.command.ranks = ranks;
+  return spec;
+}
+
+TEST(Cores, TrialsAtATimeAreAsManyAsFit) {
+  EXPECT_EQ(LocalWorkers(WithRanks(0, 1, 1), 8), 8);
+  EXPECT_EQ(LocalWorkers(WithRanks(0, 2, 2), 8), 2);
+  EXPECT_EQ(LocalWorkers(WithRanks(0, 3, 1), 8), 2);
+  EXPECT_EQ(LocalWorkers(WithRanks(0, 16, 1), 8), 1);  // too many, but one must run
+  EXPECT_EQ(LocalWorkers(WithRanks(5, 2, 2), 8), 5);   // as asked for
+  CampaignSpec own = WithRanks(0, 4, 2);
+  own.engine.kind = EngineKind::kTalus;  // it has threads only
+  EXPECT_EQ(LocalWorkers(own, 8), 4);
+}
+
+TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
+  EXPECT_FALSE(CoresWarning(WithRanks(2, 2, 2), 8).has_value());
+  EXPECT_FALSE(CoresWarning(WithRanks(0, 8, 1), 8).has_value());
+  EXPECT_THAT(CoresWarning(WithRanks(3, 2, 2), 8).value(),
+              HasSubstr("trials take 12 cores (3 at a time x 2 MPI ranks x 2 threads), and this "
+                        "machine has 8: each waits for the others; set \"workers\" to 2"));
+  EXPECT_THAT(CoresWarning(WithRanks(0, 16, 1), 8).value(), HasSubstr("set fewer ranks"));
+  CampaignSpec elsewhere = WithRanks(3, 2, 2);
+  elsewhere.runner.kind = RunnerKind::kSlurm;
+  EXPECT_FALSE(CoresWarning(elsewhere, 8).has_value());
+}
+
+}  // namespace
+}  // namespace talus::campaign
