@@ -7,7 +7,10 @@
 
 #include "base/files/file.h"
 #include "experiments/analysis/next/next_text.h"
+#include "experiments/analysis/next/rank_next.h"
+#include "experiments/analysis/next/usual_tests.h"
 #include "experiments/app/commands.h"
+#include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -22,19 +25,19 @@ struct Arguments {
 
 void Next(const Arguments& arguments) {
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
+  // A queue's own files stand beside the designs, not among those of the campaign's trials.
   analysis::NextOptions options{
       .tests = arguments.candidates.empty() ? analysis::UsualTests(view)
                                             : analysis::LoadTests(arguments.candidates),
       .simulate = arguments.simulate,
-      .parts = {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+      .parts = {.runner = campaign::MakeRunner(view.spec, campaign::NextFolder(view.folder.root)),
                 .engine = campaign::MakeEngine(view.spec)}};
   const analysis::NextTable table = analysis::RankNext(view, options);
-  std::cout << (arguments.json ? analysis::NextJson(table) : analysis::NextText(table))
-            << std::flush;
-  // For the report.
-  const std::filesystem::path folder = view.folder.root / "next";
+  const std::string json = analysis::NextJson(table);
+  const std::filesystem::path folder = campaign::NextFolder(view.folder.root);
   std::filesystem::create_directories(folder);
-  base::WriteFileAtomically(folder / "next.json", analysis::NextJson(table));
+  base::WriteFileAtomically(folder / "next.json", json);
+  std::cout << (arguments.json ? json : analysis::NextText(table)) << std::flush;
 }
 
 }  // namespace

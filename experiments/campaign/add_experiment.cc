@@ -1,21 +1,34 @@
 #include "experiments/campaign/add_experiment.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "base/error.h"
 #include "base/json/json_reader.h"
-#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/core_time.h"
 #include "experiments/campaign/folder/repair.h"
+#include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/start.h"
+#include "experiments/campaign/take_over.h"
 
 namespace talus::campaign {
 namespace {
 
-double CoreTimeOfSearch(const CampaignSpec& spec, std::vector<journal::TrialRecord> trials) {
-  std::erase_if(trials, [](const journal::TrialRecord& trial) { return !IsOfSearch(trial); });
-  return CoreTime(spec).Of(trials);
+CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment) {
+  CampaignSpec with = spec;
+  with.experiments = ExperimentsOf(spec);
+  with.experiment.reset();
+  with.experiments->push_back(experiment);
+  with.budget.simulations = 0;
+  with.budget.min_simulations = 0;
+  return with;
+}
+
+void Write(OpenedCampaign& opened, const journal::CampaignRecord& record, const TakenOver& taken) {
+  const journal::ExperimentRecord& experiment = record.experiments.back();
+  KeepCampaign(opened.folder, record);
+  opened.journal.AddExperiment(experiment, record.spec_json);
+  opened.journal.AddEvent("experiment", 0, "\"" + experiment.name + "\" is added");
+  if (taken.trials.empty()) return;
+  opened.journal.Start(taken.trials);
+  opened.journal.AddEvent("experiment", 0, TakenOverText(taken));
 }
 
 }  // namespace
@@ -27,24 +40,27 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   }
   const auto experiment = base::LoadOptions<ExperimentSpec>(base::ReadJsonFile(file));
   OpenedCampaign opened = OpenCampaign(folder, {}, console);
-  CampaignSpec spec = opened.spec;
-  spec.experiments = ExperimentsOf(spec);
-  spec.experiment.reset();
-  spec.experiments->push_back(experiment);
-  const double used = CoreTimeOfSearch(opened.spec, opened.journal.Trials());
+  CampaignSpec spec = SpecWith(opened.spec, experiment);
+  const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
+  const double used = CoreTime(opened.spec).OfSearch(trials);
   spec.budget.core_time = used + options.core_time.value_or(used);
-  spec.budget.simulations = 0;
-  spec.budget.min_simulations = 0;
   base::Problems problems(file.string(), {});
   CheckSpec(spec, problems);
   problems.ThrowIfAny();
   journal::CampaignRecord record = opened.journal.Campaign();
   record.experiments.push_back(MakeExperimentRecord(spec.experiments->back()));
+  // Throws where the test does not have what is to be met.
+  const std::vector<Reference> references = ReferencesOf(record, spec);
+  const auto engine = options.engine ? options.engine() : MakeEngine(spec);
+  const TakenOver taken = TakeOverDesigns(opened.folder, trials,
+                                          {.spec = spec,
+                                           .index = static_cast<int>(references.size()) - 1,
+                                           .reference = references.back()},
+                                          *engine);
+  *spec.budget.core_time += taken.core_time;
   record.spec_json = SpecText(spec);
-  ReferencesOf(record, spec);  // throws where the test does not have what is to be met
-  KeepCampaign(opened.folder, record);
-  opened.journal.AddExperiment(record.experiments.back(), record.spec_json);
-  opened.journal.AddEvent("experiment", 0, "\"" + experiment.name + "\" is added");
+  Write(opened, record, taken);
+  if (!taken.trials.empty()) console.Line(TakenOverText(taken));
 }
 
 }  // namespace talus::campaign

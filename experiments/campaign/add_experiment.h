@@ -2,19 +2,25 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "experiments/campaign/folder/console.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::campaign {
 
 struct AddOptions {
   std::optional<double> core_time{};  // for the search with it [s], > 0; default: what it has used
+  // That the campaign simulates with, so that tests can put another in its place.
+  std::function<std::unique_ptr<trials::TrialEngine>()> engine{};
 };
 
 // Reads one entry of `experiments` from `file`, measures it and writes it into the campaign, whose
-// search then has `core_time` more. The trials there are stay; Resume simulates the new test where
-// it matters. Throws ConfigError, and changes nothing, where the campaign cannot have it.
+// search then has `core_time` more. The trials there are stay, and what `talus next` has simulated
+// of the same test is taken over; Resume simulates it where else it matters. Throws ConfigError,
+// and changes nothing, where the campaign cannot have it.
 void AddExperiment(const std::filesystem::path& folder, const std::filesystem::path& file,
                    const AddOptions& options, Console& console);
 

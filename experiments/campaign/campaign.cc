@@ -224,6 +224,7 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   trial.reason = output.note;
   trial.num_steps = output.num_steps;
   trial.num_particles = output.num_particles;
+  if (!(trial.cpu_s > 0)) trial.cpu_s = output.cpu_time;  // it had ended in an earlier process
   Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
 }
 

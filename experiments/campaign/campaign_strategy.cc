@@ -14,6 +14,7 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
                                                    const journal::CampaignRecord& record,
                                                    const std::vector<Reference>& references) {
   std::vector<optimizer::ExperimentTarget> targets;
+  const std::vector<ExperimentSpec> specs = ExperimentsOf(spec);
   for (std::size_t e = 0; e < references.size(); ++e) {
     const journal::ExperimentRecord& experiment = record.experiments[e];
     optimizer::ExperimentTarget target{.name = experiment.name,
@@ -29,6 +30,7 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
     for (const double factor : spec.coarse_graining.Levels()) {
       target.costs.push_back(GrainStepsOf(spec, static_cast<int>(e), factor) / kUsualSpeed);
     }
+    target.weight = specs.at(e).weight;
     targets.push_back(std::move(target));
   }
   return targets;

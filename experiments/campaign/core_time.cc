@@ -1,7 +1,9 @@
 #include "experiments/campaign/core_time.h"
 
 #include <cmath>
+#include <utility>
 
+#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/cores.h"
 
 namespace talus::campaign {
@@ -21,15 +23,15 @@ double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_facto
   return static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
 }
 
-double CoreTime::GrainSteps(const journal::TrialRecord& trial) {
-  const Kind kind{trial.experiment, trial.scale_factor};
+double CoreTime::GrainSteps(const Kind& kind) {
   const auto [entry, is_new] = grain_steps_.try_emplace(kind, 0);
   if (is_new) entry->second = GrainStepsOf(spec_, kind.first, kind.second);
   return entry->second;
 }
 
-double CoreTime::Estimate(const journal::TrialRecord& trial) {
-  const auto same = measured_.find({trial.experiment, trial.scale_factor});
+double CoreTime::OfOne(int experiment, double scale_factor) {
+  const Kind asked{experiment, scale_factor};
+  const auto same = measured_.find(asked);
   if (same != measured_.end()) return same->second.seconds / same->second.count;
   double steps = 0;
   double seconds = 0;
@@ -37,7 +39,7 @@ double CoreTime::Estimate(const journal::TrialRecord& trial) {
     steps += grain_steps_.at(kind) * total.count;
     seconds += total.seconds;
   }
-  return GrainSteps(trial) / (seconds > 0 ? steps / seconds : kUsualSpeed);
+  return GrainSteps(asked) / (seconds > 0 ? steps / seconds : kUsualSpeed);
 }
 
 double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
@@ -46,16 +48,22 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   for (const journal::TrialRecord& trial : trials) {
     const double seconds = Measured(trial, CoresOfTrial(spec_));
     if (seconds == 0) continue;
-    GrainSteps(trial);
+    GrainSteps({trial.experiment, trial.scale_factor});
     Total& total = measured_[{trial.experiment, trial.scale_factor}];
     total.seconds += seconds;
     ++total.count;
     sum += seconds;
   }
   for (const journal::TrialRecord& trial : trials) {
-    if (Measured(trial, CoresOfTrial(spec_)) == 0) sum += Estimate(trial);
+    if (Measured(trial, CoresOfTrial(spec_)) == 0)
+      sum += OfOne(trial.experiment, trial.scale_factor);
   }
   return sum;
+}
+
+double CoreTime::OfSearch(std::vector<journal::TrialRecord> trials) {
+  std::erase_if(trials, [](const journal::TrialRecord& trial) { return !IsOfSearch(trial); });
+  return Of(trials);
 }
 
 }  // namespace talus::campaign

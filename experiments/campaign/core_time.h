@@ -25,12 +25,16 @@ class CoreTime {
   // [core seconds] of all these trials: those that run still count by what others of their
   // experiment and scale factor took.
   double Of(std::span<const journal::TrialRecord> trials);
+  // Of noise and search among them.
+  double OfSearch(std::vector<journal::TrialRecord> trials);
+
+  // Of one more simulation, by what the trials of the last Of took.
+  double OfOne(int experiment, double scale_factor);
 
  private:
   using Kind = std::pair<int, double>;  // experiment and scale factor
 
-  double Estimate(const journal::TrialRecord& trial);
-  double GrainSteps(const journal::TrialRecord& trial);
+  double GrainSteps(const Kind& kind);
 
   const CampaignSpec& spec_;
   std::map<Kind, double> grain_steps_;

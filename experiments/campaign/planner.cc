@@ -188,11 +188,7 @@ bool Planner::PlanReplicate(std::vector<journal::TrialRecord>& planned) {
   return false;
 }
 
-double Planner::CoreTimeOfSearch() {
-  std::vector<journal::TrialRecord> of_search;
-  std::copy_if(trials_.begin(), trials_.end(), std::back_inserter(of_search), IsOfSearch);
-  return core_time_.Of(of_search);
-}
+double Planner::CoreTimeOfSearch() { return core_time_.OfSearch(trials_); }
 
 // Proposals that the budget of simulations has room for.
 int Planner::SetsLeft() const {

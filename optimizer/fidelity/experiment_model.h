@@ -83,6 +83,7 @@ class ExperimentModel {
   // The least learnt discrepancy of the strongest outputs, in [0, 1]; 0 for one scale factor.
   double DiscrepancyLeft() const;
 
+  double weight() const { return setup_.target->weight; }
   bool has_image() const { return setup_.code != nullptr; }
   // Of the objective of the mean image at the target; wants an image.
   Moments Objective(const Eigen::MatrixXd& points) const;

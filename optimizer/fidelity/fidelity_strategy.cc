@@ -198,15 +198,25 @@ bool FidelityStrategy::IsUnderWay() const {
 
 // Every experiment at the same points: what their residuals share is part of the posterior.
 std::optional<Proposal> FidelityStrategy::FromDesign(std::span<const Proposal> asked) const {
+  const bool under_way = IsUnderWay();
   const Eigen::Index size =
-      IsUnderWay() ? std::min<Eigen::Index>(kOfAddedTest, design_.rows()) : design_.rows();
+      under_way ? std::min<Eigen::Index>(kOfAddedTest, design_.rows()) : design_.rows();
+  // Any evaluations at the coarsest scale factor will do for an added one.
+  const auto has_enough = [&](int e) {
+    const auto is_it = [&](const auto& other) {
+      return other.experiment == e && levels_.LevelOf(other.scale_factor) == 0;
+    };
+    return under_way && std::count_if(asked.begin(), asked.end(), is_it) +
+                                std::count_if(observations_.begin(), observations_.end(), is_it) >=
+                            size;
+  };
   for (Eigen::Index i = 0; i < size; ++i) {
     const Eigen::VectorXd point = design_.row(i);
     for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
       const auto is_it = [&](const auto& other) {
         return other.experiment == e && SamePoint(other.point, point);
       };
-      if (std::any_of(asked.begin(), asked.end(), is_it) ||
+      if (has_enough(e) || std::any_of(asked.begin(), asked.end(), is_it) ||
           std::any_of(observations_.begin(), observations_.end(), is_it)) {
         continue;
       }
@@ -251,7 +261,9 @@ Proposal FidelityStrategy::ByGain(std::span<const Proposal> asked) {
   const PosteriorSample sample = Model().Sample(domain_, start, softness, seed);
   const Eigen::MatrixXd draws = sample.Draws(kCandidates, seed);
   Eigen::VectorXd score = Eigen::VectorXd::Zero(draws.rows());
-  for (const ExperimentModel& model : with_fantasies.models()) score += model.GainOfAll(draws);
+  for (const ExperimentModel& model : with_fantasies.models()) {
+    score += model.weight() * model.GainOfAll(draws);
+  }
   const Feasibility feasibility(MakeHistory(observations_, domain_.num_parameters));
   score += feasibility.Penalty(draws);
   constexpr Eigen::Index kBest = 6;
@@ -271,10 +283,11 @@ Proposal FidelityStrategy::MostPerCost(const Posterior& with_fantasies,
   Proposal best;
   double most = -1;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
+    const double weight = with_fantasies.models()[e].weight();
     const Eigen::MatrixXd gains = with_fantasies.models()[e].Gains(draws, sites);
     for (Eigen::Index i = 0; i < sites.rows(); ++i) {
       for (int level = 0; level < levels_.size(); ++level) {
-        const double rate = gains(i, level) / CostOf(e, level);
+        const double rate = weight * gains(i, level) / CostOf(e, level);
         if (rate <= most) continue;
         most = rate;
         best = {.point = sites.row(i),

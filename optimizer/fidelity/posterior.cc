@@ -8,14 +8,11 @@
 
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
-#include "optimizer/fidelity/residual_correlation.h"
-#include "optimizer/fidelity/robust_misfit.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
 namespace {
 
-constexpr double kMostTemper = 6;
 constexpr double kRegion = 0.9;  // probability of the joint region
 
 // Residuals of all experiments side by side: a row for each set and scale factor, NaN where an
@@ -51,6 +48,15 @@ Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
     left += models[e].num_outputs();
   }
   return stacked;
+}
+
+// The experiment that each output is of.
+std::vector<int> TestOfOutputs(const std::vector<ExperimentModel>& models) {
+  std::vector<int> test;
+  for (std::size_t e = 0; e < models.size(); ++e) {
+    test.insert(test.end(), static_cast<std::size_t>(models[e].num_outputs()), static_cast<int>(e));
+  }
+  return test;
 }
 
 double LogSumExp(const Eigen::VectorXd& x) {
@@ -124,64 +130,20 @@ KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& we
 }  // namespace
 
 Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<ExperimentData>& data)
-    : models_(std::move(models)) {
-  const Eigen::MatrixXd stacked = Stack(models_, data);
-  Correlate(stacked);
-  Temper(stacked);
-}
-
-void Posterior::Correlate(const Eigen::MatrixXd& stacked) {
-  std::vector<int> test;
-  for (std::size_t e = 0; e < models_.size(); ++e) {
-    test.insert(test.end(), static_cast<std::size_t>(models_[e].num_outputs()),
-                static_cast<int>(e));
-  }
-  const Eigen::MatrixXd lower = ResidualCorrelation(stacked, test).llt().matrixL();
-  inverse_root_ = lower.triangularView<Eigen::Lower>().solve(
-      Eigen::MatrixXd::Identity(stacked.cols(), stacked.cols()));
-}
-
-// A residual that is not there counts as the mean of those that are.
-void Posterior::Temper(const Eigen::MatrixXd& stacked) {
-  std::vector<double> misfits;
-  for (Eigen::Index i = 0; i < stacked.rows(); ++i) {
-    Eigen::VectorXd z = stacked.row(i);
-    const auto there = z.array().isFinite();
-    if (!there.any()) continue;
-    const double share = static_cast<double>(there.count()) / static_cast<double>(z.size());
-    z = there.select(z, 0);
-    misfits.push_back((inverse_root_ * z).squaredNorm() / share);
-  }
-  coverage_.count = static_cast<int>(misfits.size());
-  const double expected = RobustQuantile(stacked.cols(), kRegion);
-  const auto covered = [&](double temper) {
-    return static_cast<double>(std::count_if(misfits.begin(), misfits.end(),
-                                             [&](double m) { return m <= temper * expected; })) /
-           static_cast<double>(misfits.size());
-  };
-  std::vector<double> sorted = misfits;
-  std::sort(sorted.begin(), sorted.end());
-  const auto at = std::min(
-      sorted.size() - 1,
-      static_cast<std::size_t>(std::ceil(kRegion * static_cast<double>(sorted.size()))) - 1);
-  temper_ = std::clamp(sorted[at] / expected * (1 + 1e-12), 1.0, kMostTemper);
-  coverage_.raw = covered(1);
-  coverage_.tempered = covered(temper_);
-}
+    : models_(std::move(models)), misfit_(Stack(models_, data), TestOfOutputs(models_)) {}
 
 Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double softness) const {
-  Eigen::MatrixXd residual(points.rows(), inverse_root_.rows());
+  Eigen::MatrixXd residual(points.rows(), misfit_.num_outputs());
   Eigen::VectorXd log_sd = Eigen::VectorXd::Zero(points.rows());
   Eigen::Index left = 0;
   for (const ExperimentModel& model : models_) {
     const OutputMisfit misfit = model.MisfitOf(points);
-    residual.middleCols(left, misfit.residual.cols()) = misfit.residual;
-    log_sd += misfit.log_sd;
+    const double weight = model.weight();
+    residual.middleCols(left, misfit.residual.cols()) = std::sqrt(weight) * misfit.residual;
+    log_sd += weight * misfit.log_sd;
     left += misfit.residual.cols();
   }
-  const Eigen::ArrayXd squared =
-      (residual * inverse_root_.transpose()).rowwise().squaredNorm().array();
-  return -log_sd.array() - 0.5 * RobustMisfit(squared / (temper_ * softness), residual.cols());
+  return misfit_.LogDensity(misfit_.Squared(residual), log_sd, softness);
 }
 
 PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,
@@ -247,7 +209,7 @@ Eigen::MatrixXd PosteriorSample::Draws(int count, std::uint64_t seed) const {
 }
 
 double Posterior::Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const {
-  return models_[experiment].Misfit(x) / std::sqrt(temper_);
+  return models_[experiment].Misfit(x) / std::sqrt(temper());
 }
 
 std::vector<ExperimentStanding> Posterior::StandingsAt(const Eigen::VectorXd& x) const {

@@ -1,12 +1,13 @@
 // The posterior of the parameters: how likely the measured outputs of all experiments are at a set.
 //
-//   ln p(x | data) = -Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ C⁻¹ r
+//   ln p(x | data) = -Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ C⁻¹ r          joint_misfit.h
 //
 // r residuals of the K outputs in standard deviations s (experiment_model.h: the experiment's own
-// error, model error and the surrogate's, which is inflated in r and not in -Σ ln s), C their
-// correlation from leave-one-out residuals of all experiments together, so that two tests are not
-// added as if independent; ρ is heavy-tailed (robust_misfit.h); T >= 1 tempers it until
-// leave-one-out coverage is right. The prior is uniform over the domain.
+// error, model error and the surrogate's, which is inflated in r and not in -Σ ln s). C and T come
+// from leave-one-out residuals of all experiments together, so that two tests are not added as if
+// independent. The prior is uniform over the domain.
+//
+// An experiment of weight w counts as its likelihood to the power w: √w r and w ln s.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,16 +15,10 @@
 #include <vector>
 
 #include "optimizer/fidelity/experiment_model.h"
+#include "optimizer/fidelity/joint_misfit.h"
 #include "optimizer/space/domain.h"
 
 namespace talus::optimizer {
-
-// Coverage of nominal 90 % regions of the outputs, each evaluation left out in turn.
-struct LeaveOneOutCoverage {
-  int count = 0;  // evaluations
-  double raw = 0;
-  double tempered = 0;
-};
 
 // A weighted sample of the posterior.
 struct PosteriorSample {
@@ -62,17 +57,12 @@ class Posterior {
 
   std::vector<ExperimentModel>& models() { return models_; }
   const std::vector<ExperimentModel>& models() const { return models_; }
-  double temper() const { return temper_; }
-  const LeaveOneOutCoverage& coverage() const { return coverage_; }
+  double temper() const { return misfit_.temper(); }
+  const LeaveOneOutCoverage& coverage() const { return misfit_.coverage(); }
 
  private:
-  void Correlate(const Eigen::MatrixXd& stacked);
-  void Temper(const Eigen::MatrixXd& stacked);
-
   std::vector<ExperimentModel> models_;
-  Eigen::MatrixXd inverse_root_;  // L⁻¹ of the correlation C = L Lᵀ
-  double temper_ = 1;
-  LeaveOneOutCoverage coverage_;
+  JointMisfit misfit_;
 };
 
 }  // namespace talus::optimizer

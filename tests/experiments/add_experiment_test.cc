@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "experiments/analysis/next/rank_next.h"
 #include "experiments/campaign/campaign_strategy.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
@@ -27,6 +28,10 @@ class AddExperimentTest : public CampaignFixture {
                                   name);
     RunFake(folder, {});
     return folder;
+  }
+  static CampaignSpec LoadSpec(const fs::path& folder) {
+    return ParseSpecText(
+        journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Campaign().spec_json);
   }
   // An entry of `experiments` beside the campaign's own input.
   fs::path Write(const std::string& text) const {
@@ -63,6 +68,46 @@ TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
   EXPECT_EQ(result.posterior->experiments[0].name, "heap");
   EXPECT_EQ(result.posterior->experiments[1].name, "fast lift");
   EXPECT_EQ(result.confirmed.at(0).experiments.value().size(), 2u);
+}
+
+// The design stands 16 simulations; none of them is run again, and nothing of the usual design of
+// an added test beside them.
+TEST_F(AddExperimentTest, WhatNextHasSimulatedOfTheTestIsTakenOver) {
+  const fs::path folder = Ended();
+  const auto before = Trials(folder);
+  const auto parts = [&] {
+    return CampaignParts{.runner = MakeRunner(LoadSpec(folder), folder),
+                         .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+  };
+  const std::string fast_lift = TwoExperiments::FastLift("23 mg");
+  for (const char* velocity : {"0.1 m/s", "20 cm/s"}) {  // the first is another test
+    const fs::path candidates = scratch_.path() / "candidates.json";
+    std::ofstream(candidates) << R"({"candidates": [{"name": "lift )" << velocity
+                              << R"(", "device": {"lift_velocity": ")" << velocity << R"("}}]})";
+    const JointView view = ReadJointView(folder);
+    analysis::RankNext(
+        view, {.tests = analysis::LoadTests(candidates), .simulate = true, .parts = parts()});
+  }
+  Add(folder, Write(fast_lift), {.core_time = {}, .engine = [] {
+                                   return std::make_unique<FakeEngine>(FakeEngineOptions{});
+                                 }});
+  const auto taken = Trials(folder);
+  ASSERT_EQ(taken.size(), before.size() + 16);
+  const std::string drawn = base::ReadFile(folder / "next/lift-20-cm-s/trials/0003/profile.png");
+  EXPECT_EQ(
+      base::ReadFile(CampaignFolder{folder}.trial(taken[before.size() + 2].id) / "profile.png"),
+      drawn);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const auto after = Trials(folder);
+  for (std::size_t i = before.size(); i < before.size() + 16; ++i) {
+    EXPECT_EQ(after[i].experiment, 1);
+    EXPECT_EQ(after[i].status, journal::TrialStatus::kOk);
+    EXPECT_EQ(after[i].unit, taken[i].unit);
+  }
+  for (std::size_t i = before.size() + 16; i < after.size(); ++i) {
+    EXPECT_NE(after[i].kind, journal::TrialKind::kDesign);
+  }
+  EXPECT_EQ(Result(folder).posterior.value().experiments.size(), 2u);
 }
 
 TEST_F(AddExperimentTest, ItIsStillThereInAJournalThatIsMadeAnew) {

@@ -118,6 +118,14 @@ class FakeEngine : public trials::TrialEngine {
             .note = ""};
   }
 
+  bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+                const std::filesystem::path& to) override {
+    if (!rigs::IsSameRun(rigs::LoadHeapCase(from / "case.json"), heap_case)) return false;
+    trials::CopyFolder(from, to);
+    std::ofstream(to / "case.json") << rigs::HeapCaseText(heap_case);
+    return true;
+  }
+
  private:
   FakeEngineOptions options_;
 };

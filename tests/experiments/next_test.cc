@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "base/error.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
+#include "experiments/analysis/next/usual_tests.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -44,8 +47,13 @@ class NextTest : public campaign::CampaignFixture {
 TEST_F(NextTest, RanksWhatTrialsAlreadyTellAndAsksForTheOthers) {
   const JointView view = Run();
   const NextTable table = Rank(view, UsualTests(view), false);
-  ASSERT_EQ(table.candidates.size(), 3u + 3u);
-  const NextCandidate& mass = Find(table, "mass fallen of heap");
+  for (const char* name : {"more runs of heap", "more simulations of heap",
+                           "mass on the plate of heap", "wide plate, 5 cm/s", "wide plate, 20 cm/s",
+                           "rough plate", "tapped density", "column collapse", "tilting box"}) {
+    EXPECT_GE(Find(table, name).num_simulations, 0);
+  }
+  ASSERT_EQ(table.candidates.size(), 9u);  // the finest grains are the true ones already
+  const NextCandidate& mass = Find(table, "mass on the plate of heap");
   const NextCandidate& runs = Find(table, "more runs of heap");
   EXPECT_GT(mass.learning->bits, runs.learning->bits);
   EXPECT_GT(runs.learning->bits, 0);
@@ -85,12 +93,60 @@ TEST_F(NextTest, ADesignOfAnotherDeviceIsNotTakenForThis) {
   EXPECT_FALSE(Find(Rank(view, {test}, false), "fast").learning.has_value());
 }
 
+// The drawn heaps' density tells μ_r, to 0.5 % of 1480 kg/m³ over 350 kg/m³: 0.02, where the heap
+// leaves 0.07.
+TEST_F(NextTest, ATestOfNumbersOnlyIsJudgedByThem) {
+  const JointView view = Run();
+  const std::vector<TestCandidate> usual = UsualTests(view);
+  const auto tapped = std::find_if(usual.begin(), usual.end(), [](const TestCandidate& test) {
+    return test.name == "tapped density";
+  });
+  const NextTable table = Rank(view, {*tapped}, true);
+  const NextCandidate& judged = Find(table, "tapped density");
+  ASSERT_TRUE(judged.learning.has_value()) << judged.what;
+  EXPECT_LT(judged.learning->width[1], 0.9 * table.width[1]);
+  EXPECT_EQ(judged.num_made, 16);
+  EXPECT_TRUE(judged.picture.empty());
+  ASSERT_EQ(judged.numbers.size(), 1u);
+  EXPECT_EQ(judged.numbers[0].metric, "tapped_density_kg_per_m3");
+  EXPECT_GT(std::abs(judged.numbers[0].first - judged.numbers[0].second), 10);
+  EXPECT_THAT(NextText(table), HasSubstr("16 of them made"));
+}
+
+TEST_F(NextTest, FinerGrainsAreWorthMoreWhereTheModelErrorLeavesMore) {
+  folder_ = Begin(R"(, "coarse_graining": {"scale_factors": [2.4, 2]},
+    "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)");
+  campaign::RunFake(folder_, {});
+  const JointView view = campaign::ReadJointView(folder_);
+  const NextTable table = Rank(view, {}, false);
+  const NextCandidate& finer = Find(table, "finer grains in heap");
+  EXPECT_GT(finer.learning->bits, 0);
+  EXPECT_THAT(finer.what, HasSubstr("scale factor 1.414"));
+  const NextCandidate& more = Find(table, "more simulations of heap");
+  // The step is √2 and core time goes with f⁻⁴.
+  EXPECT_NEAR(finer.core_time / more.core_time, 4, 1e-9);
+}
+
+TEST_F(NextTest, WhatCannotBeSimulatedIsSaidAndNotTried) {
+  const JointView view = Run();
+  TestCandidate narrow{.name = "narrow"};
+  narrow.device = view.spec.device;
+  narrow.device->tube_inner_diameter = 1e-3;  // grains of the coarse factor are 0.8 mm
+  const NextTable table = Rank(view, {narrow}, true);
+  EXPECT_THAT(Find(table, "narrow").what, HasSubstr("must be above three (scaled) grain"));
+  EXPECT_FALSE(fs::exists(folder_ / "next"));
+}
+
 TEST_F(NextTest, CandidatesComeFromAFile) {
   const fs::path file = scratch_.path() / "tests.json";
   std::ofstream(file) << R"({"candidates": [{"name": "fast", "device": {"lift_velocity": "20 cm/s"},
-                                             "runs": 5}]})";
+                                             "runs": 5},
+    {"name": "tapped", "rig": {"kind": "tapped_density"}, "filling": {"kind": "pour"},
+     "tapped_density": {"sd": "4 kg/m^3"}}]})";
   const std::vector<TestCandidate> tests = LoadTests(file);
-  ASSERT_EQ(tests.size(), 1u);
+  ASSERT_EQ(tests.size(), 2u);
+  EXPECT_EQ(tests[1].rig.value().kind, rigs::RigKind::kTappedDensity);
+  EXPECT_EQ(tests[1].numbers.tapped_density.value().standard_error, 4);
   EXPECT_EQ(tests[0].runs, 5);
   EXPECT_EQ(tests[0].device.value().lift_velocity, 0.2);
   std::ofstream(file) << R"({"candidates": [{"runs": 0}]})";

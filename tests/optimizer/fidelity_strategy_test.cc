@@ -30,11 +30,13 @@ struct Twin {
   double target = 0;
   bool balance = true;  // whether the second number is measured
   std::uint64_t seed = 1;
+  double weight = 1;
 
   ExperimentTarget MakeTarget() const {
     const double sum = 1 + truth[0] + truth[1];
     ExperimentTarget made{.name = "twin", .scalars = {{"sum", sum, 0.01}}};
     if (balance) made.scalars.push_back({"balance", 2 + 0.5 * (truth[0] - truth[1]), 0.01});
+    made.weight = weight;
     return made;
   }
   std::unique_ptr<FidelityStrategy> Make() const {
@@ -80,6 +82,28 @@ TEST(FidelityStrategy, JointRegionsHoldTheTruthAsOftenAsTheySay) {
   }
   // 90 % expected: fewer than 8 of 12 has a probability of 0.4 %.
   EXPECT_GE(covered, 8);
+}
+
+// A Gaussian to the power 4 has half the standard deviation: a quarter of the area in two
+// parameters. The tails are heavier than that, and the region's edge is drawn from a sample.
+TEST(FidelityStrategy, AWeightIsThePowerOfTheLikelihood) {
+  Twin twin;
+  std::vector<Observation> told;
+  const auto strategy = twin.Make();
+  for (int i = 0; i < 24; ++i) {
+    told.push_back(twin.Simulate(strategy->AskAt(1, {}).front(), i));
+    strategy->Tell(told.back());
+  }
+  const double once = strategy->Recommend().posterior.value().region_volume;
+  twin.weight = 4;
+  const auto weighted = twin.Make();
+  for (const Observation& observation : told) weighted->Tell(observation);
+  const double four = weighted->Recommend().posterior.value().region_volume;
+  EXPECT_GT(four, 0.12 * once);
+  EXPECT_LT(four, 0.5 * once);
+  // Whether a set fits is another question than how much it counts.
+  EXPECT_EQ(weighted->Consider(twin.truth)->experiments[0].implausibility,
+            strategy->Consider(twin.truth)->experiments[0].implausibility);
 }
 
 TEST(FidelityStrategy, OneNumberLeavesAValleyInOnePiece) {

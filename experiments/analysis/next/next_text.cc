@@ -41,10 +41,25 @@ std::string SetText(const std::vector<double>& values) {
   return text + ")";
 }
 
+std::string ApartText(const NextCandidate& c) {
+  std::string text =
+      "            tells apart best " + SetText(c.apart[0]) + " and " + SetText(c.apart[1]);
+  for (const ToldApart& number : c.numbers) {
+    text += "; " + number.metric + " " + base::ShortNumber(number.first) + " and " +
+            base::ShortNumber(number.second);
+  }
+  if (!c.picture.empty()) text += ": " + c.picture.string();
+  return text + "\n";
+}
+
 std::string CostText(const NextCandidate& c) {
   if (c.num_simulations == 0) return "no simulations";
-  return std::to_string(c.num_simulations) + " simulations, " + trials::DurationText(c.core_time) +
-         " of core time";
+  std::string text = std::to_string(c.num_simulations) + " simulations, ";
+  if (c.num_made > 0) {
+    text += std::to_string(c.num_made) + " of them made in " +
+            trials::DurationText(c.core_time_made) + ", ";
+  }
+  return text + trials::DurationText(c.core_time) + " of core time";
 }
 
 const char* KindName(NextKind kind) {
@@ -53,6 +68,8 @@ const char* KindName(NextKind kind) {
       return "more_runs";
     case NextKind::kMoreSimulations:
       return "more_simulations";
+    case NextKind::kFinerGrains:
+      return "finer_grains";
     case NextKind::kNumber:
       return "number";
     case NextKind::kTest:
@@ -67,7 +84,12 @@ std::string NextText(const NextTable& table) {
   std::string text = "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";
   bool unknown = false;
   for (const NextCandidate& c : table.candidates) {
-    unknown |= !c.learning;
+    const bool impossible = c.kind == NextKind::kTest && c.num_simulations == 0;
+    unknown |= !c.learning && !impossible;
+    if (impossible) {
+      text += "   -        " + c.name + " " + c.what + "\n";
+      continue;
+    }
     if (!c.learning) {
       text += "   ?  bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n";
       continue;
@@ -76,10 +98,7 @@ std::string NextText(const NextTable& table) {
     std::snprintf(bits, sizeof bits, "%5.2f", c.learning->bits);
     text += std::string(bits) + " bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n" +
             "            expected to leave " + WidthsText(table, c.learning->width) + "\n";
-    if (!c.picture.empty()) {
-      text += "            tells apart best " + SetText(c.apart[0]) + " and " +
-              SetText(c.apart[1]) + ": " + c.picture.string() + "\n";
-    }
+    if (!c.apart.empty()) text += ApartText(c);
   }
   if (unknown) text += "--simulate runs the few simulations that tell what a test would teach\n";
   return text;
@@ -100,13 +119,17 @@ std::string NextJson(const NextTable& table) {
                                      {"name", c.name},
                                      {"what", c.what},
                                      {"num_simulations", c.num_simulations},
-                                     {"core_time_s", c.core_time}};
+                                     {"core_time_s", c.core_time},
+                                     {"num_made", c.num_made},
+                                     {"core_time_made_s", c.core_time_made}};
     candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
     candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;
-    if (!c.picture.empty()) {
-      candidate["told_apart"] = c.apart;
-      candidate["picture"] = c.picture.string();
+    if (!c.apart.empty()) candidate["told_apart"] = c.apart;
+    for (const ToldApart& number : c.numbers) {
+      candidate["told_apart_by"].push_back(
+          {{"name", number.metric}, {"values", {number.first, number.second}}});
     }
+    if (!c.picture.empty()) candidate["picture"] = c.picture.string();
     json["candidates"].push_back(std::move(candidate));
   }
   return json.dump(2) + "\n";

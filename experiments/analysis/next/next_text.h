@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/analysis/next/rank_next.h"
+#include "experiments/analysis/next/next_table.h"
 
 namespace talus::analysis {
 

@@ -2,37 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <utility>
 
 #include "base/error.h"
-#include "experiments/analysis/next/heap_pair.h"
-#include "experiments/campaign/answer/describe_posterior.h"
+#include "base/text/number_text.h"
+#include "experiments/analysis/next/ground.h"
+#include "experiments/analysis/next/judge_test.h"
+#include "experiments/analysis/next/test_design.h"
 #include "experiments/campaign/core_time.h"
-#include "imaging/spheres/projection.h"
-#include "optimizer/answer/credible_ranges.h"
 
 namespace talus::analysis {
 namespace {
 
 using campaign::JointView;
-using optimizer::ExperimentModel;
 using optimizer::OutputPredictions;
 
 constexpr int kDraws = 1000;
 constexpr const char* kFallen = "mass_fallen_kg";
 
-// What the posterior needs to judge a further measurement.
-struct Ground {
-  const JointView& view;
-  const optimizer::Posterior& posterior;
-  Eigen::MatrixXd draws;
-  double model_error = 1;
+// What the simulations of a campaign have taken, for what more of them will.
+class Cost {
+ public:
+  explicit Cost(const JointView& view) : core_time_(view.spec) { core_time_.Of(view.trials); }
 
-  optimizer::ExpectedLearning Learn(const Eigen::MatrixXd& mean,
-                                    const Eigen::VectorXd& variance) const {
-    return optimizer::Learn(draws, {.mean = mean, .variance = posterior.temper() * variance},
-                            view.spec.seed);
-  }
+  double OfOne(int experiment, double factor) { return core_time_.OfOne(experiment, factor); }
+
+ private:
+  campaign::CoreTime core_time_;
 };
 
 int CountAt(const JointView& view, int experiment, double factor) {
@@ -42,19 +38,8 @@ int CountAt(const JointView& view, int experiment, double factor) {
       }));
 }
 
-// Of one simulation of an experiment [core seconds]: as its trials took, or as estimated.
-double CoreTimeOf(const JointView& view, int experiment, double factor) {
-  double sum = 0;
-  int count = 0;
-  for (const journal::TrialRecord& trial : view.trials) {
-    if (trial.experiment != experiment || trial.scale_factor != factor || !(trial.cpu_s > 0)) {
-      continue;
-    }
-    sum += trial.cpu_s;
-    ++count;
-  }
-  if (count > 0) return sum / count;
-  return campaign::GrainStepsOf(view.spec, experiment, factor) / campaign::kUsualSpeed;
+const std::string& NameOf(const JointView& view, int experiment) {
+  return view.record.experiments[static_cast<std::size_t>(experiment)].name;
 }
 
 // What is left of the variance `before` once it is `after` is what an independent measurement with
@@ -64,56 +49,76 @@ Eigen::VectorXd OfTheDifference(const Eigen::VectorXd& before, const Eigen::Vect
   return (after.cwiseInverse() - before.cwiseInverse()).cwiseMax(kLeast).cwiseInverse();
 }
 
-void AddMoreOfTheSame(const Ground& ground, std::vector<NextCandidate>& all) {
-  const JointView& view = ground.view;
-  const double finest = view.spec.coarse_graining.Levels().back();
-  for (const int e : view.All()) {
-    const journal::ExperimentRecord& record = view.record.experiments[static_cast<std::size_t>(e)];
-    const OutputPredictions at =
-        ground.posterior.models()[static_cast<std::size_t>(e)].Predict(ground.draws);
-    const Eigen::VectorXd surrogate = at.variance.colwise().mean().transpose();
-    const Eigen::VectorXd now = surrogate + at.measured + at.model;
-    all.push_back(
-        {.kind = NextKind::kMoreRuns,
-         .name = "more runs of " + record.name,
-         .what = "photograph " + std::to_string(record.num_heaps) + " more runs",
-         .learning = ground.Learn(at.mean, OfTheDifference(now, now - 0.5 * at.measured))});
-    const int count = CountAt(view, e, finest);
-    all.push_back({.kind = NextKind::kMoreSimulations,
-                   .name = "more simulations of " + record.name,
-                   .what = std::to_string(count) + " more at the smallest scale factor",
-                   .learning = ground.Learn(at.mean, OfTheDifference(now, now - 0.5 * surrogate)),
-                   .num_simulations = count,
-                   .core_time = count * CoreTimeOf(view, e, finest)});
+// One experiment as the posterior knows it: what hides the truth from each of its outputs.
+struct Known {
+  int experiment = 0;
+  OutputPredictions at;
+  Eigen::VectorXd surrogate;  // variance, mean over the draws
+
+  Eigen::VectorXd Now() const { return surrogate + at.measured + at.model; }
+};
+
+optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,
+                                          const Eigen::VectorXd& less) {
+  const Eigen::VectorXd now = known.Now();
+  return ground.Learn(known.at.mean, OfTheDifference(now, now - less));
+}
+
+NextCandidate MoreRuns(const Ground& ground, const Known& known) {
+  const auto e = static_cast<std::size_t>(known.experiment);
+  const int num_heaps = ground.view.record.experiments[e].num_heaps;
+  const bool has_image = ground.view.references[e].has_image();
+  return {.kind = NextKind::kMoreRuns,
+          .name = "more runs of " + NameOf(ground.view, known.experiment),
+          .what = has_image ? "photograph " + std::to_string(num_heaps) + " more runs"
+                            : "measure its numbers as often again",
+          .learning = LearnWhenLess(ground, known, 0.5 * known.at.measured)};
+}
+
+NextCandidate MoreSimulations(const Ground& ground, const Known& known, Cost& cost) {
+  const double finest = ground.view.spec.coarse_graining.Levels().back();
+  const int count = CountAt(ground.view, known.experiment, finest);
+  return {.kind = NextKind::kMoreSimulations,
+          .name = "more simulations of " + NameOf(ground.view, known.experiment),
+          .what = std::to_string(count) + " more at the smallest scale factor",
+          .learning = LearnWhenLess(ground, known, 0.5 * known.surrogate),
+          .num_simulations = count,
+          .core_time = count * cost.OfOne(known.experiment, finest)};
+}
+
+// Heaps of finer grains scatter less, and what no simulation can match, stated in this scatter,
+// shrinks with it.
+void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
+                    std::vector<NextCandidate>& all) {
+  constexpr double kStep = 1.4142135623730951;  // four times the core time
+  const double finest = ground.view.spec.coarse_graining.Levels().back();
+  if (finest <= 1) return;
+  const double finer = std::max(1.0, finest / kStep);
+  const int count = CountAt(ground.view, known.experiment, finest);
+  const double share = std::pow(finer / ground.view.spec.coarse_graining.Target(), 3);
+  if (share >= 1) return;  // the answer is for finer grains already
+  all.push_back(
+      {.kind = NextKind::kFinerGrains,
+       .name = "finer grains in " + NameOf(ground.view, known.experiment),
+       .what = std::to_string(count) + " simulations at scale factor " + base::ShortNumber(finer),
+       .learning = LearnWhenLess(ground, known, (1 - share) * known.at.model),
+       .num_simulations = count,
+       .core_time = count * cost.OfOne(known.experiment, finest) * std::pow(finest / finer, 4)});
+}
+
+void AddMoreOfTheSame(const Ground& ground, Cost& cost, std::vector<NextCandidate>& all) {
+  for (const int e : ground.view.All()) {
+    Known known{.experiment = e,
+                .at = ground.posterior.models()[static_cast<std::size_t>(e)].Predict(ground.draws),
+                .surrogate = {}};
+    known.surrogate = known.at.variance.colwise().mean().transpose();
+    all.push_back(MoreRuns(ground, known));
+    all.push_back(MoreSimulations(ground, known, cost));
+    AddFinerGrains(ground, known, cost, all);
   }
 }
 
-// A model of a test that was not made: its target is what the design shows on average.
-std::unique_ptr<optimizer::FidelityStrategy> ModelOf(const JointView& view,
-                                                     const std::vector<double>& factors,
-                                                     optimizer::ExperimentTarget target) {
-  const optimizer::FidelityOptions options{
-      .scale_factors = factors, .target = 0, .seed = view.spec.seed};
-  return std::make_unique<optimizer::FidelityStrategy>(
-      options, view.space.MakeDomain(),
-      std::vector<optimizer::ExperimentTarget>{std::move(target)});
-}
-
-// Variance of each output as measured on so many runs, with the model's error; `to_target` is the
-// noise variance at the target over that of the design.
-Eigen::VectorXd MeasuredOn(const Ground& ground, const OutputPredictions& at, int runs,
-                           double to_target) {
-  const double share = 1.0 / runs + ground.model_error * ground.model_error;
-  return share * to_target * at.single;
-}
-
-double MeanOf(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
-}
-
-// The mass that falls, where trials know it and the experiment has not measured it.
+// The balance, where trials know what falls and the experiment has not weighed it.
 void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
   const JointView& view = ground.view;
   for (const int e : view.All()) {
@@ -138,84 +143,41 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
     const OutputPredictions at = model->Model().models().front().Predict(ground.draws);
     const int runs = std::max(1, record.num_heaps);
     all.push_back({.kind = NextKind::kNumber,
-                   .name = "mass fallen of " + record.name,
-                   .what = "weigh what falls off the plate in " + std::to_string(runs) + " runs",
-                   .learning = ground.Learn(at.mean, MeasuredOn(ground, at, runs, 1))});
+                   .name = "mass on the plate of " + record.name,
+                   .what = "weigh what stays on the plate, or what falls off it, in " +
+                           std::to_string(runs) + " runs",
+                   .learning = ground.Learn(at.mean, MeasuredBy(ground, at, runs, 1))});
   }
 }
 
-imaging::Profile MeanProfile(const TestDesign& design) {
-  std::vector<imaging::GrayImage> profiles;
-  for (const DesignTrial& trial : design.trials) profiles.push_back(trial.profile);
-  return {.image = imaging::MeanImage(profiles), .frame = design.frame};
-}
-
-std::optional<double> ScalarOf(const DesignTrial& trial, std::string_view name) {
-  for (const journal::MetricRecord& metric : trial.scalars) {
-    if (metric.name == name && std::isfinite(metric.value)) return metric.value;
-  }
-  return std::nullopt;
-}
-
-void Judge(const Ground& ground, const TestCandidate& test, const TestDesign& design,
-           NextCandidate& candidate) {
-  constexpr std::size_t kFewest = 6;
-  if (design.trials.size() < kFewest) {
-    candidate.what += "; too few of its simulations succeeded";
-    return;
-  }
-  const campaign::Reference reference(MeanProfile(design), {.num_heaps = test.runs});
-  std::vector<double> fallen;
-  for (const DesignTrial& trial : design.trials) {
-    if (const auto value = ScalarOf(trial, kFallen)) fallen.push_back(*value);
-  }
-  const bool weighed = fallen.size() == design.trials.size() && MeanOf(fallen) > 0;
-  optimizer::ExperimentTarget target{.name = test.name, .image = reference.MakeFieldObjective()};
-  if (weighed) {
-    target.scalars = {{.name = kFallen, .value = MeanOf(fallen), .standard_error = 0}};
-  }
-  const auto strategy = ModelOf(ground.view, {design.scale_factor}, std::move(target));
-  for (std::size_t i = 0; i < design.trials.size(); ++i) {
-    const DesignTrial& trial = design.trials[i];
-    optimizer::Observation observation{.point = trial.point,
-                                       .scale_factor = design.scale_factor,
-                                       .field = reference.Field(trial.profile)};
-    if (weighed) observation.scalars = {fallen[i]};
-    strategy->Tell(observation);
-  }
-  const ExperimentModel& model = strategy->Model().models().front();
-  const OutputPredictions at = model.Predict(ground.draws);
-  const double finer = ground.view.spec.coarse_graining.Target() / design.scale_factor;
-  candidate.learning = ground.Learn(at.mean, MeasuredOn(ground, at, test.runs, std::pow(finer, 3)));
-  const auto folder = ground.view.folder.root / "next";
-  candidate.picture = folder / (FileName(test) + ".png");
-  const auto image = [&](Eigen::Index draw) {
-    return reference.ImageOf(model.MeanImage(ground.draws.row(draw)));
-  };
-  for (const Eigen::Index draw : {candidate.learning->first, candidate.learning->second}) {
-    candidate.apart.push_back(
-        campaign::FreeValues(ground.view.space, ground.draws.row(draw).transpose()));
-  }
-  WriteHeapPair(candidate.picture, image(candidate.learning->first),
-                image(candidate.learning->second));
-}
-
-NextCandidate TestOf(const Ground& ground, const TestCandidate& test, const NextOptions& options) {
-  const JointView& view = ground.view;
-  NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
-  candidate.what = "make it, " + std::to_string(test.runs) + " runs";
-  // As many simulations as the first experiment took, each as much dearer as its grains go on.
+// As many simulations as the first experiment took, each as much dearer as its grains go on.
+void EstimateCost(const JointView& view, const TestCandidate& test, Cost& cost,
+                  NextCandidate& candidate) {
   const campaign::CampaignSpec spec = SpecOf(view, test);
   for (const double factor : view.spec.coarse_graining.Levels()) {
     const int count = CountAt(view, 0, factor);
     candidate.num_simulations += count;
-    candidate.core_time += count * CoreTimeOf(view, 0, factor) *
-                           campaign::GrainStepsOf(spec, 0, factor) /
+    candidate.core_time += count * cost.OfOne(0, factor) * campaign::GrainStepsOf(spec, 0, factor) /
                            campaign::GrainStepsOf(view.spec, 0, factor);
   }
+}
+
+NextCandidate TestOf(const Ground& ground, const TestCandidate& test, const NextOptions& options,
+                     Cost& cost) {
+  const JointView& view = ground.view;
+  NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
+  if (const std::string why = WhyNot(view, test); !why.empty()) {
+    candidate.what = "cannot be simulated: " + why;
+    return candidate;
+  }
+  candidate.what = "make it, " + std::to_string(test.runs) + " runs";
+  EstimateCost(view, test, cost, candidate);
   const auto design = options.simulate ? SimulateDesign(view, test, ground.draws, options.parts)
                                        : StoredDesign(view, test, *options.parts.engine);
-  if (design) Judge(ground, test, *design, candidate);
+  if (!design) return candidate;
+  candidate.num_made = design->num_simulations;
+  candidate.core_time_made = design->core_time;
+  JudgeTest(ground, test, *design, candidate);
   return candidate;
 }
 
@@ -241,10 +203,11 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
     if (trial.status != journal::TrialStatus::kRunning) table.last_trial = trial.id;
   }
   table.width = ground.Learn(Eigen::MatrixXd(kDraws, 0), {}).width;
-  AddMoreOfTheSame(ground, table.candidates);
+  Cost cost(view);
+  AddMoreOfTheSame(ground, cost, table.candidates);
   AddNumbers(ground, table.candidates);
   for (const TestCandidate& test : options.tests) {
-    table.candidates.push_back(TestOf(ground, test, options));
+    table.candidates.push_back(TestOf(ground, test, options, cost));
   }
   const auto bits = [](const NextCandidate& c) { return c.learning ? c.learning->bits : -1; };
   std::stable_sort(

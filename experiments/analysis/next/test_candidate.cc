@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
+#include "experiments/rigs/rig_list.h"
 
 namespace talus::analysis {
 namespace {
@@ -22,19 +24,40 @@ struct CandidateFile {
   }
 };
 
-campaign::ExperimentSpec FirstOf(const campaign::JointView& view) {
-  return campaign::ExperimentsOf(view.spec).front();
+rigs::HeapCase TypicalOf(const campaign::JointView& view, const TestCandidate& test) {
+  return campaign::TypicalCase(SpecOf(view, test), 0, view.spec.coarse_graining.Levels().front());
 }
 
-bool Alike(double a, double b) { return std::abs(a - b) <= 0.01 * b; }
+// The numbers that tell most of a rig's observables, with what a careful laboratory reaches.
+std::vector<ExpectedNumber> UsualNumbers(rigs::RigKind kind) {
+  switch (kind) {
+    case rigs::RigKind::kLiftedTube:
+      return {{.metric = "mass_fallen_kg"}};
+    case rigs::RigKind::kTappedDensity:
+      return {{.metric = "tapped_density_kg_per_m3", .relative_error = 0.005}};
+    case rigs::RigKind::kColumnCollapse:
+      return {{.metric = "runout_m", .relative_error = 0.02},
+              {.metric = "height_m", .relative_error = 0.02}};
+    case rigs::RigKind::kTiltingBox:
+      return {{.metric = "angle_deg", .standard_error = 1}};
+    case rigs::RigKind::kDrawDown:
+      return {{.metric = "mass_left_kg"},
+              {.metric = "discharge_time_s", .relative_error = 0.02},
+              {.metric = "angle_deg", .standard_error = 1}};
+    case rigs::RigKind::kDrum:
+      return {{.metric = "angle_deg", .standard_error = 1}};
+  }
+  return {};
+}
 
-bool IsMade(const campaign::JointView& view, const TestCandidate& test) {
-  const auto all = campaign::ExperimentsOf(view.spec);
-  return std::any_of(all.begin(), all.end(), [&](const campaign::ExperimentSpec& made) {
-    return Alike(made.device->plate_diameter, test.device->plate_diameter) &&
-           Alike(made.device->lift_velocity, test.device->lift_velocity) &&
-           made.device->plate_material.has_value() == test.device->plate_material.has_value();
-  });
+// Where no experiment has images to take the pixels from.
+imaging::Frame UsualFrame(double plate, double grain) {
+  constexpr double kPixelsPerGrain = 5;
+  constexpr double kHeight = 0.7;  // of the plate diameter: a slope of 45° and a margin
+  imaging::Frame frame{.pixel_size = grain / kPixelsPerGrain};
+  frame.height = static_cast<int>(std::ceil(kHeight * plate / frame.pixel_size));
+  frame.baseline = frame.height - 10;
+  return frame;
 }
 
 }  // namespace
@@ -48,59 +71,73 @@ std::vector<TestCandidate> LoadTests(const std::filesystem::path& file) {
   return base::LoadOptions<CandidateFile>(base::ReadJsonFile(file)).candidates;
 }
 
-std::vector<TestCandidate> UsualTests(const campaign::JointView& view) {
-  constexpr double kWide = 3;     // plate over tube
-  constexpr double kSlow = 0.05;  // [m/s]
-  constexpr double kFast = 0.20;  // [m/s]
-  constexpr double kRough = 1.0;  // friction of a plate that grains are glued to
-  const rigs::Device device = *FirstOf(view).device;
-  rigs::Device slow = device;
-  slow.plate_diameter = kWide * device.tube_inner_diameter;
-  slow.plate = rigs::PlateKind::kDisc;
-  slow.lift_velocity = kSlow;
-  rigs::Device fast = slow;
-  fast.lift_velocity = kFast;
-  rigs::Device rough = device;
-  rigs::WallMaterial material = device.plate_material.value_or(rigs::WallMaterial{});
-  material.sliding_friction = kRough;
-  material.rolling_friction = kRough;
-  rough.plate_material = material;
-  std::vector<TestCandidate> tests{{.name = "wide plate, 5 cm/s", .device = slow},
-                                   {.name = "wide plate, 20 cm/s", .device = fast},
-                                   {.name = "rough plate", .device = rough}};
-  std::erase_if(tests, [&](const TestCandidate& test) { return IsMade(view, test); });
-  return tests;
-}
-
 campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandidate& test) {
   campaign::CampaignSpec spec = view.spec;
-  campaign::ExperimentSpec only = FirstOf(view);
+  campaign::ExperimentSpec only = campaign::ExperimentsOf(view.spec).front();
   only.name = test.name;
   only.numbers = {};
+  if (test.rig) only.rig = test.rig;
   if (test.device) only.device = test.device;
+  if (test.filling) only.filling = test.filling;
   if (test.rules) only.rules = test.rules;
   spec.experiment.reset();
   spec.experiments = {only};
   return spec;
 }
 
-// Of the first experiment that has an image.
-imaging::Frame ImageFrame(const campaign::JointView& view) {
-  for (const campaign::Reference& reference : view.references) {
-    if (reference.has_image()) return reference.frame().value();
+std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
+  base::Problems problems(test.name, {});
+  TypicalOf(view, test).Validate(problems);
+  if (problems.empty()) {
+    const auto known = rigs::EntryOf(TypicalOf(view, test)).observables;
+    const auto numbers = campaign::ScalarsOf(test.numbers);
+    for (const campaign::ScalarSpec& number : numbers) {
+      problems.Require(std::find(known.begin(), known.end(), number.metric) != known.end(),
+                       number.key, "is not measured by the rig");
+    }
   }
-  throw base::ConfigError(view.folder.root.string() +
-                          ": its experiments have numbers only; `talus next` looks at images");
+  try {
+    problems.ThrowIfAny();
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return {};
 }
 
-imaging::Frame FrameOf(const campaign::JointView& view, const TestCandidate& test) {
+std::optional<imaging::Frame> FrameOf(const campaign::JointView& view, const TestCandidate& test) {
   constexpr double kMargin = 0.1;  // of the plate diameter, on either side
-  imaging::Frame frame = ImageFrame(view);
-  if (test.device) frame.plate_diameter = test.device->plate_diameter;
+  if (test.frame) return test.frame;
+  const rigs::HeapCase heap_case = TypicalOf(view, test);
+  if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) return std::nullopt;
+  const auto seen = std::find_if(view.references.begin(), view.references.end(),
+                                 [](const campaign::Reference& r) { return r.has_image(); });
+  imaging::Frame frame = seen != view.references.end()
+                             ? seen->frame().value()
+                             : UsualFrame(heap_case.device.plate_diameter,
+                                          rigs::EstimateHeap(heap_case).mean_diameter);
+  frame.plate_diameter = heap_case.device.plate_diameter;
   const double width = (1 + 2 * kMargin) * frame.plate_diameter / frame.pixel_size;
   frame.width = static_cast<int>(std::ceil(width));
   frame.center_x = 0.5 * frame.width;
   return frame;
+}
+
+std::vector<ExpectedNumber> NumbersOf(const campaign::JointView& view, const TestCandidate& test) {
+  std::vector<ExpectedNumber> numbers;
+  for (const campaign::ScalarSpec& scalar : campaign::ScalarsOf(test.numbers)) {
+    numbers.push_back({.metric = scalar.metric, .standard_error = scalar.standard_error});
+  }
+  return numbers.empty() ? UsualNumbers(rigs::KindOf(TypicalOf(view, test))) : numbers;
+}
+
+std::string ExperimentText(const campaign::JointView& view, const TestCandidate& test) {
+  const campaign::ExperimentSpec only = campaign::ExperimentsOf(SpecOf(view, test)).front();
+  nlohmann::ordered_json json{{"name", test.name}};
+  if (only.rig) json["rig"] = base::ToJson(*only.rig);
+  json["device"] = base::ToJson(*only.device);
+  json["filling"] = base::ToJson(*only.filling);
+  json["rules"] = base::ToJson(*only.rules);
+  return json.dump(2) + "\n";
 }
 
 std::string FileName(const TestCandidate& test) {

@@ -15,16 +15,28 @@ namespace talus::analysis {
 
 struct TestCandidate {
   std::string name;
-  std::optional<rigs::Device> device{};    // default: that of the campaign's first experiment
-  std::optional<rigs::HeapRules> rules{};  // default: likewise
-  int runs = 3;                            // that would be photographed, >= 1
+  // Defaults: those of the campaign's first experiment.
+  std::optional<rigs::RigOptions> rig{};
+  std::optional<rigs::Device> device{};
+  std::optional<rigs::FillingRule> filling{};
+  std::optional<rigs::HeapRules> rules{};
+  std::optional<imaging::Frame> frame{};  // default: of the lifted tube's plate; others have none
+  int runs = 3;                           // that would be made, >= 1
+  campaign::ExpectedErrors numbers{};     // that would be measured; default: the rig's usual ones
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("name", self.name, {.required = true, .doc = "what the table calls it"});
+    visit("rig", self.rig, {.doc = "kind of bulk test; default: the first experiment's"});
     visit("device", self.device, {.doc = "tube and plate; default: the first experiment's"});
+    visit("filling", self.filling,
+          {.doc = "how the powder gets in; default: the first experiment's"});
     visit("rules", self.rules, {.doc = "when each phase ends; default: the first experiment's"});
-    visit("runs", self.runs, {.doc = "that would be photographed, >= 1"});
+    visit("frame", self.frame,
+          {.doc = "of its photographs; default: the plate of a lifted tube, and no photographs of "
+                  "another rig"});
+    visit("runs", self.runs, {.doc = "that would be made, >= 1"});
+    campaign::ExpectedErrors::Visit(self.numbers, visit);
   }
   void Validate(base::Problems& problems) const;
 };
@@ -32,15 +44,26 @@ struct TestCandidate {
 // What `talus next DIR CANDIDATES` reads: {"candidates": [{"name": …, "device": …}, …]}.
 std::vector<TestCandidate> LoadTests(const std::filesystem::path& file);
 
-// Those that most laboratories can make, without the ones that the campaign has: a plate three
-// times as wide as the tube at two lift velocities, and a rough plate.
-std::vector<TestCandidate> UsualTests(const campaign::JointView& view);
-
 // The campaign's spec with this test as its only experiment.
 campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandidate& test);
 
-// What its simulated images are drawn in: the plate and a margin, at the first experiment's pixels.
-imaging::Frame FrameOf(const campaign::JointView& view, const TestCandidate& test);
+// Why it cannot be simulated with the campaign's powder; empty where it can.
+std::string WhyNot(const campaign::JointView& view, const TestCandidate& test);
+
+// What its simulated images are drawn in: the plate and a margin, at the pixels of the first
+// experiment that has images. None without images.
+std::optional<imaging::Frame> FrameOf(const campaign::JointView& view, const TestCandidate& test);
+
+// A number that it would measure.
+struct ExpectedNumber {
+  std::string metric;         // "tapped_density_kg_per_m3"
+  double standard_error = 0;  // in the metric's unit; 0: what the test scatters by is larger
+  double relative_error = 0;  // of the value, instead
+};
+std::vector<ExpectedNumber> NumbersOf(const campaign::JointView& view, const TestCandidate& test);
+
+// The entry of `experiments` that the made test will be, all but its data.
+std::string ExperimentText(const campaign::JointView& view, const TestCandidate& test);
 
 // Of its files: letters, digits and dashes.
 std::string FileName(const TestCandidate& test);

@@ -1,7 +1,6 @@
 #include "experiments/analysis/next/test_design.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -9,7 +8,7 @@
 #include "base/files/file.h"
 #include "base/interrupt.h"
 #include "base/json/json_writer.h"
-#include "experiments/journal/record_json.h"
+#include "experiments/campaign/folder/design_folder.h"
 
 namespace talus::analysis {
 namespace {
@@ -18,22 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr int kDesignSize = 16;
 
-// design.json: what was simulated where.
-struct DesignRecord {
-  std::string test;  // its JSON: a design of another device is none of this test
-  double scale_factor = 1;
-  std::vector<std::vector<double>> points{};  // unit cube
-
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("test", self.test);
-    visit("scale_factor", self.scale_factor);
-    visit("points", self.points);
-  }
-};
-
-fs::path FolderOf(const campaign::JointView& view, const TestCandidate& test) {
-  return fs::absolute(view.folder.root) / "next" / FileName(test);
+campaign::DesignFolder FolderOf(const campaign::JointView& view, const TestCandidate& test) {
+  return {campaign::NextFolder(view.folder.root) / FileName(test)};
 }
 
 std::string TextOf(const campaign::JointView& view, const TestCandidate& test) {
@@ -60,42 +45,35 @@ std::vector<std::vector<double>> Spread(const Eigen::MatrixXd& draws) {
   return points;
 }
 
-fs::path TrialFolder(const fs::path& folder, std::size_t index) {
-  char name[16];
-  std::snprintf(name, sizeof name, "%04zu", index + 1);
-  return folder / "trials" / name;
-}
-
 rigs::HeapCase CaseAt(const campaign::JointView& view, const TestCandidate& test,
-                      const DesignRecord& record, std::size_t index) {
+                      const campaign::DesignRecord& record, std::size_t index) {
   const std::vector<double>& point = record.points[index];
   const Eigen::VectorXd unit =
       Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
   return campaign::CaseOf(SpecOf(view, test),
                           {.values = view.space.ToNative(unit),
-                           .seed = view.spec.seed + index,
+                           .seed = campaign::DesignSeed(view.spec.seed, index),
                            .scale_factor = record.scale_factor},
                           FrameOf(view, test));
 }
 
-std::optional<DesignRecord> ReadRecord(const campaign::JointView& view, const TestCandidate& test) {
-  const fs::path file = FolderOf(view, test) / "design.json";
-  if (!fs::exists(file)) return std::nullopt;
-  DesignRecord record = journal::ParseRecord<DesignRecord>(base::ReadFile(file), file.string());
-  if (record.test != TextOf(view, test)) return std::nullopt;
+std::optional<campaign::DesignRecord> ReadRecord(const campaign::JointView& view,
+                                                 const TestCandidate& test) {
+  auto record = FolderOf(view, test).Read();
+  if (record && record->test != TextOf(view, test)) return std::nullopt;
   return record;
 }
 
 TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
-                   const DesignRecord& record, trials::TrialEngine& engine) {
-  TestDesign design{.scale_factor = record.scale_factor,
-                    .frame = FrameOf(view, test),
-                    .num_simulations = static_cast<int>(record.points.size())};
+                   const campaign::DesignRecord& record, trials::TrialEngine& engine) {
+  TestDesign design{.scale_factor = record.scale_factor, .frame = FrameOf(view, test)};
   for (std::size_t i = 0; i < record.points.size(); ++i) {
-    const fs::path folder = TrialFolder(FolderOf(view, test), i);
+    const fs::path folder = FolderOf(view, test).trial(i);
     if (!engine.IsComplete(folder)) continue;
+    ++design.num_simulations;
     try {
       trials::TrialOutput output = engine.Collect(CaseAt(view, test, record, i), folder);
+      design.core_time += output.cpu_time;
       design.trials.push_back(
           {.point = Eigen::Map<const Eigen::VectorXd>(
                record.points[i].data(), static_cast<Eigen::Index>(record.points[i].size())),
@@ -109,7 +87,7 @@ TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
 }
 
 void Simulate(const campaign::JointView& view, const TestCandidate& test,
-              const DesignRecord& record, const campaign::CampaignParts& parts) {
+              const campaign::DesignRecord& record, const campaign::CampaignParts& parts) {
   const base::InterruptGuard interrupt;
   trials::TrialEngine& engine = *parts.engine;
   runners::Runner& runner = *parts.runner;
@@ -117,7 +95,7 @@ void Simulate(const campaign::JointView& view, const TestCandidate& test,
   int running = 0;
   while (next < record.points.size() || running > 0) {
     while (next < record.points.size() && running < runner.Capacity()) {
-      const fs::path folder = TrialFolder(FolderOf(view, test), next);
+      const fs::path folder = FolderOf(view, test).trial(next);
       engine.Prepare(CaseAt(view, test, record, next), folder);
       ++next;
       if (engine.IsComplete(folder)) continue;
@@ -146,15 +124,15 @@ std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const Te
 
 TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& test,
                           const Eigen::MatrixXd& draws, const campaign::CampaignParts& parts) {
-  std::optional<DesignRecord> record = ReadRecord(view, test);
+  std::optional<campaign::DesignRecord> record = ReadRecord(view, test);
   if (!record) {
-    record = DesignRecord{.test = TextOf(view, test),
-                          .scale_factor = view.spec.coarse_graining.Levels().front(),
-                          .points = Spread(draws)};
-    const fs::path folder = FolderOf(view, test);
-    fs::remove_all(folder);  // of a test of the same name and another device
-    fs::create_directories(folder);
-    base::WriteFileAtomically(folder / "design.json", base::ToJson(*record).dump(1) + "\n");
+    record = campaign::DesignRecord{.test = TextOf(view, test),
+                                    .scale_factor = view.spec.coarse_graining.Levels().front(),
+                                    .points = Spread(draws)};
+    // Where there is one of the same name and another device, it makes room.
+    FolderOf(view, test).Make(*record);
+    base::WriteFileAtomically(FolderOf(view, test).root / "experiment.json",
+                              ExperimentText(view, test));
   }
   Simulate(view, test, *record, parts);
   return Collect(view, test, *record, *parts.engine);

@@ -1,6 +1,6 @@
 // The few simulations that a test needs before it can be said what it would teach: one at each of
 // some draws of the posterior, as coarse as the campaign allows. They are kept in DIR/next/NAME and
-// not made twice.
+// not made twice: not when the test is made either (campaign/take_over.h).
 #pragma once
 
 #include <optional>
@@ -14,16 +14,17 @@
 namespace talus::analysis {
 
 struct DesignTrial {
-  Eigen::VectorXd point;  // unit cube
-  imaging::GrayImage profile;
+  Eigen::VectorXd point;       // unit cube
+  imaging::GrayImage profile;  // empty without a frame
   std::vector<journal::MetricRecord> scalars;
 };
 
 struct TestDesign {
   double scale_factor = 1;
-  imaging::Frame frame;
+  std::optional<imaging::Frame> frame{};
   std::vector<DesignTrial> trials{};  // those that succeeded
-  int num_simulations = 0;            // of the design
+  int num_simulations = 0;            // that have ended
+  double core_time = 0;               // of these [s]
 };
 
 // The design that was made; nothing where none was, or one of another device.

@@ -4,6 +4,8 @@ namespace talus::campaign {
 
 void ExperimentSpec::Validate(base::Problems& problems) const {
   problems.Require(!name.empty(), "name", "must not be empty");
+  problems.Require(weight > 0 && weight <= 100, "weight", weight,
+                   "must be positive, and at most 100; leave the experiment out instead of 0");
   const bool has_numbers = !ScalarsOf(*this).empty();
   problems.Require(images.HasImages() || has_numbers, "",
                    "has no data: give photos, runs or a map, or numbers with their errors such as "

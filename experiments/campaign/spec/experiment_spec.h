@@ -26,6 +26,7 @@ struct ExperimentSpec {
   std::optional<rigs::RigOptions> rig{};       // default: the campaign's
   std::optional<rigs::FillingRule> filling{};  // default: the campaign's
   MeasuredNumbers numbers;
+  double weight = 1;  // power of its likelihood, > 0
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -36,6 +37,9 @@ struct ExperimentSpec {
     visit("rig", self.rig, {.doc = "kind of bulk test, instead of the campaign's rig"});
     visit("filling", self.filling, {.doc = "how the powder gets in, instead of the campaign's"});
     MeasuredNumbers::Visit(self.numbers, visit);
+    visit(
+        "weight", self.weight,
+        {.doc = "power of its likelihood, > 0; above 1 the answer is narrower than the data say"});
   }
   void Validate(base::Problems& problems) const;
 };

@@ -2,6 +2,7 @@
 
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace talus::campaign {
 namespace {
@@ -34,24 +35,30 @@ MetricUnit UnitOf(base::Dimension dimension) {
 struct Collector {
   std::vector<ScalarSpec>& scalars;
 
-  template <base::Dimension D>
-  void operator()(std::string_view key, const std::optional<MeasuredNumber<D>>& number,
+  template <template <base::Dimension> class Number, base::Dimension D>
+  void operator()(std::string_view key, const std::optional<Number<D>>& number,
                   base::FieldInfo = {}) {
     if (!number) return;
     const MetricUnit unit = UnitOf(D);
-    scalars.push_back({.metric = std::string(key) + unit.suffix,
-                       .key = std::string(key),
-                       .value = number->value * unit.scale,
-                       .standard_error = number->standard_error * unit.scale});
+    ScalarSpec scalar{.metric = std::string(key) + unit.suffix,
+                      .key = std::string(key),
+                      .standard_error = number->standard_error * unit.scale};
+    if constexpr (requires { number->value; }) scalar.value = number->value * unit.scale;
+    scalars.push_back(std::move(scalar));
   }
 };
 
-}  // namespace
-
-std::vector<ScalarSpec> ScalarsOf(const MeasuredNumbers& numbers) {
+template <template <base::Dimension> class Number>
+std::vector<ScalarSpec> Collect(const NumbersOf<Number>& numbers) {
   std::vector<ScalarSpec> scalars;
-  MeasuredNumbers::Visit(numbers, Collector{scalars});
+  NumbersOf<Number>::Visit(numbers, Collector{scalars});
   return scalars;
 }
+
+}  // namespace
+
+std::vector<ScalarSpec> ScalarsOf(const MeasuredNumbers& numbers) { return Collect(numbers); }
+
+std::vector<ScalarSpec> ScalarsOf(const ExpectedErrors& errors) { return Collect(errors); }
 
 }  // namespace talus::campaign

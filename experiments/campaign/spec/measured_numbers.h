@@ -31,17 +31,34 @@ struct MeasuredNumber {
   }
 };
 
+// The error alone, of a number that would be measured.
+template <base::Dimension D>
+struct ExpectedError {
+  double standard_error = 0;  // SI, > 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("sd", self.standard_error,
+          {.dimension = D, .required = true, .doc = "standard error it would have, > 0"});
+  }
+  void Validate(base::Problems& problems) const {
+    problems.Require(standard_error > 0 && std::isfinite(standard_error), "sd", standard_error,
+                     "must be positive");
+  }
+};
+
 // One line each: the key and the dimension make the name of the metric that trials are measured by
 // (ScalarsOf).
-struct MeasuredNumbers {
+template <template <base::Dimension> class Number>
+struct NumbersOf {
   using Dimension = base::Dimension;
-  std::optional<MeasuredNumber<Dimension::kMass>> mass_on_plate{}, mass_fallen{}, mass_left{};
-  std::optional<MeasuredNumber<Dimension::kDensity>> poured_density{}, tapped_density{};
-  std::optional<MeasuredNumber<Dimension::kNone>> hausner_ratio{};
-  std::optional<MeasuredNumber<Dimension::kLength>> runout{}, height{};
-  std::optional<MeasuredNumber<Dimension::kTime>> discharge_time{};
-  std::optional<MeasuredNumber<Dimension::kMassRate>> discharge_rate{};
-  std::optional<MeasuredNumber<Dimension::kAngle>> angle{}, shear_angle{};
+  std::optional<Number<Dimension::kMass>> mass_on_plate{}, mass_fallen{}, mass_left{};
+  std::optional<Number<Dimension::kDensity>> poured_density{}, tapped_density{};
+  std::optional<Number<Dimension::kNone>> hausner_ratio{};
+  std::optional<Number<Dimension::kLength>> runout{}, height{};
+  std::optional<Number<Dimension::kTime>> discharge_time{};
+  std::optional<Number<Dimension::kMassRate>> discharge_rate{};
+  std::optional<Number<Dimension::kAngle>> angle{}, shear_angle{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -61,6 +78,8 @@ struct MeasuredNumbers {
     visit("shear_angle", self.shear_angle, {.doc = "of the slopes above the slot"});
   }
 };
+using MeasuredNumbers = NumbersOf<MeasuredNumber>;
+using ExpectedErrors = NumbersOf<ExpectedError>;
 
 // A number of an experiment under the name of the metric that trials are measured by.
 struct ScalarSpec {
@@ -70,5 +89,7 @@ struct ScalarSpec {
   double standard_error = 0;
 };
 std::vector<ScalarSpec> ScalarsOf(const MeasuredNumbers& numbers);
+// Without values.
+std::vector<ScalarSpec> ScalarsOf(const ExpectedErrors& errors);
 
 }  // namespace talus::campaign

@@ -84,6 +84,9 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
         names.insert(all[i].name).second, place + ".name",
         "\"" + all[i].name + "\" stands there twice: results could not tell them apart");
     CheckWidth(all[i], place, problems);
+    problems.Require(all[i].weight == 1 || spec.IsJoint(), place + ".weight", all[i].weight,
+                     "has no effect with one experiment without numbers at one scale factor; "
+                     "leave it out");
     if (spec.engine.kind == EngineKind::kTalus) CheckNumbers(all[i], place, problems);
   }
   if (spec.parameters) CheckWalls(spec, all, problems);

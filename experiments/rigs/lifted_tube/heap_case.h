@@ -102,6 +102,9 @@ HeapCase LoadHeapCase(const base::JsonFile& file);
 // The case as a case.json that needs no other file.
 std::string HeapCaseText(const HeapCase& heap_case);
 
+// Whether both give the same grains, whatever is drawn or written of them.
+bool IsSameRun(const HeapCase& a, const HeapCase& b);
+
 // What the powder and the device mean for the cost, before anything is simulated.
 struct HeapSize {
   std::int64_t num_grains = 0;

@@ -22,4 +22,16 @@ std::string HeapCaseText(const HeapCase& heap_case) {
   return base::ToJson(heap_case).dump(2) + "\n";
 }
 
+bool IsSameRun(const HeapCase& a, const HeapCase& b) {
+  const auto run = [](HeapCase c) {
+    c.outputs = {};
+    c.frame.reset();
+    c.num_views = 1;
+    c.threads = 1;
+    c.checkpoint_interval = 0;
+    return HeapCaseText(c);
+  };
+  return run(a) == run(b);
+}
+
 }  // namespace talus::rigs

@@ -237,6 +237,19 @@ TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::pa
           .note = {}};
 }
 
+// Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
+bool CommandEngine::TakeOver(const rigs::HeapCase& heap_case, const fs::path& from,
+                             const fs::path& to) {
+  const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / "case.json"));
+  if (!rigs::IsSameRun(made.heap, heap_case)) return false;
+  if (base::ToJson(made.engine) != base::ToJson(options_)) return false;
+  const bool same_frame = made.heap.frame == heap_case.frame;
+  if (!same_frame && FindResult(options_, from, kCommandFile).extension() == ".png") return false;
+  CopyFolder(from, to);
+  base::WriteFileAtomically(to / "case.json", CaseText(heap_case, options_));
+  return true;
+}
+
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems) {
   const TemplateFolder templates(options.templates.value());

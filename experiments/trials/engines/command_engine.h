@@ -22,6 +22,8 @@ class CommandEngine : public TrialEngine {
   bool IsComplete(const std::filesystem::path& folder) override;
   TrialOutput Collect(const rigs::HeapCase& heap_case,
                       const std::filesystem::path& folder) override;
+  bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+                const std::filesystem::path& to) override;
 
  private:
   CommandOptions options_;

@@ -7,8 +7,13 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_file.h"
+#include "base/json/json_writer.h"
+#include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/rig.h"
+#include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/formats/spheres/sphere_files.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::trials {
 
@@ -32,6 +37,33 @@ std::vector<journal::MetricRecord> ScalarsOf(const nlohmann::json& result) {
     scalars.push_back(std::move(scalar));
   }
   return scalars;
+}
+
+double CpuTimeOf(const nlohmann::json& result) {
+  const auto timing = result.find("timing");
+  return timing == result.end() ? 0 : timing->value("cpu_time_s", 0.0);
+}
+
+// The finished run's grains in the frame, and the result as a run of this case would have it.
+void DrawAnew(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) {
+  const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
+  auto result = nlohmann::ordered_json::parse(text.value_or(""), nullptr, false);
+  if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
+  std::filesystem::remove(folder / "profile.png");
+  result.erase("profile");
+  if (heap_case.frame) {
+    const int num_views = rigs::NumViewsOf(heap_case);
+    const auto grains = imaging::ReadSpheres(folder / "heap.vtp", {});
+    base::WriteFileAtomically(
+        folder / "profile.png",
+        imaging::EncodePng(imaging::ProjectHeap(grains, *heap_case.frame, num_views).image));
+    result["profile"] = base::ToJson(*heap_case.frame);
+    result["profile"]["file"] = "profile.png";
+    result["profile"]["num_views"] = num_views;
+  }
+  result["input_hash"] = base::Hex(rigs::HeapCaseHash(heap_case));
+  base::WriteFileAtomically(folder / "case.json", rigs::HeapCaseText(heap_case));
+  base::WriteFileAtomically(folder / "result.json", base::WithChecksum(result.dump(2) + "\n"));
 }
 
 }  // namespace
@@ -69,6 +101,7 @@ TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
                      .num_steps = base::IntegerAt(result, "num_steps"),
                      .num_particles = base::IntegerAt(result, "num_grains"),
                      .scalars = ScalarsOf(result),
+                     .cpu_time = CpuTimeOf(result),
                      .note = reason};
   if (!heap_case.frame) return output;
   output.profile = imaging::ReadGrayImage(folder / "profile.png");
@@ -77,6 +110,15 @@ TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
     throw base::Error("left a profile.png of another size than the experiment's");
   }
   return output;
+}
+
+bool TalusEngine::TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+                           const std::filesystem::path& to) {
+  if (!rigs::IsSameRun(rigs::LoadHeapCase(from / "case.json"), heap_case)) return false;
+  if (heap_case.frame && !std::filesystem::exists(from / "heap.vtp")) return false;
+  CopyFolder(from, to);
+  DrawAnew(heap_case, to);
+  return true;
 }
 
 }  // namespace talus::trials

@@ -19,6 +19,8 @@ class TalusEngine : public TrialEngine {
   bool IsComplete(const std::filesystem::path& folder) override;
   TrialOutput Collect(const rigs::HeapCase& heap_case,
                       const std::filesystem::path& folder) override;
+  bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+                const std::filesystem::path& to) override;
 
   static std::filesystem::path ThisProgram();
 

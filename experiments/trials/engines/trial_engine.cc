@@ -26,6 +26,14 @@ void PrepareFolder(const std::filesystem::path& folder, const std::string& key_f
   base::WriteFileAtomically(folder / key_file, text, base::Outlives::kProgram);
 }
 
+void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::remove_all(to, error);
+  if (!error) std::filesystem::create_directories(to.parent_path(), error);
+  if (!error) std::filesystem::copy(from, to, std::filesystem::copy_options::recursive, error);
+  if (error) throw base::Error(to.string() + ": cannot be made: " + error.message());
+}
+
 std::string LastLogLines(const std::filesystem::path& folder) {
   constexpr std::size_t kMostBytes = 600;
   constexpr int kMostLines = 3;

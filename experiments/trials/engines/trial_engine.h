@@ -18,6 +18,7 @@ struct TrialOutput {
   std::int64_t num_steps = 0;  // 0 when not known
   std::int64_t num_particles = 0;
   std::vector<journal::MetricRecord> scalars{};  // what was measured beside the image
+  double cpu_time = 0;                           // [s], 0 when not known
   std::string note;  // how it ended, such as a phase that met its time cap; may be empty
 };
 
@@ -39,12 +40,21 @@ class TrialEngine {
   // has failed then.
   virtual TrialOutput Collect(const rigs::HeapCase& heap_case,
                               const std::filesystem::path& folder) = 0;
+
+  // Makes `to` the complete folder of the case from a complete one of the same run, drawn in the
+  // case's frame. False, and `to` is left alone, where `from` is of another run or what is in it
+  // cannot be drawn anew.
+  virtual bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+                        const std::filesystem::path& to) = 0;
 };
 
 // The folder with nothing in it but `key_file` = `text`; untouched when that is so already, other
 // files or not.
 void PrepareFolder(const std::filesystem::path& folder, const std::string& key_file,
                    const std::string& text);
+
+// `to` with what `from` holds and nothing else; throws base::Error when it cannot be.
+void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& to);
 
 // Why a command has failed, from the end of its log.txt; "" when that says nothing.
 std::string LastLogLines(const std::filesystem::path& folder);

@@ -1,0 +1,29 @@
+#include "experiments/analysis/next/ground.h"
+
+#include <utility>
+
+namespace talus::analysis {
+
+std::unique_ptr<optimizer::FidelityStrategy> ModelOf(const campaign::JointView& view,
+                                                     const std::vector<double>& scale_factors,
+                                                     optimizer::ExperimentTarget target) {
+  const optimizer::FidelityOptions options{
+      .scale_factors = scale_factors, .target = 0, .seed = view.spec.seed};
+  return std::make_unique<optimizer::FidelityStrategy>(
+      options, view.space.MakeDomain(),
+      std::vector<optimizer::ExperimentTarget>{std::move(target)});
+}
+
+Eigen::VectorXd MeasuredBy(const Ground& ground, const optimizer::OutputPredictions& at, int runs,
+                           double to_target) {
+  const double share = 1.0 / runs + ground.model_error * ground.model_error;
+  return share * to_target * at.single;
+}
+
+double MeanOf(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+}  // namespace talus::analysis

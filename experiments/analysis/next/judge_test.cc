@@ -1,0 +1,132 @@
+#include "experiments/analysis/next/judge_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "experiments/analysis/next/heap_pair.h"
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/folder/design_folder.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::analysis {
+namespace {
+
+constexpr std::size_t kFewest = 6;  // simulations that a model can stand on
+
+imaging::Profile MeanProfile(const TestDesign& design) {
+  std::vector<imaging::GrayImage> profiles;
+  for (const DesignTrial& trial : design.trials) profiles.push_back(trial.profile);
+  return {.image = imaging::MeanImage(profiles), .frame = *design.frame};
+}
+
+double ScalarOf(const DesignTrial& trial, std::string_view name) {
+  for (const journal::MetricRecord& metric : trial.scalars) {
+    if (metric.name == name) return metric.value;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// The test as if it had measured what the design shows on average.
+struct Hypothetical {
+  campaign::Reference reference;
+  optimizer::ExperimentTarget target;
+};
+
+// A number that is undefined too often, or the same everywhere, tells nothing.
+std::optional<optimizer::ScalarTarget> TargetOf(const ExpectedNumber& number,
+                                                const TestDesign& design) {
+  std::vector<double> values;
+  for (const DesignTrial& trial : design.trials) {
+    const double value = ScalarOf(trial, number.metric);
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  if (values.size() < kFewest) return std::nullopt;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*low == *high) return std::nullopt;
+  const double mean = MeanOf(values);
+  return optimizer::ScalarTarget{
+      .name = number.metric,
+      .value = mean,
+      .standard_error = std::max(number.standard_error, number.relative_error * std::abs(mean))};
+}
+
+Hypothetical Imagine(const Ground& ground, const TestCandidate& test, const TestDesign& design) {
+  std::optional<imaging::Profile> profile;
+  if (design.frame) profile = MeanProfile(design);
+  campaign::Reference reference(std::move(profile), {.num_heaps = test.runs});
+  optimizer::ExperimentTarget target{.name = test.name, .image = reference.MakeFieldObjective()};
+  for (const ExpectedNumber& number : NumbersOf(ground.view, test)) {
+    if (const auto scalar = TargetOf(number, design)) target.scalars.push_back(*scalar);
+  }
+  return {.reference = std::move(reference), .target = std::move(target)};
+}
+
+void TellDesign(const TestDesign& design, const Hypothetical& made,
+                optimizer::FidelityStrategy& strategy) {
+  for (const DesignTrial& trial : design.trials) {
+    optimizer::Observation observation{.point = trial.point, .scale_factor = design.scale_factor};
+    if (design.frame) observation.field = made.reference.Field(trial.profile);
+    for (const optimizer::ScalarTarget& scalar : made.target.scalars) {
+      observation.scalars.push_back(ScalarOf(trial, scalar.name));
+    }
+    strategy.Tell(observation);
+  }
+}
+
+// A number's own error besides the scatter of the test.
+Eigen::VectorXd VarianceOf(const Ground& ground, const optimizer::OutputPredictions& at,
+                           const TestCandidate& test, const TestDesign& design,
+                           Eigen::Index num_scalars) {
+  const double finer = ground.view.spec.coarse_graining.Target() / design.scale_factor;
+  Eigen::VectorXd variance = MeasuredBy(ground, at, test.runs, std::pow(finer, 3));
+  variance.tail(num_scalars) += at.measured.tail(num_scalars);
+  return variance;
+}
+
+void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetical& made,
+               const optimizer::ExperimentModel& model, NextCandidate& candidate) {
+  const std::vector<Eigen::Index> pair{candidate.learning->first, candidate.learning->second};
+  const Eigen::MatrixXd sets = ground.draws(pair, Eigen::all);
+  for (const auto& set : sets.rowwise()) {
+    candidate.apart.push_back(campaign::FreeValues(ground.view.space, set.transpose()));
+  }
+  const std::vector<optimizer::Moments> scalars = model.Scalars(sets);
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    candidate.numbers.push_back({.metric = made.target.scalars[s].name,
+                                 .first = scalars[s].mean[0],
+                                 .second = scalars[s].mean[1]});
+  }
+  if (!model.has_image()) return;
+  const auto image = [&](Eigen::Index row) {
+    return made.reference.ImageOf(model.MeanImage(sets.row(row).transpose()));
+  };
+  candidate.picture = ground.view.folder.root / "next" / (FileName(test) + ".png");
+  WriteHeapPair(candidate.picture, image(0), image(1));
+}
+
+}  // namespace
+
+void JudgeTest(const Ground& ground, const TestCandidate& test, const TestDesign& design,
+               NextCandidate& candidate) {
+  if (design.trials.size() < kFewest) {
+    candidate.what += "; too few of its simulations succeeded";
+    return;
+  }
+  const Hypothetical made = Imagine(ground, test, design);
+  if (made.target.scalars.empty() && !design.frame) {
+    candidate.what += "; its simulations show no number that differs";
+    return;
+  }
+  const auto strategy = ModelOf(ground.view, {design.scale_factor}, made.target);
+  TellDesign(design, made, *strategy);
+  const optimizer::ExperimentModel& model = strategy->Model().models().front();
+  const optimizer::OutputPredictions at = model.Predict(ground.draws);
+  candidate.learning = ground.Learn(
+      at.mean,
+      VarianceOf(ground, at, test, design, static_cast<Eigen::Index>(made.target.scalars.size())));
+  TellApart(ground, test, made, model, candidate);
+}
+
+}  // namespace talus::analysis

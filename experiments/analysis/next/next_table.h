@@ -1,0 +1,54 @@
+// What could be done next, the most informative first.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/journal/records.h"
+#include "optimizer/information/expected_learning.h"
+#include "optimizer/space/parameter_space.h"
+
+namespace talus::analysis {
+
+enum class NextKind {
+  kMoreRuns,         // double the photographed runs of an experiment
+  kMoreSimulations,  // double the simulations at the smallest scale factor
+  kFinerGrains,      // simulations at a smaller scale factor
+  kNumber,           // weigh the powder on the plate; trials know it already
+  kTest              // another test
+};
+
+// A number as it is predicted at the two sets that a test tells apart best.
+struct ToldApart {
+  std::string metric;
+  double first = 0;
+  double second = 0;
+};
+
+struct NextCandidate {
+  NextKind kind = NextKind::kTest;
+  std::string name;
+  std::string what{};  // in words
+  // Not known where the test's design has not been simulated.
+  std::optional<optimizer::ExpectedLearning> learning{};
+  int num_simulations = 0;  // that it will take, about, with those that are made
+  int num_made = 0;         // of these, for its design
+  double core_time = 0;     // of all these simulations [s]
+  double core_time_made = 0;
+  std::vector<std::vector<double>> apart{};  // the two sets it separates most, SI; or none
+  std::vector<ToldApart> numbers{};          // at these two
+  std::filesystem::path picture{};           // of these two; empty without images
+};
+
+struct NextTable {
+  std::vector<journal::ParameterRecord> parameters;
+  std::vector<optimizer::Scale> scales{};   // of the parameters
+  std::int64_t last_trial = 0;              // the latest that had ended, by id; 0: none
+  Eigen::VectorXd width{};                  // of the joint 90 % ranges now, unit cube
+  std::vector<NextCandidate> candidates{};  // the most informative first, unknown ones last
+};
+
+}  // namespace talus::analysis

@@ -1,0 +1,87 @@
+#include "experiments/analysis/next/usual_tests.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace talus::analysis {
+namespace {
+
+bool Alike(double a, double b) { return std::abs(a - b) <= 0.01 * b; }
+
+rigs::RigKind KindOf(const std::optional<rigs::RigOptions>& rig) {
+  return rig ? rig->kind : rigs::RigKind::kLiftedTube;
+}
+
+bool IsMade(const campaign::JointView& view, const TestCandidate& test) {
+  const auto all = campaign::ExperimentsOf(view.spec);
+  return std::any_of(all.begin(), all.end(), [&](const campaign::ExperimentSpec& made) {
+    if (KindOf(made.rig) != KindOf(test.rig)) return false;
+    if (KindOf(test.rig) != rigs::RigKind::kLiftedTube) return true;
+    return Alike(made.device->plate_diameter, test.device->plate_diameter) &&
+           Alike(made.device->lift_velocity, test.device->lift_velocity) &&
+           made.device->plate_material.has_value() == test.device->plate_material.has_value();
+  });
+}
+
+// The heap's own device, on other plates and lifted otherwise.
+void AddPlates(const rigs::Device& device, std::vector<TestCandidate>& tests) {
+  constexpr double kWide = 3;     // plate over tube
+  constexpr double kSlow = 0.05;  // [m/s]
+  constexpr double kFast = 0.20;  // [m/s]
+  constexpr double kRough = 1.0;  // friction of a plate that grains are glued to
+  const rigs::RigOptions tube{};
+  rigs::Device slow = device;
+  slow.plate_diameter = kWide * device.tube_inner_diameter;
+  slow.plate = rigs::PlateKind::kDisc;
+  slow.lift_velocity = kSlow;
+  rigs::Device fast = slow;
+  fast.lift_velocity = kFast;
+  rigs::Device rough = device;
+  rigs::WallMaterial material = device.plate_material.value_or(rigs::WallMaterial{});
+  material.sliding_friction = kRough;
+  material.rolling_friction = kRough;
+  rough.plate_material = material;
+  tests.push_back({.name = "wide plate, 5 cm/s", .rig = tube, .device = slow});
+  tests.push_back({.name = "wide plate, 20 cm/s", .rig = tube, .device = fast});
+  tests.push_back({.name = "rough plate", .rig = tube, .device = rough});
+}
+
+rigs::RigOptions Of(rigs::RigKind kind) {
+  rigs::RigOptions options;
+  options.kind = kind;
+  return options;
+}
+
+double UpToMillimetre(double length) { return 1e-3 * std::ceil(1e3 * length); }
+
+// Cylinder as high as wide; column twice as high as long; box five times as long as high.
+void AddVessels(const rigs::Powder& powder, std::vector<TestCandidate>& tests) {
+  constexpr double kPacked = 0.6;  // solid fraction
+  const double volume = powder.mass / (kPacked * powder.material.density);
+  rigs::RigOptions tapped = Of(rigs::RigKind::kTappedDensity);
+  tapped.tapped_density.diameter = UpToMillimetre(std::cbrt(4 * volume / std::numbers::pi));
+  rigs::RigOptions column = Of(rigs::RigKind::kColumnCollapse);
+  column.column_collapse.length = UpToMillimetre(std::cbrt(volume / 2));
+  column.column_collapse.width = column.column_collapse.length;
+  rigs::RigOptions box = Of(rigs::RigKind::kTiltingBox);
+  box.tilting_box.length = UpToMillimetre(std::cbrt(10 * volume));
+  box.tilting_box.width = box.tilting_box.length / 2;
+  const rigs::FillingRule pour{.kind = rigs::FillingKind::kPour};
+  const rigs::FillingRule dense{};
+  tests.push_back({.name = "tapped density", .rig = tapped, .filling = pour});
+  tests.push_back({.name = "column collapse", .rig = column, .filling = dense});
+  tests.push_back({.name = "tilting box", .rig = box, .filling = dense});
+}
+
+}  // namespace
+
+std::vector<TestCandidate> UsualTests(const campaign::JointView& view) {
+  std::vector<TestCandidate> tests;
+  AddPlates(*campaign::ExperimentsOf(view.spec).front().device, tests);
+  AddVessels(view.spec.powder, tests);
+  std::erase_if(tests, [&](const TestCandidate& test) { return IsMade(view, test); });
+  return tests;
+}
+
+}  // namespace talus::analysis

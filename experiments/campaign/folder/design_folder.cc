@@ -1,0 +1,51 @@
+#include "experiments/campaign/folder/design_folder.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/files/file.h"
+#include "base/json/json_writer.h"
+#include "experiments/journal/record_json.h"
+
+namespace talus::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRecord = "design.json";
+
+}  // namespace
+
+fs::path DesignFolder::trial(std::size_t index) const {
+  char name[24];
+  std::snprintf(name, sizeof name, "%04zu", index + 1);
+  return root / "trials" / name;
+}
+
+std::optional<DesignRecord> DesignFolder::Read() const {
+  const fs::path file = root / kRecord;
+  if (!fs::exists(file)) return std::nullopt;
+  return journal::ParseRecord<DesignRecord>(base::ReadFile(file), file.string());
+}
+
+void DesignFolder::Make(const DesignRecord& record) const {
+  fs::remove_all(root);
+  fs::create_directories(root);
+  base::WriteFileAtomically(root / kRecord, base::ToJson(record).dump(1) + "\n");
+}
+
+fs::path NextFolder(const fs::path& campaign) { return fs::absolute(campaign) / "next"; }
+
+std::vector<DesignFolder> DesignsOf(const fs::path& campaign) {
+  std::vector<DesignFolder> designs;
+  const fs::path next = NextFolder(campaign);
+  if (!fs::is_directory(next)) return designs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(next)) {
+    if (fs::exists(entry.path() / kRecord)) designs.push_back({entry.path()});
+  }
+  std::sort(designs.begin(), designs.end(),
+            [](const DesignFolder& a, const DesignFolder& b) { return a.root < b.root; });
+  return designs;
+}
+
+}  // namespace talus::campaign

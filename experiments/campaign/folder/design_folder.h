@@ -1,0 +1,48 @@
+// The folder of a design: simulations of a test that has not been made, in DIR/next/NAME. `talus
+// next` makes them; `talus add-experiment` takes them over once the test is made.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+
+namespace talus::campaign {
+
+// design.json: what was simulated where.
+struct DesignRecord {
+  std::string test;  // the case in the middle of the ranges: of another one this is no design
+  double scale_factor = 1;
+  std::vector<std::vector<double>> points{};  // unit cube
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("test", self.test);
+    visit("scale_factor", self.scale_factor);
+    visit("points", self.points);
+  }
+};
+
+struct DesignFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path trial(std::size_t index) const;  // trials/0001 is index 0
+  // Nothing where there is none. Throws base::Error when it is damaged.
+  std::optional<DesignRecord> Read() const;
+  // Replaces what is there.
+  void Make(const DesignRecord& record) const;
+};
+
+// Seed of a design's trial, with the campaign's seed.
+inline std::uint64_t DesignSeed(std::uint64_t seed, std::size_t index) { return seed + index; }
+
+// DIR/next, absolute.
+std::filesystem::path NextFolder(const std::filesystem::path& campaign);
+
+// All that there are of a campaign, by name.
+std::vector<DesignFolder> DesignsOf(const std::filesystem::path& campaign);
+
+}  // namespace talus::campaign
