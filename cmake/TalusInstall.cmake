@@ -46,5 +46,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "liggghts, lammps, slurm-client, chromium")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+  "liggghts, lammps, yade, slurm-client, chromium, python3-numpy, python3-pandas, python3-xarray")
 include(CPack)

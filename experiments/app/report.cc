@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -40,6 +41,7 @@ std::string StateOf(const analysis::Evidence& evidence) {
 void Watch(const Arguments& arguments) {
   const base::InterruptGuard interrupt;
   std::string shown;
+  std::vector<analysis::RegionPoint> history;
   while (interrupt.Asked() == base::Interrupt::kNone) {
     // Asked before the journal is read: what was written last is still shown.
     const bool worked_on = campaign::IsWorkedOn(arguments.campaign);
@@ -48,9 +50,11 @@ void Watch(const Arguments& arguments) {
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
       analysis::AddModel(arguments.campaign, evidence);
+      analysis::ReportData data = analysis::MakeReportData(std::move(evidence));
+      analysis::Follow(data, history);
+      data.region_history = history;
       const auto page =
-          analysis::WriteReport(analysis::MakeReportData(std::move(evidence)), arguments.out,
-                                {.reload = worked_on ? kWatchPeriod : 0});
+          analysis::WriteReport(data, arguments.out, {.reload = worked_on ? kWatchPeriod : 0});
       if (shown.empty()) std::cout << "The report is " << page.string() << std::endl;
       shown = state;
     }

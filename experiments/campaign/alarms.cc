@@ -38,21 +38,21 @@ const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>
   return best;
 }
 
+// At the finest scale factor, which decides: coarser ones only guide the search.
 void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
   constexpr double kAdvised = 30;  // grains across the plate
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  const double finest = std::ranges::min(spec.coarse_graining.Levels());
   for (std::size_t e = 0; e < experiments.size(); ++e) {
-    for (const double factor : spec.coarse_graining.Levels()) {
-      const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
-      if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
-      const double across =
-          heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
-      if (across >= kAdvised) continue;
-      result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
-                                        .experiment = experiments[e].name,
-                                        .scale_factor = factor,
-                                        .value = across}));
-    }
+    const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), finest);
+    if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
+    const double across =
+        heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
+    if (across >= kAdvised) continue;
+    result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
+                                      .experiment = experiments[e].name,
+                                      .scale_factor = finest,
+                                      .value = across}));
   }
 }
 

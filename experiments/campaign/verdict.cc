@@ -42,6 +42,17 @@ std::string RangesText(const VerdictBasis& basis) {
   return text;
 }
 
+// With the recommended values where there is one set to look at.
+std::string PointText(const VerdictBasis& basis) {
+  std::string text = "The measurements determine a point: ";
+  if (basis.sets.size() != 1) return text + RangesText(basis);
+  for (std::size_t i = 0; i < basis.names.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + basis.names[i] + " " + Short(basis.sets[0][i]) + " (" +
+            Short(basis.low[i]) + " to " + Short(basis.high[i]) + ")";
+  }
+  return text;
+}
+
 std::string SeparateText(const VerdictBasis& basis) {
   std::string text =
       "The measurements allow " + std::to_string(basis.branches.size()) + " separate answers";
@@ -95,7 +106,7 @@ std::string TextOf(VerdictKind kind, const VerdictBasis& basis) {
     case VerdictKind::kPoint:
       break;
   }
-  return "The measurements determine a point: " + RangesText(basis);
+  return PointText(basis);
 }
 
 // The draw nearest to the mean of those whose place along the direction is in [low, high].

@@ -302,6 +302,27 @@ TEST(NextSteps, MeasuringOneOfTwoTiedParametersLeavesANarrowRangeOfTheOther) {
       NextSteps(test::MakeSyntheticCampaign(), {}).empty());  // no posterior, nothing to say
 }
 
+TEST(RegionHistory, HasOnePointForEachNumberOfTrials) {
+  ReportData data =
+      MakeReportData(test::MakeSyntheticCampaign({.num_parameters = 2, .posterior = true}));
+  // Half of a bent valley's plane at most, and some of it.
+  EXPECT_GT(RegionShare(data), 0.05);
+  EXPECT_LT(RegionShare(data), 0.5);
+  std::vector<RegionPoint> history;
+  Follow(data, history);
+  Follow(data, history);
+  ASSERT_EQ(history.size(), 1u);
+  EXPECT_EQ(history[0].num_trials, 60);
+  data.evidence.trials.pop_back();
+  Follow(data, history);
+  ASSERT_EQ(history.size(), 2u);
+  EXPECT_EQ(history[1].num_trials, 59);
+  data.region_history = history;
+  EXPECT_EQ(json::parse(PageJson(data))["region_history"][1][0], 59);
+  Follow(MakeReportData(test::MakeSyntheticCampaign()), history);  // no posterior
+  EXPECT_EQ(history.size(), 2u);
+}
+
 constexpr const char* kNextJson = R"({"after_trial": 60,
   "width_90": {"sliding_friction": 0.5, "rolling_friction": 0.4},
   "candidates": [
@@ -333,7 +354,7 @@ TEST(NextTable, OfTheCampaignIsShownWithItsPicturesAndAmongTheSteps) {
   const auto step = std::find_if(data.next_steps.begin(), data.next_steps.end(),
                                  [](const NextStep& s) { return s.remaining == 0.5 * 0.25; });
   ASSERT_NE(step, data.next_steps.end());
-  EXPECT_EQ(step->what, "wide plate: make it, 3 runs");
+  EXPECT_EQ(step->what, "Wide plate: make it, 3 runs");
   EXPECT_THAT(step->leaves, HasSubstr("μ_t known within 0.17 (now 0.35)"));
   for (const NextStep& s : data.next_steps) EXPECT_THAT(s.what, Not(HasSubstr("rough plate")));
   const json next = json::parse(PageJson(data))["next"];

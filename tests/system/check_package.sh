@@ -13,6 +13,7 @@ test -s "$work/usr/share/man/man1/talus-calibrate.1"
 objdump -p "$work/usr/bin/talus" | sed -n 's/^ *NEEDED *//p' | while read -r library; do
   path=$(ldd "$work/usr/bin/talus" | sed -n "s|.*$library => \([^ ]*\) .*|\1|p")
   [ -n "$path" ] || continue  # the loader itself
+  case "$depends" in *"| $library"*) continue ;; esac  # any of the packages that provide it
   file=$(realpath "$path")  # dpkg knows some of /usr/lib as /lib
   package=$({ dpkg -S "$file" || dpkg -S "${file#/usr}"; } 2>/dev/null | head -1 | cut -d: -f1)
   case ", $depends" in

@@ -121,6 +121,9 @@ class ReportInABrowser(unittest.TestCase):
         self.open_report("two", 40, 2, "running")
         self.assertEqual(len(self.check_charts()), 4 + 2 + 1)
         self.assertIn("not concluded yet", self.driver.find_element(By.ID, "answer").text)
+        so_far = self.driver.find_element(By.ID, "so-far").text
+        self.assertRegex(so_far, r"Best so far\n[\d.]+ mm²")
+        self.assertRegex(so_far, r"Time left\nat most about [\d.]+ min\n80 simulations of the budget")
         self.check_log()
         self.keep_screenshot("two")
 
@@ -230,7 +233,7 @@ class ReportInABrowser(unittest.TestCase):
         self.open_report("next", 60, 2, "finished", posterior=True)
         self.check_charts()
         steps = self.driver.find_element(By.ID, "next").text
-        self.assertIn("wide plate: make it, 3 runs", steps)
+        self.assertIn("Wide plate: make it, 3 runs", steps)
         self.assertNotIn("more simulations of heap", steps)  # of no gain: in the table only
         rows = self.driver.execute_script(
             "return [...document.querySelectorAll('#next-table tbody tr')].map((r) => "
@@ -244,6 +247,19 @@ class ReportInABrowser(unittest.TestCase):
         self.assertEqual(figure.find_element(By.TAG_NAME, "img").get_property("naturalWidth"), 320)
         self.check_log()
         self.keep_screenshot("next")
+
+    def test_running_campaign_shows_its_region(self):
+        self.open_report("running_posterior", 60, 2, "running", posterior=True)
+        self.assertIn("region", self.check_charts())
+        self.assertRegex(self.driver.find_element(By.ID, "so-far").text, r"Joint 90\s% region so far\n[\d.]+ %")
+        self.assertEqual(self.driver.execute_script("return talusCharts.filter((c) => c.id === 'shrinking').length"), 0)
+        # As a page that is watched has it.
+        page = pathlib.Path(self.folder.name) / "running_posterior/report/report.html"
+        page.write_text(page.read_text().replace('"region_history":[]', '"region_history":[[20,0.6],[40,0.3],[60,0.2]]'))
+        self.driver.get(page.as_uri())
+        self.assertIn("shrinking", self.check_charts())
+        self.check_log()
+        self.keep_screenshot("running")
 
     def test_verdict_comes_before_any_number(self):
         self.open_report("posterior", 60, 2, "finished", posterior=True)

@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/report_data.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/analysis/report/views/profile_views.h"
 
@@ -51,6 +52,28 @@ ReportData MakeReportData(Evidence evidence) {
   data.next_table = ReadNextTable(data.evidence);
   data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;
+}
+
+double RegionShare(const ReportData& data) {
+  double least = kUndefined;
+  for (const PairMap& pair : data.has_posterior() ? data.pairs : std::vector<PairMap>{}) {
+    const auto inside = std::count_if(pair.value.begin(), pair.value.end(),
+                                      [](double level) { return level < 0.9; });
+    const double share = static_cast<double>(inside) / static_cast<double>(pair.value.size());
+    if (!(share >= least)) least = share;
+  }
+  return least;
+}
+
+void Follow(const ReportData& data, std::vector<RegionPoint>& history) {
+  const RegionPoint now{
+      .num_trials = std::count_if(
+          data.evidence.trials.begin(), data.evidence.trials.end(),
+          [](const TrialEvidence& trial) { return trial.state != journal::TrialStatus::kRunning; }),
+      .share = RegionShare(data)};
+  if (std::isnan(now.share)) return;
+  if (!history.empty() && history.back().num_trials == now.num_trials) return;
+  history.push_back(now);
 }
 
 }  // namespace talus::analysis

@@ -2,6 +2,7 @@
 // ways to write it down.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,12 @@ struct MeasuredProfile {
   std::vector<double> metrics;
 };
 
+// How far the answer was known after so many trials.
+struct RegionPoint {
+  std::int64_t num_trials = 0;  // that have ended
+  double share = kUndefined;    // RegionShare then
+};
+
 struct ReportData {
   Evidence evidence;
   std::vector<ObjectiveFinding> findings;
@@ -39,6 +46,7 @@ struct ReportData {
   std::vector<RepresentativeView> representative;  // of the recommended set and its equals
   std::vector<NextStep> next_steps;
   std::optional<NextTableView> next_table;  // none where `talus next` has not been run
+  std::vector<RegionPoint> region_history;  // of a page that is watched
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
   std::string overlay_absent;                  // why there are no photographs to show
@@ -51,5 +59,12 @@ struct ReportData {
 };
 
 ReportData MakeReportData(Evidence evidence);
+
+// Share of the searched plane that the joint 90 % region takes of the two parameters that it ties
+// closest; undefined without a posterior.
+double RegionShare(const ReportData& data);
+
+// Adds where the answer stands now, once for each number of trials.
+void Follow(const ReportData& data, std::vector<RegionPoint>& history);
 
 }  // namespace talus::analysis

@@ -304,6 +304,11 @@ std::string PageJson(const ReportData& data) {
       {"marginals", List(data.marginals, MarginalJson)},
       {"pairs", List(data.pairs, PairJson)},
       {"model", ModelJson(data)},
+      {"region_share", Number(RegionShare(data))},
+      {"region_history", List(data.region_history,
+                              [](const RegionPoint& point) {
+                                return Json{point.num_trials, Number(point.share)};
+                              })},
       {"model_absent", e.model_absent},
       {"plate_mm", Number(1e3 * e.reference.aehp.frame.plate_diameter)},
       {"outlines", List(data.outlines, OutlineJson)},

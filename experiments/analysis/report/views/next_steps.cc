@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/views/next_steps.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/text/number_text.h"
@@ -23,6 +24,12 @@ std::pair<double, double> RangeOf(const Eigen::MatrixXd& draws, Eigen::Index col
   const auto last = static_cast<double>(sorted.size() - 1);
   return {sorted[static_cast<std::size_t>(0.05 * last)],
           sorted[static_cast<std::size_t>(0.95 * last)]};
+}
+
+// "0.1 to 0.2"; ends in the unit cube.
+std::string RangeText(const ParameterInfo& parameter, const std::pair<double, double>& range) {
+  return Number(parameter.range.ToNative(range.first)) + " to " +
+         Number(parameter.range.ToNative(range.second));
 }
 
 double WidthOf(const Eigen::MatrixXd& draws, Eigen::Index column) {
@@ -59,7 +66,8 @@ void AddMeasuring(const Evidence& evidence, Eigen::Index k, std::vector<NextStep
     const auto [low, high] = RangeOf(given, j);
     step.remaining *= std::min(1.0, std::max(high - low, 1e-3) / WidthOf(draws, j));
     step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol + " in " +
-                   Number(other.range.ToNative(low)) + " to " + Number(other.range.ToNative(high));
+                   RangeText(other, {low, high}) + " (now " + RangeText(other, RangeOf(draws, j)) +
+                   ")";
   }
   if (step.leaves.empty()) step.leaves = "nothing open";
   step.leaves += ", if it is " + Number(parameter.range.ToNative(recommended));
@@ -118,6 +126,8 @@ NextStep StepOf(const Evidence& evidence, const NextTableView& table,
                             : std::to_string(candidate.num_simulations) + " simulations, " +
                                   trials::DurationText(candidate.core_time) + " of core time",
                 .leaves = {}};
+  step.what.front() =
+      static_cast<char>(std::toupper(static_cast<unsigned char>(step.what.front())));
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     const ParameterInfo& parameter = evidence.parameters[k];
     step.remaining *= std::min(1.0, candidate.width[k] / std::max(table.width[k], 1e-6));

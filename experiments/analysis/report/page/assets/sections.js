@@ -43,17 +43,22 @@ function fact(name, value, note) {
 
 const setText = (values) => D.parameters.map((p, k) => p.symbol + " " + formatUnit(values[k], p.unit)).join(", ");
 
+// The pair of parameters that says most: the one that is tied closest.
+function closestPair() {
+  const inside = (pair) => pair.value.filter((level) => level < .9).length;
+  return [...D.pairs].sort((a, b) => inside(a) - inside(b))[0];
+}
+
 // What kind of answer it is, before any number, with the figure of its region; and each part of it.
 function verdict(h) {
   if (!h.verdict) return [];
-  // The pair of parameters that says most: the one that is tied closest.
-  const inside = (pair) => pair.value.filter((level) => level < .9).length;
-  const closest = [...D.pairs].sort((a, b) => inside(a) - inside(b))[0];
+  const closest = closestPair();
   const region = closest && D.model.posterior ? card(pairChart(closest, 0, "region", "")) : null;
-  const parts = h.branches.length ? element("div", {class: "card", id: "branches"}, element("h3", {},
-      h.branches.length > 1 ? "The separate answers" : "The answer"),
-    table([{title: "", text: true}, ...h.branches.map((b, i) => ({title: h.branches.length > 1 ? "Answer " + (i + 1)
-        : "Recommended", unit: percent(b.share) + " of the region"}))],
+  // One answer alone stands below, with its ranges.
+  const parts = h.branches.length > 1 ? element("div", {class: "card", id: "branches"},
+    element("h3", {}, "The separate answers"),
+    table([{title: "", text: true}, ...h.branches.map((b, i) => ({title: "Answer " + (i + 1),
+        unit: percent(b.share) + " of the region"}))],
       D.parameters.map((p, k) => [p.symbol + (p.unit ? " (" + p.unit + ")" : ""), ...h.branches.map((b) =>
         element("span", {}, format(b.values[k]), element("br"), element("small", {},
           format(b.low[k]) + " to " + format(b.high[k]))))]))) : null;
@@ -63,7 +68,8 @@ function verdict(h) {
 
 function nextSteps(h) {
   if (!h.next.length) return null;
-  return element("div", {class: "card", id: "next"}, element("h3", {}, "What to do next"),
+  return element("div", {class: "card", id: "next"}, element("h3", {},
+      h.verdict_kind === "point" ? "What would narrow it further" : "What to do next"),
     element("ol", {class: "steps"}, h.next.map((step) => element("li", {}, element("strong", {}, step.what),
       element("div", {}, "Costs " + step.cost + "."), element("div", {}, "Leaves " + step.leaves + ".")))));
 }
@@ -111,6 +117,48 @@ function representativeHeaps(h) {
         ": " + formatUnit(set.trial_objective, o.unit) + ".")) : null));
 }
 
+// The best trial at the finest scale factor; nothing before there is one.
+function bestSoFar() {
+  const o = D.campaign.objective, t = D.trials;
+  const m = D.metrics.findIndex((metric) => metric.name === o.metric);
+  if (m < 0) return null;
+  const value = (i) => o.is_angle ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
+  const usable = doneTrials().filter((i) => t.metrics[m][i] !== null && t.scale[i] === D.campaign.scale_factor);
+  if (!usable.length) return null;
+  const i = usable.reduce((a, b) => value(b) < value(a) ? b : a);
+  return fact("Best so far", objectiveValue(value(i)), "trial " + t.id[i] + ": " +
+    setText(t.values.map((column) => column[i])));
+}
+
+// By what the latest trials took and how many run at a time; the search may stop before.
+function timeLeft() {
+  const t = D.trials, ended = t.id.map((_, i) => i).filter((i) => t.state[i] !== "running" && t.seconds[i] !== null);
+  const left = D.campaign.budget - t.id.length;
+  if (D.campaign.state !== "running" || !D.campaign.budget || left <= 0 || !ended.length) return null;
+  const latest = ended.slice(-10);
+  const each = latest.reduce((sum, i) => sum + t.seconds[i], 0) / latest.length;
+  const workers = Math.max(1, t.state.filter((s) => s === "running").length);
+  return fact("Time left", "at most about " + duration(left * each / workers),
+    left + " simulations of the budget, " + workers + " at a time");
+}
+
+// Where a campaign that runs stands: the best trial, the time left, the region and how it has shrunk.
+function soFar() {
+  const facts = [bestSoFar(), timeLeft(), D.region_share === null ? null
+    : fact("Joint 90\u00a0% region so far", percent(D.region_share), "of the plane of the parameters it ties closest")];
+  const history = D.region_history;
+  const shrinking = history.length < 2 ? null : card(chart("shrinking", "The region as it shrinks",
+    "Share of the searched plane inside the joint 90\u00a0% region, since this page is watched.", () => ({
+      grid: margins, tooltip: {...tooltipStyle, formatter: (e) =>
+        lines(["After trial " + e.data[0] + ": " + percent(e.data[1])])},
+      xAxis: valueAxis("trials", {nameGap: 28, min: history[0][0]}), yAxis: valueAxis("share", {min: 0}),
+      series: [{type: "line", data: history, lineStyle: {color: palette[0], width: 2}, itemStyle: {color: palette[0]}}],
+    }), "small").figure);
+  const region = D.model && D.model.posterior && D.pairs.length ? card(pairChart(closestPair(), 0, "region", "")) : null;
+  return [element("div", {class: "card", id: "so-far"}, element("dl", {class: "facts"}, facts)),
+    region || shrinking ? element("div", {class: "grid two stacked"}, region, shrinking) : null];
+}
+
 function answerSection() {
   const h = D.headline, o = D.campaign.objective, parts = [];
   if (!h) {
@@ -119,7 +167,7 @@ function answerSection() {
         D.parameters.map((p, k) => p.symbol + " = " + formatUnit(D.model.values[k], p.unit)).join(", ") +
         (D.model.expected === null ? "" : " and expects a " + o.title + " of " + formatUnit(D.model.expected, o.unit) +
           (D.model.expected_sd === null ? "" : " ± " + format(D.model.expected_sd, 2)) + " there") + "."
-        : "There are too few trials to say anything about the best set."))));
+        : "There are too few trials to say anything about the best set."))), ...soFar());
   } else {
     parts.push(...verdict(h));
     const facts = [];
