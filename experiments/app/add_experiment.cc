@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/units.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
 
@@ -32,7 +33,7 @@ void AddAddExperimentCommand(CLI::App& app) {
   command->callback([arguments] {
     campaign::AddOptions options;
     if (!arguments->core_time.empty()) {
-      options.core_time = base::ParseQuantity(arguments->core_time, base::Dimension::kTime);
+      options.core_time = FlagQuantity("--core-time", arguments->core_time, base::Dimension::kTime);
     }
     {
       campaign::Console console(campaign::CampaignFolder{arguments->folder}.log(),

@@ -46,7 +46,7 @@ void AddResumeCommand(CLI::App& app) {
   command
       ->add_option("--add-simulations", arguments->options.add_simulations,
                    "so many more than the budget, or than it has when it is finished")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, campaign::BudgetOptions::kMostSimulations));
   command->add_option("--spec", arguments->spec,
                       "the changed spec; default: the file it began with, if it is still there");
   AddTellFlags(*command, arguments->tell);

@@ -75,13 +75,21 @@ std::string Suggestion(const CLI::App& app, std::span<const char* const> argumen
   return {};
 }
 
+double FlagQuantity(const std::string& flag, const std::string& text, base::Dimension dimension) {
+  try {
+    return base::ParseQuantity(text, dimension);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(flag + ": " + error.what());
+  }
+}
+
 void AddHelpCommand(CLI::App& app) {
   auto name = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("help", "What the program, or one verb, does and takes");
   command->add_option("VERB", *name, "the verb; without one, all are listed");
   command->callback([&app, name] {
-    if (name->empty()) {
-      std::cout << app.help();
+    if (name->empty()) {  // app.help() would be that of the verb at work, this one
+      std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
       return;
     }
     const CLI::App* const verb = FindVerb(app, *name);

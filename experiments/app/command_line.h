@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include "base/units.h"
+
 namespace CLI {
 class App;
 }
@@ -17,6 +19,9 @@ void DescribeCommandLine(CLI::App& app);
 // "did you mean …" for a verb or flag that nearly names one, else where help is; empty when neither
 // is misspelt. `arguments` are those after the program's name.
 std::string Suggestion(const CLI::App& app, std::span<const char* const> arguments);
+
+// What is typed after a flag, in SI; throws base::ConfigError that begins with the flag.
+double FlagQuantity(const std::string& flag, const std::string& text, base::Dimension dimension);
 
 // Roff of section 1: of the program, or of one verb.
 std::string ManPage(const CLI::App& app);

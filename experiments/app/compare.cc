@@ -35,17 +35,24 @@ void SearchOn(const Arguments& arguments) {
   }
 }
 
-std::string StrategyComparison(const Arguments& arguments,
-                               const analysis::ComparedCampaign& compared) {
+// Empty without other campaigns.
+std::vector<analysis::StrategyRun> StrategyRuns(const Arguments& arguments,
+                                                const analysis::Evidence& evidence) {
+  if (arguments.with.empty()) return {};
   std::vector<std::string> names{arguments.campaign};
   names.insert(names.end(), arguments.with.begin(), arguments.with.end());
-  std::vector<analysis::Evidence> all{compared.evidence};
+  std::vector<analysis::Evidence> all{evidence};
   for (const std::string& name : arguments.with)
     all.push_back(analysis::GatherEvidence(name, arguments.experiment));
-  const auto runs = analysis::CompareStrategies(names, all);
+  return analysis::CompareStrategies(names, all);
+}
+
+std::string StrategyComparison(const Arguments& arguments,
+                               const analysis::ComparedCampaign& compared,
+                               const std::vector<analysis::StrategyRun>& runs) {
   double margin = 0;
   for (const analysis::ObjectiveFinding& f : compared.findings) {
-    if (f.info.key == all.front().objective) margin = f.margin();
+    if (f.info.key == compared.evidence.objective) margin = f.margin();
   }
   base::WriteFileAtomically(arguments.out / "strategies.csv", analysis::StrategiesCsv(runs));
   return analysis::StrategiesText(runs, margin) + "\n";
@@ -71,10 +78,11 @@ void RunCompare(Arguments arguments) {
       analysis::GatherEvidence(arguments.campaign, arguments.experiment);
   const std::vector<analysis::ObjectiveFinding> findings = analysis::CompareObjectives(evidence);
   const analysis::ComparedCampaign compared{evidence, findings};
+  const auto runs = StrategyRuns(arguments, evidence);  // all is read before anything is written
   base::ClaimOutputFolder(arguments.out, "compare");
   WriteComparison(compared, arguments.out);
   std::string text = analysis::ComparisonText(compared) + "\n";
-  if (!arguments.with.empty()) text += StrategyComparison(arguments, compared);
+  if (!runs.empty()) text += StrategyComparison(arguments, compared, runs);
   base::WriteFileAtomically(arguments.out / "compare.txt", text);
   std::cout << text << "  Tables and pictures are in " << arguments.out.string() << '\n';
 }
@@ -99,7 +107,7 @@ void AddCompareCommand(CLI::App& app) {
   command
       ->add_option("--add-simulations", arguments->add_simulations,
                    "so many more for --objective; default: 20")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, campaign::BudgetOptions::kMostSimulations))
       ->needs(objective);
   command->add_option("--experiment", arguments->experiment,
                       "whose trials are compared, in a campaign with several; default: the first");

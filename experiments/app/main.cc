@@ -40,6 +40,15 @@ void WaitAsleep(char** argv) {
   execv(self.c_str(), argv);  // returns only if it fails; then the threads spin
 }
 
+// "Could not convert: --views = x" of CLI11, told as we would. Only numbers can fail to be read.
+void RefuseUnreadable(const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ConversionError*>(&error) == nullptr) return;
+  const std::string what = error.what();
+  const std::size_t name = what.find("--");
+  if (name == std::string::npos) return;
+  throw talus::base::ConfigError(what.substr(name) + ": must be a number, not too large");
+}
+
 int Run(int argc, char** argv) {
   CLI::App app("calibrates discrete element models of powders from photographs of heaps", "talus");
   talus::app::DescribeCommandLine(app);
@@ -52,6 +61,7 @@ int Run(int argc, char** argv) {
             : talus::app::Suggestion(
                   app, std::span(argv + 1, static_cast<std::size_t>(std::max(argc - 1, 0))));
     if (!suggestion.empty()) throw talus::base::ConfigError("talus: " + suggestion);
+    RefuseUnreadable(error);
     return app.exit(error) == 0 ? talus::base::kExitDone : talus::base::kExitBadInput;
   }
   return talus::base::kExitDone;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/images/profile_file.h"
@@ -32,28 +33,21 @@ struct MeasureFlags {
   bool choose_mass = false;
 };
 
-double Quantity(const std::string& flag, const std::string& text, base::Dimension dimension) {
-  try {
-    return base::ParseQuantity(text, dimension);
-  } catch (const base::ConfigError& error) {
-    throw base::ConfigError(flag + ": " + error.what());
-  }
-}
-
 imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
   using base::Dimension;
   imaging::ExperimentOptions options;
   if (!flags.plate_diameter.empty()) {
-    options.plate_diameter = Quantity("--plate-diameter", flags.plate_diameter, Dimension::kLength);
+    options.plate_diameter =
+        FlagQuantity("--plate-diameter", flags.plate_diameter, Dimension::kLength);
   }
   if (!flags.pattern.empty()) options.pattern = flags.pattern;
   if (!flags.frame.empty()) {
     options.frame = imaging::ReadFrame(flags.frame);
     if (flags.plate_diameter.empty()) options.plate_diameter = options.frame->plate_diameter;
   }
-  if (!flags.tilt.empty()) options.tilt = Quantity("--tilt", flags.tilt, Dimension::kAngle);
+  if (!flags.tilt.empty()) options.tilt = FlagQuantity("--tilt", flags.tilt, Dimension::kAngle);
   if (!flags.pixel_size.empty()) {
-    options.pixel_size = Quantity("--pixel-size", flags.pixel_size, Dimension::kLength);
+    options.pixel_size = FlagQuantity("--pixel-size", flags.pixel_size, Dimension::kLength);
   }
   options.threshold = flags.threshold;
   for (const auto& [name, look] : base::Names<imaging::PowderLook>::kList) {
@@ -81,7 +75,7 @@ void Measure(const MeasureFlags& flags) {
                                  .length_unit = std::nullopt};
   if (!flags.length_unit.empty()) {
     request.length_unit =
-        Quantity("--length-unit", "1 " + flags.length_unit, base::Dimension::kLength);
+        FlagQuantity("--length-unit", "1 " + flags.length_unit, base::Dimension::kLength);
   }
   if (!flags.like.empty()) {
     trials::MeasureSpheres(request, std::cout);

@@ -229,8 +229,13 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {
-  // A full disk is not the parameters' fault; nothing is recorded, and the trial is run again.
+  // Neither a full disk nor a lost folder is the parameters' fault; nothing is recorded, and the
+  // trial is run again.
   RequireWritable(folder_.root);
+  if (const auto folder = folder_.trial(trial.id); !std::filesystem::exists(folder)) {
+    throw base::Error(folder.string() +
+                      ": has vanished while its trial ran; `talus resume` runs the trial again");
+  }
   if (reason.find("No space left on device") != std::string::npos) {
     throw base::Error("trial " + std::to_string(trial.id) + ": " + reason);
   }

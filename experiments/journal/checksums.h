@@ -10,12 +10,13 @@
 namespace talus::journal {
 
 // To be called within the transaction that has changed them. A trial is its row with its point and
-// metrics; the campaign is its row with the parameters and the experiment's metrics.
+// metrics; the campaign is its row with the parameters and all of its experiments. Events have
+// none: people look them up, and nothing is made of them.
 void SealTrial(Database& database, std::int64_t trial);
 void SealCampaign(Database& database);
 void SealAll(Database& database);
 
-// What does not match its checksum, in words; empty when all does.
+// What does not match its checksum, in words; empty when all does, and for a schema that had none.
 std::string BrokenSeal(Database& database);
 
 }  // namespace talus::journal

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -12,10 +13,20 @@
 namespace talus::journal {
 namespace {
 
+// SQLite's words, and the system's: "disk I/O error" may be a full disk.
+std::string ReasonOf(sqlite3* database) {
+  const std::string reason = sqlite3_errmsg(database);
+  const int code = sqlite3_errcode(database);
+  const int system = sqlite3_system_errno(database);
+  // A log that cannot be made beside it: by then the system's word is another.
+  if (code == SQLITE_CANTOPEN) return reason + "; is the disk full, or the folder read-only?";
+  return system == 0 || code != SQLITE_IOERR ? reason : reason + " (" + std::strerror(system) + ")";
+}
+
 [[noreturn]] void Fail(sqlite3* database, const std::string& doing) {
   const char* file = sqlite3_db_filename(database, "main");
   const std::string place = file != nullptr && *file != '\0' ? std::string(file) + ": " : "";
-  throw base::Error(place + doing + ": " + sqlite3_errmsg(database));
+  throw base::Error(place + doing + ": " + ReasonOf(database));
 }
 
 // "file:" URI of a path: what has a meaning in a URI is escaped.
@@ -138,7 +149,7 @@ Database::Database(const std::filesystem::path& path, Mode mode) {
   const bool immutable = mode == Mode::kReadOnly && NeedsImmutable(path);
   const std::string uri = Uri(path, immutable ? "?immutable=1" : "");
   if (sqlite3_open_v2(uri.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
-    const std::string reason = sqlite3_errmsg(handle_);
+    const std::string reason = ReasonOf(handle_);
     sqlite3_close(std::exchange(handle_, nullptr));
     throw base::Error(path.string() + ": cannot be opened: " + reason);
   }

@@ -3,18 +3,20 @@
 #include <cmath>
 #include <string>
 
+#include "base/error.h"
 #include "base/json/json_writer.h"
-#include "experiments/journal/journal.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::journal {
 namespace {
 
-constexpr const char* kPhotographEvent = "photograph";  // a PhotoWarningRecord as JSON
-
 // The record of a row whose first column is its experiment's position.
 ExperimentRecord& OwnerOf(const Statement& row, std::vector<ExperimentRecord>& experiments) {
-  return experiments.at(static_cast<std::size_t>(row.Integer(0)));
+  const std::int64_t position = row.Integer(0);
+  if (position < 0 || position >= static_cast<std::int64_t>(experiments.size())) {
+    throw base::Error("the journal has numbers of an experiment that it does not have");
+  }
+  return experiments[static_cast<std::size_t>(position)];
 }
 
 void ReadMetrics(Database& database, std::vector<ExperimentRecord>& experiments) {
@@ -50,10 +52,9 @@ void ReadScalars(Database& database, std::vector<ExperimentRecord>& experiments)
   }
 }
 
-// An event's `trial` is here the experiment's position.
 void ReadWarnings(Database& database, std::vector<ExperimentRecord>& experiments) {
-  Statement row = database.Prepare("SELECT trial, text FROM events WHERE kind = ?1 ORDER BY id");
-  row.Bind(std::string(kPhotographEvent));
+  Statement row = database.Prepare(
+      "SELECT experiment, warning_json FROM experiment_warnings ORDER BY experiment, position");
   while (row.Step()) {
     OwnerOf(row, experiments)
         .warnings.push_back(ParseRecord<PhotoWarningRecord>(row.Text(1), "a photograph's warning"));
@@ -85,9 +86,10 @@ void InsertExperiment(Database& database, std::int64_t position, const Experimen
         .Bind(position, i++, scalar.name, scalar.value, scalar.standard_error)
         .Finish();
   }
+  i = 0;
   for (const PhotoWarningRecord& warning : e.warnings) {
-    database.Prepare("INSERT INTO events (utc, kind, trial, text) VALUES (?1, ?2, ?3, ?4)")
-        .Bind(UtcNow(), std::string(kPhotographEvent), position, base::ToJson(warning).dump())
+    database.Prepare("INSERT INTO experiment_warnings VALUES (?1, ?2, ?3)")
+        .Bind(position, i++, base::ToJson(warning).dump())
         .Finish();
   }
 }

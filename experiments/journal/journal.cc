@@ -54,19 +54,26 @@ void Migrate(Database& database) {
   transaction.Commit();
 }
 
+std::uint32_t BigEndian(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (const char byte : bytes) value = value << 8 | static_cast<unsigned char>(byte);
+  return value;
+}
+
 // From the file's head, so that another program's database is not even opened: that could change
-// it. A young journal may be in its log alone.
+// it. A young journal may be in its log alone, and one that a full disk or a kill has cut short
+// when it was made is an empty database.
 void RefuseForeignFile(const std::filesystem::path& path) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
-  constexpr std::size_t kIdAt = 68;
   std::error_code absent;
   if (std::filesystem::file_size(path.string() + "-wal", absent) > 0 && !absent) return;
   std::ifstream in(path, std::ios::binary);
-  char head[100] = {};
-  if (!in.read(head, sizeof head) || std::string_view(head, 16) != kMagic) return;
-  std::uint32_t id = 0;
-  for (std::size_t i = 0; i < 4; ++i) id = id << 8 | static_cast<unsigned char>(head[kIdAt + i]);
-  if (id == kJournalApplicationId) return;
+  char bytes[105] = {};
+  const std::string_view head(bytes, sizeof bytes);
+  if (!in.read(bytes, sizeof bytes) || !head.starts_with(kMagic)) return;
+  if (BigEndian(head.substr(68, 4)) == kJournalApplicationId) return;
+  const bool one_page = BigEndian(head.substr(28, 4)) <= 1;
+  if (one_page && BigEndian(head.substr(103, 2)) == 0) return;  // no cell: it has no table
   throw base::ConfigError(path.string() +
                           ": is a database of another program; name the folder of "
                           "a campaign");
@@ -136,9 +143,9 @@ Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord&
   for (const char* step : kSchemaSteps) journal.database_.Execute(step);
   journal.InsertCampaign(campaign);
   journal.CreateView(campaign);
-  SealCampaign(journal.database_);
   journal.database_.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
                             "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
+  SealCampaign(journal.database_);
   transaction.Commit();
   return journal;
 }
@@ -150,10 +157,10 @@ Journal Journal::Open(const std::filesystem::path& path) {
   if (const std::string damage = database.Damage(); !damage.empty()) {
     throw base::Error(path.string() + ": is damaged: " + damage);
   }
-  Migrate(database);
   if (const std::string broken = BrokenSeal(database); !broken.empty()) {
     throw base::Error(path.string() + ": is damaged: " + broken);
   }
+  Migrate(database);
   return Journal(std::move(database));
 }
 

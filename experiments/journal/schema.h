@@ -161,7 +161,20 @@ CREATE TABLE checksums (  -- see checksums.h; written again after every step to 
 );
 )sql";
 
+// What is doubtful about the photographs, which reports show, stood among the events, which have no
+// checksum: nothing is made of them.
+inline constexpr const char* kSchemaVersion5 = R"sql(
+CREATE TABLE experiment_warnings (
+  experiment INTEGER NOT NULL REFERENCES experiments(position),
+  position INTEGER NOT NULL,
+  warning_json TEXT NOT NULL,
+  PRIMARY KEY (experiment, position)
+) WITHOUT ROWID;
+INSERT INTO experiment_warnings SELECT trial, id, text FROM events WHERE kind = 'photograph';
+DELETE FROM events WHERE kind = 'photograph';
+)sql";
+
 inline constexpr std::array kSchemaSteps{kSchemaVersion1, kSchemaVersion2, kSchemaVersion3,
-                                         kSchemaVersion4};
+                                         kSchemaVersion4, kSchemaVersion5};
 
 }  // namespace talus::journal

@@ -96,8 +96,8 @@ class Pattern {
     bool fits = false;
     if (p.kind == kLetter) {
       fits = left > 0 && Lower(attempt.name[at]) == p.letter && Fit(attempt, part + 1, at + 1);
-    } else if (p.kind == kAny) {
-      for (std::size_t n = left + 1; n > 0 && !fits; --n) fits = Fit(attempt, part + 1, at + n - 1);
+    } else if (p.kind == kAny) {  // one more letter, or no more
+      fits = (left > 0 && Fit(attempt, part, at + 1)) || Fit(attempt, part + 1, at);
     } else {
       for (std::size_t n = 1; n <= left && !fits; ++n) {
         fits = Fit(attempt, part + 1, at + n);

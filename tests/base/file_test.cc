@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -56,6 +57,22 @@ TEST_F(FileTest, TailIsTheLastBytes) {
   EXPECT_EQ(ReadTail(folder_ / "f", 2), "45");
   EXPECT_EQ(ReadTail(folder_ / "f", 9), "12345");
   EXPECT_EQ(ReadTail(folder_ / "absent", 9), "");
+}
+
+// Of the memory that this process has ever used.
+long PeakMegabytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+// A log of 1 GB was read as a whole for its last lines.
+TEST_F(FileTest, TheTailOfAHugeFileTakesNoMemory) {
+  WriteFileAtomically(folder_ / "log", "");
+  fs::resize_file(folder_ / "log", std::uintmax_t{1} << 30);  // takes no room on the disk
+  const long before = PeakMegabytes();
+  EXPECT_EQ(ReadTail(folder_ / "log", 4096), std::string(4096, '\0'));
+  EXPECT_LT(PeakMegabytes() - before, 50);
 }
 
 // The reference value is XXH3's published one for no bytes at all with seed 0.

@@ -1,5 +1,6 @@
 #include "engine/run/scene_run.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -47,6 +48,37 @@ TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfTheRayleighTime) {
   EXPECT_TRUE(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().empty());
   loaded.scene.rayleigh_fraction = 0.21;
   EXPECT_EQ(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages().size(), 1u);
+}
+
+// Both passed without a word: a surface energy without a model, and a model without one.
+TEST(SceneRun, WarnsOfAdhesionThatDoesNothing) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_adhesion";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << kEdge;
+  LoadedScene loaded = LoadScene(folder / "scene.json");
+  const auto messages = [&](double surface_energy, Adhesion adhesion) {
+    loaded.scene.materials[0].surface_energy = surface_energy;
+    loaded.scene.models.adhesion = adhesion;
+    return SceneRun(loaded.spec, loaded.scene, folder).TakeMessages();
+  };
+  using ::testing::ElementsAre;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(messages(1e-5, Adhesion::kNone),
+              ElementsAre(HasSubstr("surface_energy is given, but models.adhesion is none")));
+  EXPECT_THAT(messages(0, Adhesion::kJkr),
+              ElementsAre(HasSubstr("models.adhesion is jkr, but no surface_energy is above 0")));
+  EXPECT_THAT(messages(1e-5, Adhesion::kJkr), ::testing::IsEmpty());
+}
+
+TEST(SceneRun, WarnsOfOutputsAfterTheLastStep) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "scene_run_outputs";
+  fs::create_directories(folder);
+  std::ofstream(folder / "scene.json") << kEdge;
+  LoadedScene loaded = LoadScene(folder / "scene.json");
+  loaded.spec.stop.steps = 10;
+  loaded.spec.outputs.times = {0.04};
+  EXPECT_THAT(SceneRun(loaded.spec, loaded.scene, folder).TakeMessages(),
+              ::testing::ElementsAre(::testing::HasSubstr("is not written")));
 }
 
 class ExampleScene : public ::testing::TestWithParam<const char*> {};

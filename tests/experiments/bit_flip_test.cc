@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/journal/journal.h"
+#include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
 namespace {
@@ -31,6 +32,8 @@ journal::CampaignRecord Campaign() {
   experiment.reference = {{.name = "nebp_px", .value = 1e4, .unit = "px", .undefined = ""}};
   experiment.aehp_png = std::string(400, 'p');
   experiment.frame_json = "{}";
+  experiment.warnings = {
+      {.kind = "blurred", .photo = "run01_view1.jpg", .value = 0.5, .text = std::string(400, 'w')}};
   record.experiments = {experiment};
   return record;
 }
@@ -169,6 +172,52 @@ TEST_F(BitFlips, OfTheTrialsFoldersAreNoticed) {
   }
   journal::Journal journal = RebuildJournal(folder);
   EXPECT_EQ(Content(journal), good);
+}
+
+// The journal is made anew from them too. PNG has a checksum for each of its parts.
+TEST_F(BitFlips, OfAnImageAreHarmlessOrNoticed) {
+  imaging::GrayImage image{.width = 40, .height = 30, .pixels = {}};
+  for (int i = 0; i < image.width * image.height; ++i) {
+    image.pixels.push_back(static_cast<std::uint8_t>(i * i));
+  }
+  const std::string good = imaging::EncodePng(image);
+  int noticed = 0;
+  for (std::uint64_t round = 0; round < 1000; ++round) {
+    try {
+      EXPECT_EQ(imaging::DecodeGrayImage(Flipped(good, round), "flipped"), image) << round;
+    } catch (const base::Error&) {
+      ++noticed;
+    }
+  }
+  EXPECT_GT(noticed, 900);
+}
+
+// Without the image of an experiment its numbers alone were met.
+TEST_F(BitFlips, ALostImageOfAnExperimentIsNoticed) {
+  const CampaignFolder folder{folder_ / "copy"};
+  KeepCampaign(folder, Campaign());
+  fs::remove(folder.root / "aehp.png");
+  EXPECT_THROW(RebuildJournal(folder), base::Error);
+  EXPECT_FALSE(fs::exists(journal::JournalPath(folder.root)));
+}
+
+// A full disk, or a kill, while the journal was made left a database without tables, which was
+// taken for another program's: neither `calibrate` nor `resume` went on.
+TEST_F(BitFlips, AnEmptyDatabaseIsMadeAnew) {
+  const CampaignFolder folder{folder_ / "copy"};
+  KeepCampaign(folder, Campaign());
+  const fs::path path = journal::JournalPath(folder.root);
+  journal::Database(path, journal::Database::Mode::kCreate)
+      .Execute("PRAGMA user_version = 0; VACUUM");
+  ASSERT_GT(fs::file_size(path), 0u);
+  try {
+    journal::Journal::Open(path);
+    ADD_FAILURE() << "it was opened";
+  } catch (const base::ConfigError& error) {
+    ADD_FAILURE() << error.what();
+  } catch (const base::Error&) {  // upon which it is made anew
+  }
+  EXPECT_EQ(RebuildJournal(folder).Campaign().name, "flips");
 }
 
 // `resume` opened any database for writing, and made it one with a log, before it looked what it

@@ -248,6 +248,36 @@ TEST_F(CommandEngineTest, OldResultsAreNoResults) {
   EXPECT_THAT(FailureOf(), HasSubstr("left no file \"heap.*\" that is not older than the trial"));
 }
 
+// What another program leaves has no checksum: a bit turned over in it was another answer, where
+// the journal was made anew from the trials' folders.
+TEST_F(CommandEngineTest, ATrialWhoseFilesHaveChangedSinceTheyWereMeasuredIsRunAgain) {
+  Deck("run.sh",
+       "echo 'x,y,z,r' >heap.csv; echo '0,0,1e-3,1e-3' >>heap.csv\n"
+       "echo '{\"runout_m\": 0.25}' >scalars.json\n");
+  CommandEngine engine(options_);
+  const fs::path folder = root_ / "trial";
+  for (const char* name : {"heap.csv", "scalars.json", "result.json"}) {
+    Run();
+    EXPECT_TRUE(engine.IsComplete(folder)) << name;
+    const std::string whole = Text(std::string("trial/") + name);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      std::string damaged = whole;
+      damaged[i] = static_cast<char>(damaged[i] ^ 2);
+      base::WriteFileAtomically(folder / name, damaged, base::Outlives::kProgram);
+      if (name != std::string("result.json")) {
+        EXPECT_FALSE(engine.IsComplete(folder)) << name << " byte " << i;
+      } else if (engine.IsComplete(folder)) {  // a flip in the key leaves what it is the sum of
+        EXPECT_THAT(damaged, HasSubstr(whole.substr(0, whole.rfind(",\n")))) << "byte " << i;
+      }
+    }
+    fs::remove(folder / name);
+    EXPECT_EQ(engine.IsComplete(folder), name == std::string("result.json"));
+    base::WriteFileAtomically(folder / name, "of another program\n", base::Outlives::kProgram);
+    Run();
+    EXPECT_EQ(Text(std::string("trial/") + name), whole);
+  }
+}
+
 TEST_F(CommandEngineTest, TemplatesArePlainFiles) {
   Deck("run.sh", "true\n");
   for (const char* name : {"pipe", "dangling", "folder"}) {

@@ -65,6 +65,7 @@ struct FakeEngineOptions {
   bool fail_once = false;    // every trial's first seed fails
   double sleep = 0;          // of each trial [s]
   bool no_command = false;   // the program is not there
+  bool vanish = false;       // every trial's folder is taken away while it runs
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -85,6 +86,7 @@ class FakeEngine : public trials::TrialEngine {
     if (options_.fail_once && !std::filesystem::exists(marker)) {
       script += "touch " + marker.string() + "; exit 4\n";
     }
+    if (options_.vanish) script += "rm -r \"$PWD\"\n";
     std::ofstream(folder / "run.sh") << script << "cp drawn.png tmp && mv tmp profile.png\n";
   }
   std::vector<std::string> Command(const std::filesystem::path&) override {

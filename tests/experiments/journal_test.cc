@@ -122,6 +122,34 @@ TEST_F(JournalTest, OneOfTheFirstVersionIsBroughtUpToDateWhenItIsOpened) {
   EXPECT_TRUE(heap.runs.empty());
 }
 
+// The doubts about photographs stood among the events, without a checksum.
+TEST_F(JournalTest, OneOfTheFourthVersionIsCheckedThenBroughtUpToDate) {
+  const auto write = [this] {
+    std::filesystem::remove(File());
+    Database database(File(), Database::Mode::kCreate);
+    for (std::size_t step = 0; step < 4; ++step) database.Execute(kSchemaSteps[step]);
+    database.Execute(
+        "INSERT INTO campaign VALUES (1, 'old', '', '', '', '', '', '', 'sad', 'finished', '', 0, "
+        "'');"
+        "INSERT INTO experiments VALUES (0, 'heap', '', '', '{}', 1, 1, NULL);"
+        "INSERT INTO events VALUES (1, '', 'photograph', 0, '{\"kind\": \"blurred\"}');"
+        "INSERT INTO events VALUES (2, '', 'stop', 0, 'the end');"
+        "PRAGMA application_id = " +
+        std::to_string(kJournalApplicationId) + "; PRAGMA user_version = 4");
+    SealAll(database);
+  };
+  write();
+  Database(File(), Database::Mode::kReadWrite).Execute("UPDATE campaign SET name = 'other'");
+  EXPECT_THROW(Journal::Open(File()), base::Error);
+  write();
+  { Journal::Open(File()); }
+  Journal journal = Journal::OpenReadOnly(File());
+  ASSERT_EQ(journal.Campaign().experiments.at(0).warnings.size(), 1u);
+  EXPECT_EQ(journal.Campaign().experiments[0].warnings[0].kind, "blurred");
+  ASSERT_EQ(journal.Events().size(), 1u);
+  EXPECT_EQ(journal.Events()[0].text, "the end");
+}
+
 TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   Journal journal = Journal::Create(File(), Campaign());
   StartTrial(journal, 1);

@@ -81,6 +81,13 @@ TEST_F(NextTest, ADesignIsSimulatedOnceAndShowsTheSetsThatItTellsApart) {
   EXPECT_EQ(Find(later, again.name).learning->bits, again.learning->bits);
   EXPECT_EQ(fs::last_write_time(folder_ / "next/again-slowly-/trials/0001/profile.png"), time);
   EXPECT_THAT(NextJson(later), HasSubstr("\"told_apart\""));
+  const fs::path design = folder_ / "next/again-slowly-/design.json";
+  std::string damaged = base::ReadFile(design);
+  damaged[damaged.rfind("0.") + 2] ^= 1;  // another point than was simulated
+  base::WriteFileAtomically(design, damaged);
+  EXPECT_FALSE(Find(Rank(view, tests, false), again.name).learning.has_value());
+  Rank(view, tests, true);
+  EXPECT_TRUE(Find(Rank(view, tests, false), again.name).learning.has_value());
 }
 
 TEST_F(NextTest, ADesignOfAnotherDeviceIsNotTakenForThis) {

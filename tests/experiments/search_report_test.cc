@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "experiments/analysis/search/search_folder.h"
 #include "experiments/analysis/search/search_page.h"
@@ -12,6 +14,7 @@
 namespace talus::analysis {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -36,11 +39,21 @@ constexpr const char* kResult = R"({"recommended": {"mu": 0.625, "rpm": 40, "den
   "tied_volume": 0.0625, "stopped": "all evaluations are used", "model": "a model",
   "warnings": ["mu is at its bound"]})";
 
+// Each whole line with its checksum, as the program writes it.
+std::string Sealed(const std::string& lines) {
+  std::istringstream in(lines);
+  std::string sealed;
+  for (std::string line; std::getline(in, line);) {
+    sealed += in.eof() ? line : base::WithChecksum(line + "\n");
+  }
+  return sealed;
+}
+
 class SearchReport : public testing::Test {
  protected:
   void SetUp() override {
     Write("problem.json", kProblem);
-    Write("evaluations.jsonl", kLog);
+    Write("evaluations.jsonl", Sealed(kLog));
   }
   void Write(const std::string& name, const std::string& text) {
     base::WriteFileAtomically(scratch_.path() / name, text);
@@ -70,7 +83,7 @@ TEST_F(SearchReport, ShowsASearchThatHasNotEnded) {
 }
 
 TEST_F(SearchReport, ShowsTheAnswerWithItsRangesAndWarnings) {
-  Write("result.json", kResult);
+  Write("result.json", base::WithChecksum(std::string(kResult) + "\n"));
   const std::string page = SearchPage(Read());
   EXPECT_THAT(page, HasSubstr("<tr><td>mu</td><td>0.625</td><td>0.375</td><td>0.875</td>"
                               "<td>0.75</td><td>0.8125</td><td>0.75</td></tr>"));
@@ -81,7 +94,8 @@ TEST_F(SearchReport, ShowsTheAnswerWithItsRangesAndWarnings) {
 
 // Of a search that ended before there was a model.
 TEST_F(SearchReport, ShowsAnAnswerWithoutRanges) {
-  Write("result.json", R"({"recommended": {"mu": 0.625, "rpm": 40}, "stopped": "interrupted"})");
+  Write("result.json",
+        Sealed("{\"recommended\": {\"mu\": 0.625, \"rpm\": 40}, \"stopped\": \"interrupted\"}\n"));
   EXPECT_THAT(SearchPage(Read()), HasSubstr("<tr><td>mu</td><td>0.625</td><td>–</td><td>–</td>"));
 }
 
@@ -104,13 +118,36 @@ TEST_F(SearchReport, PutsFiguresAndTheTableBesideThePage) {
 
 TEST_F(SearchReport, NamesTheFileAndLineOfWhatIsDamaged) {
   const auto read = [this] { Read(); };
-  Write("evaluations.jsonl", "{\"evaluation\":1,\"parameters\":{\"mu\":0.5}}\n");
+  Write("evaluations.jsonl", Sealed("{\"evaluation\":1,\"parameters\":{\"mu\":0.5}}\n"));
   EXPECT_THAT(read, testing::ThrowsMessage<base::ConfigError>(HasSubstr("evaluations.jsonl:1")));
   Write("evaluations.jsonl", "");
   Write("result.json", "{}");
   EXPECT_THAT(read, testing::ThrowsMessage<base::ConfigError>(HasSubstr("result.json")));
   Write("problem.json", "[]");
   EXPECT_THAT(read, testing::ThrowsMessage<base::ConfigError>(HasSubstr("problem.json")));
+}
+
+// A digit turned over in a log or a result was another number on the page.
+TEST_F(SearchReport, RefusesWhatDoesNotMatchItsChecksum) {
+  const auto read = [this] { Read(); };
+  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const auto refused = [](const char* name) {
+    return testing::ThrowsMessage<base::Error>(AllOf(HasSubstr(name), HasSubstr("is damaged")));
+  };
+  Write("evaluations.jsonl", changed(Sealed(kLog), "1.5", "7.5"));
+  EXPECT_THAT(read, refused("evaluations.jsonl:3"));
+  Write("evaluations.jsonl", Sealed(kLog));
+  const std::string result = base::WithChecksum(std::string(kResult) + "\n");
+  Write("result.json", changed(result, "0.625", "0.725"));
+  EXPECT_THAT(read, refused("result.json"));
+  Write("result.json", result);
+  const std::string problem = base::WithChecksum(std::string(kProblem) + "\n");
+  Write("problem.json", changed(problem, "\"high\": 1", "\"high\": 3"));
+  EXPECT_THAT(read, refused("problem.json"));
+  Write("problem.json", problem);
+  EXPECT_NO_THROW(read());
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/checksums.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/runners/slurm_batch.h"
@@ -38,18 +40,33 @@ void TrialFile(std::string_view bytes) {
   Expect([&] { journal::ParseRecord<journal::TrialRecord>(std::string(bytes), "trial.json"); });
 }
 
-void JournalFile(std::string_view bytes) {
-  static const std::filesystem::path file =
-      std::filesystem::path("/dev/shm") / ("talus_fuzz_" + std::to_string(::getpid()) + ".sqlite");
+void ReadJournal(const std::filesystem::path& file) {
   Expect([&] {
-    base::WriteFileAtomically(file, bytes, base::Outlives::kProgram);
     journal::Journal journal = journal::Journal::OpenReadOnly(file);
     journal.Campaign();
     journal.Progress();
-    journal.Trials();
+    for (const journal::TrialRecord& trial : journal.Trials()) journal.ProfilePng(trial.id);
     journal.Events();
   });
-  std::filesystem::remove(file);
+}
+
+// As it is, and with checksums that fit what it holds: damage does not get past them.
+void JournalFile(std::string_view bytes) {
+  static const std::filesystem::path file =
+      std::filesystem::path("/dev/shm") / ("talus_fuzz_" + std::to_string(::getpid()) + ".sqlite");
+  const auto remove = [] {
+    for (const char* rest : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + rest);
+  };
+  Expect([&] {
+    std::ofstream(file, std::ios::binary) << bytes;
+    ReadJournal(file);
+    journal::Database database(file, journal::Database::Mode::kReadWrite);
+    database.Execute("PRAGMA synchronous = OFF; BEGIN");
+    journal::SealAll(database);
+    database.Execute("COMMIT");
+  });
+  ReadJournal(file);
+  remove();
 }
 
 void Slurm(std::string_view bytes) {

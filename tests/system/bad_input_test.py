@@ -8,24 +8,31 @@ The table is tests/system/bad_inputs.txt: one row a case, with columns parted by
 
 FILE is a good input (below); the value at the PLACE in it is replaced by the JSON VALUE, or taken away
 by "PLACE -". Each EXPECTED must be in the message. A row "$ ARGUMENTS | EXPECTED | …" runs talus with
-these arguments instead, in a folder with good files.
+these arguments instead, in a folder with good files; \\e in it is the escape character, and "done" a
+finished campaign.
 """
 import concurrent.futures
 import hashlib
 import json
+import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 TALUS = sys.argv[1]
 SOURCE = pathlib.Path(sys.argv[2])
 ROWS = SOURCE / "tests/system/bad_inputs.txt"
 # What a library would say, which nobody can act on.
 RAW = ("json.exception", "filesystem error", "OpenCV", "std::", "terminate called", "basic_string",
-       "what():", "Assertion", "please report")
+       "what():", "Assertion", "please report", "Could not convert")
+MOST_SECONDS = 60
+MOST_MEGABYTES = 512  # the sanitizers take their share
+CONTROLS = re.compile("[\x00-\x08\x0b-\x1f\x7f\x80-\x9f]")  # but tab and line break
 
 
 def without_comments(text):
@@ -57,10 +64,38 @@ GOOD = {  # name: content, and how it is tried
     "case": (lambda: example("scenes/heap_case.json"), ["simulate", "{}", "--out", "new"]),
     "command": (command_case, ["simulate", "{}", "--out", "new"]),
     "scene": (lambda: example("scenes/bouncing_pair.json"), ["simulate", "{}", "--out", "new"]),
+    "stepped": (lambda: {**example("scenes/bouncing_pair.json"), "time_step": 1e-7},
+                ["simulate", "{}", "--out", "new"]),
     "packing": (lambda: example("scenes/packing.json"), ["simulate", "{}", "--out", "new"]),
     "problem": (lambda: example("optimize/bowl.json"),
                 ["optimize", "{}", "--out", "new.json", "--", "cat"]),
 }
+
+
+# An engine that takes no time: a pile of grains whose height follows the friction.
+DECK = """awk 'BEGIN {
+  print "x_m,y_m,z_m,diameter_m"
+  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
+    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
+      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
+}' >heap.csv
+"""
+
+
+def finished_campaign(folder):
+    """What the rows call "done"."""
+    (folder / "heap_deck").mkdir()
+    (folder / "heap_deck/run.sh").write_text(DECK)
+    small = spec()
+    small["experiment"].update(pattern="run01_view{view}.jpg", pixel_size="200 um")
+    small["parameters"] = {"sliding_friction": {"min": 0.1, "max": 0.9}}
+    small["engine"] = {"kind": "command", "templates": "heap_deck", "command": ["sh", "run.sh"],
+                       "result": "heap.csv"}
+    small.update(budget={"simulations": 4}, noise={"replicates": 2},
+                 confirm={"candidates": 1, "replicates": 2}, workers=1)
+    (folder / "begun.json").write_text(json.dumps(small))
+    subprocess.run([TALUS, "calibrate", "begun.json", "--out", "done", "--quiet"], cwd=folder,
+                   check=True)
 
 
 def replaced(root, place, value):
@@ -92,23 +127,54 @@ def good_folder(folder):
         "3a7e9b550000000a49444154789c63f80f0001010100")[:60])
     (folder / "spheres.csv").write_text("x,y,z\n1,2,3\n")
     (folder / "link").symlink_to("nowhere")
+    os.mkfifo(folder / "pipe")
+    (folder / "blocked").mkdir()
+    os.mkfifo(folder / "blocked/run01_view01.jpg")
+    (folder / "candidates.json").write_text('{"candidates": [{"name": "again"}]}')
+    (folder / "further.json").write_text(
+        '{"name": "plate", "mass_fallen": {"value": "21 mg", "sd": "2 mg"}}')
 
 
 def state(folder):
-    """Everything in it, by name and content."""
+    """Everything in it, by name and content, but what tells processes of each other."""
     return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
-            for p in folder.rglob("*") if p.is_file()}
+            for p in folder.rglob("*")
+            if p.is_file() and p.name not in ("campaign.lock", "journal.sqlite-shm")
+            and (p.stat().st_size > 0 or p.name != "journal.sqlite-wal")}
 
 
-def check(row):
+def run(arguments, folder):
+    """Exit status, message and peak memory in MB; no status if it takes too long."""
+    with open(folder.parent / f"{folder.name}.message", "w+b") as message:
+        process = subprocess.Popen([TALUS, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
+                                   stdout=message, stderr=message)
+        deadline = time.monotonic() + MOST_SECONDS
+        pid, status, usage = 0, 0, None
+        while pid == 0 and time.monotonic() < deadline:
+            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+            time.sleep(0 if pid else 0.003)
+        if pid == 0:
+            process.kill()
+            process.wait()
+            return None, "", 0
+        process.returncode = os.waitstatus_to_exitcode(status)
+        message.seek(0)
+        words = message.read().decode(errors="backslashreplace")
+        return process.returncode, words, usage.ru_maxrss // 1024
+
+
+def check(row, done):
     """What is wrong with the answer to the row; empty if nothing is."""
     number, text = row
     case, *rest = [column.strip() for column in text.split(" | ")]
     with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
+        folder = pathlib.Path(name) / "here"
+        folder.mkdir()
         good_folder(folder)
         if case.startswith("$"):
-            arguments, expected = shlex.split(case[1:]), rest
+            arguments, expected = shlex.split(case[1:].replace("\\e", "\x1b")), rest
+            if "done" in arguments:
+                shutil.copytree(done / "done", folder / "done")
         else:
             change, expected = rest[0], rest[1:]
             content, arguments = GOOD[case]
@@ -122,15 +188,16 @@ def check(row):
             if expected[0].startswith(key):  # else the message is of a file that the input names
                 expected = expected + [f"{case}.json:"]
         before = state(folder)
-        try:
-            done = subprocess.run([TALUS, *arguments], cwd=folder, capture_output=True, timeout=60,
-                                  stdin=subprocess.DEVNULL)
-        except subprocess.TimeoutExpired:
-            return f"row {number}: {text}\n  takes more than a minute"
-        message = done.stderr.decode(errors="backslashreplace")
+        status, message, megabytes = run(arguments, folder)
+        if status is None:
+            return f"row {number}: {text}\n  takes more than {MOST_SECONDS} s"
         wrong = []
-        if done.returncode != 2:
-            wrong.append(f"exit status {done.returncode}, not 2")
+        if status != 2:
+            wrong.append(f"exit status {status}, not 2")
+        if megabytes > MOST_MEGABYTES:
+            wrong.append(f"takes {megabytes} MB")
+        if CONTROLS.search(message):
+            wrong.append("sends a control character to the terminal")
         wrong += [f"does not say {e!r}" for e in expected if e not in message]
         wrong += [f"says {raw!r}" for raw in RAW if raw in message]
         wrong += [f"touches {path}" for path in sorted(set(before.items()) ^ set(state(folder).items()))]
@@ -142,8 +209,16 @@ def check(row):
 def main():
     rows = [(number, line) for number, line in enumerate(ROWS.read_text().splitlines(), 1)
             if line.strip() and not line.startswith("#")]
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        faults = [fault for fault in pool.map(check, rows) if fault]
+    verbs = {line.split()[0] for line in subprocess.run(
+        [TALUS, "--help"], capture_output=True, text=True, check=True
+    ).stdout.split("Subcommands:")[1].splitlines() if line.strip()}
+    tried = {shlex.split(line[1:].split(" | ")[0])[0] for _, line in rows if line.startswith("$ ") and
+             shlex.split(line[1:].split(" | ")[0])}
+    assert verbs <= tried, f"these verbs have no row: {verbs - tried}"
+    with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        done = pathlib.Path(name)
+        finished_campaign(done)
+        faults = [fault for fault in pool.map(lambda row: check(row, done), rows) if fault]
     for fault in faults:
         print(fault)
     print(f"{len(rows)} bad inputs, {len(faults)} of them not refused as they should be")

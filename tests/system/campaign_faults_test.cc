@@ -288,6 +288,36 @@ TEST_F(CampaignFaults, ALostLogOfTheJournalLosesNoTrialAndRunsNoneTwice) {
   ExpectCalm(folder, calm);
 }
 
+// As when a network file system loses some: what the journal has does not need them.
+TEST_F(CampaignFaults, LostFoldersOfTrialsAreNotMissed) {
+  const Calm calm = RunCalm();
+  for (const bool journal_too : {false, true}) {
+    const fs::path folder = Begin(journal_too ? "lost_both" : "lost");
+    const pid_t child = StartSession(folder, {.sleep = 0.05});
+    while (NumTrials(folder) < 8) Pause(0.02);
+    ::kill(child, SIGKILL);
+    WaitForExit(child);
+    for (const char* trial : {"0003", "0005", "0008"}) fs::remove_all(folder / "trials" / trial);
+    if (journal_too) fs::resize_file(journal::JournalPath(folder), 100);
+    EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+    ExpectCalm(folder, calm);
+  }
+}
+
+// It was told to the optimiser as a failure of the parameters.
+TEST_F(CampaignFaults, AFolderThatVanishesUnderItsTrialStopsTheCampaign) {
+  const Calm calm = RunCalm();
+  const fs::path folder = Begin("vanished");
+  try {
+    RunFake(folder, {.vanish = true});
+    ADD_FAILURE() << "nothing was said";
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("0001: has vanished while its trial ran"));
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  ExpectCalm(folder, calm);
+}
+
 TEST_F(CampaignFaults, TruncatedImagesOfFinishedTrialsDoNotMatter) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("images");

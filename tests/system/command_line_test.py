@@ -69,6 +69,12 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(helped.stdout, itself.stdout)
             self.assertIn("Usage: talus " + verb, helped.stdout)
 
+    def test_help_without_a_verb_lists_all(self):
+        helped = talus("help")
+        self.assertEqual((helped.returncode, helped.stdout), (0, talus("--help").stdout))
+        for verb in verbs():
+            self.assertIn(f"\n  {verb} ", helped.stdout)
+
     def test_a_misspelt_verb_or_flag_is_met_with_the_nearest(self):
         for arguments, meant in [(["calibrte", "x.json"], "calibrate"), (["help", "mesure"], "measure"),
                                  (["measure", "x", "--treshold=0.5"], "--threshold"),

@@ -74,15 +74,16 @@ def finished_trials(talus, folder):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
+    parser.add_argument("talus", type=pathlib.Path)
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("--kills", type=int, default=20)
     arguments = parser.parse_args()
-    talus, dice = arguments.talus, random.Random(1)
+    talus, source = arguments.talus.resolve(), arguments.source.resolve()
+    dice = random.Random(1)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name).resolve()
         simulations = 2 + 2 * arguments.kills
-        make_spec(arguments.source, folder, simulations)
+        make_spec(source, folder, simulations)
         before, kills = {}, 0
         command = [talus, "calibrate", "spec.json", "--out", "out"]
         while True:

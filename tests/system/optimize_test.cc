@@ -207,6 +207,25 @@ TEST_F(Optimize, ADamagedEvaluationIsNamed) {
   EXPECT_THAT(errors_, HasSubstr("evaluations.jsonl:3: is damaged"));
 }
 
+TEST_F(Optimize, ADamagedImageOfAnEvaluationIsNamedWithItsLine) {
+  ASSERT_EQ(Run("echo '{\"a\": 0.62, \"b\": 0.35}' | " + kCommand + "csv"), 0);
+  Write("problem.json", "{\"target\": " + out_ + ", \"evaluations\": 3, \"parameters\": " +
+                            std::string(kUnitSquare) + "}");
+  const std::string search = "problem.json --out search --quiet -- " + kCommand + "csv";
+  ASSERT_EQ(Talus(search), 0) << errors_;
+  std::string image = base::ReadFile(folder_ / "search/images/0002.csv");
+  image[image.find('.') + 1] ^= 1;
+  Write("search/images/0002.csv", image);
+  EXPECT_EQ(Talus(search), 2);
+  EXPECT_THAT(errors_, HasSubstr("0002.csv: is damaged or gone; take line 2 of "));
+  std::string log = base::ReadFile(folder_ / "search/evaluations.jsonl");
+  const std::string result = base::ReadFile(folder_ / "search/result.json");
+  log.erase(log.find('\n') + 1, log.find('\n', log.find('\n') + 1) - log.find('\n'));
+  Write("search/evaluations.jsonl", log);
+  EXPECT_EQ(Talus(search), 0) << errors_;
+  EXPECT_EQ(base::ReadFile(folder_ / "search/result.json"), result);
+}
+
 // The command ran on, and so did what it had started in a session of its own.
 TEST_F(Optimize, WhatTheCommandHasStartedEndsWithIt) {
   Write("problem.json", "{\"evaluations\": 2, \"parameters\": " + std::string(kUnitSquare) + "}");

@@ -60,7 +60,12 @@ rigs::HeapCase CaseAt(const campaign::JointView& view, const TestCandidate& test
 std::optional<campaign::DesignRecord> ReadRecord(const campaign::JointView& view,
                                                  const TestCandidate& test) {
   auto record = FolderOf(view, test).Read();
-  if (record && record->test != TextOf(view, test)) return std::nullopt;
+  if (!record || record->test != TextOf(view, test)) return std::nullopt;
+  const std::size_t num_free = view.space.Free().size();
+  const bool fits =
+      std::all_of(record->points.begin(), record->points.end(),
+                  [&](const std::vector<double>& point) { return point.size() == num_free; });
+  if (!fits) return std::nullopt;
   return record;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/checked_text.h"
 #include "base/files/file.h"
 
 namespace talus::analysis {
@@ -61,7 +62,13 @@ std::vector<SearchEvaluation> ReadEvaluations(const fs::path& path,
   for (std::string line; std::getline(lines, line);) {
     ++line_number;
     try {
-      SearchEvaluation evaluation = EvaluationOf(Json::parse(line), parameters);
+      const auto whole = base::IfWhole(line + "\n");
+      if (!whole) {
+        throw base::ConfigError(path.string() + ":" + std::to_string(line_number) +
+                                ": is damaged: it does not match its checksum; take the line away, "
+                                "the same `talus optimize` makes it again");
+      }
+      SearchEvaluation evaluation = EvaluationOf(Json::parse(*whole), parameters);
       by_number.insert_or_assign(evaluation.number, std::move(evaluation));
     } catch (const Json::exception&) {
       throw base::ConfigError(path.string() + ":" + std::to_string(line_number) +
@@ -114,7 +121,9 @@ SearchFolder ReadSearchFolder(const fs::path& folder) {
       .name = (absolute.has_filename() ? absolute : absolute.parent_path()).filename().string()};
   const fs::path problem_path = folder / "problem.json";
   try {
-    const Json problem = Json::parse(base::ReadFile(problem_path)).at("problem");
+    const std::string bytes = base::ReadFile(problem_path);
+    const std::string text = base::CheckedText(bytes, problem_path.string()).value_or(bytes);
+    const Json problem = Json::parse(text).at("problem");
     search.parameters = ParametersOf(problem);
     search.most_evaluations = problem.at("evaluations").get<int>();
   } catch (const Json::exception&) {
@@ -124,9 +133,12 @@ SearchFolder ReadSearchFolder(const fs::path& folder) {
   search.evaluations = ReadEvaluations(folder / "evaluations.jsonl", search.parameters);
   const fs::path result_path = folder / "result.json";
   if (!fs::exists(result_path)) return search;
+  const auto result = base::IfWhole(base::ReadFile(result_path));
   try {
-    search.answer = AnswerOf(Json::parse(base::ReadFile(result_path)), search.parameters);
+    if (result) search.answer = AnswerOf(Json::parse(*result), search.parameters);
   } catch (const Json::exception&) {
+  }
+  if (!search.answer) {
     throw base::ConfigError(result_path.string() +
                             ": is damaged; the same `talus optimize` writes it anew");
   }

@@ -150,8 +150,13 @@ std::string HeldOutJson(const JointView& view, const HeldOut& h) {
 
 std::string AloneText(const JointView& view, const std::vector<PartialAnswer>& answers) {
   std::string text;
-  for (const PartialAnswer& answer : answers) {
-    text += "  " + answer.experiments.front() + " alone: " + AnswerLine(view, answer) + "\n";
+  for (const int e : view.All()) {
+    const std::string& name = view.record.experiments[static_cast<std::size_t>(e)].name;
+    const auto found = std::find_if(
+        answers.begin(), answers.end(),
+        [&](const PartialAnswer& answer) { return answer.experiments.front() == name; });
+    text += "  " + name + " alone: " +
+            (found == answers.end() ? "too few trials to answer" : AnswerLine(view, *found)) + "\n";
   }
   return text;
 }

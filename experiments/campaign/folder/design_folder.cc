@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
@@ -25,13 +26,16 @@ fs::path DesignFolder::trial(std::size_t index) const {
 std::optional<DesignRecord> DesignFolder::Read() const {
   const fs::path file = root / kRecord;
   if (!fs::exists(file)) return std::nullopt;
-  return journal::ParseRecord<DesignRecord>(base::ReadFile(file), file.string());
+  const auto text = base::IfWhole(base::ReadFile(file));
+  if (!text) return std::nullopt;  // damaged: it is simulated again
+  return journal::ParseRecord<DesignRecord>(*text, file.string());
 }
 
 void DesignFolder::Make(const DesignRecord& record) const {
   fs::remove_all(root);
   fs::create_directories(root);
-  base::WriteFileAtomically(root / kRecord, base::ToJson(record).dump(1) + "\n");
+  base::WriteFileAtomically(root / kRecord,
+                            base::WithChecksum(base::ToJson(record).dump(1) + "\n"));
 }
 
 fs::path NextFolder(const fs::path& campaign) { return fs::absolute(campaign) / "next"; }

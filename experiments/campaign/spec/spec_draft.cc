@@ -82,12 +82,14 @@ std::string Searched(bool cohesive) {
 double GrainsAcross(const SpecAnswers& answers) {
   using base::Dimension;
   base::Problems problems;
-  const double plate = Read("plate diameter", answers.plate_diameter, Dimension::kLength, problems);
-  Read("tube diameter", answers.tube_diameter, Dimension::kLength, problems);
-  Read("lift velocity", answers.lift_velocity, Dimension::kVelocity, problems);
-  Read("mass", answers.mass, Dimension::kMass, problems);
-  Read("density", answers.density, Dimension::kDensity, problems);
-  const double grain = Read("grain diameter", answers.grain_diameter, Dimension::kLength, problems);
+  const double plate =
+      Read("--plate-diameter", answers.plate_diameter, Dimension::kLength, problems);
+  Read("--tube-diameter", answers.tube_diameter, Dimension::kLength, problems);
+  Read("--lift-velocity", answers.lift_velocity, Dimension::kVelocity, problems);
+  Read("--mass", answers.mass, Dimension::kMass, problems);
+  Read("--density", answers.density, Dimension::kDensity, problems);
+  const double grain =
+      Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
   problems.ThrowIfAny();
   return plate / grain;
 }

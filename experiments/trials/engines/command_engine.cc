@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_writer.h"
@@ -33,6 +34,7 @@ constexpr const char* kDone = ".command_done";
 constexpr const char* kMpiLauncher = "mpirun";
 // The filled command, as a list.
 constexpr const char* kCommandFile = ".command.json";
+constexpr const char* kResult = "result.json";
 
 std::string CaseText(const rigs::HeapCase& heap_case, const CommandOptions& options) {
   const CommandCase command_case{.heap = heap_case, .engine = options};
@@ -40,6 +42,7 @@ std::string CaseText(const rigs::HeapCase& heap_case, const CommandOptions& opti
 }
 
 struct Measured {
+  std::vector<fs::path> files{};  // the command's
   imaging::GrayImage profile;
   std::size_t num_spheres = 0;  // in the file
   std::size_t num_grains = 0;   // of the heap
@@ -81,7 +84,8 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::HeapCase& hea
                       " spheres in " + file.filename().string() +
                       "; are length_unit, up and plate_center right?");
   }
-  Measured measured{.profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
+  Measured measured{
+      .files = {}, .profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
   if (heap_case.frame) {
     measured.profile =
         imaging::ProjectHeap(heap, *heap_case.frame, rigs::NumViewsOf(heap_case)).image;
@@ -95,7 +99,7 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::HeapCase& hea
 
 Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
                       const fs::path& folder) {
-  Measured measured{.profile = imaging::ReadGrayImage(file)};
+  Measured measured{.files = {}, .profile = imaging::ReadGrayImage(file)};
   if (!heap_case.frame) {
     throw base::Error(
         "left an image, but the experiment has numbers only; leave scalars.json or "
@@ -116,14 +120,16 @@ Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
 // What the command left: spheres or an image where there is a frame, numbers, or both. The masses
 // of a lifted tube's heap follow from its spheres; a number that the command gives itself counts.
 Measured MeasureResult(const CommandOptions& options, const rigs::HeapCase& heap_case,
-                       const fs::path& folder, fs::path& file) {
+                       const fs::path& folder) {
   const std::vector<journal::MetricRecord> given = ReadScalars(folder);
   Measured measured;
   if (heap_case.frame || given.empty()) {
-    file = FindResult(options, folder, kCommandFile);
+    const fs::path file = FindResult(options, folder, kCommandFile);
     measured = file.extension() == ".png" ? MeasureImage(heap_case, file, folder)
                                           : MeasureSpheres(options, heap_case, file, folder);
+    measured.files.push_back(file);
   }
+  if (!given.empty()) measured.files.push_back(ScalarFile(folder));
   for (const journal::MetricRecord& scalar : given) {
     std::erase_if(measured.scalars,
                   [&](const journal::MetricRecord& s) { return s.name == scalar.name; });
@@ -132,13 +138,40 @@ Measured MeasureResult(const CommandOptions& options, const rigs::HeapCase& heap
   return measured;
 }
 
+// Of the files that were measured: what the command left has no checksum of its own.
+nlohmann::ordered_json ChecksumsOf(const std::vector<fs::path>& files, const fs::path& folder) {
+  nlohmann::ordered_json checksums = nlohmann::ordered_json::object();
+  for (const fs::path& file : files) {
+    const std::string name = file.lexically_relative(folder).string();
+    checksums[name] = base::Hex(base::Checksum(base::ReadFile(file)));
+  }
+  return checksums;
+}
+
+// Whether the folder holds what was measured there, if it has been measured at all.
+bool IsAsMeasured(const fs::path& folder) {
+  if (!fs::exists(folder / kResult)) return true;
+  try {
+    const auto text = base::CheckedText(base::ReadFile(folder / kResult), kResult);
+    if (!text) return true;  // of an earlier version
+    const auto result = nlohmann::json::parse(*text, nullptr, false);
+    if (!result.is_object() || !result.contains("measured")) return true;
+    for (const auto& [name, checksum] : result["measured"].items()) {
+      if (base::Hex(base::Checksum(base::ReadFile(folder / name))) != checksum) return false;
+    }
+    return true;
+  } catch (const base::Error&) {
+    return false;  // one of them is damaged or gone
+  }
+}
+
 std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured,
-                       const fs::path& file) {
+                       const fs::path& folder) {
   nlohmann::ordered_json result;
   result["kind"] = kKind;
   result["status"] = "ok";
   result["talus_version"] = base::Version();
-  result["result_file"] = file.filename().string();
+  result["measured"] = ChecksumsOf(measured.files, folder);
   result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};
   result["conditions"] = {{"scale_factor", heap_case.coarse_graining.scale_factor},
                           {"youngs_modulus_Pa", heap_case.powder.material.youngs_modulus},
@@ -152,7 +185,7 @@ std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured
     result["profile"]["file"] = "profile.png";
     result["profile"]["num_views"] = rigs::NumViewsOf(heap_case);
   }
-  return result.dump(2) + "\n";
+  return base::WithChecksum(result.dump(2) + "\n");
 }
 
 // What the placeholders mean: the case's values, and how the command is to run.
@@ -196,6 +229,7 @@ CommandEngine::CommandEngine(const CommandOptions& options)
 void CommandEngine::Prepare(const rigs::HeapCase& heap_case, const fs::path& folder) {
   PrepareFolder(folder, "case.json", CaseText(heap_case, options_));
   if (IsComplete(folder)) return;
+  for (const char* ended : {kDone, kResult}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
   RemoveScalars(folder);
   TemplateValues values = ValuesOf(options_, heap_case);
@@ -223,12 +257,13 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   return command;
 }
 
-bool CommandEngine::IsComplete(const fs::path& folder) { return fs::exists(folder / kDone); }
+bool CommandEngine::IsComplete(const fs::path& folder) {
+  return fs::exists(folder / kDone) && IsAsMeasured(folder);
+}
 
 TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::path& folder) {
-  fs::path file;
-  const Measured measured = MeasureResult(options_, heap_case, folder, file);
-  base::WriteFileAtomically(folder / "result.json", ResultText(heap_case, measured, file),
+  const Measured measured = MeasureResult(options_, heap_case, folder);
+  base::WriteFileAtomically(folder / kResult, ResultText(heap_case, measured, folder),
                             Outlives::kProgram);
   return {.profile = measured.profile,
           .num_steps = 0,
@@ -301,7 +336,7 @@ void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder
     result["status"] = "failed";
     result["talus_version"] = base::Version();
     result["reason"] = error.what();
-    base::WriteFileAtomically(folder / "result.json", result.dump(2) + "\n");
+    base::WriteFileAtomically(folder / kResult, base::WithChecksum(result.dump(2) + "\n"));
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is
   }
 }

@@ -73,10 +73,18 @@ std::vector<journal::MetricRecord> FromCsv(const std::string& text) {
 
 }  // namespace
 
-std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
-  if (fs::exists(folder / kJson)) return FromJson(base::ReadFile(folder / kJson));
-  if (fs::exists(folder / kCsv)) return FromCsv(base::ReadFile(folder / kCsv));
+fs::path ScalarFile(const fs::path& folder) {
+  for (const char* name : {kJson, kCsv}) {
+    if (fs::exists(folder / name)) return folder / name;
+  }
   return {};
+}
+
+std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
+  const fs::path file = ScalarFile(folder);
+  if (file.empty()) return {};
+  const std::string text = base::ReadFile(file);
+  return file.filename() == kJson ? FromJson(text) : FromCsv(text);
 }
 
 void RemoveScalars(const fs::path& folder) {

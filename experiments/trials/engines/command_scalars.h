@@ -13,6 +13,9 @@ namespace talus::trials {
 // with the place of what cannot be read.
 std::vector<journal::MetricRecord> ReadScalars(const std::filesystem::path& folder);
 
+// The one of the two that is read; empty where there is neither.
+std::filesystem::path ScalarFile(const std::filesystem::path& folder);
+
 // Takes away what an earlier attempt has left.
 void RemoveScalars(const std::filesystem::path& folder);
 

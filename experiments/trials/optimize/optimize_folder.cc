@@ -23,6 +23,9 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* kProblem = "problem.json";
 constexpr const char* kLog = "evaluations.jsonl";
+constexpr const char* kImageChecksum = "image_checksum_xxh3";
+
+std::string ChecksumOf(const std::string& bytes) { return base::Hex(base::Checksum(bytes)); }
 
 int Open(const std::filesystem::path& path, int flags) {
   const int file = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
@@ -70,8 +73,10 @@ void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const
   const std::filesystem::path path = root_ / kProblem;
   const json now = base::ToJson(problem_);
   if (std::filesystem::exists(path)) {
-    const json before = json::parse(base::ReadFile(path), nullptr, false);
-    if (before.is_discarded() || !before.contains("problem")) {
+    const std::string bytes = base::ReadFile(path);
+    const std::string text = base::CheckedText(bytes, path.string()).value_or(bytes);
+    const json before = json::parse(text, nullptr, false);
+    if (!before.is_object() || !before.contains("problem")) {
       throw base::ConfigError(path.string() + ": is damaged; give another folder as --out");
     }
     if (Lasting(before["problem"]) != Lasting(now)) {
@@ -81,7 +86,8 @@ void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const
                               "as --out");
     }
   }
-  base::WriteFileAtomically(path, json{{"problem", now}, {"command", command}}.dump(2) + "\n");
+  const json both{{"problem", now}, {"command", command}};
+  base::WriteFileAtomically(path, base::WithChecksum(both.dump(2) + "\n"));
 }
 
 std::filesystem::path OptimizeFolder::ImagePath(int number) const {
@@ -118,12 +124,22 @@ void OptimizeFolder::Load() {
     } else {
       evaluated.observation.value = line.value("value", 0.0);
       if (problem_.target) {
+        CheckImage(number, line.value(kImageChecksum, ""), line_number);
         evaluated.observation.field = ReadAnswerImage(ImagePath(number)).field;
       }
     }
     recorded_.insert_or_assign(number, std::move(evaluated));
   }
   if (complete < text.size()) std::filesystem::resize_file(path, complete);
+}
+
+void OptimizeFolder::CheckImage(int number, const std::string& checksum, int line_number) const {
+  const std::filesystem::path path = ImagePath(number);
+  if (checksum.empty()) return;  // of an earlier version
+  if (std::filesystem::exists(path) && ChecksumOf(base::ReadFile(path)) == checksum) return;
+  throw base::ConfigError(path.string() + ": is damaged or gone; take line " +
+                          std::to_string(line_number) + " of " + (root_ / kLog).string() +
+                          " away, and its evaluation will be made again");
 }
 
 std::optional<Evaluated> OptimizeFolder::Recorded(int number) const {
@@ -146,8 +162,9 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
   }
   if (!observation.field.empty()) {
     std::filesystem::create_directories(root_ / "images");
-    base::WriteFileAtomically(ImagePath(number), ToCsv(observation.field, image_width),
-                              base::Outlives::kProgram);
+    const std::string image = ToCsv(observation.field, image_width);
+    base::WriteFileAtomically(ImagePath(number), image, base::Outlives::kProgram);
+    line[kImageChecksum] = ChecksumOf(image);
   }
   const std::string text =
       base::WithChecksum(line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
@@ -158,7 +175,7 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
 }
 
 void OptimizeFolder::WriteResult(const std::string& json) const {
-  base::WriteFileAtomically(root_ / "result.json", json);
+  base::WriteFileAtomically(root_ / "result.json", base::WithChecksum(json));
 }
 
 }  // namespace talus::trials

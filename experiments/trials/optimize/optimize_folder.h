@@ -41,6 +41,8 @@ class OptimizeFolder {
   std::filesystem::path ImagePath(int number) const;
   void CheckProblem(const std::vector<std::string>& command) const;
   void Load();
+  // Throws where the image of an evaluation is not the one that was answered.
+  void CheckImage(int number, const std::string& checksum, int line_number) const;
 
   std::filesystem::path root_;
   const OptimizeProblem& problem_;

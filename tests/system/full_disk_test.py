@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""full_disk_test.py TALUS FULL_DISK_SO SOURCE_DIR: the disk is full from the first write of a verb on,
+from the second on, and so on to the last.
+
+Each time talus must say so and end with status 1, or do what it does with a full disk all the same; and
+when there is room again, the same command must come to what it comes to on a disk with room.
+"""
+import concurrent.futures
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TALUS, FULL_DISK, SOURCE = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+MOST_MOMENTS = 40  # of a verb: every write if it has no more, else as many spread over all
+
+DECK = """awk 'BEGIN {
+  print "x_m,y_m,z_m,diameter_m"
+  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
+    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
+      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
+}' >heap.csv
+"""
+
+SPEC = {
+    "name": "quick",
+    "experiment": {"photos": str(SOURCE / "examples/photos/powder_a"),
+                   "pattern": "run01_view{view}.jpg", "plate_diameter": "10 mm",
+                   "pixel_size": "200 um"},
+    "powder": {"material": {"density": "4386 kg/m^3"},
+               "sizes": {"kind": "mono", "diameter": "0.6 mm"}, "mass": "1.6 g"},
+    "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm"},
+    "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
+    "engine": {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"],
+               "result": "heap.csv"},
+    "strategy": {"kind": "sobol", "num_points": 2}, "workers": 1,
+    "budget": {"simulations": 2}, "noise": {"replicates": 0}, "confirm": {"candidates": 0},
+}
+SCENE = {
+    "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, "2 mm"]}], "walls": [{"shape": "plane"}],
+    "outputs": {"times": [0, 0.001]}, "stop": {"time": 0.002},
+}
+PROBLEM = {"parameters": [{"name": "a", "low": 0, "high": 1}], "evaluations": 3,
+           "strategy": {"kind": "sobol", "num_points": 3}}
+
+
+def talus(arguments, folder, **environment):
+    # Sanitizers want to be loaded first, which nothing here needs.
+    preload = {"LD_PRELOAD": FULL_DISK, "TALUS_FULL_IN": str(pathlib.Path(TALUS).resolve()),
+               "OMP_WAIT_POLICY": "passive"}
+    return subprocess.run([TALUS, *arguments], cwd=folder, capture_output=True, text=True,
+                          env={**os.environ, **preload, **environment}, timeout=120)
+
+
+def inputs(folder):
+    (folder / "deck").mkdir()
+    (folder / "deck/run.sh").write_text(DECK)
+    (folder / "evaluate.sh").write_text("cat >/dev/null; echo '{\"value\": 1}'\n")
+    for name, content in [("spec", SPEC), ("scene", SCENE), ("problem", PROBLEM)]:
+        (folder / f"{name}.json").write_text(json.dumps(content))
+
+
+def campaign_answer(folder):
+    """What two runs of one campaign have in common."""
+    subprocess.run([TALUS, "export", "out", "--out", "exported"], cwd=folder, check=True,
+                   capture_output=True)
+    trials = json.loads((folder / "exported/trials.json").read_text())["trials"]
+    result = json.loads((folder / "out/result.json").read_text())
+    return ([(t["id"], t["unit_point"], t["seed"], t["status"], t["metrics"]) for t in trials],
+            result["parameters"])
+
+
+def content(*names):
+    return lambda folder: [(folder / name).read_bytes() for name in names]
+
+
+def without(key, name):
+    def answer(folder):
+        parsed = json.loads((folder / name).read_text())
+        parsed.pop(key)
+        parsed.pop("checksum_xxh3")
+        return parsed
+    return answer
+
+
+PHOTO = str(SOURCE / "examples/photos/powder_a/run01_view01.jpg")
+VERBS = {  # name: what is done before, the verb, the verb when there is room again, its answer
+    "calibrate": ([], ["calibrate", "spec.json", "--out", "out", "--quiet"],
+                  ["resume", "out", "--quiet"], campaign_answer),
+    "simulate": ([], ["simulate", "scene.json", "--out", "out"], None, without("timing", "out/result.json")),
+    "optimize": ([], ["optimize", "problem.json", "--out", "out", "--quiet", "--", "sh", "evaluate.sh"],
+                 None, content("out/result.json")),
+    "measure": ([], ["measure", PHOTO, "--plate-diameter", "10mm", "--out", "out"], None,
+                content("out/aehp.png", "out/aehp.json")),
+    "init": ([], ["init", PHOTO, "--out", "new.json", "--plate-diameter", "10mm", "--tube-diameter",
+                  "10mm", "--lift-velocity", "1cm/s", "--mass", "1g", "--density", "4g/cm^3",
+                  "--grain-diameter", "0.1mm"], None, content("new.json")),
+    "report": (["calibrate", "spec.json", "--out", "out", "--quiet"],
+               ["report", "out", "--out", "page"], None, lambda f: (f / "page/report.html").exists()),
+    "export": (["calibrate", "spec.json", "--out", "out", "--quiet"],
+               ["export", "out", "--out", "table"], None, content("table/trials.csv")),
+    "compare": (["calibrate", "spec.json", "--out", "out", "--quiet"],
+                ["compare", "out", "--out", "table"], None, content("table/objectives.csv")),
+}
+
+
+def check(name, moment, fresh, calm):
+    """What is wrong when the disk is full from the `moment`th write on; empty if nothing is."""
+    _, verb, again, answer = VERBS[name]
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch) / "here"
+        shutil.copytree(fresh, folder)
+        full = talus(verb, folder, TALUS_FULL_FROM=str(moment))
+        wrong = []
+        if full.returncode not in (0, 1):
+            wrong.append(f"exit status {full.returncode}")
+        if full.returncode == 1 and not any(
+                words in full.stderr for words in ("No space left", "disk is full", "is the disk full")):
+            wrong.append("does not say that the disk is full")
+        begun = again and (folder / "out/campaign.json").exists()
+        if full.returncode != 0 or name == "calibrate":
+            if again and not begun:
+                shutil.rmtree(folder / "out", ignore_errors=True)
+            rest = talus(again if begun else verb, folder)
+            if rest.returncode != 0:
+                wrong.append(f"with room again: {rest.returncode}: {rest.stderr}")
+        if not wrong and answer(folder) != calm:
+            wrong.append("comes to another answer")
+        if wrong:
+            return f"{name}, full from write {moment} on: {'; '.join(wrong)}\n  {full.stderr[:400]}"
+    return ""
+
+
+def main():
+    faults = []
+    for name, (before, verb, _, answer) in VERBS.items():
+        with tempfile.TemporaryDirectory() as scratch:
+            fresh, used = pathlib.Path(scratch) / "fresh", pathlib.Path(scratch) / "used"
+            fresh.mkdir()
+            inputs(fresh)
+            if before:
+                assert talus(before, fresh).returncode == 0
+            shutil.copytree(fresh, used)
+            counted = pathlib.Path(scratch) / "count"
+            done = talus(verb, used, TALUS_FULL_COUNT=str(counted))
+            assert done.returncode == 0, (name, done.stderr)
+            writes, calm = int(counted.read_text()), answer(used)
+            assert writes > 0, f"{name}: nothing was written, or not counted"
+            step = max(1, -(-writes // MOST_MOMENTS))
+            moments = range(1, writes + 1, step)
+            with concurrent.futures.ThreadPoolExecutor(2) as pool:
+                found = [fault for fault in
+                         pool.map(lambda moment: check(name, moment, fresh, calm), moments) if fault]
+            print(f"{name}: {writes} writes, {len(moments)} moments, {len(found)} faults", flush=True)
+            faults += found
+    print("\n".join(faults))
+    sys.exit(1 if faults else 0)
+
+
+main()
