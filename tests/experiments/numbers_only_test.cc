@@ -158,6 +158,9 @@ TEST_F(NumbersOnly, WhatDoesNotFitTogetherIsOneClearError) {
               HasSubstr("experiments[0].mass_fallen.sd: is missing"));
   EXPECT_THAT(ErrorOf(R"({"name": "heap", "mass_fallen": {"value": "21 mg", "sd": 0}})"),
               HasSubstr("a number counts by its error"));
+  EXPECT_THAT(ErrorOf(R"({"name": "heap", "mass_fallen": {"value": "21 mg", "sd": "2 mg"},
+                          "weight": 0})"),
+              HasSubstr("leave the experiment out instead of 0"));
   EXPECT_THAT(ErrorOf(R"({"name": "heap",
                           "tapped_density": {"value": 1480, "sd": 3}})"),
               HasSubstr("is not measured by the rig lifted_tube, which measures mass_on_plate_kg"));
