@@ -13,6 +13,7 @@ void AddCalibrateCommand(CLI::App& app) {
   struct Arguments {
     std::string spec;
     std::string out;
+    std::string hold_out;
     TellOptions tell;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -22,12 +23,16 @@ void AddCalibrateCommand(CLI::App& app) {
       ->required();
   command->add_option("--out", arguments->out,
                       "folder for all it writes; default: the spec's name without .json");
+  command->add_option("--hold-out", arguments->hold_out,
+                      "name of an experiment: the answer is made without it and predicts it");
   AddTellFlags(*command, arguments->tell);
   command->callback([arguments] {
     const std::filesystem::path folder = arguments->out.empty()
                                              ? std::filesystem::path(arguments->spec).stem()
                                              : std::filesystem::path(arguments->out);
-    campaign::BeginCampaign(arguments->spec, folder);
+    campaign::BeginOptions options;
+    if (!arguments->hold_out.empty()) options.hold_out = arguments->hold_out;
+    campaign::BeginCampaign(arguments->spec, folder, options);
     GoOn(folder, {}, arguments->tell);
   });
 }

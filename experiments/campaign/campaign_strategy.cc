@@ -52,7 +52,11 @@ std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategyFor(
 std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategy(
     const CampaignSpec& spec, const journal::CampaignRecord& record,
     const std::vector<Reference>& references) {
-  return MakeJointStrategyFor(spec, TargetsOf(spec, record, references));
+  std::vector<optimizer::ExperimentTarget> targets = TargetsOf(spec, record, references);
+  for (optimizer::ExperimentTarget& target : targets) {
+    if (spec.hold_out && target.name == *spec.hold_out) target.weight = 0;
+  }
+  return MakeJointStrategyFor(spec, std::move(targets));
 }
 
 std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(

@@ -98,6 +98,8 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const ResumeOpt
     return change;
   }
   change.spec = LoadCampaignSpec(path);
+  // `calibrate --hold-out` is of the campaign and not in the file.
+  if (!change.spec.hold_out) change.spec.hold_out = ParseSpecText(record.spec_json).hold_out;
   const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
   if (!forbidden.empty()) {
     std::string message = path.string() +
@@ -182,8 +184,10 @@ journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFil
   return record;
 }
 
-void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& root) {
-  const base::JsonFile file = base::ReadJsonFile(spec_path);
+void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& root,
+                   const BeginOptions& options) {
+  base::JsonFile file = base::ReadJsonFile(spec_path);
+  if (options.hold_out && file.root.is_object()) file.root["hold_out"] = *options.hold_out;
   const CampaignSpec spec = ReadCampaignSpec(file);
   const CampaignFolder folder{std::filesystem::absolute(root)};
   RequireNewFolder(folder, root);

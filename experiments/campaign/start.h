@@ -22,9 +22,14 @@ journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFil
 // Measures one experiment; throws ConfigError where its images are no good.
 journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec);
 
+struct BeginOptions {
+  std::optional<std::string> hold_out{};  // instead of the spec's
+};
+
 // Makes the folder and the journal of a new campaign. Nothing is written when the spec or the
 // experiment's images are no good.
-void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder);
+void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder,
+                   const BeginOptions& options = {});
 
 struct ResumeOptions {
   std::filesystem::path spec{};                   // a changed spec; empty: the one it began with

@@ -13,13 +13,20 @@ std::int64_t CheckSteps(const HeapCase& heap_case, double time_step) {
   return std::max<std::int64_t>(1, std::llround(interval / time_step));
 }
 
-std::int64_t StepsOfSlice(const engine::Simulation& simulation, std::int64_t check_steps,
-                          double until) {
+Slice AdvanceSlice(engine::Simulation& simulation, const SliceEnd& end) {
+  double until = end.until;
+  if (end.pour != nullptr) {
+    end.pour->Advance(simulation, *end.pour_state);
+    until = std::min(until, end.pour->NextTime(*end.pour_state));
+  }
   const double to_go = std::ceil((until - simulation.time()) / simulation.time_step());
-  std::int64_t steps = check_steps - simulation.step() % check_steps;
-  steps = std::min(steps, engine::SliceSteps(simulation.num_particles()));
+  const std::int64_t num_particles = simulation.num_particles();
+  std::int64_t steps = end.check_steps - simulation.step() % end.check_steps;
+  steps = std::min(steps, engine::SliceSteps(num_particles));
   if (to_go < static_cast<double>(steps)) steps = std::max(1, static_cast<int>(to_go));
-  return steps;
+  simulation.Advance(steps);
+  return {.steps = steps,
+          .particle_steps = static_cast<double>(steps) * static_cast<double>(num_particles)};
 }
 
 }  // namespace talus::rigs

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "engine/scene/pour.h"
 #include "engine/simulation.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
@@ -11,9 +12,22 @@ namespace talus::rigs {
 // Steps between two looks: grains fall an eighth of a diameter meanwhile.
 std::int64_t CheckSteps(const HeapCase& heap_case, double time_step);
 
-// Steps to the next look, the slice's end or the first step at or after `until` [s], whichever is
+struct SliceEnd {
+  std::int64_t check_steps = 1;
+  double until = 0;  // [s]
+  // Where powder is poured: the grains that are due are put in first, and the slice ends when the
+  // next are.
+  const engine::Pour* pour = nullptr;
+  engine::PourState* pour_state = nullptr;
+};
+
+struct Slice {
+  std::int64_t steps = 0;
+  double particle_steps = 0;  // grains times steps
+};
+
+// Advances to the next look, the slice's end or the first step at or after `until`, whichever is
 // first.
-std::int64_t StepsOfSlice(const engine::Simulation& simulation, std::int64_t check_steps,
-                          double until);
+Slice AdvanceSlice(engine::Simulation& simulation, const SliceEnd& end);
 
 }  // namespace talus::rigs

@@ -23,7 +23,9 @@ struct ExperimentTarget {
   std::vector<ScalarTarget> scalars = {};
   std::vector<double> costs = {};  // of one simulation [core seconds], one a scale
                                    // factor; estimates, until trials have been timed
-  double weight = 1;  // power of its likelihood, > 0; anything but 1 misstates what is known
+  // Power of its likelihood, >= 0; anything but 1 misstates what is known. With 0 it is simulated
+  // by design only, and predicted.
+  double weight = 1;
 };
 
 }  // namespace talus::optimizer

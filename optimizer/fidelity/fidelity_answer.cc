@@ -13,7 +13,7 @@
 
 namespace talus::optimizer {
 
-std::vector<double> FidelityStrategy::UnlearntLevels() const {
+std::vector<double> FidelityStrategy::UnlearntScaleFactors() const {
   constexpr int kEnough = 2;
   std::vector<double> unlearnt;
   for (int level = 0; level < levels_.size(); ++level) {
@@ -41,7 +41,7 @@ void FidelityStrategy::Summarise(Answer& answer) {
                            .num_left_out = posterior.coverage().count,
                            .target_scale_factor = levels_.target(),
                            .is_extrapolated = levels_.is_extrapolated(),
-                           .unlearnt_levels = UnlearntLevels(),
+                           .unlearnt_scale_factors = UnlearntScaleFactors(),
                            .experiments = {}};
   answer.point = summary.branches.front().point;
   summary.experiments = posterior.StandingsAt(answer.point);

@@ -68,7 +68,7 @@ class FidelityStrategy : public Strategy {
                                    std::span<const Proposal> asked) const;
   double CostOf(std::size_t experiment, int level) const;
   Posterior MakePosterior();
-  std::vector<double> UnlearntLevels() const;
+  std::vector<double> UnlearntScaleFactors() const;
   void Summarise(Answer& answer);
 
   FidelityOptions options_;

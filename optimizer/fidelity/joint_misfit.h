@@ -27,7 +27,7 @@ class JointMisfit {
 
   // M of each point, one a row.
   Eigen::ArrayXd Squared(const Eigen::MatrixXd& residual) const;
-  // Up to a constant, of points with these M; log_sd: Σ ln sₖ of each. `softness` >= 1 divides the
+  // Up to a constant, of points with these M; log_sd: Σ ln sₖ of each. `softness` > 0 divides the
   // misfits once more.
   Eigen::VectorXd LogDensity(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& log_sd,
                              double softness = 1) const;

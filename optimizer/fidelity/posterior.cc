@@ -15,12 +15,17 @@ namespace {
 
 constexpr double kRegion = 0.9;  // probability of the joint region
 
+// Outputs that the likelihood is made of: none of an experiment that is held out.
+int NumCounted(const ExperimentModel& model) {
+  return model.weight() > 0 ? model.num_outputs() : 0;
+}
+
 // Residuals of all experiments side by side: a row for each set and scale factor, NaN where an
 // experiment was not simulated there. Replicates go to rows of their own.
 Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
                       const std::vector<ExperimentData>& data) {
   Eigen::Index width = 0;
-  for (const ExperimentModel& model : models) width += model.num_outputs();
+  for (const ExperimentModel& model : models) width += NumCounted(model);
   struct Place {
     Eigen::VectorXd point;
     int level;
@@ -30,6 +35,7 @@ Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
   Eigen::MatrixXd stacked(0, width);
   Eigen::Index left = 0;
   for (std::size_t e = 0; e < models.size(); ++e) {
+    if (NumCounted(models[e]) == 0) continue;
     const Eigen::MatrixXd z = models[e].LeaveOneOut();
     for (int i = 0; i < data[e].size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -137,6 +143,7 @@ Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double soft
   Eigen::VectorXd log_sd = Eigen::VectorXd::Zero(points.rows());
   Eigen::Index left = 0;
   for (const ExperimentModel& model : models_) {
+    if (NumCounted(model) == 0) continue;
     const OutputMisfit misfit = model.MisfitOf(points);
     const double weight = model.weight();
     residual.middleCols(left, misfit.residual.cols()) = std::sqrt(weight) * misfit.residual;

@@ -39,7 +39,7 @@ struct PosteriorSummary {
   double target_scale_factor = 1;
   bool is_extrapolated = false;  // no simulation at the target scale factor
   std::vector<double>
-      unlearnt_levels;  // scale factors whose discrepancy from the target is not known
+      unlearnt_scale_factors;  // scale factors whose discrepancy from the target is not known
   std::vector<ExperimentStanding> experiments;  // at the recommended set
 };
 

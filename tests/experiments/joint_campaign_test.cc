@@ -207,7 +207,7 @@ TEST_F(TwoExperiments, ADamagedJournalIsMadeAnewWithBoth) {
 TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
   const ResultPosterior posterior{.target_scale_factor = 1,
                                   .is_extrapolated = true,
-                                  .unlearnt_levels = {2},
+                                  .unlearnt_scale_factors = {2},
                                   .experiments = {{.name = "heap", .implausibility = 2.9},
                                                   {.name = "wide plate", .implausibility = 3.4}}};
   const auto warnings = PosteriorWarnings(posterior);
@@ -216,7 +216,7 @@ TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
   EXPECT_EQ(warnings[0].experiment, "wide plate");
   EXPECT_THAT(warnings[0].text, HasSubstr("the contact law, the plate material or the set-up"));
   EXPECT_EQ(warnings[1].kind, WarningKind::kExtrapolated);
-  EXPECT_EQ(warnings[2].kind, WarningKind::kUnlearntLevel);
+  EXPECT_EQ(warnings[2].kind, WarningKind::kUnlearntScaleFactor);
   EXPECT_EQ(warnings[2].scale_factor, 2);
 }
 

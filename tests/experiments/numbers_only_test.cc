@@ -9,6 +9,9 @@
 #include "base/json/json_file.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/export/export.h"
+#include "experiments/analysis/next/next_text.h"
+#include "experiments/analysis/next/rank_next.h"
+#include "experiments/analysis/next/usual_tests.h"
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/folder/status.h"
 #include "tests/experiments/campaign_fixture.h"
@@ -118,6 +121,15 @@ TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
                   ConsiderSet(folder, {{"sliding_friction", "0.45"}, {"rolling_friction", "0.2"}})),
               HasSubstr("tapped"));
   EXPECT_THROW(analysis::GatherEvidence(folder, ""), base::ConfigError);
+  // What to do next is ranked without any image, too.
+  const JointView view = ReadJointView(folder);
+  analysis::NextOptions options{.tests = analysis::UsualTests(view)};
+  options.parts = {.runner = MakeRunner(view.spec, view.folder.root),
+                   .engine = std::make_unique<FakeEngine>(FakeEngineOptions{})};
+  const std::string next = analysis::NextText(analysis::RankNext(view, options));
+  EXPECT_THAT(next, HasSubstr("more runs of tapped: measure its numbers as often again"));
+  EXPECT_THAT(next, HasSubstr("wide plate, 5 cm/s"));
+  EXPECT_THAT(next, ::testing::Not(HasSubstr("tapped density")));  // it is made
 }
 
 TEST_F(NumbersOnly, GoOnAfterAKillAndFromADamagedJournal) {
@@ -146,6 +158,9 @@ TEST_F(NumbersOnly, WhatDoesNotFitTogetherIsOneClearError) {
               HasSubstr("experiments[0].mass_fallen.sd: is missing"));
   EXPECT_THAT(ErrorOf(R"({"name": "heap", "mass_fallen": {"value": "21 mg", "sd": 0}})"),
               HasSubstr("a number counts by its error"));
+  EXPECT_THAT(ErrorOf(R"({"name": "heap", "mass_fallen": {"value": "21 mg", "sd": "2 mg"},
+                          "weight": 0})"),
+              HasSubstr("leave the experiment out instead of 0"));
   EXPECT_THAT(ErrorOf(R"({"name": "heap",
                           "tapped_density": {"value": 1480, "sd": 3}})"),
               HasSubstr("is not measured by the rig lifted_tube, which measures mass_on_plate_kg"));

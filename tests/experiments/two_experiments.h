@@ -17,7 +17,7 @@ namespace talus::campaign {
 class TwoExperiments : public ::testing::Test {
  public:
   std::filesystem::path Begin(const std::string& name, const std::string& fallen = "23 mg",
-                              int simulations = 20) const {
+                              int simulations = 20, const BeginOptions& options = {}) const {
     const std::filesystem::path in = scratch_.path() / (name + "_in");
     WriteFakeSpec(in, "");
     std::ofstream(in / "spec.json")
@@ -33,7 +33,7 @@ class TwoExperiments : public ::testing::Test {
                      "rolling_friction": {"min": 0.05, "max": 0.5}},
       "budget": {"simulations": )"
         << simulations << R"(}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1})";
-    BeginCampaign(in / "spec.json", scratch_.path() / name);
+    BeginCampaign(in / "spec.json", scratch_.path() / name, options);
     return scratch_.path() / name;
   }
   static std::string FastLift(const std::string& fallen) {

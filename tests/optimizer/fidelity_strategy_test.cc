@@ -68,7 +68,7 @@ TEST(FidelityStrategy, AnswersForTheTargetThatCoarseGrainsMiss) {
   ASSERT_TRUE(answer.posterior);
   EXPECT_EQ(answer.posterior->target_scale_factor, 1);
   EXPECT_FALSE(answer.posterior->is_extrapolated);
-  EXPECT_TRUE(answer.posterior->unlearnt_levels.empty());
+  EXPECT_TRUE(answer.posterior->unlearnt_scale_factors.empty());
 }
 
 TEST(FidelityStrategy, JointRegionsHoldTheTruthAsOftenAsTheySay) {
@@ -171,7 +171,7 @@ TEST(FidelityStrategy, NamesScaleFactorsWithoutEvaluations) {
   const Twin twin;
   auto strategy = twin.Make();
   for (int i = 0; i < 12; ++i) strategy->Tell(twin.Simulate(strategy->AskAt(1, {}).front(), i));
-  EXPECT_THAT(strategy->Recommend().posterior->unlearnt_levels, ElementsAre(1));
+  EXPECT_THAT(strategy->Recommend().posterior->unlearnt_scale_factors, ElementsAre(1));
 }
 
 TEST(FidelityStrategy, FailedSimulationsAreNotProposedAgain) {

@@ -92,6 +92,7 @@ struct Conclusion {
   std::vector<double> sobol_first{};  // one a parameter, or empty
   std::vector<double> sobol_total{};
   std::vector<std::string> warnings{};
+  std::vector<std::string> held_out{};    // an experiment that the answer is made without, in words
   std::vector<std::string> conditions{};  // what the calibrated set holds for
   std::string model{};                    // which surrogate answered and how well it predicts
 };

@@ -5,6 +5,7 @@
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/verdict.h"
 #include "experiments/journal/objective.h"
 
@@ -73,6 +74,12 @@ Conclusion ConclusionOf(const std::string& result_json,
   AddVerdict(result, parameters, conclusion);
   for (const campaign::ResultWarning& warning : result.warnings)
     conclusion.warnings.push_back(warning.text);
+  if (result.held_out) {
+    conclusion.held_out = campaign::HeldOutFacts(*result.held_out, result.objective_unit);
+    conclusion.held_out.insert(
+        conclusion.held_out.begin(),
+        "the answer is made without " + result.held_out->name + " and predicts it");
+  }
   for (const campaign::ResultParameter& p : result.parameters) {
     conclusion.values.push_back({p.value, p.credible_low, p.credible_high});
     if (std::isnan(p.sobol_total)) continue;

@@ -107,9 +107,10 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
 }
 
 void AddMoreOfTheSame(const Ground& ground, Cost& cost, std::vector<NextCandidate>& all) {
-  for (const int e : ground.view.All()) {
-    Known known{.experiment = e,
-                .at = ground.posterior.models()[static_cast<std::size_t>(e)].Predict(ground.draws),
+  const std::vector<int> answered = ground.view.Answered();
+  for (std::size_t i = 0; i < answered.size(); ++i) {
+    Known known{.experiment = answered[i],
+                .at = ground.posterior.models()[i].Predict(ground.draws),
                 .surrogate = {}};
     known.surrogate = known.at.variance.colwise().mean().transpose();
     all.push_back(MoreRuns(ground, known));
@@ -121,7 +122,7 @@ void AddMoreOfTheSame(const Ground& ground, Cost& cost, std::vector<NextCandidat
 // The balance, where trials know what falls and the experiment has not weighed it.
 void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
   const JointView& view = ground.view;
-  for (const int e : view.All()) {
+  for (const int e : view.Answered()) {
     const journal::ExperimentRecord& record = view.record.experiments[static_cast<std::size_t>(e)];
     if (!record.scalars.empty()) continue;
     std::vector<double> values;
@@ -184,7 +185,7 @@ NextCandidate TestOf(const Ground& ground, const TestCandidate& test, const Next
 }  // namespace
 
 NextTable RankNext(const JointView& view, const NextOptions& options) {
-  const auto strategy = campaign::StrategyOf(view, view.All());
+  const auto strategy = campaign::StrategyOf(view, view.Answered());
   if (!strategy->CanModel()) {
     throw base::Error(view.folder.root.string() +
                       ": has too few trials of each experiment for a posterior; go on with "

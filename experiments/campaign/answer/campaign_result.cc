@@ -5,6 +5,7 @@
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/hold_out.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::campaign {
@@ -141,6 +142,12 @@ std::string ResultSummary(const CampaignResult& r) {
   text += r.posterior ? PosteriorLines(r)
                       : "  tied within noise " + base::ShortNumber(100 * r.tied_volume) +
                             " % of the searched ranges\n";
+  if (r.held_out) {
+    text += "  held out          " + r.held_out->name + ", which the answer is made without\n";
+    for (const std::string& fact : HeldOutFacts(*r.held_out, r.objective_unit)) {
+      text += "    " + fact + "\n";
+    }
+  }
   text += "  stopped because   " + r.stop_reason + "\n";
   if (r.verdict && r.verdict->kind != VerdictKind::kPoint) {
     text +=

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "experiments/campaign/answer/result_held_out.h"
 #include "experiments/campaign/answer/result_posterior.h"
 #include "experiments/campaign/answer/result_warning.h"
 #include "experiments/campaign/verdict.h"
@@ -160,6 +161,7 @@ struct CampaignResult {
   std::vector<std::vector<double>> correlation{};  // between the parameters
   std::string model;
   std::optional<ResultPosterior> posterior{};  // of several scale factors or experiments
+  std::optional<ResultHeldOut> held_out{};     // that the answer is made without
   std::vector<ResultWarning> warnings{};
   ResultConditions conditions;
   ResultCost cost;
@@ -186,6 +188,7 @@ struct CampaignResult {
     visit("correlation", self.correlation);
     visit("model", self.model);
     visit("posterior", self.posterior);
+    visit("held_out", self.held_out);
     visit("warnings", self.warnings);
     visit("conditions", self.conditions);
     visit("cost", self.cost);

@@ -61,7 +61,7 @@ std::optional<double> MeanMetric(const std::vector<const journal::TrialRecord*>&
 }
 
 ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
-                            const Evidenced& of, std::size_t experiment) {
+                            const CampaignEvidence& of, std::size_t experiment) {
   const Reference& reference = of.references[experiment];
   const journal::ExperimentRecord& record = of.campaign.experiments[experiment];
   ResultConfirmed confirmed{.name = record.name};
@@ -96,7 +96,7 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   return confirmed;
 }
 
-ResultCandidate CandidateOf(const Planner& planner, const Evidenced& of, std::size_t index,
+ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& of, std::size_t index,
                             const Eigen::VectorXd& point) {
   ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
   std::vector<ResultConfirmed> all;
@@ -133,8 +133,8 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
   }
 }
 
-void AddConfirmation(const optimizer::Answer& answer, const Planner& planner, const Evidenced& of,
-                     CampaignResult& result) {
+void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
+                     const CampaignEvidence& of, CampaignResult& result) {
   const auto candidates = planner.Candidates(answer);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ResultCandidate candidate = CandidateOf(planner, of, i, candidates[i]);
@@ -182,7 +182,7 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
           .rolling = std::string(base::NameOf(spec.models.rolling))};
 }
 
-ResultCost CostOf(const Planner& planner, const Evidenced& of) {
+ResultCost CostOf(const Planner& planner, const CampaignEvidence& of) {
   ResultCost cost{.elapsed = of.elapsed};
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.status == journal::TrialStatus::kRunning) continue;
@@ -194,26 +194,28 @@ ResultCost CostOf(const Planner& planner, const Evidenced& of) {
   return cost;
 }
 
-// Where experiments disagree, what each alone would say: it tells which of them is the odd one.
-void AddAloneAnswers(const Planner& planner, const Evidenced& of, CampaignResult& result) {
-  const bool disagree =
-      std::any_of(result.warnings.begin(), result.warnings.end(),
-                  [](const ResultWarning& w) { return w.kind == WarningKind::kImplausible; });
-  if (!disagree || of.references.size() < 2) return;
+JointView ViewOf(const Planner& planner, const CampaignEvidence& of) {
   JointView view{.folder = {},
                  .spec = of.spec,
                  .record = of.campaign,
                  .references = of.references,
                  .space = planner.space(),
                  .trials = planner.trials()};
-  for (const journal::TrialRecord& trial : InOrderOfFinish(view.trials)) {
-    if (!IsOfSearch(trial)) continue;
-    const Reference& reference = of.references[static_cast<std::size_t>(trial.experiment)];
+  view.Observe([&](const journal::TrialRecord& trial) {
     const auto profile = of.profile(trial.id);
-    view.observations.push_back(ObservationOf(
-        trial, reference, profile ? reference.Field(*profile) : std::vector<float>{}));
-  }
-  for (const PartialAnswer& answer : AnswersAlone(view)) {
+    const Reference& reference = of.references[static_cast<std::size_t>(trial.experiment)];
+    return profile ? reference.Field(*profile) : std::vector<float>{};
+  });
+  return view;
+}
+
+// Where experiments disagree, what each alone would say: it tells which of them is the odd one.
+void AddAloneAnswers(const Planner& planner, const CampaignEvidence& of, CampaignResult& result) {
+  const bool disagree =
+      std::any_of(result.warnings.begin(), result.warnings.end(),
+                  [](const ResultWarning& w) { return w.kind == WarningKind::kImplausible; });
+  if (!disagree || of.references.size() < 2) return;
+  for (const PartialAnswer& answer : AnswersAlone(ViewOf(planner, of))) {
     result.posterior->alone.push_back({.name = answer.experiments.front(),
                                        .values = answer.values,
                                        .low = answer.low,
@@ -221,9 +223,17 @@ void AddAloneAnswers(const Planner& planner, const Evidenced& of, CampaignResult
   }
 }
 
+// What the answer, made without it, predicts of the experiment that is held out.
+void AddHeldOut(const Planner& planner, const CampaignEvidence& of, CampaignResult& result) {
+  if (!of.spec.hold_out || !result.posterior) return;
+  std::erase_if(result.posterior->experiments,
+                [&](const ResultStanding& e) { return e.name == *of.spec.hold_out; });
+  result.held_out = HoldOut(ViewOf(planner, of), *of.spec.hold_out).predicted;
+}
+
 }  // namespace
 
-std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
+std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence& of) {
   const auto answer = planner.Recommend();
   if (!answer) return std::nullopt;
   CampaignResult result;
@@ -252,6 +262,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of) {
   if (answer->posterior) {
     result.posterior = DescribePosterior(*answer->posterior, planner.space());
   }
+  AddHeldOut(planner, of, result);
   AddVerdict(*answer, planner, result);
   std::vector<double> noise;
   for (const journal::TrialRecord& trial : planner.trials()) {

@@ -12,7 +12,7 @@
 
 namespace talus::campaign {
 
-struct Evidenced {
+struct CampaignEvidence {
   const CampaignSpec& spec;
   const journal::CampaignRecord& campaign;
   const std::vector<Reference>& references;  // of the experiments
@@ -22,6 +22,6 @@ struct Evidenced {
 };
 
 // Nothing when no trial has succeeded.
-std::optional<CampaignResult> Conclude(Planner& planner, const Evidenced& of);
+std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence& of);
 
 }  // namespace talus::campaign

@@ -82,7 +82,7 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
                           const std::map<std::string, std::string>& set) {
   const JointView view = ReadJointView(root);
   const Eigen::VectorXd point = ReadSet(view.space, set);
-  const auto strategy = StrategyOf(view, view.All());
+  const auto strategy = StrategyOf(view, view.Answered());
   ConsideredSet considered{.parameters = view.record.parameters,
                            .values = FreeValues(view.space, point),
                            .target_scale_factor = view.spec.coarse_graining.Target(),

@@ -39,7 +39,7 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                             .raw_coverage = summary.raw_coverage,
                             .tempered_coverage = summary.tempered_coverage,
                             .num_left_out = summary.num_left_out,
-                            .unlearnt_levels = summary.unlearnt_levels,
+                            .unlearnt_scale_factors = summary.unlearnt_scale_factors,
                             .experiments = StandingsOf(summary.experiments)};
   for (const optimizer::PosteriorBranch& branch : summary.branches) {
     posterior.branches.push_back({.share = branch.share,
@@ -61,8 +61,8 @@ std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
     warnings.push_back(Worded(
         {.kind = WarningKind::kExtrapolated, .scale_factor = posterior.target_scale_factor}));
   }
-  for (const double level : posterior.unlearnt_levels) {
-    warnings.push_back(Worded({.kind = WarningKind::kUnlearntLevel, .scale_factor = level}));
+  for (const double level : posterior.unlearnt_scale_factors) {
+    warnings.push_back(Worded({.kind = WarningKind::kUnlearntScaleFactor, .scale_factor = level}));
   }
   return warnings;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json/json_writer.h"
 #include "base/random.h"
 #include "base/text/number_text.h"
 
@@ -30,10 +31,13 @@ PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::M
     return std::max(least,
                     draws[static_cast<std::size_t>(share * static_cast<double>(draws.size() - 1))]);
   };
+  const double mean = at.mean.mean();
+  const double variance = (at.mean.array() - mean).square().mean() + at.sd.array().square().mean();
   return {.name = scalar.name,
+          .mean = mean,
+          .sd = std::sqrt(variance),
           .low = quantile(0.05),
           .high = quantile(0.95),
-          .mean = at.mean.mean(),
           .measured = scalar.value,
           .measured_sd = scalar.standard_error};
 }
@@ -73,8 +77,8 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
                             "add-experiment` gives it a second one");
   }
   const auto of_others = StrategyOf(view, others);
-  HeldOut result{.name = name,
-                 .others = AnswerOf(view, *of_others, others),
+  HeldOut result{.others = AnswerOf(view, *of_others, others),
+                 .predicted = {.name = name},
                  .objective_unit = std::string(view.references.front().info().unit)};
   const auto alone = StrategyOf(view, {held});
   if (!alone->CanModel()) throw base::Error("too few trials of \"" + name + "\" to predict it");
@@ -82,21 +86,22 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   const ExperimentModel& model = posterior.models().front();
   const Eigen::VectorXd& answer = result.others.point;
   const Eigen::MatrixXd draws = of_others->Sample().Draws(kDraws, view.spec.seed);
-  result.implausibility = posterior.Implausibility(0, answer);
-  result.least_implausibility = result.implausibility;
+  ResultHeldOut& predicted = result.predicted;
+  predicted.implausibility = posterior.Implausibility(0, answer);
+  predicted.least_implausibility = predicted.implausibility;
   for (const auto& draw : draws.rowwise()) {
-    result.least_implausibility =
-        std::min(result.least_implausibility, posterior.Implausibility(0, draw.transpose()));
+    predicted.least_implausibility =
+        std::min(predicted.least_implausibility, posterior.Implausibility(0, draw.transpose()));
   }
   if (model.has_image()) {
     const optimizer::Moments at = model.Objective(answer.transpose());
-    result.predicted = at.mean[0];
-    result.predicted_sd = at.sd[0];
+    predicted.predicted = at.mean[0];
+    predicted.predicted_sd = at.sd[0];
   }
   const auto scalars = model.Scalars(draws);
   const auto& measured = view.record.experiments[static_cast<std::size_t>(held)].scalars;
   for (std::size_t s = 0; s < scalars.size(); ++s) {
-    result.numbers.push_back(NumberOf(measured[s], scalars[s], view.spec.seed));
+    predicted.numbers.push_back(NumberOf(measured[s], scalars[s], view.spec.seed));
   }
   return result;
 }
@@ -110,41 +115,46 @@ std::vector<PartialAnswer> AnswersAlone(const JointView& view) {
   return answers;
 }
 
-std::string HeldOutText(const JointView& view, const HeldOut& h) {
-  std::string text = "  held out          " + h.name + "\n  others answer     " +
-                     AnswerLine(view, h.others) + "\n";
+std::vector<std::string> HeldOutFacts(const ResultHeldOut& h, const std::string& objective_unit) {
+  std::vector<std::string> facts;
   if (std::isfinite(h.predicted)) {
-    text += "  predicted         " + base::ShortNumber(h.predicted) + " " + h.objective_unit +
-            " ± " + base::ShortNumber(h.predicted_sd) + " from the images of " + h.name + "\n";
+    facts.push_back("images: predicted " + base::ShortNumber(h.predicted) + " " + objective_unit +
+                    " ± " + base::ShortNumber(h.predicted_sd) + " from those of " + h.name);
   }
   for (const PredictedNumber& n : h.numbers) {
-    text += "  " + n.name + "    predicted " + base::ShortNumber(n.low) + " to " +
-            base::ShortNumber(n.high) + ", measured " + base::ShortNumber(n.measured) + " ± " +
-            base::ShortNumber(n.measured_sd) + (n.IsInside() ? ": inside\n" : ": outside\n");
+    facts.push_back(n.name + ": predicted " + base::ShortNumber(n.mean) + " ± " +
+                    base::ShortNumber(n.sd) + ", measured " + base::ShortNumber(n.measured) +
+                    " ± " + base::ShortNumber(n.measured_sd) + "; " +
+                    (n.IsInside() ? "inside " : "outside ") + base::ShortNumber(n.low) + " to " +
+                    base::ShortNumber(n.high));
   }
-  return text + "  implausibility    " + base::ShortNumber(h.implausibility) + ", " +
-         base::ShortNumber(h.least_implausibility) + " at the best set of the others' region\n";
+  facts.push_back("implausibility " + base::ShortNumber(h.implausibility) + ", " +
+                  base::ShortNumber(h.least_implausibility) +
+                  " at the best set of the others' region");
+  return facts;
+}
+
+std::string HeldOutText(const JointView& view, const HeldOut& h) {
+  std::string text = "  held out          " + h.predicted.name + "\n  others answer     " +
+                     AnswerLine(view, h.others) + "\n";
+  for (const std::string& fact : HeldOutFacts(h.predicted, h.objective_unit)) {
+    text += "  " + fact + "\n";
+  }
+  return text;
 }
 
 std::string HeldOutJson(const JointView& view, const HeldOut& h) {
-  nlohmann::ordered_json json{{"held_out", h.name},
+  const ResultHeldOut& predicted = h.predicted;
+  nlohmann::ordered_json json{{"held_out", predicted.name},
                               {"others", AnswerJson(view, h.others)},
-                              {"implausibility", h.implausibility},
-                              {"least_implausibility", h.least_implausibility},
+                              {"implausibility", predicted.implausibility},
+                              {"least_implausibility", predicted.least_implausibility},
                               {"objective_unit", h.objective_unit}};
-  if (std::isfinite(h.predicted)) {
-    json["predicted_objective"] = h.predicted;
-    json["predicted_objective_sd"] = h.predicted_sd;
+  if (std::isfinite(predicted.predicted)) {
+    json["predicted_objective"] = predicted.predicted;
+    json["predicted_objective_sd"] = predicted.predicted_sd;
   }
-  json["numbers"] = nlohmann::ordered_json::array();
-  for (const PredictedNumber& n : h.numbers) {
-    json["numbers"].push_back({{"name", n.name},
-                               {"predicted", n.mean},
-                               {"predicted_low", n.low},
-                               {"predicted_high", n.high},
-                               {"measured", n.measured},
-                               {"measured_sd", n.measured_sd}});
-  }
+  json["numbers"] = base::ToJson(predicted.numbers);
   return json.dump(2) + "\n";
 }
 

@@ -27,6 +27,21 @@ std::vector<int> JointView::All() const {
   return all;
 }
 
+std::vector<int> JointView::Answered() const {
+  std::vector<int> answered = All();
+  if (spec.hold_out) std::erase(answered, IndexOf(*spec.hold_out));
+  return answered;
+}
+
+void JointView::Observe(
+    const std::function<std::vector<float>(const journal::TrialRecord&)>& field) {
+  for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
+    if (!IsOfSearch(trial)) continue;
+    observations.push_back(
+        ObservationOf(trial, references[static_cast<std::size_t>(trial.experiment)], field(trial)));
+  }
+}
+
 JointView ReadJointView(const std::filesystem::path& root) {
   const CampaignFolder folder{root};
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
@@ -39,12 +54,9 @@ JointView ReadJointView(const std::filesystem::path& root) {
                  .space = SpaceOf(spec),
                  .trials = journal.Trials()};
   view.references = ReferencesOf(view.record, spec);
-  for (const journal::TrialRecord& trial : InOrderOfFinish(view.trials)) {
-    if (!IsOfSearch(trial)) continue;
-    view.observations.push_back(
-        ObservationOf(trial, view.references[static_cast<std::size_t>(trial.experiment)],
-                      StoredField(journal, folder, view.references, trial)));
-  }
+  view.Observe([&](const journal::TrialRecord& trial) {
+    return StoredField(journal, folder, view.references, trial);
+  });
   return view;
 }
 

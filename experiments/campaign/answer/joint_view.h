@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -29,6 +30,11 @@ struct JointView {
   int IndexOf(std::string_view name) const;
   // All of them, by index.
   std::vector<int> All() const;
+  // Those that the campaign's answer meets: all but the one that its spec holds out.
+  std::vector<int> Answered() const;
+
+  // Fills `observations` in; the field is of a trial's image (StoredField).
+  void Observe(const std::function<std::vector<float>(const journal::TrialRecord&)>& field);
 };
 
 // The campaign may be running.

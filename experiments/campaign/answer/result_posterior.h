@@ -60,16 +60,16 @@ struct ResultAlone {
 
 struct ResultPosterior {
   double target_scale_factor = 1;
-  bool is_extrapolated = false;             // no simulation at the target scale factor
-  double region_volume = 1;                 // of the joint 90 % region, share of the searched box
-  std::vector<ResultBranch> branches{};     // the likeliest first
-  double temper = 1;                        // misfits are divided by it, >= 1
-  double raw_coverage = 0;                  // of nominal 90 %, leave-one-out, before tempering
-  double tempered_coverage = 0;             // … after it
-  int num_left_out = 0;                     // trials that the two are made of
-  std::vector<double> unlearnt_levels{};    // scale factors whose bias is not known yet
-  std::vector<ResultStanding> experiments;  // at the recommended set
-  std::vector<ResultAlone> alone{};         // where experiments disagree only
+  bool is_extrapolated = false;          // no simulation at the target scale factor
+  double region_volume = 1;              // of the joint 90 % region, share of the searched box
+  std::vector<ResultBranch> branches{};  // the likeliest first
+  double temper = 1;                     // misfits are divided by it, >= 1
+  double raw_coverage = 0;               // of nominal 90 %, leave-one-out, before tempering
+  double tempered_coverage = 0;          // … after it
+  int num_left_out = 0;                  // trials that the two are made of
+  std::vector<double> unlearnt_scale_factors{};  // scale factors whose bias is not known yet
+  std::vector<ResultStanding> experiments;       // at the recommended set
+  std::vector<ResultAlone> alone{};              // where experiments disagree only
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -81,7 +81,7 @@ struct ResultPosterior {
     visit("raw_coverage_90", self.raw_coverage);
     visit("tempered_coverage_90", self.tempered_coverage);
     visit("num_left_out", self.num_left_out);
-    visit("unlearnt_scale_factors", self.unlearnt_levels);
+    visit("unlearnt_scale_factors", self.unlearnt_scale_factors);
     visit("experiments", self.experiments);
     visit("alone", self.alone);
   }

@@ -25,7 +25,7 @@ std::string TextOf(const ResultWarning& w) {
       return "nothing was simulated at " + factor +
              ", which the answer is for: it is an extrapolation, and a few trials there would "
              "check it";
-    case WarningKind::kUnlearntLevel:
+    case WarningKind::kUnlearntScaleFactor:
       return "too few trials at " + factor +
              " tell its bias, and the ranges are wider for it; more simulations there would "
              "settle it (`talus resume DIR --add-simulations N`)";

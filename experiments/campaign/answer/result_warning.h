@@ -14,17 +14,17 @@ namespace talus::campaign {
 
 // Those of photographs have the names that measure.json gives them (imaging::PhotoDoubt).
 enum class WarningKind {
-  kWorseThanPredicted,  // confirmed worse than predicted, by `value` of the objective
-  kWorseThanObserved,   // … than trial `trial` at the same `scale_factor`, by `value`
-  kNotModelsChoice,     // another candidate was confirmed better than the model's set
-  kImplausible,         // no set fits `experiment`: the best is `value` standard deviations off
-  kPoorModel,           // the model predicts badly what it was not told; `value` as the text says
-  kExtrapolated,        // nothing was simulated at the target `scale_factor`
-  kUnlearntLevel,       // the bias of `scale_factor` is not known
-  kCorrelated,          // `parameter` and `other_parameter` are known together only: `value`
-  kBound,               // `parameter` of the recommended set lies on its `side`
-  kFewGrains,           // `value` grains across the plate of `experiment` at `scale_factor`
-  kLeftOut,             // from here on photographs of `experiment`, one of them or all
+  kWorseThanPredicted,   // confirmed worse than predicted, by `value` of the objective
+  kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`
+  kNotModelsChoice,      // another candidate was confirmed better than the model's set
+  kImplausible,          // no set fits `experiment`: the best is `value` standard deviations off
+  kPoorModel,            // the model predicts badly what it was not told; `value` as the text says
+  kExtrapolated,         // nothing was simulated at the target `scale_factor`
+  kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
+  kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
+  kBound,                // `parameter` of the recommended set lies on its `side`
+  kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
+  kLeftOut,              // from here on photographs of `experiment`, one of them or all
   kRunDisagrees,
   kFrontLit,
   kMixedLight,
@@ -83,7 +83,7 @@ struct talus::base::Names<talus::campaign::WarningKind> {
       std::pair{"implausible", K::kImplausible},
       std::pair{"poor_model", K::kPoorModel},
       std::pair{"extrapolated", K::kExtrapolated},
-      std::pair{"unlearnt_scale_factor", K::kUnlearntLevel},
+      std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},
       std::pair{"correlated", K::kCorrelated},
       std::pair{"bound", K::kBound},
       std::pair{"few_grains", K::kFewGrains},

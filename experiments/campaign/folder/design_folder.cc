@@ -1,11 +1,11 @@
 #include "experiments/campaign/folder/design_folder.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::campaign {
@@ -18,9 +18,7 @@ constexpr const char* kRecord = "design.json";
 }  // namespace
 
 fs::path DesignFolder::trial(std::size_t index) const {
-  char name[24];
-  std::snprintf(name, sizeof name, "%04zu", index + 1);
-  return root / "trials" / name;
+  return root / "trials" / base::FileNumber(static_cast<std::int64_t>(index) + 1);
 }
 
 std::optional<DesignRecord> DesignFolder::Read() const {

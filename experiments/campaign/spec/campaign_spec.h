@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,7 +35,8 @@ struct CampaignSpec {
       rigs::kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
   std::optional<imaging::ExperimentOptions> experiment{};  // of a campaign with one only
   std::optional<std::vector<ExperimentSpec>> experiments{};
-  int num_views = 16;  // of a simulated profile, >= 1
+  std::optional<std::string> hold_out{};  // name of one that the answer is not made from
+  int num_views = 16;                     // of a simulated profile, >= 1
   std::optional<ParameterRanges> parameters{};
   std::vector<optimizer::LinearConstraint> constraints{};
   journal::Objective objective = journal::Objective::kSad;
@@ -73,6 +75,8 @@ struct CampaignSpec {
         "experiments", self.experiments,
         {.doc = "several tests of the same powder, each with a name and the keys of `experiment`, "
                 "to be met by one parameter set"});
+    visit("hold_out", self.hold_out,
+          {.doc = "name of one of the experiments: the answer is made without it and predicts it"});
     visit("num_views", self.num_views, {.doc = "of a simulated profile over 180 deg, >= 1"});
     visit("parameters", self.parameters,
           {.doc = "what is searched; default: sliding and rolling friction, surface energy"});

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/rigs/rig_list.h"
@@ -68,12 +70,30 @@ void CheckWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all
   }
 }
 
+// An answer needs another experiment than the one that is held out.
+void CheckHoldOut(const CampaignSpec& spec, base::Problems& problems) {
+  if (!spec.hold_out) return;
+  std::vector<std::string> names;
+  if (spec.experiments) {
+    for (const ExperimentSpec& e : *spec.experiments) names.push_back(e.name);
+  }
+  if (names.size() < 2) {
+    problems.Add("hold_out", "needs two experiments or more: one is held out, the others answer");
+    return;
+  }
+  if (std::find(names.begin(), names.end(), *spec.hold_out) != names.end()) return;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "\"" : ", \"") + name + "\"";
+  problems.Add("hold_out", "\"" + *spec.hold_out + "\" is no experiment; there are " + all);
+}
+
 }  // namespace
 
 void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
   problems.Require(spec.experiment || spec.experiments, "experiment", "is missing");
   problems.Require(!spec.experiment || !spec.experiments, "experiments",
                    "stands beside experiment: give one of the two");
+  CheckHoldOut(spec, problems);
   if (!spec.experiments) return;
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;

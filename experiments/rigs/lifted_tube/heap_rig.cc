@@ -79,15 +79,13 @@ void HeapRig::Validate(const HeapCase& c, base::Problems& problems) {
 
 bool HeapRig::Advance(double until) {
   if (state_.phase == HeapPhase::kEnded) return false;
-  if (state_.phase == HeapPhase::kPouring) {
-    pour_->Advance(simulation_, state_.pour);
-    until = std::min(until, pour_->NextTime(state_.pour));
-  }
-  const std::int64_t num_particles = simulation_.num_particles();
-  const std::int64_t steps = StepsOfSlice(simulation_, check_steps_, until);
-  simulation_.Advance(steps);
-  state_.particle_steps += static_cast<double>(steps) * static_cast<double>(num_particles);
-  Record().steps += steps;
+  const bool pouring = state_.phase == HeapPhase::kPouring;
+  const Slice slice = AdvanceSlice(simulation_, {.check_steps = check_steps_,
+                                                 .until = until,
+                                                 .pour = pouring ? &*pour_ : nullptr,
+                                                 .pour_state = &state_.pour});
+  state_.particle_steps += slice.particle_steps;
+  Record().steps += slice.steps;
   if (simulation_.step() % check_steps_ == 0) Check();
   return state_.phase != HeapPhase::kEnded;
 }

@@ -297,6 +297,7 @@ std::string PageJson(const ReportData& data) {
       {"headline", conclusion ? HeadlineJson(data) : Json(nullptr)},
       {"next", data.next_table ? NextTableJson(*data.next_table) : Json(nullptr)},
       {"warnings", conclusion ? Json(conclusion->warnings) : Json::array()},
+      {"held_out", conclusion ? Json(conclusion->held_out) : Json::array()},
       {"conditions", conclusion ? Json(conclusion->conditions) : Json::array()},
       {"trials", TrialsJson(e)},
       {"objectives", List(data.findings, FindingJson)},

@@ -205,6 +205,10 @@ function answerSection() {
     parts.splice(1, 0, element("div", {class: "notice", role: "note", id: "alarms"}, element("strong", {}, "Before you use it"),
       element("ul", {}, D.warnings.map((w) => element("li", {}, w)))));
   }
+  if (D.held_out.length) {
+    parts.push(element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
+      element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))));
+  }
   if (D.conditions.length) {
     parts.push(element("div", {class: "card"}, element("h3", {}, "It holds for"),
       element("ul", {class: "plain"}, D.conditions.map((c) => element("li", {}, c)))));
