@@ -75,6 +75,8 @@ class SearchRecord {
   // Whether a model may go through every value. Rows of a table are results of single simulations:
   // each may be exact and yet rough, other seeds beside each other.
   bool noise_free() const { return deterministic() && !domain_.IsList(); }
+  // Whether a point's own value is wanted, chance included: it will not be evaluated again.
+  bool wants_own_values() const { return deterministic() && domain_.IsList(); }
   int design_size() const { return design_.size(); }
 
  private:
