@@ -55,7 +55,7 @@ TEST_P(Lists, AnExactListIsEvaluatedOnceEachToItsEnd) {
   }
   EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 1);
   EXPECT_TRUE(SamePoint(strategy->Recommend().point, domain_.candidates.row(best)));
-  // In threes: the design of 7, then a model of a bowl. By chance it would be the 7th at the
+  // In threes: the design of 5, then a model of a bowl. By chance it would be the 7th at the
   // median.
   const bool has_model = GetParam() != StrategyKind::kLhs && GetParam() != StrategyKind::kSobol;
   if (has_model) {
