@@ -6,14 +6,14 @@
 // The evaluations are those of the problem `heap`, its images enlarged to 400 x 200 px; half of the
 // points are spread over the cube, half lie near the optimum, as those of a search do.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 
 #include "base/random.h"
+#include "bench/optimizers/fidelity_heaps.h"
 #include "bench/optimizers/problems.h"
+#include "bench/optimizers/stopwatch.h"
 #include "optimizer/strategies/make_strategy.h"
 
 namespace talus::bench {
@@ -22,38 +22,11 @@ namespace {
 constexpr int kWidth = 400;
 constexpr int kHeight = 200;
 
-std::vector<float> Enlarged(const Image& image) {
-  std::vector<float> pixels;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const int place = y * image.h / kHeight * image.w + x * image.w / kWidth;
-      pixels.push_back(image.px[static_cast<std::size_t>(place)]);
-    }
-  }
-  return pixels;
-}
-
-// "processor time/time passed [s]" since it was made.
-class Stopwatch {
- public:
-  std::string Read() const {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - wall_;
-    char text[64];
-    std::snprintf(text, sizeof text, "%.2f/%.2f",
-                  static_cast<double>(std::clock() - processor_) / CLOCKS_PER_SEC, passed.count());
-    return text;
-  }
-
- private:
-  std::clock_t processor_ = std::clock();
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-};
-
 void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
   const auto problem = MakeProblem("heap", 1);
   const optimizer::FieldObjective field{.width = kWidth,
                                         .height = kHeight,
-                                        .target = Enlarged(problem->Target()),
+                                        .target = Enlarged(problem->Target(), kWidth, kHeight).px,
                                         .sad_scale = 100.0 / (kWidth * kHeight),
                                         .metric = {}};
   const auto strategy =
@@ -75,7 +48,7 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
           i % 2 == 0 ? random.Uniform() : std::clamp(best[k] + 0.05 * random.Normal(), 0.0, 1.0);
     }
     const Image image = problem->MakeImage(point, static_cast<std::uint64_t>(i), 1);
-    const std::vector<float> pixels = Enlarged(image);
+    const std::vector<float> pixels = Enlarged(image, kWidth, kHeight).px;
     strategy->Tell({.point = Eigen::Vector3d(point[0], point[1], point[2]),
                     .value = field.Value(pixels),
                     .field = pixels});

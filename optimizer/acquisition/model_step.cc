@@ -1,6 +1,7 @@
 #include "optimizer/acquisition/model_step.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -46,6 +47,19 @@ CheapFunction Negative(const ModelView& view, const Score& score, double feasibi
   return {values, value_and_gradient, view.model.PredictionWork()};
 }
 
+// Of what one evaluation of each point gives, chance included.
+CheapFunction NegativeOwnImprovement(const ModelView& view, const Incumbent& incumbent) {
+  return WithoutGradient(view, [&view, incumbent](const Eigen::MatrixXd& points) {
+    const Moments moments = view.model.Predict(points);
+    Eigen::VectorXd result = -view.feasibility.Penalty(points);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const double sd = std::hypot(moments.sd[i], incumbent.noise);
+      result[i] -= LogExpectedImprovement(moments.mean[i], sd, incumbent.value).value;
+    }
+    return result;
+  });
+}
+
 Eigen::VectorXd Search(const ModelView& view, const CheapFunction& function,
                        const Eigen::MatrixXd& centers, SearchOptions options) {
   options.seed = view.seed;
@@ -66,6 +80,10 @@ Eigen::MatrixXd BestEvaluated(const ModelView& view) {
 
 Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& incumbent,
                                         const Eigen::MatrixXd& centers) {
+  if (incumbent.is_own_value) {
+    return Search(view, NegativeOwnImprovement(view, incumbent), centers,
+                  view.searches.improvement);
+  }
   if (view.searches.improvement.kinked) {
     const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
       return -view.model.LogImprovement(points, incumbent.value, incumbent.noise) -

@@ -37,6 +37,9 @@ struct ModelView {
 struct Incumbent {
   double value = 0;
   double noise = 0;  // noise sd of one evaluation; 0 when deterministic
+  // For lists. Each point is evaluated once and its own value counts, chance included: improvement
+  // is expected of that, not of the mean over its surroundings.
+  bool is_own_value = false;
 };
 
 // The evaluated points of the lowest posterior mean, the lowest first, at most five.

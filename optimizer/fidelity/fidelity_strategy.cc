@@ -87,8 +87,7 @@ FidelityStrategy::FidelityStrategy(const FidelityOptions& options, const Domain&
 void FidelityStrategy::Tell(const Observation& observation) {
   posterior_.reset();
   sample_.reset();
-  observations_.push_back(observation);
-  observations_.back().field.clear();
+  observations_.push_back(WithoutImage(observation));
   Told& told = told_[static_cast<std::size_t>(observation.experiment)];
   const int level = levels_.LevelOf(observation.scale_factor);
   if (observation.cost > 0) {

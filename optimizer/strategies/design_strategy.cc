@@ -30,7 +30,7 @@ void DesignStrategy::Append(const Points& points) {
 
 void DesignStrategy::Tell(const Observation& observation) {
   queue_.MarkEvaluated(observation.point);
-  told_.push_back(observation);
+  told_.push_back(WithoutImage(observation));
 }
 
 std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {

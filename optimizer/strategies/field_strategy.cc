@@ -57,10 +57,11 @@ Proposal FieldStrategy::ByModel(const Points& asked) {
 }
 
 // An exact target has one answer, so every third noisy evaluation goes to what the answer would be
-// now. Of a target that is not exact the ranges are wanted too, so every other one explores.
+// now. Of a target that is not exact the ranges are wanted too, so every other one explores. Rows
+// that are evaluated once want neither: the best of them is, next to others as good, a lucky one.
 Eigen::VectorXd FieldStrategy::Step(const FieldModel& model, const Points& asked) const {
   const int turn = fields_.size() + static_cast<int>(asked.size());
-  if (!record().noise_free()) {
+  if (!record().noise_free() && !record().wants_own_values()) {
     if (has_exact_target_ && turn % 3 == 0) return Best(model, record().OpenDomain(asked));
     if (!has_exact_target_ && turn % 2 == 0) return ByDraw(model, asked);
   }
@@ -97,7 +98,7 @@ Eigen::VectorXd FieldStrategy::ByDraw(const FieldModel& model, const Points& ask
 // anywhere, since the images can be known far better than the evaluations are spaced.
 Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Points& asked) const {
   Eigen::MatrixXd centers = BestEvaluated(ViewOf(model, record().domain(), 0));
-  Incumbent incumbent;
+  Incumbent incumbent{.is_own_value = record().wants_own_values()};
   if (record().noise_free()) {
     centers = Stack(centers, Best(model, record().domain()).transpose());
     centers.row(0).swap(centers.row(centers.rows() - 1));

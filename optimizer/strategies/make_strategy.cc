@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "optimizer/strategies/design_strategy.h"
 #include "optimizer/strategies/field_strategy.h"
+#include "optimizer/strategies/ranked_strategy.h"
 #include "optimizer/strategies/rbf_strategy.h"
 #include "optimizer/strategies/replayed_search.h"
 #include "optimizer/strategies/scalar_strategy.h"
@@ -34,10 +35,28 @@ Points SobolInside(const Domain& domain, int num_points, std::uint64_t seed) {
   return inside;
 }
 
-bool TakesLists(StrategyKind kind) {
+bool HasModel(StrategyKind kind) {
   using enum StrategyKind;
-  return kind == kSurrogate || kind == kGp || kind == kField || kind == kRbf || kind == kLhs ||
-         kind == kSobol;
+  return kind == kSurrogate || kind == kGp || kind == kField || kind == kRbf;
+}
+
+bool TakesLists(StrategyKind kind) {
+  return HasModel(kind) || kind == StrategyKind::kLhs || kind == StrategyKind::kSobol;
+}
+
+std::unique_ptr<Strategy> MakeModelStrategy(const StrategyOptions& options, const Domain& domain,
+                                            const FieldObjective* field, std::uint64_t seed) {
+  const SurrogateOptions surrogate{.num_initial = options.num_initial,
+                                   .stop_multiple = options.stop_multiple,
+                                   .max_replicates = options.max_replicates,
+                                   .exact = options.exact,
+                                   .seed = seed};
+  if (options.kind == StrategyKind::kRbf) return std::make_unique<RbfStrategy>(domain, surrogate);
+  if (options.kind == StrategyKind::kGp || field == nullptr) {
+    return std::make_unique<ScalarStrategy>(domain, surrogate);
+  }
+  const bool always = options.kind == StrategyKind::kField;
+  return std::make_unique<FieldStrategy>(domain, *field, always, surrogate);
 }
 
 ReplayOptions SearchOf(StrategyKind kind) {
@@ -101,22 +120,17 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
                    "is a search over continuous parameters: with levels or candidates use "
                    "\"surrogate\", \"gp\", \"field\", \"rbf\", \"lhs\" or \"sobol\"");
   problems.ThrowIfAny();
-  const SurrogateOptions surrogate{.num_initial = options.num_initial,
-                                   .stop_multiple = options.stop_multiple,
-                                   .max_replicates = options.max_replicates,
-                                   .exact = options.exact,
-                                   .seed = seed};
   switch (options.kind) {
     case StrategyKind::kSurrogate:
-    case StrategyKind::kField: {
-      const bool always = options.kind == StrategyKind::kField;
-      if (field == nullptr) return std::make_unique<ScalarStrategy>(domain, surrogate);
-      return std::make_unique<FieldStrategy>(domain, *field, always, surrogate);
-    }
+    case StrategyKind::kField:
     case StrategyKind::kGp:
-      return std::make_unique<ScalarStrategy>(domain, surrogate);
-    case StrategyKind::kRbf:
-      return std::make_unique<RbfStrategy>(domain, surrogate);
+    case StrategyKind::kRbf: {
+      const auto make = [&](const Domain& space) {
+        return MakeModelStrategy(options, space, field, seed);
+      };
+      if (domain.IsList()) return std::make_unique<RankedStrategy>(domain, make);
+      return make(domain);
+    }
     case StrategyKind::kLhs:
       return std::make_unique<DesignStrategy>(
           domain, LatinHypercube(options.num_points, domain.num_parameters, seed),

@@ -34,7 +34,7 @@ enum class StrategyKind {
 
 struct StrategyOptions {
   StrategyKind kind = StrategyKind::kSurrogate;
-  int num_initial = 0;         // of surrogates: size of the initial design, in [0, 100]; 0: 2 d + 3
+  int num_initial = 0;         // of surrogates: size of the initial design, in [0, 100]; 0: theirs
   double stop_multiple = 0.7;  // of surrogates: stop when the gain left is below this × noise sd
   int max_replicates = 5;      // of surrogates: deliberate repeats beside the first, in [0, 1000]
   bool exact = false;          // of surrogates: the same point always gives the same value
@@ -47,7 +47,7 @@ struct StrategyOptions {
     visit("kind", self.kind, {.doc = "how the next simulations are chosen"});
     visit("num_initial", self.num_initial,
           {.doc = "surrogate, gp, field, rbf: size of the initial design; 0 for 2 d + 3 with d "
-                  "parameters"});
+                  "parameters, d + 3 on an exact table"});
     visit("stop_multiple", self.stop_multiple,
           {.doc = "surrogate, gp, field: stops when less than this times the noise standard "
                   "deviation of one evaluation is left to gain; 0 never"});

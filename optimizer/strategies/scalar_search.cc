@@ -110,8 +110,9 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
     const KnowledgeStep step = MostKnowledge(view, model.process(), minimisers);
     if (step.gain > 0) return record.ReplicateOrPerturb(step.point, asked);
   }
-  const Eigen::VectorXd point =
-      MostExpectedImprovement(view, {.value = incumbent, .noise = noise}, BestEvaluated(view));
+  const Eigen::VectorXd point = MostExpectedImprovement(
+      view, {.value = incumbent, .noise = noise, .is_own_value = record.wants_own_values()},
+      BestEvaluated(view));
   return record.ReplicateOrPerturb(point, asked);
 }
 

@@ -15,8 +15,11 @@ namespace {
 // Two evaluations this close to each other teach under noise what a replicate would.
 constexpr double kReplicateDistance = 0.005;
 
+// A row of a table that is evaluated once has been spent on the design.
 int DesignSize(const Domain& domain, const SurrogateOptions& options) {
-  return options.num_initial > 0 ? options.num_initial : 2 * domain.num_parameters + 3;
+  if (options.num_initial > 0) return options.num_initial;
+  const bool spends_rows = domain.IsList() && options.exact;
+  return (spends_rows ? 1 : 2) * domain.num_parameters + 3;
 }
 
 }  // namespace
@@ -29,8 +32,7 @@ SearchRecord::SearchRecord(Domain domain, const SurrogateOptions& options)
       history_(MakeHistory(told_, domain_.num_parameters)) {}
 
 void SearchRecord::Tell(const Observation& observation) {
-  told_.push_back(observation);
-  told_.back().field.clear();
+  told_.push_back(WithoutImage(observation));
   design_.MarkEvaluated(observation.point);
   history_ = MakeHistory(told_, domain_.num_parameters);
   repeats_ = FindRepeats(history_);

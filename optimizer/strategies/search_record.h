@@ -1,6 +1,7 @@
 // What a model-based strategy was told, and the rules that hold whatever the model is.
 //
-//   initial design      the domain's guesses, then a Latin hypercube of 2 d + 3 points
+//   initial design      the domain's guesses, then a Latin hypercube of 2 d + 3 points,
+//                       d + 3 of an exact list
 //   first repeat        the best point once more: the same value twice means deterministic
 //   replicate or        under noise, a proposal next to an evaluated point becomes a replicate of
 //   perturb             it; otherwise no point is evaluated twice
@@ -27,7 +28,7 @@ namespace talus::optimizer {
 
 // Of every strategy with a model.
 struct SurrogateOptions {
-  int num_initial = 0;         // evaluations of the design; 0: 2 d + 3
+  int num_initial = 0;         // evaluations of the design; 0: as above
   double stop_multiple = 0.7;  // stop when the most left to gain is below this × noise sd
   int max_replicates = 5;      // deliberate replicates beside the first repeat, in all; of a list
                                // of candidates, how often each may be evaluated
@@ -39,7 +40,6 @@ class SearchRecord {
  public:
   SearchRecord(Domain domain, const SurrogateOptions& options);
 
-  // Images are not kept: many of them would fill the memory.
   void Tell(const Observation& observation);
 
   // The next point of the design or the first repeat; nothing when both are done. `asked` are the
@@ -75,6 +75,8 @@ class SearchRecord {
   // Whether a model may go through every value. Rows of a table are results of single simulations:
   // each may be exact and yet rough, other seeds beside each other.
   bool noise_free() const { return deterministic() && !domain_.IsList(); }
+  // Whether a point's own value is wanted, chance included: it will not be evaluated again.
+  bool wants_own_values() const { return deterministic() && domain_.IsList(); }
   int design_size() const { return design_.size(); }
 
  private:

@@ -40,6 +40,13 @@ struct Observation {
                                      // NaN where it is not defined
 };
 
+// The same without its image, for strategies to keep: many images would fill the memory, and a
+// vector that is only cleared keeps its own.
+inline Observation WithoutImage(Observation observation) {
+  observation.field = std::vector<float>();
+  return observation;
+}
+
 // Credible range of one parameter, in the unit cube.
 struct Range {
   double low = 0;

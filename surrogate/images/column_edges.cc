@@ -14,18 +14,6 @@ constexpr double kReach = 4;       // widths from the edge beyond which a pixel 
 constexpr double kNoEdge = 3;      // widths inside the image an edge must lie to be measured
 constexpr double kMinWidth = 0.2;  // [px]: sharper than pixels can tell
 
-// One column of a field from the bottom up.
-Eigen::MatrixXd Columns(std::span<const float> field, const FieldSize& size) {
-  Eigen::MatrixXd columns(size.height, size.width);
-  for (int row = 0; row < size.height; ++row) {
-    const auto start = static_cast<std::size_t>(row) * static_cast<std::size_t>(size.width);
-    for (int c = 0; c < size.width; ++c) {
-      columns(size.height - 1 - row, c) = field[start + static_cast<std::size_t>(c)];
-    }
-  }
-  return columns;
-}
-
 // The pixels of a column that are neither black nor white.
 struct Band {
   int low = 0;
@@ -38,22 +26,32 @@ Band GreyBand(double height, double width, int num_rows) {
           .high = static_cast<int>(std::clamp(std::ceil(height + reach), 0.0, 1.0 * num_rows))};
 }
 
-double AreaOf(double height, double width, int num_rows) {
-  const Band band = GreyBand(height, width, num_rows);
-  double area = band.low;
-  for (int r = band.low; r < band.high; ++r) area += NormalTable::Cdf((height - r - 0.5) / width);
+struct Column {
+  const Vessel& vessel;
+  Eigen::Index index = 0;
+  int num_rows = 0;
+};
+
+double AreaOf(const Column& column, double height, double width) {
+  const Band band = GreyBand(height, width, column.num_rows);
+  double area = column.vessel.OpenBelow(band.low, column.index);
+  for (int r = band.low; r < band.high; ++r) {
+    area += column.vessel.Open(r, column.index) * NormalTable::Cdf((height - r - 0.5) / width);
+  }
   return area;
 }
 
-// The height at which a column of this edge width has this area; near the bottom that is not the
-// area itself, since the edge is cut there.
-double HeightOf(double area, double width, int num_rows) {
-  double low = -kNoEdge * width;
-  double high = num_rows + kNoEdge * width;
-  if (area > kNoEdge * width && area < num_rows - kNoEdge * width) return area;
+// The height at which a column of this edge width has this area; near the floor that is not the
+// area above it, since the edge is cut there.
+double HeightOf(const Column& column, double area, double width) {
+  const double floor = column.vessel.Floor(column.index);
+  const double margin = kNoEdge * width;
+  if (area > margin && area + floor < column.num_rows - margin) return area + floor;
+  double low = floor - margin;
+  double high = column.num_rows + margin;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
-    (AreaOf(middle, width, num_rows) < area ? low : high) = middle;
+    (AreaOf(column, middle, width) < area ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -78,16 +76,18 @@ void FillFromNeighbours(const std::vector<bool>& known, Eigen::VectorXd& width) 
 
 }  // namespace
 
-ColumnEdges FitEdges(std::span<const float> field, const FieldSize& size) {
+ColumnEdges FitEdges(std::span<const float> field, const FieldSize& size, const Vessel& vessel) {
   const Eigen::MatrixXd columns = Columns(field, size);
   const Eigen::VectorXd area = columns.colwise().sum();
-  const Eigen::VectorXd grey = (columns.array() * (1 - columns.array())).colwise().sum();
+  const Eigen::VectorXd grey =
+      (columns.array() * (vessel.open().array() - columns.array())).colwise().sum();
   ColumnEdges edges{.height = area,
                     .width = (std::sqrt(std::numbers::pi) * grey).cwiseMax(kMinWidth)};
   std::vector<bool> known(static_cast<std::size_t>(size.width));
   for (int c = 0; c < size.width; ++c) {
     const double margin = kNoEdge * edges.width[c] + 0.5;
-    known[static_cast<std::size_t>(c)] = area[c] > margin && area[c] < size.height - margin;
+    known[static_cast<std::size_t>(c)] =
+        area[c] > margin && area[c] + vessel.Floor(c) < size.height - margin;
   }
   if (std::find(known.begin(), known.end(), true) == known.end()) {
     edges.width.setConstant(1);
@@ -95,41 +95,49 @@ ColumnEdges FitEdges(std::span<const float> field, const FieldSize& size) {
     FillFromNeighbours(known, edges.width);
   }
   for (int c = 0; c < size.width; ++c) {
-    edges.height[c] = HeightOf(area[c], edges.width[c], size.height);
+    edges.height[c] = HeightOf({vessel, c, size.height}, area[c], edges.width[c]);
   }
   return edges;
 }
 
-std::vector<float> Render(const ColumnEdges& edges, const FieldSize& size) {
+std::vector<float> Render(const ColumnEdges& edges, const FieldSize& size, const Vessel& vessel) {
   std::vector<float> field(static_cast<std::size_t>(size.num_pixels()));
   for (int row = 0; row < size.height; ++row) {
+    const int up = size.height - 1 - row;
     const double y = size.height - row - 0.5;
     for (int c = 0; c < size.width; ++c) {
-      field[static_cast<std::size_t>(row * size.width + c)] =
-          static_cast<float>(NormalTable::Cdf((edges.height[c] - y) / edges.width[c]));
+      field[static_cast<std::size_t>(row * size.width + c)] = static_cast<float>(
+          vessel.Open(up, c) * NormalTable::Cdf((edges.height[c] - y) / edges.width[c]));
     }
   }
   return field;
 }
 
-EdgeSad::EdgeSad(std::span<const float> target, const FieldSize& size)
-    : size_(size), target_(Columns(target, size)), cumulative_(size.height + 1, size.width) {
+EdgeSad::EdgeSad(std::span<const float> target, const FieldSize& size, const Vessel& vessel)
+    : size_(size),
+      vessel_(vessel),
+      target_(Columns(target, size)),
+      cumulative_(size.height + 1, size.width) {
   cumulative_.row(0).setZero();
   for (int r = 0; r < size.height; ++r) {
     cumulative_.row(r + 1) = cumulative_.row(r) + target_.row(r);
   }
 }
 
-// Below the grey band the image is 1, above it 0.
+// Below the grey band the image is as bright as the vessel lets it be, which is no less than the
+// target; above it 0.
 double EdgeSad::Column(Eigen::Index column, double height, double width) const {
   const Band band = GreyBand(height, width, size_.height);
   const double* target = &target_(0, column);
   const double* below = &cumulative_(0, column);
-  double sum = band.low - below[band.low] + below[size_.height] - below[band.high];
+  const double* open = &vessel_.open()(0, column);
+  double sum = vessel_.OpenBelow(band.low, column) - below[band.low] + below[size_.height] -
+               below[band.high];
+  const NormalTable& normal = NormalTable::Get();
   const double inverse = 1 / width;
   double t = (height - band.low - 0.5) * inverse;
   for (int r = band.low; r < band.high; ++r, t -= inverse) {
-    sum += std::abs(NormalTable::Cdf(t) - target[r]);
+    sum += std::abs(open[r] * normal(t) - target[r]);
   }
   return sum;
 }

@@ -9,12 +9,13 @@ constexpr double kSmallVariance = 1e-8;  // [px²]: below it the expectation is 
 
 }  // namespace
 
-EdgeCode::EdgeCode(const FieldSize& size, std::span<const float> target) : size_(size) {
-  if (!target.empty()) sad_ = std::make_unique<EdgeSad>(target, size);
+EdgeCode::EdgeCode(const FieldSize& size, std::span<const float> target)
+    : size_(size), vessel_(target.empty() ? Vessel(size) : Vessel(target, size)) {
+  if (!target.empty()) sad_ = std::make_unique<EdgeSad>(target, size, vessel_);
 }
 
 Eigen::VectorXd EdgeCode::Encode(std::span<const float> field) const {
-  const ColumnEdges edges = FitEdges(field, size_);
+  const ColumnEdges edges = FitEdges(field, size_, vessel_);
   Eigen::VectorXd vector(2 * size_.width);
   vector << edges.height, kWidthWeight * edges.width;
   return vector;
@@ -26,7 +27,7 @@ ColumnEdges EdgeCode::Edges(const Eigen::VectorXd& vector) const {
 }
 
 std::vector<float> EdgeCode::Decode(const Eigen::VectorXd& vector) const {
-  return Render(Edges(vector), size_);
+  return Render(Edges(vector), size_, vessel_);
 }
 
 // Φ(y / w) blurred by a normal distribution of variance v is Φ(y / √(w² + v)).

@@ -30,7 +30,8 @@ class FieldCode {
                              const Eigen::VectorXd& variance) const = 0;
 };
 
-// Column heights, then widths of the grey edge (column_edges.h). Widths count 0.8 of heights, which
+// Column heights, then widths of the grey edge (column_edges.h), above the floor that the target
+// shows. Widths count 0.8 of heights, which
 // is what they change the sum of differences by: ∫|Φ(y) - Φ(y/(1+δ))| dy = δ √(2/π).
 class EdgeCode : public FieldCode {
  public:
@@ -50,6 +51,7 @@ class EdgeCode : public FieldCode {
   ColumnEdges Edges(const Eigen::VectorXd& vector) const;
 
   FieldSize size_;
+  Vessel vessel_;
   std::unique_ptr<EdgeSad> sad_;
 };
 

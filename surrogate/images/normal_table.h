@@ -1,6 +1,7 @@
 // Φ, the normal distribution function, from a table: the innermost loop of every predicted image.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -10,36 +11,50 @@ namespace talus::surrogate {
 // Cubic between points 1/32 apart: off by less than 1e-8, and 0 or 1 beyond ±6.
 class NormalTable {
  public:
-  static double Cdf(double t) {
+  // The one table there is; a loop asks for it once.
+  static const NormalTable& Get() {
     static const NormalTable table;
-    if (t <= -kEnd) return 0;
-    if (t >= kEnd) return 1;
-    const double place = (t + kEnd) * kPerUnit;
-    const auto i = static_cast<std::size_t>(place);
-    const double f = place - static_cast<double>(i);
-    const Node& a = table.nodes_[i];
-    const Node& b = table.nodes_[i + 1];
-    const double jump = b.value - a.value;
-    return a.value + f * (a.slope + f * (3 * jump - 2 * a.slope - b.slope +
-                                         f * (a.slope + b.slope - 2 * jump)));
+    return table;
+  }
+  static double Cdf(double t) { return Get()(t); }
+
+  double operator()(double t) const {
+    const double place = std::min(std::max((t + kEnd) * kPerUnit, 0.0), 1.0 * kNumSteps);
+    const auto i = static_cast<int>(place);  // a long would cost more to turn back
+    const Cubic& c = cubics_[static_cast<std::size_t>(i)];
+    const double f = place - i;
+    return c.c0 + f * (c.c1 + f * (c.c2 + f * c.c3));
   }
 
  private:
-  struct Node {
-    double value;
-    double slope;  // per table step
-  };
   static constexpr double kEnd = 6;
   static constexpr int kPerUnit = 32;
+  static constexpr int kNumSteps = 2 * 6 * kPerUnit;
+
+  // Φ from one point to the next, f in [0, 1): Hermite's, with Φ and φ at both.
+  struct Cubic {
+    double c0 = 0;
+    double c1 = 0;
+    double c2 = 0;
+    double c3 = 0;
+  };
 
   NormalTable() {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const double t = static_cast<double>(i) / kPerUnit - kEnd;
-      nodes_[i] = {.value = 0.5 * std::erfc(-t / std::numbers::sqrt2),
-                   .slope = std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi) / kPerUnit};
+    const auto at = [](int i) { return static_cast<double>(i) / kPerUnit - kEnd; };
+    const auto value = [&](int i) { return 0.5 * std::erfc(-at(i) / std::numbers::sqrt2); };
+    const auto slope = [&](int i) {
+      return std::exp(-at(i) * at(i) / 2) / std::sqrt(2 * std::numbers::pi) / kPerUnit;
+    };
+    for (int i = 1; i < kNumSteps; ++i) {
+      const double jump = value(i + 1) - value(i);
+      cubics_[static_cast<std::size_t>(i)] = {.c0 = value(i),
+                                              .c1 = slope(i),
+                                              .c2 = 3 * jump - 2 * slope(i) - slope(i + 1),
+                                              .c3 = slope(i) + slope(i + 1) - 2 * jump};
     }
+    cubics_.back() = {.c0 = 1};  // the first is 0
   }
-  std::array<Node, static_cast<std::size_t>(2 * 6 * kPerUnit + 2)> nodes_;
+  std::array<Cubic, static_cast<std::size_t>(kNumSteps + 1)> cubics_;
 };
 
 }  // namespace talus::surrogate

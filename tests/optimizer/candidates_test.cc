@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/level_ranks.h"
 #include "optimizer/space/parameter_space.h"
 #include "optimizer/strategies/make_strategy.h"
 
@@ -54,7 +55,7 @@ TEST_P(Lists, AnExactListIsEvaluatedOnceEachToItsEnd) {
   }
   EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 1);
   EXPECT_TRUE(SamePoint(strategy->Recommend().point, domain_.candidates.row(best)));
-  // In threes: the design of 7, then a model of a bowl. By chance it would be the 7th at the
+  // In threes: the design of 5, then a model of a bowl. By chance it would be the 7th at the
   // median.
   const bool has_model = GetParam() != StrategyKind::kLhs && GetParam() != StrategyKind::kSobol;
   if (has_model) {
@@ -82,6 +83,44 @@ TEST(Candidates, AnExactListMayBeRough) {
   const double noise_sd = strategy->Recommend().noise_sd;
   EXPECT_GT(noise_sd, 0.025);
   EXPECT_LT(noise_sd, 0.1);
+}
+
+TEST(LevelRanks, PutTheValuesOfATableAtEqualStepsAndGoBack) {
+  Eigen::MatrixXd table(4, 2);
+  table << 0, 0.3, 0.01, 0.3, 0.2, 0.3, 1, 0.3;
+  const LevelRanks ranks(table);
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::VectorXd rank = ranks.ToRanks(table.row(i));
+    EXPECT_NEAR(rank[0], i / 3.0, 1e-12);
+    EXPECT_EQ(rank[1], 0.5);  // the only value there is
+    EXPECT_NEAR((ranks.FromRanks(rank) - table.row(i).transpose()).norm(), 0, 1e-12);
+  }
+  EXPECT_NEAR(ranks.ToRanks(Eigen::Vector2d(0.6, 0.3))[0], 2.5 / 3, 1e-12);
+  EXPECT_NEAR(ranks.FromRanks(Eigen::Vector2d(2.5 / 3, 0.5))[0], 0.6, 1e-12);
+  EXPECT_EQ(ranks.ToRanks(Eigen::Vector2d(2, 0.9)), Eigen::Vector2d(1, 0.5));
+}
+
+// A bowl in the levels' numbers: in their values, which spread over four decades, it is a cliff.
+// 225 rows; the model finds the lowest of them by a tenth.
+TEST(Candidates, LevelsThatSpreadOverDecadesAreEquallyFarApart) {
+  constexpr int kLevels = 15;
+  Domain domain{.num_parameters = 2, .candidates = Eigen::MatrixXd(kLevels * kLevels, 2)};
+  const auto value_of = [](int level) { return std::pow(10.0, 4.0 * (level / 14.0 - 1)); };
+  for (int i = 0; i < kLevels * kLevels; ++i) {
+    domain.candidates.row(i) << value_of(i / kLevels), value_of(i % kLevels);
+  }
+  const auto value = [](const Eigen::VectorXd& point) {
+    const Eigen::Vector2d level = 14 + 3.5 * point.array().log10();
+    return (level - Eigen::Vector2d(6, 3)).squaredNorm();
+  };
+  const auto strategy = MakeStrategy({.kind = StrategyKind::kGp, .stop_multiple = 0, .exact = true},
+                                     domain, nullptr, 1);
+  for (int told = 0; told < 22; ++told) {
+    const Eigen::VectorXd point = strategy->Ask(1, {}).front().point;
+    EXPECT_EQ(domain.Snap(point), point);  // a row, to the last bit
+    strategy->Tell({.point = point, .value = value(point)});
+  }
+  EXPECT_NEAR(value(strategy->Recommend().point), 0, 1e-9);
 }
 
 TEST(Candidates, ANoisyListIsEvaluatedAtMostMaxReplicatesTimesEach) {

@@ -32,7 +32,7 @@ std::vector<float> HeapImage(const Eigen::VectorXd& u, double rough, std::uint64
     edges.height[c] =
         std::max(0.0, 16 - 2 * u[1] - steep * (std::sqrt(x * x + round * round) - round));
   }
-  return surrogate::Render(edges, kSize);
+  return surrogate::Render(edges, kSize, surrogate::Vessel(kSize));
 }
 
 FieldObjective SadTo(std::vector<float> target) {

@@ -11,6 +11,7 @@ namespace talus::surrogate {
 namespace {
 
 constexpr FieldSize kSize{.width = 40, .height = 24};
+const Vessel kPlate(kSize);  // along the bottom of the image
 
 // A heap with a foot of half a pixel, where the edge is cut by the bottom of the image.
 ColumnEdges Heap(double top, double width) {
@@ -39,7 +40,7 @@ TEST(NormalTable, IsTheNormalDistributionFunction) {
 TEST(ColumnEdges, AreFoundAgainInTheirImage) {
   for (const double width : {0.8, 1.5}) {
     const ColumnEdges edges = Heap(15, width);
-    const ColumnEdges found = FitEdges(Render(edges, kSize), kSize);
+    const ColumnEdges found = FitEdges(Render(edges, kSize, kPlate), kSize, kPlate);
     // Pixel values are floats, and the sums over pixels stand for integrals: at 0.8 px that is off
     // by e^(-2 π² 0.64) ≈ 3e-6.
     EXPECT_LT((found.height - edges.height).cwiseAbs().maxCoeff(), 2e-3) << width;
@@ -52,17 +53,60 @@ TEST(ColumnEdges, EmptyAndFullImagesHaveNone) {
   const std::vector<float> full(static_cast<std::size_t>(kSize.num_pixels()), 1.0F);
   for (const auto& field : {empty, full}) {
     // Three widths beyond the border: 1.3e-3 of grey in each column's last pixels.
-    EXPECT_LT(SumOfDifferences(Render(FitEdges(field, kSize), kSize), field), 0.1);
+    EXPECT_LT(SumOfDifferences(Render(FitEdges(field, kSize, kPlate), kSize, kPlate), field), 0.1);
   }
 }
 
 TEST(EdgeCode, SadIsThatOfTheDecodedImage) {
-  const auto target = Render(Heap(15, 1), kSize);
+  const auto target = Render(Heap(15, 1), kSize, kPlate);
   const EdgeCode code(kSize, target);
-  const Eigen::VectorXd vector = code.Encode(Render(Heap(12, 1.5), kSize));
+  const Eigen::VectorXd vector = code.Encode(Render(Heap(12, 1.5), kSize, kPlate));
   // Pixels more than four widths from the edge count as black or white: 3e-5 each.
   EXPECT_NEAR(code.Sad(vector), SumOfDifferences(code.Decode(vector), target), 5e-3);
   EXPECT_GT(code.Sad(vector), 20);
+}
+
+// Powder in a round vessel as wide as the image, up to a surface of this slope through its middle.
+std::vector<float> Drum(double slope) {
+  constexpr int kSteps = 4;  // samples of a pixel, each way
+  const double radius = 0.5 * kSize.width;
+  std::vector<float> field(static_cast<std::size_t>(kSize.num_pixels()));
+  for (int i = 0; i < kSize.num_pixels() * kSteps * kSteps; ++i) {
+    const int pixel = i / (kSteps * kSteps);
+    const double dx = (i % kSteps + 0.5) / kSteps;
+    const double dy = (i / kSteps % kSteps + 0.5) / kSteps;
+    const double x = pixel % kSize.width + dx - radius;
+    const double y = kSize.height - pixel / kSize.width - dy - radius;  // up, from the middle
+    if (x * x + y * y > radius * radius || y > slope * x - 5) continue;
+    field[static_cast<std::size_t>(pixel)] += 1.0F / (kSteps * kSteps);
+  }
+  return field;
+}
+
+// What lies below the floor is black in every image, so the code of one keeps its surface alone.
+TEST(EdgeCode, PowderOnARoundFloorIsKnownByItsSurface) {
+  const auto target = Drum(0.2);
+  const EdgeCode code(kSize, target);
+  for (const double slope : {-0.1, 0.05, 0.2, 0.3}) {
+    const auto field = Drum(slope);
+    const Eigen::VectorXd vector = code.Encode(field);
+    // Of 500 px of powder. Standing on the bottom of the image the same heights would be off by
+    // the floor, 150 px. The floor is not known where the target has no powder on it: 17 px at the
+    // first slope; what stands there adds to the sum of differences wherever it stands.
+    EXPECT_LT(SumOfDifferences(code.Decode(vector), field), 20) << slope;
+    EXPECT_NEAR(code.Sad(vector), SumOfDifferences(field, target), 12) << slope;
+  }
+}
+
+TEST(Vessel, AHeapThatOverhangsInPlacesHasNoFloor) {
+  auto field = Render(Heap(15, 1), kSize, kPlate);
+  for (int c = 20; c < 25; ++c) {
+    for (int row = 0; row < 3; ++row) {  // from the bottom
+      field[static_cast<std::size_t>((kSize.height - 1 - row) * kSize.width + c)] = 0;
+    }
+  }
+  EXPECT_EQ(Vessel(field, kSize).open(), kPlate.open());
+  EXPECT_NE(Vessel(Drum(0), kSize).open(), kPlate.open());
 }
 
 // The mean over draws of the vector's elements.
@@ -81,7 +125,7 @@ double MonteCarlo(const FieldCode& code, const Eigen::VectorXd& mean,
 }
 
 TEST(EdgeCode, ExpectedSadIsTheMeanOverDrawsAndMoreThanThatOfTheMean) {
-  const auto target = Render(Heap(15, 1), kSize);
+  const auto target = Render(Heap(15, 1), kSize, kPlate);
   const EdgeCode code(kSize, target);
   const Eigen::VectorXd mean = code.Encode(target);
   for (const double sd : {0.1, 0.5, 2.0}) {
@@ -96,7 +140,7 @@ TEST(EdgeCode, ExpectedSadIsTheMeanOverDrawsAndMoreThanThatOfTheMean) {
 }
 
 TEST(PixelCode, ExpectedSadIsTheMeanOverDraws) {
-  const auto target = Render(Heap(15, 1), kSize);
+  const auto target = Render(Heap(15, 1), kSize, kPlate);
   const PixelCode code(kSize, target);
   // Grey pixels far from 0 and 1, where no draw is cut off.
   const Eigen::VectorXd mean = (0.5 + 0.1 * (code.Encode(target).array() - 0.5)).matrix();
