@@ -45,7 +45,7 @@ TEST(StateFile, VtkReadsTheVtpBack) {
   const std::filesystem::path folder = ::testing::TempDir();
   base::WriteFileAtomically(folder / "two.vtp", VtpOf(Two(), 1.25));
   base::WriteFileAtomically(folder / "none.vtp", VtpOf({}, 0));
-  const std::string command = kPython + (" " TALUS_SOURCE_DIR "/tests/engine/read_vtp.py ") +
+  const std::string command = kPython + (" " TALUS_SOURCE_DIR "/tests/engine/run/read_vtp.py ") +
                               (folder / "two.vtp").string() + " " + (folder / "none.vtp").string() +
                               " > " + (folder / "vtk.txt").string();
   ASSERT_EQ(std::system(command.c_str()), 0);

@@ -1,0 +1,68 @@
+// Folders of drawn photographs, and their experiments.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/photos/experiment.h"
+#include "tests/imaging/synthetic_photo.h"
+
+namespace talus::imaging {
+
+namespace fs = std::filesystem;
+
+inline constexpr double kPlate = 0.01;  // [m]
+
+inline Scene SmallScene() {
+  return {.width = 420, .height = 220, .plate_depth = 30, .center_x = 210, .baseline = 165};
+}
+
+// Layers of a lattice of grains under a cone, each grain moved a little, so that no line of sight
+// passes between them; the lowest layer lies on the plate.
+inline fs::path EmptyFolder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("experiment_" + name);
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+inline std::string Name(int run, int view) {
+  return "run" + std::to_string(run) + "_view" + std::to_string(view) + ".png";
+}
+
+inline ExperimentOptions Options(const fs::path& folder) {
+  ExperimentOptions options;
+  options.photos = folder;
+  options.plate_diameter = kPlate;
+  return options;
+}
+
+inline GrayImage Triangle(const Scene& scene) {
+  return Photograph(scene, [&](double x) { return 0.5 * (150 - std::abs(x)); });
+}
+
+// Two runs of two views, all good.
+inline fs::path GoodFolder(const std::string& name) {
+  const fs::path folder = EmptyFolder(name);
+  static const GrayImage photo = Triangle(SmallScene());
+  for (int run = 1; run <= 2; ++run) {
+    for (int view = 0; view < 2; ++view) WritePng(folder / Name(run, view), photo);
+  }
+  return folder;
+}
+
+inline std::string ErrorOf(const ExperimentOptions& options) {
+  try {
+    MeasureExperiment(options);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace talus::imaging
