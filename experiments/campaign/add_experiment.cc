@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
-#include "experiments/campaign/core_time.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/start.h"
 #include "experiments/campaign/take_over.h"
 

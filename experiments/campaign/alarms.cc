@@ -5,7 +5,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
-#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "optimizer/answer/answer.h"
 

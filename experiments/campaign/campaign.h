@@ -16,7 +16,7 @@
 #include "experiments/campaign/answer/campaign_result.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/console.h"
-#include "experiments/campaign/planner.h"
+#include "experiments/campaign/plan/planner.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "experiments/campaign/cores.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/slurm_runner.h"
 #include "experiments/trials/engines/command_engine.h"

@@ -9,9 +9,9 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
-#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/images/image_file.h"
 

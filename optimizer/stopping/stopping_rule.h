@@ -1,5 +1,5 @@
 // When a search ends by itself. Each rule answers with the reason in words, or with nothing while
-// the search should go on. A campaign's budget ends it at the latest (campaign/planner.h).
+// the search should go on. A campaign's budget ends it at the latest (campaign/plan/planner.h).
 //
 //   one objective, noisy      StopByGain: what is left to gain is small against the noise
 //   one objective, exact      StopByExactGain: … against the values seen

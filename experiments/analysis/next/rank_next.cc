@@ -9,7 +9,7 @@
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
 #include "experiments/analysis/next/test_design.h"
-#include "experiments/campaign/core_time.h"
+#include "experiments/campaign/plan/core_time.h"
 
 namespace talus::analysis {
 namespace {

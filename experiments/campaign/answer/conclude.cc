@@ -10,7 +10,7 @@
 #include "experiments/campaign/answer/best_confirmed.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/hold_out.h"
-#include "experiments/campaign/cores.h"
+#include "experiments/campaign/plan/cores.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {

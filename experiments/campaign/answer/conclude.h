@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/campaign/answer/campaign_result.h"
-#include "experiments/campaign/planner.h"
+#include "experiments/campaign/plan/planner.h"
 #include "experiments/journal/records.h"
 
 namespace talus::campaign {

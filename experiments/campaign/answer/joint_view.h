@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/campaign/campaign_strategy.h"
 #include "experiments/campaign/folder/campaign_folder.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"

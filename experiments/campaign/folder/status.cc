@@ -9,7 +9,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/campaign_result.h"
-#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
 

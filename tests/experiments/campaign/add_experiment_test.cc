@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "experiments/analysis/next/rank_next.h"
-#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 

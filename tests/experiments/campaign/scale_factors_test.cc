@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "base/json/json_file.h"
-#include "experiments/campaign/core_time.h"
-#include "experiments/campaign/estimate.h"
+#include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/plan/estimate.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 
 namespace talus::campaign {

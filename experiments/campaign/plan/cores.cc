@@ -1,4 +1,4 @@
-#include "experiments/campaign/cores.h"
+#include "experiments/campaign/plan/cores.h"
 
 #include <algorithm>
 #include <thread>

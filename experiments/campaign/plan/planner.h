@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
-#include "experiments/campaign/core_time.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"

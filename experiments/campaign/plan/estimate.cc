@@ -1,11 +1,11 @@
-#include "experiments/campaign/estimate.h"
+#include "experiments/campaign/plan/estimate.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "base/text/number_text.h"
-#include "experiments/campaign/cores.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
 

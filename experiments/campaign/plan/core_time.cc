@@ -1,10 +1,10 @@
-#include "experiments/campaign/core_time.h"
+#include "experiments/campaign/plan/core_time.h"
 
 #include <cmath>
 #include <utility>
 
-#include "experiments/campaign/campaign_strategy.h"
-#include "experiments/campaign/cores.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
+#include "experiments/campaign/plan/cores.h"
 
 namespace talus::campaign {
 namespace {

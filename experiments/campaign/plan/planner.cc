@@ -1,4 +1,4 @@
-#include "experiments/campaign/planner.h"
+#include "experiments/campaign/plan/planner.h"
 
 #include <algorithm>
 #include <iterator>
@@ -8,8 +8,8 @@
 
 #include "base/parallel_for.h"
 #include "base/random.h"
-#include "experiments/campaign/campaign_strategy.h"
-#include "experiments/campaign/cores.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/designs/design.h"
 

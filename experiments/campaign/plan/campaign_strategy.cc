@@ -1,10 +1,10 @@
-#include "experiments/campaign/campaign_strategy.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "experiments/campaign/core_time.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "imaging/formats/images/image_file.h"
 #include "optimizer/strategies/make_strategy.h"
 
