@@ -15,13 +15,10 @@ using base::ShortNumber;
 // A range's width as people read it: "0.12", or "× 3" of a logarithmic one.
 std::string WidthText(const NextTable& table, std::size_t parameter, double width) {
   const journal::ParameterRecord& p = table.parameters[parameter];
-  char text[32];
   if (table.scales[parameter] == optimizer::Scale::kLog) {
-    std::snprintf(text, sizeof text, "× %.2g", std::pow(p.high / p.low, width));
-  } else {
-    std::snprintf(text, sizeof text, "%.2g", width * (p.high - p.low));
+    return "× " + base::ShortNumber(std::pow(p.high / p.low, width), 2);
   }
-  return text;
+  return base::ShortNumber(width * (p.high - p.low), 2);
 }
 
 std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {

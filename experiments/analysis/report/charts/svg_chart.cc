@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text/number_text.h"
+
 namespace talus::analysis {
 namespace {
 
@@ -18,11 +20,7 @@ constexpr double kLegendLine = 20;
 
 constexpr const char* kFont = "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\"";
 
-std::string Number(double x, int digits = 6) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, x);
-  return text;
-}
+std::string Number(double x, int digits = 6) { return base::ShortNumber(x, digits); }
 
 std::string Pixel(double x) {
   char text[32];
