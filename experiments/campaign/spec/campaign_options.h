@@ -47,7 +47,7 @@ struct NoiseOptions {
 // What a posterior over several grain sizes or experiments is made with.
 struct PosteriorOptions {
   double model_error = 1;    // sd of what no simulation can match, in run-to-run sds, >= 0
-  double stop_share = 0.05;  // the surrogate's variance over what the experiment leaves open [-]
+  double stop_share = 0.02;  // the surrogate's variance over what the experiment leaves open [-]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
