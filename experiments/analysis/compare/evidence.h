@@ -131,6 +131,7 @@ struct Evidence {
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;
   std::vector<TrialEvidence> trials;
+  std::vector<TrialEvidence> of_others;  // trials of the other experiments, without metrics
   ReferenceEvidence reference;
   std::optional<Conclusion> conclusion;                         // none before there is one
   std::optional<ModelEvidence> model;                           // none where no model answers

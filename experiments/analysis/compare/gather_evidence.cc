@@ -187,6 +187,12 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
                             "--experiment");
   }
   std::vector<journal::TrialRecord> trials = journal->Trials();
+  for (const journal::TrialRecord& t : trials) {
+    std::vector<MetricInfo> none;
+    if (static_cast<std::size_t>(t.experiment) != index) {
+      evidence.of_others.push_back(EvidenceOf(t, none));
+    }
+  }
   std::erase_if(trials, [&](const journal::TrialRecord& t) {
     return static_cast<std::size_t>(t.experiment) != index;
   });

@@ -108,6 +108,23 @@ TEST_F(Report, ChartsAsSvgHaveTheirData) {
   EXPECT_EQ(points, 56u + 4);  // of 60 trials 4 failed; and one in the legend for each purpose
 }
 
+TEST(PageHead, CountsTheTrialsOfAllExperiments) {
+  Evidence evidence = test::MakeSyntheticCampaign();
+  const auto head = [&] { return json::parse(PageJson(MakeReportData(evidence)))["campaign"]; };
+  const json alone = head();
+  evidence.of_others.assign(2, TrialEvidence{});
+  for (TrialEvidence& other : evidence.of_others) {
+    other.state = journal::TrialStatus::kOk;
+    other.purpose = "search";
+    other.cpu_seconds = 1800;
+  }
+  evidence.of_others[1].purpose = "confirm";
+  const json both = head();
+  EXPECT_EQ(both["counts"]["searched"], alone["counts"]["searched"].get<int>() + 1);
+  EXPECT_EQ(both["counts"]["confirming"], alone["counts"]["confirming"].get<int>() + 1);
+  EXPECT_NEAR(both["core_hours"].get<double>(), alone["core_hours"].get<double>() + 1, 1e-5);
+}
+
 TEST(SvgChart, PutsValuesWhereTheyBelong) {
   SvgChart chart({.title = "x", .low = 1e-6, .high = 1e-2, .log = true},
                  {.title = "y", .low = 0, .high = 10});

@@ -76,10 +76,33 @@ Json TrialsJson(const Evidence& evidence) {
       {"metrics", metrics}};
 }
 
+// Of all experiments.
+Json CountsJson(const Evidence& e) {
+  int searched = 0, confirming = 0, failed = 0, running = 0;
+  for (const auto* trials : {&e.trials, &e.of_others}) {
+    for (const TrialEvidence& t : *trials) {
+      const bool ok = t.state == journal::TrialStatus::kOk;
+      searched += ok && t.purpose != "confirm";
+      confirming += ok && t.purpose == "confirm";
+      failed += t.state == journal::TrialStatus::kFailed;
+      running += t.state == journal::TrialStatus::kRunning;
+    }
+  }
+  return {
+      {"searched", searched}, {"confirming", confirming}, {"failed", failed}, {"running", running}};
+}
+
+double CoreSeconds(const Evidence& e) {
+  double sum = 0;
+  for (const auto* trials : {&e.trials, &e.of_others}) {
+    for (const TrialEvidence& t : *trials) sum += std::isfinite(t.cpu_seconds) ? t.cpu_seconds : 0;
+  }
+  return sum;
+}
+
 Json CampaignJson(const ReportData& data) {
   const Evidence& e = data.evidence;
-  double cpu = 0;
-  for (const TrialEvidence& t : e.trials) cpu += std::isfinite(t.cpu_seconds) ? t.cpu_seconds : 0;
+  const double cpu = CoreSeconds(e);
   const ObjectiveFinding& own = data.own();
   // The noise floor is a SAD: no other objective can be held against it.
   const double floor =
@@ -88,6 +111,7 @@ Json CampaignJson(const ReportData& data) {
           {"state", e.state},
           {"stop_reason", e.stop_reason},
           {"budget", e.max_simulations},
+          {"counts", CountsJson(e)},
           {"scale_factor", Number(e.scale_factor)},
           {"core_hours", cpu > 0 ? Number(cpu / 3600) : Json(nullptr)},
           {"objective",

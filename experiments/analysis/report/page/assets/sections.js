@@ -2,12 +2,8 @@
 const objectiveValue = (x, digits) => formatUnit(x, D.campaign.objective.unit, digits);
 
 function standing() {
-  const c = D.campaign, failed = D.trials.state.filter((s) => s === "failed").length;
-  const running = D.trials.state.filter((s) => s === "running").length;
-  const done = D.trials.state.filter((s) => s === "ok").length;
-  const confirming = D.trials.state.filter(
-    (s, i) => s === "ok" && D.trials.purpose[i] === "confirm").length;
-  const parts = [done - confirming + " simulations" + (c.budget ? " of at most " + c.budget : "")];
+  const c = D.campaign, {searched, confirming, failed, running} = c.counts;
+  const parts = [searched + " simulations" + (c.budget ? " of at most " + c.budget : "")];
   if (confirming) parts.push(confirming + " confirming");
   if (failed) parts.push(failed + " failed");
   if (running) parts.push(running + " running");
