@@ -7,9 +7,9 @@ namespace {
 
 constexpr double kBias = 0.08;  // displacement of each parameter per unit of f - 1, unit cube
 
-int NoiseLevel(double factor) { return factor < 1.2 ? 1 : factor < 1.8 ? 3 : 2; }
-
 }  // namespace
+
+int NoiseLevel(double factor) { return factor < 1.2 ? 1 : factor < 1.8 ? 3 : 2; }
 
 Image HeapAt(const Problem& problem, const Vec& x, double factor, std::uint64_t run) {
   const Vec direction{1, -1, 0.5};

@@ -13,14 +13,13 @@
 #include <sstream>
 #include <string>
 
+#include "bench/optimizers/fidelity_heaps.h"
 #include "bench/optimizers/problems.h"
 #include "optimizer/strategies/make_strategy.h"
 
 namespace talus::bench {
 namespace {
 
-constexpr double kBias = 0.08;   // displacement of each parameter per unit of f - 1, unit cube
-constexpr int kHeaps = 5;        // the target is the mean of
 constexpr double kSolved = 0.1;  // distance of the answer from the truth, unit cube
 
 struct Options {
@@ -49,18 +48,6 @@ Options Parse(int argc, char** argv) {
   return options;
 }
 
-int NoiseLevel(double factor) { return factor < 1.2 ? 1 : factor < 1.8 ? 3 : 2; }
-
-// The parameters whose true heap a coarse one looks like.
-Vec Displaced(const Vec& x, double factor) {
-  const Vec direction{1, -1, 0.5};
-  Vec displaced = x;
-  for (std::size_t k = 0; k < displaced.size(); ++k) {
-    displaced[k] = std::clamp(x[k] + kBias * (factor - 1) * direction[k], 0.0, 1.0);
-  }
-  return displaced;
-}
-
 // Folded often enough that near places are as far apart as any.
 Vec Scrambled(const Vec& x) {
   Vec scrambled = x;
@@ -71,28 +58,18 @@ Vec Scrambled(const Vec& x) {
   return scrambled;
 }
 
-Image Heap(const Problem& problem, const Vec& x, double factor, std::uint64_t run,
-           bool useless = false) {
-  const bool scramble = useless && factor > 1;
-  return problem.MakeImage(scramble ? Scrambled(x) : Displaced(x, factor), run, NoiseLevel(factor));
+Image Heap(const Problem& problem, const Vec& x, double factor, std::uint64_t run, bool useless) {
+  if (!useless || factor == 1) return HeapAt(problem, x, factor, run);
+  return problem.MakeImage(Scrambled(x), run, NoiseLevel(factor));
 }
 
-optimizer::ExperimentTarget TargetOf(const Problem& problem, const Vec& truth, int instance) {
-  optimizer::ExperimentTarget target{.name = "heap"};
+optimizer::ExperimentTarget Photographed(const Problem& problem, const Vec& truth, int instance) {
+  std::vector<Image> heaps;
   for (int heap = 0; heap < kHeaps; ++heap) {
     const auto run = static_cast<std::uint64_t>(900'000 + 1000 * instance + heap);
-    const Image image = Heap(problem, truth, 1, run);
-    target.image.width = image.w;
-    target.image.height = image.h;
-    target.image.target.resize(image.px.size());
-    for (std::size_t i = 0; i < image.px.size(); ++i) {
-      target.image.target[i] += image.px[i] / static_cast<float>(kHeaps);
-    }
-    target.runs.push_back(image.px);
+    heaps.push_back(HeapAt(problem, truth, 1, run));
   }
-  target.image.sad_scale = 100.0 / (target.image.width * target.image.height);
-  target.image.num_target_heaps = kHeaps;
-  return target;
+  return TargetOf(heaps);
 }
 
 struct Tally {
@@ -106,7 +83,7 @@ struct Tally {
 void Calibrate(const Options& options, int instance, Tally& tally) {
   const auto problem = MakeProblem("heap", instance);
   const Vec truth = TwinTruth(instance);
-  const optimizer::ExperimentTarget target = TargetOf(*problem, truth, instance);
+  const optimizer::ExperimentTarget target = Photographed(*problem, truth, instance);
   const auto seed = static_cast<std::uint64_t>(instance);
   const auto strategy = optimizer::MakeFidelityStrategy(
       {.scale_factors = options.factors, .target = options.target, .seed = seed},
@@ -115,7 +92,7 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
   int told = 0;
   for (; spent < options.core_time; ++told) {
     const optimizer::Proposal p = strategy->AskAt(1, {}).front();
-    const double cost = std::pow(p.scale_factor, -4);
+    const double cost = HeapCost(p.scale_factor);
     spent += cost;
     const Image image = Heap(*problem, {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
                              1000 * seed + static_cast<std::uint64_t>(told), options.useless);

@@ -186,16 +186,15 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
                             "\" has numbers only, and no image to compare; name another with "
                             "--experiment");
   }
-  std::vector<journal::TrialRecord> trials = journal->Trials();
-  for (const journal::TrialRecord& t : trials) {
+  std::vector<journal::TrialRecord> trials;
+  for (journal::TrialRecord& t : journal->Trials()) {
     std::vector<MetricInfo> none;
-    if (static_cast<std::size_t>(t.experiment) != index) {
+    if (static_cast<std::size_t>(t.experiment) == index) {
+      trials.push_back(std::move(t));
+    } else {
       evidence.of_others.push_back(EvidenceOf(t, none));
     }
   }
-  std::erase_if(trials, [&](const journal::TrialRecord& t) {
-    return static_cast<std::size_t>(t.experiment) != index;
-  });
   AddTrials(evidence, compared_with, trials);
   evidence.reference.aehp = ReadReference(compared_with);
   evidence.reference.num_heaps = compared_with.num_heaps;
