@@ -29,6 +29,9 @@ std::string Nearest(std::string_view name, std::span<const std::string> known) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
+    // A letter too many or too few is an edit each: a name of megabytes is compared with none.
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    if (longer - shorter >= best_distance) continue;
     const std::size_t distance = EditDistance(name, candidate);
     if (distance < best_distance) {
       best = candidate;

@@ -1,8 +1,9 @@
 // engine_heap [--spheres N] [--ratio D/d] [--sliding MU] [--rolling MU] [--seed N] [--threads N]
 //   [--modulus Y] [--settle T] [--lift T] [--speed V] [--rest T] [--data FILE] [--csv FILE]
-//   [--share S]
+//   [--rayleigh F] [--share S]
 // The whole lifted-tube problem of bench/peers/README.md: fill and settle 0.08 s, lift 0.20 s at
-// 0.05 m/s, rest 0.22 s, unless told otherwise. Prints the time each part took, and the heap, which
+// 0.05 m/s, rest 0.22 s, steps of 0.15 Rayleigh times, unless told otherwise. Prints the time each
+// part took, and the heap, which
 // --csv writes. --data writes the start for LAMMPS and LIGGGHTS; --share runs only that share of
 // each part.
 #include <cstdio>
@@ -62,6 +63,7 @@ void Run(std::map<std::string, std::string> options) {
   take("--rest", heap.rest_time);
   take("--seed", heap.seed);
   take("--threads", heap.num_threads);
+  take("--rayleigh", heap.rayleigh_fraction);
   double share = 1;
   take("--share", share);
   for (double* time : {&heap.settle_time, &heap.lift_time, &heap.rest_time}) *time *= share;

@@ -59,6 +59,7 @@ struct PeerHeap {
   double lift_time = 0.20;          // [s]
   double lift_speed = 0.05;         // [m/s]
   double rest_time = 0.22;          // [s]
+  double rayleigh_fraction = 0.15;  // Δt over the Rayleigh time [-]
   std::uint64_t seed = 1;
   int num_threads = 1;
 
@@ -68,6 +69,7 @@ struct PeerHeap {
     scene.materials[0].rolling_friction = rolling_friction;
     scene.materials[0].youngs_modulus = youngs_modulus;
     scene.num_threads = num_threads;
+    scene.rayleigh_fraction = rayleigh_fraction;
     std::get<engine::OpenCylinder>(scene.walls[0].shape).length = 0.06;
     return scene;
   }

@@ -58,9 +58,13 @@ function(talus_add_library name)
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
 
+if(TALUS_THREAD_SANITIZER)
+  add_custom_target(tests_with_threads)
+endif()
+
 # talus_add_test(folder/name_test libraries... [LABELS slow] [TIMEOUT seconds])
 # One program from one file; every test case of it is a CTest test. Label "slow" keeps it out of the
-# quick part of the suite.
+# quick part of the suite, label "threads" puts it into what the thread sanitizer's preset builds and runs.
 function(talus_add_test path)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;ARGUMENTS" ${ARGN})
   string(REPLACE "/" "_" target ${path})
@@ -70,6 +74,9 @@ function(talus_add_test path)
     if("slow" IN_LIST ARG_LABELS)
       set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)
     endif()
+  endif()
+  if(TALUS_THREAD_SANITIZER AND "threads" IN_LIST ARG_LABELS)
+    add_dependencies(tests_with_threads ${target})
   endif()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${target} PRIVATE TALUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

@@ -25,7 +25,27 @@ fs::path FolderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+void RequireNoFile(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error) || !fs::exists(fs::symlink_status(folder, error))) return;
+  throw ConfigError(folder.string() +
+                    (fs::is_symlink(folder, error) && !fs::exists(folder, error)
+                         ? ": is a link that leads nowhere; name a folder with --out"
+                         : ": is a file; name a folder with --out"));
+}
+
 }  // namespace
+
+void MakeOutputFolder(const fs::path& folder) {
+  RequireNoFile(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error == std::errc::not_a_directory) {
+    throw ConfigError(folder.string() +
+                      ": lies in a file, not in a folder; name another with --out");
+  }
+  if (error) throw Error(folder.string() + ": cannot be made: " + error.message());
+}
 
 bool IsOutputFolder(const fs::path& folder, std::string_view command) {
   return ReadTail(folder / kMark, 64) == std::string(command) + "\n";
@@ -33,21 +53,17 @@ bool IsOutputFolder(const fs::path& folder, std::string_view command) {
 
 void ClaimOutputFolder(const fs::path& folder, std::string_view command,
                        std::span<const fs::path> inputs) {
-  std::error_code error;
   for (const fs::path& input : inputs) {
     if (!IsSame(FolderOf(input), folder)) continue;
     throw ConfigError(folder.string() + ": holds the input " + input.string() +
                       ", which the results could overwrite; name another folder with --out");
   }
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
-    throw ConfigError(folder.string() + ": is a file; name a folder with --out");
-  }
+  RequireNoFile(folder);
   if (!HoldsOnly(folder, {}) && !IsOutputFolder(folder, command)) {
     throw ConfigError(folder.string() + ": holds files that `talus " + std::string(command) +
                       "` has not written and could overwrite; name a new folder with --out");
   }
-  fs::create_directories(folder, error);
-  if (error) throw Error(folder.string() + ": cannot be made: " + error.message());
+  MakeOutputFolder(folder);
   WriteFileAtomically(folder / kMark, std::string(command) + "\n", Outlives::kProgram);
 }
 

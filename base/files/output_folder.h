@@ -14,6 +14,10 @@ namespace talus::base {
 void ClaimOutputFolder(const std::filesystem::path& folder, std::string_view command,
                        std::span<const std::filesystem::path> inputs = {});
 
+// Makes a folder where there is none. Throws ConfigError when its name is taken by something else,
+// and Error when it cannot be made.
+void MakeOutputFolder(const std::filesystem::path& folder);
+
 // Whether `command` has written into the folder.
 bool IsOutputFolder(const std::filesystem::path& folder, std::string_view command);
 

@@ -18,6 +18,7 @@
 #include "base/json/json_file.h"
 #include "base/nearest.h"
 #include "base/problems.h"
+#include "base/text/printable.h"
 #include "base/vec3.h"
 
 namespace talus::base {
@@ -103,6 +104,11 @@ class JsonReader {
   void Read(const json& value, std::filesystem::path& field, const FieldInfo&) {
     if (!value.is_string()) return Expect("a path");
     field = context_.folder / value.get<std::string>();
+    // What is read is written again, into copies of the spec and the journal.
+    if (!IsUtf8(field.string())) {
+      context_.problems.Add("", "is read from \"" + context_.folder.string() +
+                                    "\", whose name is not UTF-8; rename that folder");
+    }
   }
   void Read(const json& value, Vec3& field, const FieldInfo& info) {
     if (!value.is_array() || value.size() != 3) return Expect("a list of three numbers");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/json/json_text.h"
 #include "base/vec3.h"
 
 namespace talus::base {
@@ -62,8 +63,8 @@ nlohmann::ordered_json ToJson(const T& value) {
   }
 }
 
-// The text of a whole file: ToJson(value).dump(2) with a line feed, made piece by piece, as the
-// document of a scene of a million spheres takes gigabytes.
+// The text of a whole file: JsonText(ToJson(value), 2) with a line feed, made piece by piece, as
+// the document of a scene of a million spheres takes gigabytes.
 class JsonTextWriter {
  public:
   template <class T>
@@ -121,7 +122,7 @@ class JsonTextWriter {
     } else if constexpr (std::same_as<T, Vec3>) {
       Write(std::vector<double>{value.x, value.y, value.z});
     } else {
-      text_ += ToJson(value).dump();
+      text_ += JsonText(ToJson(value));
     }
   }
 

@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "base/text/printable.h"
 
 namespace talus::base {
 
-Csv& Csv::Cell(std::string_view text) {
+Csv& Csv::Cell(std::string_view from_outside) {
   Separate();
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+  const std::string text = Printable(from_outside);
+  if (text.find_first_of(",\"\n") == std::string::npos) {
     text_ += text;
     return *this;
   }

@@ -1,4 +1,4 @@
-// A table as CSV [rfc4180], a cell after the other.
+// A table as CSV [rfc4180], a cell after the other. Texts may be of others: they become printable.
 #pragma once
 
 #include <concepts>

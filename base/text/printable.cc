@@ -21,33 +21,47 @@ std::size_t LengthOf(unsigned char first) {
   return first >= 0xf0 && first < 0xf5 ? 4 : 0;
 }
 
-// Bytes of the printable character at the start of `text`; 0 when there is none.
-std::size_t PrintableLength(std::string_view text) {
-  const unsigned char first = Byte(text, 0);
-  const std::size_t length = LengthOf(first);
-  if (length == 0 || length > text.size()) return 0;
-  std::uint32_t code = length == 1 ? first : first & (0x7fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((Byte(text, i) & 0xc0) != 0x80) return 0;
-    code = code << 6 | (Byte(text, i) & 0x3fu);
-  }
-  if (code < 0x20 || (code >= 0x7f && code < 0xa0)) return 0;  // C0, DEL, C1
-  // Too long forms, surrogates, and what turns the direction of writing.
-  if ((length == 3 && code < 0x800) || (length == 4 && code < 0x10000) || code > 0x10ffff) return 0;
-  if ((code >= 0xd800 && code < 0xe000) || (code >= 0x202a && code <= 0x202e)) return 0;
-  return code >= 0x2066 && code <= 0x2069 ? 0 : length;
+bool IsControl(std::uint32_t code) {
+  return code < 0x20 || (code >= 0x7f && code < 0xa0) ||                            // C0, DEL, C1
+         (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);  // direction
 }
 
 bool IsBlank(char c) { return c == '\n' || c == '\t'; }
 
 }  // namespace
 
+Character FirstCharacter(std::string_view text) {
+  const unsigned char first = Byte(text, 0);
+  const std::size_t length = LengthOf(first);
+  if (length == 0 || length > text.size()) return {};
+  std::uint32_t code = length == 1 ? first : first & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((Byte(text, i) & 0xc0) != 0x80) return {};
+    code = code << 6 | (Byte(text, i) & 0x3fu);
+  }
+  // Too long forms, and surrogates.
+  if ((length == 3 && code < 0x800) || (length == 4 && code < 0x10000) || code > 0x10ffff)
+    return {};
+  if (code >= 0xd800 && code < 0xe000) return {};
+  return {.code = code, .length = length, .is_control = IsControl(code)};
+}
+
+bool IsUtf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = FirstCharacter(text).length;
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
 std::string Printable(std::string_view text) {
   std::string printable;
   printable.reserve(text.size());
   while (!text.empty()) {
-    std::size_t length = IsBlank(text[0]) ? 1 : PrintableLength(text);
-    if (length > 0) {
+    const Character next = FirstCharacter(text);
+    std::size_t length = next.length;
+    if (length > 0 && (!next.is_control || IsBlank(text[0]))) {
       printable += text.substr(0, length);
     } else {
       char code[5];

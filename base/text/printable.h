@@ -2,6 +2,8 @@
 // terminal obeys what follows an escape character.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <ostream>
 #include <streambuf>
 #include <string>
@@ -12,6 +14,15 @@ namespace talus::base {
 // Every control character but the line feed and the tab, and every byte that is not UTF-8, is
 // written as "\x1b".
 std::string Printable(std::string_view text);
+
+// The character that a text starts with.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t length = 0;   // in bytes; 0 where it is not UTF-8, or the text is empty
+  bool is_control = false;  // a terminal may obey it; what turns the direction of writing, too
+};
+Character FirstCharacter(std::string_view text);
+bool IsUtf8(std::string_view text);
 
 // Whether a text holds a control character, the line feed and the tab among them.
 bool HasControl(std::string_view text);

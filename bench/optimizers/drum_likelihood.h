@@ -32,7 +32,7 @@ class Output {
       for (Eigen::Index i = 0; i < k.rows(); ++i) {
         const auto pair =
             surrogate::FidelityPair::Of(hyper, warped.col(i).data(), warped.col(j).data());
-        k(i, j) = units * surrogate::FidelityCovarianceOf(hyper, pair, 0);
+        k(i, j) = units * surrogate::FidelityCovarianceOf(hyper, pair, 0, 0);
       }
       k(j, j) += noise_;
     }

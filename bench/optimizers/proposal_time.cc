@@ -1,5 +1,5 @@
-// Prints the processor time of one proposal, and of one answer, after many noisy evaluations; and,
-// after a slash, the time that passed.
+// Prints the processor time of one proposal, and of one answer, after many noisy evaluations; after
+// slashes that of the calling thread, and the time that passed.
 //
 //   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp or field]
 //

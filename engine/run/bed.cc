@@ -6,7 +6,10 @@ namespace talus::engine {
 
 Bed MeasureBed(const Simulation& simulation, const Vessel& vessel) {
   double volume = 0, moment = 0;
+  std::int64_t grains = 0;
   for (const Particle& p : simulation.Particles()) {
+    if (p.position.z < vessel.floor) continue;  // has fallen out
+    ++grains;
     const double v = 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
     volume += v;
     moment += v * (p.position.z - vessel.floor);
@@ -17,8 +20,7 @@ Bed MeasureBed(const Simulation& simulation, const Vessel& vessel) {
   Bed bed;
   bed.height = 2 * moment / volume;
   bed.solid_fraction = volume / (vessel.area * bed.height);
-  bed.coordination =
-      2 * static_cast<double>(touching) / static_cast<double>(simulation.num_particles());
+  bed.coordination = 2 * static_cast<double>(touching) / static_cast<double>(grains);
   return bed;
 }
 

@@ -17,7 +17,8 @@ struct Vessel {
   double floor = 0;  // height of its floor [m]
 };
 
-// For a level bed of even density the height is that of its surface.
+// For a level bed of even density the height is that of its surface. Grains below the floor have
+// fallen out and do not count.
 Bed MeasureBed(const Simulation& simulation, const Vessel& vessel);
 
 }  // namespace talus::engine

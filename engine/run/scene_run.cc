@@ -8,6 +8,7 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "engine/run/resisted_spins.h"
 #include "engine/run/scaling_json.h"
@@ -185,7 +186,7 @@ std::vector<std::string> SceneRun::TakeMessages() { return std::exchange(message
 std::string SceneRun::Checkpoint(const RunTiming& timing) const {
   return Pack({.input_hash = input_hash_,
                .timing = timing,
-               .state = base::ToJson(state_).dump(),
+               .state = base::JsonText(base::ToJson(state_)),
                .simulation = simulation_.Checkpoint()});
 }
 
@@ -224,7 +225,8 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
                       {"particle_steps", state_.particle_steps},
                       {"threads", spec_.threads},
                       {"scaling", ScalingJson(simulation_.Scaling())}};
-  base::WriteFileAtomically(folder_ / "result.json", base::WithChecksum(result.dump(2) + "\n"));
+  base::WriteFileAtomically(folder_ / "result.json",
+                            base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
 
 std::uint64_t SceneHash(const SceneSpec& spec) {

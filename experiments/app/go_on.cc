@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -24,7 +25,7 @@ void PrintEnd(const campaign::Campaign& campaign, const Ended& ended) {
       if (tell.quiet) return;
       if (tell.json) {
         const auto result = nlohmann::ordered_json::parse(campaign::ResultText(*campaign.result()));
-        std::cout << nlohmann::ordered_json{{"event", "result"}, {"result", result}}.dump()
+        std::cout << base::JsonText(nlohmann::ordered_json{{"event", "result"}, {"result", result}})
                   << std::endl;
         return;
       }

@@ -14,16 +14,41 @@ namespace {
 
 constexpr double kSurprise = 2;          // standard deviations that are no luck any more
 constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
+constexpr double kLeastOfFloor = 0.25;   // of the experiment's noise floor: neither is this
 constexpr int kFewestLeftOut = 10;       // evaluations that a coverage is judged from
 constexpr double kLeastCoverage = 0.75;  // of nominal 90 % regions
 constexpr double kMostLeftOut = 0.8;     // error / standard deviation: a constant has 1
 
 double OrZero(double x) { return std::isfinite(x) ? x : 0; }
 
-// Error of the recommended set's confirmed mean.
+// Error of the recommended set's confirmed mean. A few seeds that happen to agree say little of it.
 double ErrorOf(const CampaignResult& result, const ResultCandidate& confirmed) {
-  if (std::isfinite(confirmed.standard_error)) return confirmed.standard_error;
-  return OrZero(result.noise_sd) / std::sqrt(std::max(1, confirmed.num_trials));
+  return std::max(OrZero(confirmed.standard_error),
+                  OrZero(result.noise_sd) / std::sqrt(std::max(1, confirmed.num_trials)));
+}
+
+// What the set would have without any scatter, which is what a model of mean heaps predicts. The
+// square of a mean profile's SAD falls as a + b/n with its n heaps: one heap and the mean of n tell
+// a.
+double WithoutScatter(const ResultCandidate& confirmed) {
+  if (!confirmed.profile_sad_mm2 || confirmed.num_trials < 2) return confirmed.mean;
+  const double one = confirmed.mean;
+  const double all = *confirmed.profile_sad_mm2;
+  const double n = confirmed.num_trials;
+  return std::min(one, std::sqrt(std::max(0.0, (n * all * all - one * one) / (n - 1))));
+}
+
+// "… by 0.68 mm² (noise floor 0.7), 0.08 mm² more than the model predicted"
+std::string ConfirmedText(const CampaignResult& result, double confirmed, double excess) {
+  const std::string unit = result.objective_unit.empty() ? "" : " " + result.objective_unit;
+  std::string text =
+      "simulated again with fresh seeds, the mean heap of the recommended set misses the "
+      "experiment by " +
+      base::ShortNumber(confirmed, 2) + unit;
+  if (result.noise_floor) {
+    text += " (noise floor " + base::ShortNumber(*result.noise_floor, 2) + ")";
+  }
+  return text + ", " + base::ShortNumber(excess, 2) + unit + " more than the model predicted";
 }
 
 // The best trial of the search at the target scale factor, of the first experiment.
@@ -79,12 +104,14 @@ std::vector<ResultWarning> DisappointmentAlarms(const CampaignResult& result,
   const double error =
       is_confirmed ? ErrorOf(result, result.confirmed[0]) : OrZero(result.predicted_sd);
   if (is_confirmed && std::isfinite(result.predicted)) {
-    // A prediction may be of the mean heap: runs scatter about it, their mean profile does less.
-    const double mean = std::min(shown, result.confirmed[0].profile_sad_mm2.value_or(shown));
+    const double mean = WithoutScatter(result.confirmed[0]);
     const double excess = mean - result.predicted;
-    if (excess > kSurprise * std::hypot(error, OrZero(result.predicted_sd)) &&
-        excess > kLeastShare * result.predicted) {
-      alarms.push_back(Worded({.kind = WarningKind::kWorseThanPredicted, .value = excess}));
+    const double least =
+        std::max(kLeastShare * result.predicted, kLeastOfFloor * result.noise_floor.value_or(0));
+    if (excess > kSurprise * std::hypot(error, OrZero(result.predicted_sd)) && excess > least) {
+      alarms.push_back(Worded({.kind = WarningKind::kWorseThanPredicted,
+                               .value = excess,
+                               .text = ConfirmedText(result, mean, excess)}));
     }
   }
   const double factor =
@@ -139,9 +166,10 @@ std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer) {
     if (p.num_left_out < kFewestLeftOut || p.raw_coverage >= kLeastCoverage) return {};
     return {Worded({.kind = WarningKind::kPoorModel,
                     .value = p.raw_coverage,
-                    .text = "its 90 % regions hold " +
+                    .text = "of the simulations left out of the fit one by one, " +
                             base::ShortNumber(std::round(100 * p.raw_coverage)) +
-                            " % of the trials left out; the ranges are widened for it"})};
+                            " % lay within its 90 % regions; the ranges are widened by " +
+                            base::ShortNumber(std::sqrt(p.temper), 2) + " for it"})};
   }
   if (!(answer.left_out_share > kMostLeftOut)) return {};
   return {Worded({.kind = WarningKind::kPoorModel,

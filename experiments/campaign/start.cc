@@ -7,6 +7,7 @@
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
 #include "experiments/campaign/folder/repair.h"
@@ -44,7 +45,7 @@ void AddImages(const ExperimentSpec& spec, journal::ExperimentRecord& record) {
   if (!experiment.standard_deviation.pixels.empty()) {
     record.aehp_sd_png = imaging::EncodePng(experiment.standard_deviation);
   }
-  record.frame_json = base::ToJson(experiment.aehp.frame).dump();
+  record.frame_json = base::JsonText(base::ToJson(experiment.aehp.frame));
   record.nebp_px = imaging::Nebp(experiment.aehp.image);
   record.num_heaps =
       experiment.runs.empty() ? spec.images.map_heaps : static_cast<int>(experiment.runs.size());
@@ -192,9 +193,7 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   const CampaignFolder folder{std::filesystem::absolute(root)};
   RequireNewFolder(folder, root);
   const journal::CampaignRecord record = MakeRecord(spec, file);
-  std::error_code error;
-  std::filesystem::create_directories(folder.root, error);
-  if (error) throw base::Error(root.string() + ": cannot be made: " + error.message());
+  base::MakeOutputFolder(root);
   const CampaignLock lock(folder.root);
   RequireNewFolder(folder, root);  // another process may have begun one meanwhile
   KeepCampaign(folder, record);

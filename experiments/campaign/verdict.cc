@@ -15,7 +15,7 @@ constexpr double kWide = 0.25;  // share of a searched range above which it is n
 // Three digits: a verdict is no table.
 std::string Short(double value) { return base::ShortNumber(value, 3); }
 
-std::string Percent(double share) { return Short(100 * share) + " %"; }
+std::string Percent(double share) { return base::ShortNumber(100 * share, 2) + " %"; }
 
 std::string SetText(const VerdictBasis& basis, const std::vector<double>& values) {
   std::string text;
@@ -47,8 +47,8 @@ std::string PointText(const VerdictBasis& basis) {
   std::string text = "The measurements determine a point: ";
   if (basis.sets.size() != 1) return text + RangesText(basis);
   for (std::size_t i = 0; i < basis.names.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + basis.names[i] + " " + Short(basis.sets[0][i]) + " (" +
-            Short(basis.low[i]) + " to " + Short(basis.high[i]) + ")";
+    text += (i == 0 ? "" : ", ") + basis.names[i] + " " + Short(basis.sets[0][i]) +
+            " (90 %: " + Short(basis.low[i]) + " to " + Short(basis.high[i]) + ")";
   }
   return text;
 }
@@ -146,8 +146,8 @@ std::optional<ResultVerdict> VerdictOf(const VerdictBasis& basis) {
     return std::nullopt;
   }
   const VerdictKind kind = KindOf(basis);
-  const std::string region =
-      basis.branches.empty() ? "sets within the scatter fill " : "the joint 90 % region fills ";
+  const std::string region = basis.branches.empty() ? "sets within the scatter fill about "
+                                                    : "the joint 90 % region fills about ";
   return ResultVerdict{.kind = kind,
                        .text = TextOf(kind, basis) + "; " + region + Percent(basis.region_volume) +
                                " of the searched ranges."};

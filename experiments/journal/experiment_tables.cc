@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
 
@@ -89,7 +90,7 @@ void InsertExperiment(Database& database, std::int64_t position, const Experimen
   i = 0;
   for (const PhotoWarningRecord& warning : e.warnings) {
     database.Prepare("INSERT INTO experiment_warnings VALUES (?1, ?2, ?3)")
-        .Bind(position, i++, base::ToJson(warning).dump())
+        .Bind(position, i++, base::JsonText(base::ToJson(warning)))
         .Finish();
   }
 }

@@ -1,5 +1,7 @@
 #include "experiments/runners/slurm_verdict.h"
 
+#include "base/text/printable.h"
+
 namespace talus::runners {
 namespace {
 
@@ -14,7 +16,7 @@ bool SaysOutOfTime(const std::string& log) {
 
 std::string LastLine(std::string text) {
   text.erase(text.find_last_not_of(" \n\r") + 1);
-  return text.substr(text.rfind('\n') + 1);  // npos + 1 = 0
+  return base::Printable(text.substr(text.rfind('\n') + 1));  // npos + 1 = 0
 }
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 #include "base/error.h"
 #include "experiments/runners/process_guard.h"
@@ -144,6 +146,23 @@ ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& o
   }
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+std::filesystem::path FindProgram(const std::string& program, const std::filesystem::path& folder) {
+  const auto executable = [](const std::filesystem::path& path) {
+    return ::access(path.c_str(), X_OK) == 0 && !std::filesystem::is_directory(path);
+  };
+  if (program.find('/') != std::string::npos) {
+    const std::filesystem::path path = folder / program;  // an absolute program stays what it is
+    return executable(path) ? path : std::filesystem::path();
+  }
+  const char* search = std::getenv("PATH");
+  std::istringstream folders(search == nullptr ? "/usr/bin:/bin" : search);
+  for (std::string place; std::getline(folders, place, ':');) {
+    const std::filesystem::path path = std::filesystem::path(place) / program;
+    if (!place.empty() && executable(path)) return path;
+  }
+  return {};
 }
 
 }  // namespace talus::runners

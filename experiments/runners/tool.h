@@ -29,4 +29,8 @@ struct ToolOptions {
 // left.
 ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options = {});
 
+// Where a program is: from `folder` on if its name has a "/", else on the PATH; empty when it is
+// not there, or not executable.
+std::filesystem::path FindProgram(const std::string& program, const std::filesystem::path& folder);
+
 }  // namespace talus::runners

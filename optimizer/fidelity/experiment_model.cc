@@ -237,6 +237,10 @@ double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
   return most;
 }
 
+Eigen::VectorXd ExperimentModel::SquaredMisfit(const Eigen::MatrixXd& points) const {
+  return MisfitOf(points).residual.rowwise().squaredNorm();
+}
+
 Eigen::MatrixXd ExperimentModel::LeaveOneOut() const {
   Eigen::MatrixXd z = Eigen::MatrixXd::Constant(num_evaluations_, num_outputs(), kUndefined);
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
@@ -355,6 +359,9 @@ ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
     const Moments moments = Objective(x.transpose());
     standing.predicted_objective = moments.mean[0];
     standing.predicted_sd = moments.sd[0];
+  }
+  for (const Moments& number : Scalars(x.transpose())) {
+    standing.numbers.push_back({.predicted = number.mean[0], .predicted_sd = number.sd[0]});
   }
   return standing;
 }

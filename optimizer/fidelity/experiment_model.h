@@ -66,6 +66,8 @@ class ExperimentModel {
   OutputPredictions Predict(const Eigen::MatrixXd& points) const;
   // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
   double Misfit(const Eigen::VectorXd& x) const;
+  // Sum of the squared residuals of all outputs, one point a row.
+  Eigen::VectorXd SquaredMisfit(const Eigen::MatrixXd& points) const;
 
   // Of each evaluation, predicted from the others, in their sd: one evaluation a row.
   Eigen::MatrixXd LeaveOneOut() const;

@@ -219,6 +219,11 @@ double Posterior::Implausibility(std::size_t experiment, const Eigen::VectorXd& 
   return models_[experiment].Misfit(x) / std::sqrt(temper());
 }
 
+Eigen::VectorXd Posterior::SquaredMisfit(std::size_t experiment,
+                                         const Eigen::MatrixXd& points) const {
+  return models_[experiment].SquaredMisfit(points) / temper();
+}
+
 std::vector<ExperimentStanding> Posterior::StandingsAt(const Eigen::VectorXd& x) const {
   std::vector<ExperimentStanding> standings;
   for (std::size_t e = 0; e < models_.size(); ++e) {

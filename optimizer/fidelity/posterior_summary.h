@@ -14,12 +14,19 @@ struct PosteriorBranch {
   Eigen::VectorXd low, high;  // the branch's bounding box, unit cube
 };
 
+// A number of an experiment, as the model expects it at a point and the target scale factor.
+struct NumberStanding {
+  double predicted = 0;     // mean over seeds
+  double predicted_sd = 0;  // of that mean
+};
+
 // How an experiment stands at a point.
 struct ExperimentStanding {
   std::string name;
   double predicted_objective = 0;  // of the mean image at the target scale factor; NaN without one
   double predicted_sd = 0;
-  double implausibility = 0;  // Posterior::Implausibility [standard deviations]
+  double implausibility = 0;              // Posterior::Implausibility [standard deviations]
+  std::vector<NumberStanding> numbers{};  // in the order of the target's
 };
 
 // Where a given set stands in the posterior.

@@ -30,8 +30,11 @@ std::optional<std::string> StopByExactGain(double gain, double typical) {
 
 std::optional<std::string> StopByShare(double share, double temper, double stop_share) {
   if (!(share < stop_share) || temper > kMostTemper) return std::nullopt;
-  return "over the posterior the surrogate's variance is " + base::ShortNumber(share, 2) +
-         " of what the experiment leaves open, below " + base::ShortNumber(stop_share, 2);
+  const auto percent = [](double x) { return base::ShortNumber(100 * x, 2) + " %"; };
+  return "more simulations would hardly narrow the answer (over the posterior the surrogate's "
+         "variance is " +
+         percent(share) + " of what the measurements leave open, below " + percent(stop_share) +
+         ")";
 }
 
 }  // namespace talus::optimizer

@@ -105,13 +105,21 @@ Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Poin
   } else {
     incumbent.noise = model.NoiseSd(centers.row(0));
   }
-  incumbent.value = model.Mean(centers.row(0));
+  incumbent.value = incumbent.is_own_value ? LowestOwnValue(model) : model.Mean(centers.row(0));
   FieldModel with_fantasies = model;
   for (const Eigen::VectorXd& point : asked) with_fantasies.AddFantasy(point);
   const std::uint64_t index = static_cast<std::uint64_t>(fields_.size()) + asked.size();
   const Domain open = record().OpenDomain(asked);
   const ModelView view = ViewOf(with_fantasies, open, record().options().seed + 7919 * index);
   return MostExpectedImprovement(view, incumbent, centers);
+}
+
+// The lowest value told, as the model's mean would have it: the noise of a single image adds to its
+// differences from the target, and the mean knows nothing of that.
+double FieldStrategy::LowestOwnValue(const FieldModel& model) const {
+  const History& history = record().history();
+  const double added = (history.values - model.Means(history.points)).mean();
+  return history.values.minCoeff() - added;
 }
 
 Eigen::VectorXd FieldStrategy::Best(const FieldModel& model, const Domain& domain) const {

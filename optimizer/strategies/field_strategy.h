@@ -32,6 +32,7 @@ class FieldStrategy : public SurrogateStrategy {
   ModelView ViewOf(const FieldModel& model, const Domain& domain, std::uint64_t seed) const;
   Eigen::VectorXd Step(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd ByImprovement(const FieldModel& model, const Points& asked) const;
+  double LowestOwnValue(const FieldModel& model) const;
   Eigen::VectorXd ByDraw(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd Best(const FieldModel& model, const Domain& domain) const;
   Answer RecommendByValues();

@@ -20,12 +20,30 @@ Eigen::MatrixXd NoisyCovariance(const FidelityData& data, const FidelityHyper& h
     for (Eigen::Index i = j; i < size; ++i) {
       const FidelityPair pair =
           FidelityPair::Of(hyper, data.points.col(i).data(), data.points.col(j).data());
-      k(i, j) = FidelityCovarianceOf(hyper, pair, SharedGrowth(data.growth[i], data.growth[j]));
+      k(i, j) = FidelityCovarianceOf(hyper, pair, data.growth[i], data.growth[j]);
     }
     const double noise = hyper.noise[data.level[j]];
     k(j, j) += noise * noise;
   }
   return k.selfadjointView<Eigen::Lower>();
+}
+
+// What the discrepancies of a pair have in common: g g' + (g² - g)(g'² - g').
+double SharedGrowth(double g1, double g2) { return g1 * g2 + (g1 * g1 - g1) * (g2 * g2 - g2); }
+
+// How much is left of the covariance at the target.
+double TargetShare(const FidelityHyper& hyper, double g1, double g2) {
+  return std::exp(-hyper.decay * (g1 + g2));
+}
+
+Correlation DiscrepancyCorrelation(const FidelityHyper& hyper, const FidelityPair& pair) {
+  return CorrelationAt(kKernel, pair.q / (hyper.length_ratio * hyper.length_ratio));
+}
+
+// But for the constant.
+double TargetCovariance(const FidelityHyper& hyper, const FidelityPair& pair) {
+  return hyper.trend * hyper.trend * (pair.p + pair.p * pair.p) +
+         hyper.signal * hyper.signal * pair.rho.value;
 }
 
 // ½ Σᵢⱼ Wᵢⱼ ∂Kᵢⱼ/∂θ for symmetric W.
@@ -51,11 +69,15 @@ class GradientSum {
     const double* a = data_.points.col(i).data();
     const double* b = data_.points.col(j).data();
     const FidelityPair pair = FidelityPair::Of(hyper_, a, b);
-    const double shared = weight * hyper_.discrepancy * hyper_.discrepancy *
-                          SharedGrowth(data_.growth[i], data_.growth[j]);
-    const double signal2 = weight * hyper_.signal * hyper_.signal;
-    const double trend2 = weight * hyper_.trend * hyper_.trend;
-    const double by_q = (signal2 + shared) * pair.rho.slope;
+    const double g1 = data_.growth[i];
+    const double g2 = data_.growth[j];
+    const double share = weight * TargetShare(hyper_, g1, g2);
+    const double signal2 = share * hyper_.signal * hyper_.signal;
+    const double trend2 = share * hyper_.trend * hyper_.trend;
+    const double shared = weight * hyper_.discrepancy * hyper_.discrepancy * SharedGrowth(g1, g2);
+    const Correlation rho_d = DiscrepancyCorrelation(hyper_, pair);
+    const double by_ratio = shared * rho_d.slope / (hyper_.length_ratio * hyper_.length_ratio);
+    const double by_q = signal2 * pair.rho.slope + by_ratio;
     const double by_p = trend2 * (1 + 2 * pair.p) + shared / 2;
     for (Eigen::Index k = 0; k < layout_.dimension; ++k) {
       const double inverse = 1 / hyper_.length[k];
@@ -68,7 +90,9 @@ class GradientSum {
     }
     sum[layout_.signal()] += 2 * signal2 * pair.rho.value;
     sum[layout_.trend()] += 2 * trend2 * (pair.p + pair.p * pair.p);
-    sum[layout_.discrepancy()] += 2 * shared * (1 + pair.p / 2 + pair.rho.value);
+    sum[layout_.discrepancy()] += 2 * shared * (1 + pair.p / 2 + rho_d.value);
+    sum[layout_.decay()] -= (g1 + g2) * share * TargetCovariance(hyper_, pair);
+    sum[layout_.length_ratio()] -= 2 * by_ratio * pair.q;
   }
 
   const FidelityData& data_;
@@ -85,13 +109,16 @@ FidelityHyper FidelityLayout::Unpack(const Eigen::VectorXd& theta) const {
           .trend = std::exp(theta[trend()]),
           .discrepancy = std::exp(theta[discrepancy()]),
           .noise = theta.segment(noise(), num_levels).array().exp(),
-          .warp = theta.tail(dimension)};
+          .warp = theta.segment(warp(), dimension),
+          .decay = theta[decay()],
+          .length_ratio = std::exp(theta[length_ratio()])};
 }
 
 Eigen::VectorXd FidelityLayout::Pack(const FidelityHyper& hyper) const {
   Eigen::VectorXd theta(size());
   theta << hyper.length.array().log().matrix(), std::log(hyper.signal), std::log(hyper.trend),
-      std::log(hyper.discrepancy), hyper.noise.array().log().matrix(), hyper.warp;
+      std::log(hyper.discrepancy), hyper.noise.array().log().matrix(), hyper.warp, hyper.decay,
+      std::log(hyper.length_ratio);
   return theta;
 }
 
@@ -106,10 +133,16 @@ FidelityPair FidelityPair::Of(const FidelityHyper& hyper, const double* a, const
   return pair;
 }
 
-double FidelityCovarianceOf(const FidelityHyper& hyper, const FidelityPair& pair, double shared) {
-  return kConstantSd * kConstantSd + hyper.trend * hyper.trend * (pair.p + pair.p * pair.p) +
-         hyper.signal * hyper.signal * pair.rho.value +
-         shared * hyper.discrepancy * hyper.discrepancy * (1 + pair.p / 2 + pair.rho.value);
+double FidelityCovarianceOf(const FidelityHyper& hyper, const FidelityPair& pair, double g1,
+                            double g2) {
+  const double constant = kConstantSd * kConstantSd;
+  if (g1 + g2 == 0) return constant + TargetCovariance(hyper, pair);
+  const double of_target = TargetShare(hyper, g1, g2) * TargetCovariance(hyper, pair);
+  const double shared = SharedGrowth(g1, g2);
+  if (shared == 0) return constant + of_target;
+  const double discrepancy2 = shared * hyper.discrepancy * hyper.discrepancy;
+  const double rho_d = DiscrepancyCorrelation(hyper, pair).value;
+  return constant + of_target + discrepancy2 * (1 + pair.p / 2 + rho_d);
 }
 
 double FidelityLogPosterior(const FidelityData& data, const FidelityLayout& layout,

@@ -1,16 +1,17 @@
 // The prior covariance of an output that is simulated at several scale factors: what it is at the
 // target, and a discrepancy that grows from zero there.
 //
-//   z(x, f) = z(x) + g d₁(x) + (g² - g) d₂(x) + noise,       g = (f - f_target)/(f_coarsest -
-//   f_target)
+//   z(x, f) = e^(-a g) z(x) + g d₁(x) + (g² - g) d₂(x) + noise
+//   g = (f - f_target)/(f_coarsest - f_target)
 //
-//   cov z  = c² + t² (p + p²) + s² ρ(q)                      as for one scale factor (covariance.h)
-//   cov d₁ = cov d₂ = u² (1 + p/2 + ρ(q))                    p, q, ρ as above
+//   cov z  = c² + t² (p + p²) + s² ρ(q)           as for one scale factor (covariance.h)
+//   cov d₁ = cov d₂ = u² (1 + p/2 + ρ(q/λ²))      p, q, ρ as above; e^(-a g) leaves c² as it is
 //
-// A noisy linear autoregressive model [kennedy2000] with coefficient 1, written as one process with
-// the scale factor as input, so that designs need not be nested. d₂ vanishes at the target and at
-// the coarsest scale factor: it says how far the growth may be from linear. One evaluation at scale
-// factor l has noise sd n_l.
+// A noisy linear autoregressive model [kennedy2000] with coefficient e^(-a g), written as one
+// process with the scale factor as input, so that designs need not be nested. A large a says that
+// coarse evaluations tell nothing of the target. d₂ vanishes at the target and at the coarsest
+// scale factor: it says how far the growth may be from linear. One evaluation at scale factor l has
+// noise sd n_l.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,9 +28,11 @@ struct FidelityHyper {
   double discrepancy = 0.3;  // u
   Eigen::VectorXd noise;     // n_l, one a scale factor
   Eigen::VectorXd warp;      // of each coordinate (warp.h)
+  double decay = 0;          // a
+  double length_ratio = 1;   // λ
 };
 
-// Logarithms of all but the warps, in the order of FidelityHyper.
+// Logarithms of all but the warps and the decay, in the order of FidelityHyper.
 struct FidelityLayout {
   Eigen::Index dimension = 0;
   Eigen::Index num_levels = 1;
@@ -39,7 +42,9 @@ struct FidelityLayout {
   Eigen::Index discrepancy() const { return dimension + 2; }
   Eigen::Index noise() const { return dimension + 3; }
   Eigen::Index warp() const { return dimension + 3 + num_levels; }
-  Eigen::Index size() const { return 2 * dimension + 3 + num_levels; }
+  Eigen::Index decay() const { return 2 * dimension + 3 + num_levels; }
+  Eigen::Index length_ratio() const { return 2 * dimension + 4 + num_levels; }
+  Eigen::Index size() const { return 2 * dimension + 5 + num_levels; }
 
   FidelityHyper Unpack(const Eigen::VectorXd& theta) const;
   Eigen::VectorXd Pack(const FidelityHyper& hyper) const;
@@ -57,15 +62,14 @@ struct FidelityData {
 struct FidelityPair {
   double p = 0;
   double q = 0;
-  Correlation rho;
+  Correlation rho;  // at q
 
   static FidelityPair Of(const FidelityHyper& hyper, const double* a, const double* b);
 };
 
-// What the discrepancies of a pair have in common: g g' + (g² - g)(g'² - g').
-inline double SharedGrowth(double a, double b) { return a * b + (a * a - a) * (b * b - b); }
-
-double FidelityCovarianceOf(const FidelityHyper& hyper, const FidelityPair& pair, double shared);
+// Of the outputs at two points whose discrepancies have grown by g1 and g2; 0 is the target.
+double FidelityCovarianceOf(const FidelityHyper& hyper, const FidelityPair& pair, double g1,
+                            double g2);
 
 // ln p(values | θ) + ln p(θ); `gradient`, where not null, gets the derivative by θ. θ has a normal
 // prior of mean `median` and standard deviations `sd`. Minus infinity where K is indefinite.

@@ -30,8 +30,21 @@ Prior PriorOf(const FidelityLayout& layout, const FidelityFitOptions& options) {
   prior.sd[layout.trend()] = 1.0;
   prior.sd[layout.discrepancy()] = 0.7;
   prior.sd.segment(layout.noise(), layout.num_levels).setConstant(options.noise_log_sd);
-  prior.sd.tail(d).setConstant(2.0);
+  prior.sd.segment(layout.warp(), d).setConstant(2.0);
+  prior.sd[layout.decay()] = 1;
+  prior.sd[layout.length_ratio()] = 0.7;
   return prior;
+}
+
+// Where evaluations at coarse scale factors tell nothing of the target. A search that starts from
+// the prior's median ends in another maximum then: it takes them for a rough output without noise.
+Eigen::VectorXd UselessLevels(const FidelityLayout& layout, const Prior& prior) {
+  FidelityHyper hyper = layout.Unpack(prior.median);
+  hyper.decay = 3;
+  hyper.discrepancy = 0.5;
+  hyper.length_ratio = 0.4;
+  hyper.noise.head(layout.num_levels - 1).setConstant(0.7);
+  return layout.Pack(hyper);
 }
 
 FidelityHyper Search(const FidelityData& data, const FidelityLayout& layout,
@@ -51,9 +64,15 @@ FidelityHyper Search(const FidelityData& data, const FidelityLayout& layout,
                   .start = prior.median,
                   .max_evaluations = 50,
                   .relative_tolerance = 1e-6};
-  task.lower.tail(layout.dimension).setConstant(-kLargestWarp);
-  task.upper.tail(layout.dimension).setConstant(kLargestWarp);
-  return layout.Unpack(Minimize(cost, task).point);
+  task.lower.segment(layout.warp(), layout.dimension).setConstant(-kLargestWarp);
+  task.upper.segment(layout.warp(), layout.dimension).setConstant(kLargestWarp);
+  Minimum best = Minimize(cost, task);
+  if (layout.num_levels > 1) {
+    task.start = UselessLevels(layout, prior);
+    const Minimum other = Minimize(cost, task);
+    if (other.value < best.value) best = other;
+  }
+  return layout.Unpack(best.point);
 }
 
 }  // namespace
@@ -89,8 +108,7 @@ void FidelityProcess::Factorise() {
     for (Eigen::Index i = j; i < size; ++i) {
       const FidelityPair pair =
           FidelityPair::Of(state_.hyper, warped_.col(i).data(), warped_.col(j).data());
-      k(i, j) =
-          FidelityCovarianceOf(state_.hyper, pair, SharedGrowth(data_.growth[i], data_.growth[j]));
+      k(i, j) = FidelityCovarianceOf(state_.hyper, pair, data_.growth[i], data_.growth[j]);
     }
     const double noise = state_.hyper.noise[data_.level[j]];
     k(j, j) += noise * noise + 1e-10;  // rounding alone must not make K indefinite
@@ -106,7 +124,7 @@ Eigen::MatrixXd FidelityProcess::Cross(const Eigen::MatrixXd& warped, double gro
     for (Eigen::Index i = 0; i < cross.rows(); ++i) {
       const FidelityPair pair =
           FidelityPair::Of(state_.hyper, warped_.col(i).data(), warped.col(j).data());
-      cross(i, j) = FidelityCovarianceOf(state_.hyper, pair, SharedGrowth(data_.growth[i], growth));
+      cross(i, j) = FidelityCovarianceOf(state_.hyper, pair, data_.growth[i], growth);
     }
   }
   return cross;
@@ -116,12 +134,11 @@ Predictions FidelityProcess::Predict(const Eigen::MatrixXd& points, double growt
   const Eigen::MatrixXd warped = WarpAll(points.transpose(), state_.hyper.warp);
   const Eigen::MatrixXd cross = Cross(warped, growth);
   const Eigen::MatrixXd half = lower_.triangularView<Eigen::Lower>().solve(cross);
-  const double shared = SharedGrowth(growth, growth);
   Predictions result{.mean = cross.transpose() * alpha_, .variance = Eigen::VectorXd(cross.cols())};
   for (Eigen::Index j = 0; j < cross.cols(); ++j) {
     const double* x = warped.col(j).data();
     const double prior =
-        FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x), shared);
+        FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x), growth, growth);
     result.variance[j] = std::max(0.0, prior - half.col(j).squaredNorm());
   }
   result.mean = state_.centre + state_.scale * result.mean.array();
@@ -137,7 +154,7 @@ FidelityProcess::Watched FidelityProcess::Watch(const Eigen::MatrixXd& points) c
   for (Eigen::Index j = 0; j < points.rows(); ++j) {
     const double* x = watched.warped.col(j).data();
     const double prior =
-        FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x), 0);
+        FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x), 0, 0);
     watched.variance[j] =
         state_.scale * state_.scale * std::max(0.0, prior - watched.half.col(j).squaredNorm());
   }
@@ -152,13 +169,12 @@ FidelityProcess::Teaching FidelityProcess::TeachingOf(const Watched& watched,
       lower_.triangularView<Eigen::Lower>().solve(Cross(warped, site.growth));
   const double unit = state_.scale * state_.scale;
   const double prior = FidelityCovarianceOf(state_.hyper, FidelityPair::Of(state_.hyper, x, x),
-                                            SharedGrowth(site.growth, site.growth));
+                                            site.growth, site.growth);
   Teaching teaching{.covariance = -unit * (watched.half.transpose() * half),
                     .site_variance = unit * std::max(0.0, prior - half.squaredNorm())};
   for (Eigen::Index j = 0; j < teaching.covariance.size(); ++j) {
     const FidelityPair pair = FidelityPair::Of(state_.hyper, watched.warped.col(j).data(), x);
-    teaching.covariance[j] +=
-        unit * FidelityCovarianceOf(state_.hyper, pair, SharedGrowth(0, site.growth));
+    teaching.covariance[j] += unit * FidelityCovarianceOf(state_.hyper, pair, 0, site.growth);
   }
   return teaching;
 }
@@ -202,11 +218,13 @@ double FidelityProcess::DiscrepancyLeft() const {
   double prior = 0;
   for (Eigen::Index j = 0; j < data_.values.size(); ++j) {
     const Eigen::MatrixXd x = warped_.col(j);
-    // z(x, 1) - z(x, 0) is the linear discrepancy: the quadratic one vanishes at both.
+    // The change from the target to growth 1: the quadratic discrepancy vanishes at both.
     const Eigen::VectorXd step = Cross(x, 1) - Cross(x, 0);
     const FidelityPair same = FidelityPair::Of(state_.hyper, x.data(), x.data());
-    const double own =
-        FidelityCovarianceOf(state_.hyper, same, 1) - FidelityCovarianceOf(state_.hyper, same, 0);
+    const auto covariance = [&](double g1, double g2) {
+      return FidelityCovarianceOf(state_.hyper, same, g1, g2);
+    };
+    const double own = covariance(1, 1) - 2 * covariance(1, 0) + covariance(0, 0);
     prior += own;
     left += std::max(0.0, own - lower.solve(step).squaredNorm());
   }

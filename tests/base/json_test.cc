@@ -5,6 +5,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/json/json_schema.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 
 namespace talus::base {
@@ -188,6 +189,14 @@ TEST(Json, WriterIsReadBack) {
   EXPECT_EQ(JsonTextWriter::TextOf(outer), ToJson(outer).dump(2) + "\n");
   EXPECT_EQ(JsonTextWriter::TextOf(Outer()), ToJson(Outer()).dump(2) + "\n");
   EXPECT_FALSE(again.mass.has_value());
+}
+
+TEST(Json, TextsOfOthersStayJsonThatNoTerminalObeys) {
+  const nlohmann::json log{{"log", "a\x1b[2J\x7f\xc2\x9b \xe2\x80\xae µ"}};
+  EXPECT_EQ(JsonText(log), "{\"log\":\"a\\u001b[2J\\u007f\\u009b \\u202e µ\"}");
+  EXPECT_EQ(nlohmann::json::parse(JsonText(log)), log);
+  EXPECT_EQ(JsonText(nlohmann::json{"l\xe4"}), "[\"l\xef\xbf\xbd\"]");  // U+FFFD
+  EXPECT_EQ(JsonText(nlohmann::ordered_json{{"b", 1}, {"a", 2}}, 1), "{\n \"b\": 1,\n \"a\": 2\n}");
 }
 
 TEST(Json, SchemaHasTypesDefaultsUnitsAndRequiredKeys) {

@@ -42,6 +42,12 @@ TEST(Printable, StreamFiltersWhateverThePiecesAre) {
   EXPECT_EQ(target.str().back(), '\x1b');
 }
 
+TEST(Printable, KnowsWhatIsUtf8) {
+  for (const char* text : {"", "plain", "Größe 粉体 😀", "\x1b\x7f"}) EXPECT_TRUE(IsUtf8(text));
+  for (const char* text : {"l\xe4", "\xc0\x9b", "\xed\xa0\x80", "\xe7\xb2"})
+    EXPECT_FALSE(IsUtf8(text));
+}
+
 TEST(Printable, ControlsAreFound) {
   EXPECT_FALSE(HasControl("a b ü"));
   for (const char* text : {"\n", "a\tb", "\x1b", "\x7f"}) EXPECT_TRUE(HasControl(text));

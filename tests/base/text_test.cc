@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/text/csv.h"
+#include "base/text/markup.h"
 #include "base/text/number_text.h"
 
 namespace talus::base {
@@ -30,6 +31,18 @@ TEST(Csv, QuotesWhatTheFormatNeedsAndLeavesWhatIsNotFinite) {
   csv.Cell("plain").Cell("a,b").Cell("say \"so\"").Cell("two\nlines").EndRow();
   csv.Cell(3).Cell(0.1).Cell(NAN).Cells({1, 2.5}).EndRow();
   EXPECT_EQ(csv.Take(), "plain,\"a,b\",\"say \"\"so\"\"\",\"two\nlines\"\n3,0.1,,1,2.5\n");
+}
+
+// A table is looked at with `cat`, too.
+TEST(Csv, TextsOfOthersBecomePrintable) {
+  base::Csv csv;
+  csv.Cell("a\x1b[2J\r").Cell("l\xe4,b").EndRow();
+  EXPECT_EQ(csv.Take(), "a\\x1b[2J\\x0d,\"l\\xe4,b\"\n");
+}
+
+TEST(Markup, TextsOfOthersStayTexts) {
+  EXPECT_EQ(MarkupText("a < b & \"c\" > µ"), "a &lt; b &amp; &quot;c&quot; &gt; µ");
+  EXPECT_EQ(MarkupText("</script>\x1b[2J"), "&lt;/script&gt;\\x1b[2J");
 }
 
 }  // namespace

@@ -60,12 +60,13 @@ inline double TappedDensity(double rolling, std::uint64_t seed) {
 }
 
 struct FakeEngineOptions {
-  bool die_once = false;     // every third trial is ended by SIGKILL when it is run first
-  bool fail_at_low = false;  // no heap below μ_t = 0.3
-  bool fail_once = false;    // every trial's first seed fails
-  double sleep = 0;          // of each trial [s]
-  bool no_command = false;   // the program is not there
-  bool vanish = false;       // every trial's folder is taken away while it runs
+  bool die_once = false;          // every third trial is ended by SIGKILL when it is run first
+  bool fail_at_low = false;       // no heap below μ_t = 0.3
+  bool fail_fast_at_low = false;  // the same, where the tube is lifted fast
+  bool fail_once = false;         // every trial's first seed fails
+  double sleep = 0;               // of each trial [s]
+  bool no_command = false;        // the program is not there
+  bool vanish = false;            // every trial's folder is taken away while it runs
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -81,7 +82,10 @@ class FakeEngine : public trials::TrialEngine {
     if (options_.die_once && seed % 3 == 0) {
       script += "if [ ! -e died ]; then touch died; kill -9 $$; fi\n";
     }
-    if (options_.fail_at_low && m.sliding_friction < 0.3) script += "echo no heap >&2; exit 3\n";
+    constexpr double kFast = 0.1;  // [m/s]
+    const bool fails = options_.fail_at_low ||
+                       (options_.fail_fast_at_low && heap_case.device.lift_velocity > kFast);
+    if (fails && m.sliding_friction < 0.3) script += "echo no heap >&2; exit 3\n";
     const auto marker = folder.parent_path() / (folder.filename().string() + "_failed");
     if (options_.fail_once && !std::filesystem::exists(marker)) {
       script += "touch " + marker.string() + "; exit 4\n";

@@ -111,14 +111,16 @@ std::string ResultOf(const analysis::Evidence& evidence, const analysis::Conclus
                                                  .adhesion = "jkr",
                                                  .rolling = "epsd"},
                                   .cost = {}};
-  if (evidence.model && evidence.model->draws.rows() > 0 && conclusion.values.size() == 2) {
-    result.correlation = {{1, -0.93}, {-0.93, 1}};  // the valley's
-  }
+  const bool valley = evidence.model && evidence.model->draws.rows() > 0;
+  if (valley && conclusion.values.size() == 2) result.correlation = {{1, -0.93}, {-0.93, 1}};
   for (const std::string& text : conclusion.warnings) {
     result.warnings.push_back({.kind = campaign::WarningKind::kOther, .text = text});
   }
   campaign::ResultCandidate confirmed{.num_trials = conclusion.num_confirmed,
-                                      .mean = conclusion.confirmed};
+                                      .mean = conclusion.confirmed,
+                                      .sad_mm2 = conclusion.confirmed,
+                                      .profile_sad_mm2 = 0.8 * conclusion.confirmed};
+  result.confirmed_over_floor = *confirmed.profile_sad_mm2 / evidence.reference.noise_floor;
   for (std::size_t k = 0; k < conclusion.values.size(); ++k) {
     const analysis::RecommendedValue& v = conclusion.values[k];
     result.parameters.push_back({.name = evidence.parameters[k].range.name,

@@ -13,6 +13,7 @@
 #include "experiments/runners/slurm_batch.h"
 #include "experiments/runners/slurm_queue.h"
 #include "experiments/runners/slurm_verdict.h"
+#include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/engines/template_text.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 #include "tests/fuzz/targets.h"
@@ -40,6 +41,12 @@ void TrialFile(std::string_view bytes) {
   Expect([&] { journal::ParseRecord<journal::TrialRecord>(std::string(bytes), "trial.json"); });
 }
 
+// As another engine leaves them in either form.
+void Scalars(std::string_view bytes) {
+  Expect([&] { trials::ParseJsonScalars(std::string(bytes)); });
+  Expect([&] { trials::ParseCsvScalars(std::string(bytes)); });
+}
+
 void ReadJournal(const std::filesystem::path& file) {
   Expect([&] {
     journal::Journal journal = journal::Journal::OpenReadOnly(file);
@@ -60,12 +67,14 @@ void JournalFile(std::string_view bytes) {
   Expect([&] {
     std::ofstream(file, std::ios::binary) << bytes;
     ReadJournal(file);
-    journal::Database database(file, journal::Database::Mode::kReadWrite);
-    database.Execute("PRAGMA synchronous = OFF; BEGIN");
-    journal::SealAll(database);
-    database.Execute("COMMIT");
+    {
+      journal::Database database(file, journal::Database::Mode::kReadWrite);
+      database.Execute("PRAGMA synchronous = OFF; BEGIN");
+      journal::SealAll(database);
+      database.Execute("COMMIT");
+    }
+    ReadJournal(file);  // not where it cannot be sealed: it is as before
   });
-  ReadJournal(file);
   remove();
 }
 
@@ -81,6 +90,7 @@ constexpr Target kTargets[] = {{"spec", Load<campaign::CampaignSpec>},
                                {"case", Load<rigs::HeapCase>},
                                {"problem", Load<trials::OptimizeProblem>},
                                {"template", Template},
+                               {"scalars", Scalars},
                                {"trial_file", TrialFile},
                                {"journal", JournalFile},
                                {"slurm", Slurm}};

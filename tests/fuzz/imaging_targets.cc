@@ -36,15 +36,10 @@ void Pattern(std::string_view bytes) {
   Expect([&] { imaging::SortPhotos(names, std::string(bytes.substr(0, end))); });
 }
 
-constexpr Target kTargets[] = {{"png", Image},
-                               {"jpeg", Image},
-                               {"tiff", Image},
-                               {"bmp", Image},
-                               {"sphere_csv", SphereCsv},
-                               {"dump", Dump},
-                               {"vtk_legacy", VtkLegacy},
-                               {"vtk_xml", VtkXml},
-                               {"pattern", Pattern}};
+constexpr Target kTargets[] = {
+    {"png", Image},      {"jpeg", Image},           {"tiff", Image}, {"bmp", Image},
+    {"pgm", Image},      {"sphere_csv", SphereCsv}, {"dump", Dump},  {"vtk_legacy", VtkLegacy},
+    {"vtk_xml", VtkXml}, {"pattern", Pattern}};
 
 }  // namespace
 

@@ -164,6 +164,18 @@ TEST(ImageFile, HeaderThatPromisesMoreThanTheFileHoldsTakesNoMemory) {
   EXPECT_LT(PeakMegabytes() - before, 50);
 }
 
+// 134 bytes made libtiff ask for 6.7 GB for a row of 65280 channels.
+TEST(ImageFile, TiffOfTooManyChannelsIsRefusedBeforeItsRowsTakeMemory) {
+  const std::string bytes =
+      base::ReadFile(TALUS_SOURCE_DIR "/tests/fuzz/corpus/tiff/many_channels.tif");
+  try {
+    DecodeGrayImage(bytes, "wide");
+    ADD_FAILURE();
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("a pixel has 65280 channels"));
+  }
+}
+
 // Adam7, in memory as a whole: the other way of reading a PNG.
 TEST(ImageFile, InterlacedPngIsReadAsAnyOther) {
   const GrayImage ramp = Ramp();

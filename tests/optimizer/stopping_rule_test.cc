@@ -27,7 +27,7 @@ TEST(StoppingRule, ExactSearchesEndWhereNothingIsLeftToGain) {
 }
 
 TEST(StoppingRule, CalibrationsEndWhereTheSurrogateKnowsEnoughAndPredictsItsTrials) {
-  EXPECT_THAT(StopByShare(0.049, 1.1, 0.05).value_or(""), HasSubstr("0.049 of what"));
+  EXPECT_THAT(StopByShare(0.049, 1.1, 0.05).value_or(""), HasSubstr("4.9 % of what"));
   EXPECT_FALSE(StopByShare(0.051, 1.1, 0.05));
   EXPECT_FALSE(StopByShare(0.028, 2.9, 0.05));  // an early model that misses a third of its trials
   EXPECT_FALSE(StopByShare(kNan, 1, 0.05));

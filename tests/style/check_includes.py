@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """check_includes.py SOURCE_DIR: includes follow the arrows between folders, each folder and floor has
-one namespace, and each third-party library stays behind its fence."""
+one namespace, each third-party library stays behind its fence, and JSON is printed in one place."""
 import pathlib
 import re
 import sys
@@ -60,6 +60,8 @@ def main() -> int:
                     wrong.append(f"{name}:{number}: its namespace is {namespace_of(name)}")
                 if re.match(r"\s*#\s*pragma\s+omp", line) and name != "base/parallel_for.cc":
                     wrong.append(f"{name}:{number}: OpenMP, whose threads spin; see base/parallel_for.h")
+                if re.search(r"\.dump\(", line) and not name.startswith("base/json/json_text"):
+                    wrong.append(f"{name}:{number}: JSON is printed by base/json/json_text.h")
                 found = INCLUDE.match(line)
                 if not found:
                     continue

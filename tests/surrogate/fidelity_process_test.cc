@@ -49,7 +49,7 @@ TEST(FidelityProcess, GradientOfLogPosteriorIsThatOfDifferences) {
   const FidelityData data = TwoLevels(6, 3);
   const FidelityLayout layout{.dimension = 1, .num_levels = 2};
   Eigen::VectorXd theta(layout.size());
-  theta << -0.3, 0.1, -0.5, -0.8, -2.0, -1.7, 0.4;
+  theta << -0.3, 0.1, -0.5, -0.8, -2.0, -1.7, 0.4, 0.6, -0.3;
   const Eigen::VectorXd median = Eigen::VectorXd::Zero(layout.size());
   const Eigen::VectorXd sd = Eigen::VectorXd::Constant(layout.size(), 1.3);
   Eigen::VectorXd gradient;
@@ -75,6 +75,21 @@ TEST(FidelityProcess, CoarseEvaluationsAndThreeFineOnesPredictTheTarget) {
   EXPECT_LT(RmsError(both), 0.05);
   FidelityData fine = TwoLevels(0, 3);
   EXPECT_GT(RmsError(FidelityProcess::Fit(fine, kOptions)), 2 * RmsError(both));
+}
+
+// Coarse evaluations of another function altogether, too rough for the points to follow.
+TEST(FidelityProcess, CoarseEvaluationsThatTellNothingDoLittleHarm) {
+  constexpr int kFine = 5;
+  FidelityData data = TwoLevels(20, kFine);
+  for (int i = 0; i < 20; ++i) {
+    const double rough = 17 * data.points(0, i);
+    data.values[i] = Fine(rough - std::floor(rough));
+  }
+  const auto both = FidelityProcess::Fit(data, kOptions);
+  const auto fine = FidelityProcess::Fit(TwoLevels(0, kFine), kOptions);
+  // Fine ones alone miss by about their noise. Without a decay and a length of its own for the
+  // discrepancy both together missed by twice as much.
+  EXPECT_LT(RmsError(both), RmsError(fine) + kNoise / 2);
 }
 
 TEST(FidelityProcess, CoarseEvaluationsAloneLeaveTheDiscrepancyOpen) {

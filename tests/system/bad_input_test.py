@@ -52,6 +52,14 @@ def spec():
     return good
 
 
+def joint():
+    good = example("demo/two_tests.json")
+    for experiment, folder in zip(good["experiments"], ("powder_a", "powder_a_wide")):
+        experiment["photos"] = str(SOURCE / "examples/photos" / folder)
+    good["experiments"][1]["device"]["plate_material"] = {"name": "glass", "sliding_friction": 0.3}
+    return good
+
+
 def command_case():
     good = example("scenes/heap_case.json")
     good["engine"] = {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]}
@@ -61,6 +69,7 @@ def command_case():
 
 GOOD = {  # name: content, and how it is tried
     "spec": (spec, ["validate", "{}"]),
+    "joint": (joint, ["validate", "{}"]),
     "case": (lambda: example("scenes/heap_case.json"), ["simulate", "{}", "--out", "new"]),
     "command": (command_case, ["simulate", "{}", "--out", "new"]),
     "scene": (lambda: example("scenes/bouncing_pair.json"), ["simulate", "{}", "--out", "new"]),

@@ -6,17 +6,12 @@
 #include <pwd.h>
 #include <signal.h>
 #include <sys/mount.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-#include <chrono>
-#include <cstdio>
-#include <thread>
 
 #include "base/error.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/system/jumping_clock.h"
+#include "tests/system/session.h"
 
 namespace talus::campaign {
 namespace {
@@ -47,33 +42,6 @@ class CampaignFaults : public CampaignFixture {
     CampaignResult result = Result(folder);
     result.cost = {};
     return ResultText(result);
-  }
-  // A session in a process of its own, so that it can be killed. It exits with the CampaignEnd, or
-  // with kThrew.
-  static constexpr int kThrew = 77;
-  static pid_t StartSession(const fs::path& folder, const FakeEngineOptions& engine = {},
-                            rlim_t largest_file = RLIM_INFINITY) {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    if (largest_file != RLIM_INFINITY) {
-      ::signal(SIGXFSZ, SIG_IGN);
-      const rlimit limit{largest_file, largest_file};
-      ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    try {
-      ::_exit(static_cast<int>(RunFake(folder, engine)));
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "a session ended by: %s\n", error.what());
-      ::_exit(kThrew);
-    }
-  }
-  static int WaitForExit(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-  static void Pause(double seconds) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   }
   static std::size_t NumTrials(const fs::path& folder) { return Trials(folder).size(); }
   void ExpectCalm(const fs::path& folder, const Calm& calm) {

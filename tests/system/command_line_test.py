@@ -12,6 +12,8 @@ import tempfile
 import time
 import unittest
 
+from quick_campaign import quick_spec
+
 TALUS = sys.argv[1]
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 
@@ -31,21 +33,7 @@ def write_campaign(folder):
     deck.mkdir()
     (deck / "run.sh").write_text(ENGINE)
     (deck / "run.sh").chmod(0o755)
-    spec = {
-        "name": "quick",
-        "experiment": {"photos": str(SOURCE / "examples/photos/powder_a"),
-                       "pattern": "run01_view{view}.jpg", "plate_diameter": "10 mm",
-                       "pixel_size": "200 um"},
-        "powder": {"material": {"density": "4386 kg/m^3", "youngs_modulus": "26.25 MPa",
-                                "poisson_ratio": 0.342, "restitution": 0.9},
-                   "sizes": {"kind": "mono", "diameter": "0.6 mm"}, "mass": "1.6 g"},
-        "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm"},
-        "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
-        "engine": {"kind": "command", "templates": "deck", "command": ["./run.sh"],
-                   "result": "heap.csv"},
-        "budget": {"simulations": 4}, "noise": {"replicates": 2},
-        "confirm": {"candidates": 1, "replicates": 2}, "seed": 1,
-    }
+    spec = quick_spec(SOURCE, "quick", ["./run.sh"])
     (folder / "quick.json").write_text(json.dumps(spec))
     return folder / "quick.json"
 
@@ -145,6 +133,20 @@ class Progress(unittest.TestCase):
         self.assertEqual(events[-1]["event"], "result")
         self.assertEqual(events[-1]["result"],
                          json.loads((self.folder / "out/result.json").read_text()))
+
+    # Each may find the folder empty before the other has begun: the lock decides.
+    def test_of_two_at_once_one_begins_the_campaign(self):
+        out = self.folder / "out"
+        both = [subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"],
+                                 stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        said = [process.communicate(timeout=110)[1] for process in both]
+        self.assertIn(sorted(process.returncode for process in both), ([0, 1], [0, 2]), said)
+        self.assertRegex("".join(said), "holds a campaign already|another process")
+        self.assertEqual(talus("resume", out, "--quiet").returncode, 0)
+        exported = talus("export", out)
+        self.assertEqual(exported.returncode, 0, exported.stderr)
+        trials = json.loads((out / "export/trials.json").read_text())["trials"]
+        self.assertEqual([trial["id"] for trial in trials], list(range(1, 4 + 2 + 1)))
 
     def test_quiet_says_nothing_and_does_the_same(self):
         done = talus("calibrate", str(self.spec), "--out", str(self.folder / "out"), "--quiet")
@@ -269,7 +271,7 @@ class Progress(unittest.TestCase):
         self.assertNotIn('http-equiv="refresh"', page)
         data = json.loads(page.split('id="data">')[1].split("</script>")[0])
         self.assertEqual(data["campaign"]["state"], "finished")
-        self.assertIn("chose 4 simulations that gave a heap", data["methods"])
+        self.assertIn("chose 4 simulations at scale factor", data["methods"])
         self.assertIn("sliding friction", data["methods"])
         names = {version["name"] for version in data["versions"]}
         self.assertLessEqual({"its commit", "its compiler", "machine", "hash of the spec"}, names)

@@ -6,10 +6,12 @@ Each time talus must say so and end with status 1, or do what it does with a ful
 when there is room again, the same command must come to what it comes to on a disk with room.
 """
 import concurrent.futures
+import contextlib
 import json
 import os
 import pathlib
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -39,6 +41,10 @@ SPEC = {
     "strategy": {"kind": "sobol", "num_points": 2}, "workers": 1,
     "budget": {"simulations": 2}, "noise": {"replicates": 0}, "confirm": {"candidates": 0},
 }
+# Of images alone, with a posterior: it can be asked what to do next, and take a further test.
+LEARNING = {**SPEC, "strategy": {"kind": "surrogate"}, "budget": {"simulations": 8},
+            "coarse_graining": {"scale_factors": [1.5]}}
+FURTHER = {"name": "plate", "mass_fallen": {"value": "300 mg", "sd": "50 mg"}}
 SCENE = {
     "materials": [{"name": "a", "youngs_modulus": "1 MPa"}],
     "spheres": [{"diameter": "1 mm", "position": [0, 0, "2 mm"]}], "walls": [{"shape": "plane"}],
@@ -60,7 +66,8 @@ def inputs(folder):
     (folder / "deck").mkdir()
     (folder / "deck/run.sh").write_text(DECK)
     (folder / "evaluate.sh").write_text("cat >/dev/null; echo '{\"value\": 1}'\n")
-    for name, content in [("spec", SPEC), ("scene", SCENE), ("problem", PROBLEM)]:
+    for name, content in [("spec", SPEC), ("learning", LEARNING), ("further", FURTHER), ("scene", SCENE),
+                          ("problem", PROBLEM)]:
         (folder / f"{name}.json").write_text(json.dumps(content))
 
 
@@ -72,6 +79,30 @@ def campaign_answer(folder):
     result = json.loads((folder / "out/result.json").read_text())
     return ([(t["id"], t["unit_point"], t["seed"], t["status"], t["metrics"]) for t in trials],
             result["parameters"])
+
+
+def spec_of(folder):
+    """What the campaign is to do by now."""
+    with contextlib.closing(sqlite3.connect(folder / "out/journal.sqlite")) as journal:
+        return json.loads(journal.execute("SELECT spec_json FROM campaign").fetchone()[0])
+
+
+# What is not done again when it has been done: the budget is raised, the test is there.
+def extend_again(folder):
+    more = [] if spec_of(folder)["budget"]["simulations"] == 9 else ["--add-simulations", "1"]
+    return ["resume", "out", "--quiet", *more]
+
+
+def add_again(folder):
+    if "plate" in json.dumps(spec_of(folder).get("experiments", [])):
+        return ["resume", "out", "--quiet"]
+    return ["add-experiment", "out", "further.json", "--quiet"]
+
+
+# Its budget is of core time, so that no two runs have the same trials.
+def is_answered_with_both(folder):
+    told = talus(["consider", "out", "--alone"], folder).stdout
+    return "heap" in told and "plate" in told
 
 
 def content(*names):
@@ -88,9 +119,15 @@ def without(key, name):
 
 
 PHOTO = str(SOURCE / "examples/photos/powder_a/run01_view01.jpg")
-VERBS = {  # name: what is done before, the verb, the verb when there is room again, its answer
+VERBS = {  # name: what is done before, the verb, what goes on when there is room again, its answer
     "calibrate": ([], ["calibrate", "spec.json", "--out", "out", "--quiet"],
                   ["resume", "out", "--quiet"], campaign_answer),
+    "resume": (["calibrate", "learning.json", "--out", "out", "--quiet"],
+               ["resume", "out", "--add-simulations", "1", "--quiet"], extend_again, campaign_answer),
+    "add-experiment": (["calibrate", "learning.json", "--out", "out", "--quiet"],
+                       ["add-experiment", "out", "further.json", "--quiet"], add_again, is_answered_with_both),
+    "next": (["calibrate", "learning.json", "--out", "out", "--quiet"], ["next", "out"], None,
+             content("out/next/next.json")),
     "simulate": ([], ["simulate", "scene.json", "--out", "out"], None, without("timing", "out/result.json")),
     "optimize": ([], ["optimize", "problem.json", "--out", "out", "--quiet", "--", "sh", "evaluate.sh"],
                  None, content("out/result.json")),
@@ -123,7 +160,9 @@ def check(name, moment, fresh, calm):
             wrong.append("does not say that the disk is full")
         begun = again and (folder / "out/campaign.json").exists()
         if full.returncode != 0 or name == "calibrate":
-            if again and not begun:
+            if callable(again):
+                again, begun = again(folder), True
+            elif again and not begun:
                 shutil.rmtree(folder / "out", ignore_errors=True)
             rest = talus(again if begun else verb, folder)
             if rest.returncode != 0:
@@ -150,6 +189,7 @@ def main():
             assert done.returncode == 0, (name, done.stderr)
             writes, calm = int(counted.read_text()), answer(used)
             assert writes > 0, f"{name}: nothing was written, or not counted"
+            assert calm, f"{name}: comes to no answer"
             step = max(1, -(-writes // MOST_MOMENTS))
             moments = range(1, writes + 1, step)
             with concurrent.futures.ThreadPoolExecutor(2) as pool:

@@ -141,8 +141,9 @@ TEST_F(Optimize, ReportsBadInputWithItsPlaceAndWritesNothing) {
 
 TEST_F(Optimize, ACommandThatNeverMakesSenseEndsItWithAReason) {
   Write("problem.json", "{\"parameters\": " + std::string(kUnitSquare) + "}");
-  EXPECT_EQ(Talus("problem.json -- no_such_command"), 1);
-  EXPECT_THAT(errors_, HasSubstr("cannot be run: no_such_command"));
+  EXPECT_EQ(Talus("problem.json --out search -- no_such_command"), 2);
+  EXPECT_THAT(errors_, HasSubstr("\"no_such_command\" is not found"));
+  EXPECT_FALSE(fs::exists(folder_ / "search"));
   EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "nonsense"), 1);
   EXPECT_THAT(errors_, HasSubstr("it wrote: 0.25"));
   EXPECT_EQ(Talus("problem.json --quiet -- " + kCommand + "field"), 1);

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
@@ -70,7 +71,7 @@ std::string JsonCard(const Card& card) {
                                   {"high_90", base::ToJson(r.high)}});
   }
   json["warnings"] = card.notes;
-  return json.dump(2) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 }  // namespace talus::analysis

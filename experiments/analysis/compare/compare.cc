@@ -25,8 +25,8 @@ std::vector<Measurement> MeasurementsOf(const Evidence& evidence, std::size_t co
 }
 
 // Best first; sets that are equal stay in the order of their first trial.
-std::vector<ComparedSet> RankedSets(const std::vector<Measurement>& measured,
-                                    const journal::ObjectiveInfo& info, double reference) {
+std::vector<ComparedSet> RankedSets(const std::vector<Measurement>& measured, const Criterion& info,
+                                    double reference) {
   std::map<std::vector<double>, std::size_t> index;
   std::vector<ComparedSet> sets;
   for (const Measurement& m : measured) {
@@ -122,20 +122,19 @@ ModelFinding FindFromModel(const Evidence& evidence, ObjectiveModel model,
 }
 
 // Why an objective cannot be judged; empty when it can.
-std::string WhyAbsent(const journal::ObjectiveInfo& info, double reference, bool has_column,
+std::string WhyAbsent(const Criterion& info, double reference, bool has_column,
                       bool has_measurement) {
   if (!has_column) return "the trials were not measured by it";
-  if (info.is_angle && std::isnan(reference))
+  if (info.is_distance && std::isnan(reference))
     return "it is not defined on the experiment's profile";
   if (!has_measurement) return "no trial has a value of it yet";
   return "";
 }
 
-ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo& info,
-                         bool with_model) {
+ObjectiveFinding FindFor(const Evidence& evidence, const Criterion& info, bool with_model) {
   ObjectiveFinding finding{.info = info, .absent = {}, .from_trials = {}, .from_model = {}};
   const auto column = MetricColumn(evidence, info.metric);
-  if (column && info.is_angle && *column < evidence.reference.metrics.size()) {
+  if (column && info.is_distance && *column < evidence.reference.metrics.size()) {
     finding.reference = evidence.reference.metrics[*column];
     if (*column < evidence.reference.errors.size()) {
       finding.reference_error = evidence.reference.errors[*column];
@@ -162,7 +161,7 @@ ObjectiveFinding FindFor(const Evidence& evidence, const journal::ObjectiveInfo&
 
 std::vector<ObjectiveFinding> FindForAll(const Evidence& evidence, bool with_models) {
   std::vector<ObjectiveFinding> findings;
-  for (const journal::ObjectiveInfo& info : journal::kObjectives)
+  for (const Criterion& info : CriteriaOf(evidence))
     findings.push_back(FindFor(evidence, info, with_models));
   return findings;
 }

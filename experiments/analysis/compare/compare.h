@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/analysis/compare/criterion.h"
 #include "experiments/analysis/compare/evidence.h"
 #include "experiments/analysis/compare/objective_model.h"
-#include "experiments/journal/objective.h"
 
 namespace talus::analysis {
 
@@ -44,9 +44,9 @@ struct ModelFinding {
 };
 
 struct ObjectiveFinding {
-  journal::ObjectiveInfo info;
-  double reference = kUndefined;        // the experiment's angle
-  double reference_error = kUndefined;  // its standard error, of several runs
+  Criterion info;
+  double reference = kUndefined;        // the experiment's angle, or its number
+  double reference_error = kUndefined;  // its standard error
   double noise_sd = kUndefined;         // scatter of one evaluation of the quantity
   std::string absent;                   // why nothing can be said; empty when there is an answer
   TrialFinding from_trials;
@@ -55,7 +55,7 @@ struct ObjectiveFinding {
   double margin() const { return noise_sd > 0 ? kTieMargin * noise_sd : 0; }
 };
 
-// Findings for kObjectives, in their order.
+// Findings for CriteriaOf, in their order.
 std::vector<ObjectiveFinding> CompareObjectives(const Evidence& evidence);
 
 // The same from the trials alone. Without repeated sets the scatter is not known, and then nothing

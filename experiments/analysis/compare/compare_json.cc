@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json/json_text.h"
 #include "experiments/analysis/compare/compare_tables.h"
 
 namespace talus::analysis {
@@ -62,7 +63,7 @@ std::string ComparisonJson(const ComparedCampaign& compared) {
   const Json json{{"name", compared.evidence.name},
                   {"tie_margin_in_noise_sd", kTieMargin},
                   {"objectives", objectives}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 }  // namespace talus::analysis

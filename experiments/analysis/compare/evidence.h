@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/analysis/compare/experiment_fit.h"
 #include "experiments/journal/records.h"
 #include "imaging/heap/profile.h"
 #include "optimizer/models/objective_model.h"
@@ -50,11 +51,14 @@ struct TrialEvidence {
 
 // The experiment that the trials are compared with.
 struct ReferenceEvidence {
-  imaging::Profile aehp;
+  imaging::Profile aehp;                         // empty where the experiment has numbers only
+  std::vector<journal::ScalarRecord> numbers{};  // measured beside the images, or without any
   std::vector<double> metrics;      // of the AEHP itself, in the order of Evidence::metrics
   std::vector<double> errors;       // standard errors of these, from run to run
   double noise_floor = kUndefined;  // leave-one-run-out SAD [mm²]; kUndefined for a lone map
   int num_heaps = 1;                // runs that the AEHP is the mean of
+
+  bool has_image() const { return !aehp.image.pixels.empty(); }
 };
 
 // One parameter of the recommended set.
@@ -74,8 +78,11 @@ struct AnswerBranch {
 
 // What the campaign itself concludes.
 struct Conclusion {
-  std::string verdict_kind{};  // "point", "curve", "region", "separate"; empty: not known
-  std::string verdict{};       // the same in a sentence
+  std::string verdict_kind{};         // "point", "curve", "region", "separate"; empty: not known
+  std::string verdict{};              // the same in a sentence
+  std::string trade_off{};            // which parameters change together; empty where none do
+  std::string use{};                  // whether to use the recommended set now
+  bool asks_for_simulations = false;  // an alarm does
   bool has_posterior = false;
   std::vector<std::vector<double>> representative{};  // sets to look at side by side, SI
   std::vector<AnswerBranch> branches{};  // the likeliest first; empty where there is no posterior
@@ -134,6 +141,8 @@ struct Evidence {
   std::vector<TrialEvidence> of_others;  // trials of the other experiments, without metrics
   ReferenceEvidence reference;
   std::optional<Conclusion> conclusion;                         // none before there is one
+  std::vector<FitRow> fit;                                      // of it, to every experiment
+  std::vector<std::string> experiments;                         // all of the campaign's, by name
   std::optional<ModelEvidence> model;                           // none where no model answers
   std::string model_absent;                                     // why, where there is none
   std::vector<StageTime> stages;                                // where the time went

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "base/error.h"
 #include "base/text/number_text.h"
@@ -33,7 +35,65 @@ std::string ObjectiveKey(const std::string& result_key) {
   throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
 }
 
-// The report's first line, with symbols in place of names; and what it stands on.
+// "sliding friction μ_t"
+std::string LongName(const ParameterInfo& parameter) {
+  std::string name = parameter.range.name;
+  if (name == parameter.symbol) return name;
+  std::ranges::replace(name, '_', ' ');
+  return name + " " + parameter.symbol;
+}
+
+// The two that change together most, where they do so clearly.
+std::string TradeOff(const std::vector<std::vector<double>>& correlation,
+                     const std::vector<ParameterInfo>& parameters) {
+  constexpr double kClear = 0.5;
+  double most = kClear;
+  std::string text;
+  for (std::size_t i = 0; i < correlation.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!(std::abs(correlation[i][j]) >= most)) continue;
+      most = std::abs(correlation[i][j]);
+      text = "Higher " + parameters[j].symbol + " goes with " +
+             (correlation[i][j] < 0 ? "lower " : "higher ") + parameters[i].symbol +
+             ": change them together.";
+    }
+  }
+  return text;
+}
+
+bool Has(const campaign::CampaignResult& result, std::initializer_list<campaign::WarningKind> of) {
+  return std::ranges::any_of(result.warnings, [&](const campaign::ResultWarning& warning) {
+    return std::ranges::find(of, warning.kind) != of.end();
+  });
+}
+
+bool AsksForSimulations(const campaign::CampaignResult& result) {
+  using K = campaign::WarningKind;
+  return Has(result, {K::kWorseThanPredicted, K::kWorseThanObserved, K::kPoorModel,
+                      K::kExtrapolated, K::kUnlearntScaleFactor});
+}
+
+std::string UseNow(const campaign::CampaignResult& result, const std::string& verdict_kind) {
+  using K = campaign::WarningKind;
+  if (Has(result, {K::kImplausible})) {
+    return "No: no set fits every measurement. Check contact law, plate and set-up first.";
+  }
+  if (Has(result, {K::kDisagree})) {
+    return "No: the tests disagree. Check contact law, plate and set-up of each first.";
+  }
+  if (verdict_kind.empty()) return "";
+  if (verdict_kind != "point") {
+    return "For trial runs only: other sets fit as well. Do the first of the next steps before you "
+           "rely on one.";
+  }
+  if (AsksForSimulations(result)) {
+    return "For trial runs: more simulations should confirm it first, as the warnings say.";
+  }
+  if (Has(result, {K::kBound})) return "Not yet: a parameter lies on the end of its range.";
+  return "Yes, within these ranges and for what it holds for (below).";
+}
+
+// The report's first line, with symbols beside the names; and what it stands on.
 void AddVerdict(const campaign::CampaignResult& result,
                 const std::vector<ParameterInfo>& parameters, Conclusion& conclusion) {
   campaign::VerdictBasis basis{.correlation = result.correlation,
@@ -41,7 +101,7 @@ void AddVerdict(const campaign::CampaignResult& result,
                                .region_volume = result.tied_volume};
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     basis.parameters.push_back(parameters[i].range);
-    basis.names.push_back(parameters[i].symbol);
+    basis.names.push_back(LongName(parameters[i]));
     basis.low.push_back(result.parameters[i].credible_low);
     basis.high.push_back(result.parameters[i].credible_high);
   }
@@ -72,6 +132,9 @@ Conclusion ConclusionOf(const std::string& result_json,
                         .conditions = ConditionTexts(result.conditions),
                         .model = result.model};
   AddVerdict(result, parameters, conclusion);
+  conclusion.trade_off = TradeOff(result.correlation, parameters);
+  conclusion.use = UseNow(result, conclusion.verdict_kind);
+  conclusion.asks_for_simulations = AsksForSimulations(result);
   for (const campaign::ResultWarning& warning : result.warnings)
     conclusion.warnings.push_back(warning.text);
   if (result.held_out) {

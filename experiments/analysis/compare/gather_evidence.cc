@@ -15,7 +15,9 @@
 #include "base/version.h"
 #include "engine/kernel/dispatch.h"
 #include "experiments/analysis/report/labels.h"
+#include "experiments/campaign/answer/campaign_result.h"
 #include "experiments/journal/journal.h"
+#include "experiments/rigs/rig.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
@@ -72,8 +74,10 @@ TrialEvidence EvidenceOf(const journal::TrialRecord& record, std::vector<MetricI
   return trial;
 }
 
+// Empty where the experiment has numbers only.
 imaging::Profile ReadReference(const journal::ExperimentRecord& record) {
   imaging::Profile aehp;
+  if (record.aehp_png.empty()) return aehp;
   base::Problems problems("the journal's frame", {});
   base::ReadOptions(base::ParseJson(record.frame_json, "frame").root, aehp.frame, {problems, {}});
   problems.ThrowIfAny();
@@ -92,27 +96,38 @@ double FinestOfSearch(const std::vector<journal::TrialRecord>& trials) {
 
 void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
                const std::vector<journal::TrialRecord>& trials) {
-  evidence.reference.metrics = InColumns(record.reference, evidence.metrics);
+  InColumns(record.reference, evidence.metrics);  // these columns come first
   for (const journal::TrialRecord& trial : trials) {
     evidence.trials.push_back(EvidenceOf(trial, evidence.metrics));
   }
+  std::vector<journal::MetricRecord> measured = record.reference;
+  for (const journal::ScalarRecord& number : record.scalars) {
+    measured.push_back({.name = number.name,
+                        .value = number.value,
+                        .unit = rigs::UnitOfObservable(number.name),
+                        .undefined = {},
+                        .standard_error = number.standard_error});
+  }
+  evidence.reference.metrics = InColumns(measured, evidence.metrics);
+  evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
+  for (journal::MetricRecord& metric : measured) metric.value = metric.standard_error;
+  evidence.reference.errors = InColumns(measured, evidence.metrics);
   for (TrialEvidence& trial : evidence.trials) {
     trial.metrics.resize(evidence.metrics.size(), kUndefined);
   }
-  evidence.reference.metrics.resize(evidence.metrics.size(), kUndefined);
-  std::vector<journal::MetricRecord> errors = record.reference;
-  for (journal::MetricRecord& metric : errors) metric.value = metric.standard_error;
-  evidence.reference.errors = InColumns(errors, evidence.metrics);
   evidence.scale_factor = FinestOfSearch(trials);
 }
 
+// Of all experiments.
 void AddTimes(Evidence& evidence, double elapsed) {
   double wall = 0;
   double cpu = 0;
-  for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.state == journal::TrialStatus::kRunning) continue;
-    wall += trial.seconds;
-    cpu += trial.cpu_seconds;
+  for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
+    for (const TrialEvidence& trial : *trials) {
+      if (trial.state == journal::TrialStatus::kRunning) continue;
+      wall += trial.seconds;
+      cpu += trial.cpu_seconds;
+    }
   }
   evidence.stages = {{"the campaign, from start to now or to its end", elapsed},
                      {"all simulations, one after the other", wall},
@@ -140,6 +155,7 @@ std::string SeedsText(const std::vector<TrialEvidence>& trials) {
   return std::to_string(trials.size()) + " trials, each with its own in tables/trials.csv";
 }
 
+// Without a name the first that has images, or the first of all where none has.
 std::size_t ExperimentNamed(const journal::CampaignRecord& record, const std::string& name) {
   std::string names;
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
@@ -147,24 +163,68 @@ std::size_t ExperimentNamed(const journal::CampaignRecord& record, const std::st
     if (name.empty() ? !experiment.aehp_png.empty() : experiment.name == name) return e;
     names += (e == 0 ? "\"" : ", \"") + record.experiments[e].name + "\"";
   }
-  if (name.empty()) {
-    throw base::ConfigError(
-        "the campaign's experiments have numbers only, and no images to compare; `talus status` "
-        "shows its answer, `talus export` writes its trials");
-  }
+  if (name.empty()) return 0;
   throw base::ConfigError("the campaign has no experiment \"" + name + "\"; it has " + names);
+}
+
+// Those of the experiment that is shown, and the others without their metrics.
+void AddTrialsOf(const journal::ExperimentRecord& record,
+                 const std::vector<journal::TrialRecord>& all, Evidence& evidence) {
+  std::vector<journal::TrialRecord> trials;
+  for (const journal::TrialRecord& trial : all) {
+    std::vector<MetricInfo> none;
+    if (static_cast<std::size_t>(trial.experiment) == evidence.experiment) {
+      trials.push_back(trial);
+    } else {
+      evidence.of_others.push_back(EvidenceOf(trial, none));
+    }
+  }
+  AddTrials(evidence, record, trials);
+}
+
+void AddReference(const journal::ExperimentRecord& record, Evidence& evidence) {
+  evidence.reference.aehp = ReadReference(record);
+  evidence.reference.numbers = record.scalars;
+  evidence.reference.num_heaps = record.num_heaps;
+  evidence.reference.noise_floor = record.noise_mm2.value_or(kUndefined);
+}
+
+void AddConclusion(const std::string& result_json, const journal::CampaignRecord& record,
+                   Evidence& evidence) {
+  if (result_json.empty()) return;
+  evidence.conclusion = ConclusionOf(result_json, evidence.parameters);
+  evidence.objective = evidence.conclusion->objective;
+  evidence.fit = FitRows(campaign::ParseResult(result_json), record);
+}
+
+void AddVersions(const journal::CampaignRecord& record, Evidence& evidence) {
+  evidence.versions = {{"talus that started the campaign", record.talus_version},
+                       {"talus that wrote this report", base::Version()},
+                       {"its commit", base::Commit()},
+                       {"its compiler", base::Compiler()},
+                       {"instruction set here", engine::ChooseKernels().name},
+                       {"machine", MachineText()},
+                       {"written", journal::UtcNow()},
+                       {"started", record.created_utc},
+                       {"strategy", evidence.strategy},
+                       {"spec", record.spec_path},
+                       {"hash of the spec", record.spec_hash},
+                       {"seeds", SeedsText(evidence.trials)}};
+}
+
+std::shared_ptr<journal::Journal> OpenJournal(const std::filesystem::path& campaign) {
+  const std::filesystem::path path = journal::JournalPath(campaign);
+  if (!std::filesystem::exists(path)) {
+    throw base::ConfigError(campaign.string() + ": holds no campaign (" + path.filename().string() +
+                            " is missing); name the folder that `talus calibrate` wrote");
+  }
+  return std::make_shared<journal::Journal>(journal::Journal::OpenReadOnly(path));
 }
 
 }  // namespace
 
 Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string& experiment) {
-  if (!std::filesystem::exists(journal::JournalPath(campaign))) {
-    throw base::ConfigError(campaign.string() + ": holds no campaign (" +
-                            journal::JournalPath(campaign).filename().string() +
-                            " is missing); name the folder that `talus calibrate` wrote");
-  }
-  const auto journal = std::make_shared<journal::Journal>(
-      journal::Journal::OpenReadOnly(journal::JournalPath(campaign)));
+  const auto journal = OpenJournal(campaign);
   const journal::CampaignRecord record = journal->Campaign();
   const journal::ProgressRecord progress = journal->Progress();
 
@@ -178,44 +238,16 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   for (const journal::ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
-  const std::size_t index = ExperimentNamed(record, experiment);
-  evidence.experiment = index;
-  const journal::ExperimentRecord& compared_with = record.experiments.at(index);
-  if (compared_with.aehp_png.empty()) {
-    throw base::ConfigError("experiment \"" + compared_with.name +
-                            "\" has numbers only, and no image to compare; name another with "
-                            "--experiment");
+  for (const journal::ExperimentRecord& e : record.experiments) {
+    evidence.experiments.push_back(e.name);
   }
-  std::vector<journal::TrialRecord> trials;
-  for (journal::TrialRecord& t : journal->Trials()) {
-    std::vector<MetricInfo> none;
-    if (static_cast<std::size_t>(t.experiment) == index) {
-      trials.push_back(std::move(t));
-    } else {
-      evidence.of_others.push_back(EvidenceOf(t, none));
-    }
-  }
-  AddTrials(evidence, compared_with, trials);
-  evidence.reference.aehp = ReadReference(compared_with);
-  evidence.reference.num_heaps = compared_with.num_heaps;
-  evidence.reference.noise_floor = compared_with.noise_mm2.value_or(kUndefined);
-  if (!progress.result_json.empty()) {
-    evidence.conclusion = ConclusionOf(progress.result_json, evidence.parameters);
-    evidence.objective = evidence.conclusion->objective;
-  }
+  evidence.experiment = ExperimentNamed(record, experiment);
+  const journal::ExperimentRecord& shown = record.experiments.at(evidence.experiment);
+  AddTrialsOf(shown, journal->Trials(), evidence);
+  AddReference(shown, evidence);
+  AddConclusion(progress.result_json, record, evidence);
   AddTimes(evidence, progress.elapsed_s);
-  evidence.versions = {{"talus that started the campaign", record.talus_version},
-                       {"talus that wrote this report", base::Version()},
-                       {"its commit", base::Commit()},
-                       {"its compiler", base::Compiler()},
-                       {"instruction set here", engine::ChooseKernels().name},
-                       {"machine", MachineText()},
-                       {"written", journal::UtcNow()},
-                       {"started", record.created_utc},
-                       {"strategy", evidence.strategy},
-                       {"spec", record.spec_path},
-                       {"hash of the spec", record.spec_hash},
-                       {"seeds", SeedsText(evidence.trials)}};
+  AddVersions(record, evidence);
   evidence.profile =
       [journal, frame = evidence.reference.aehp.frame](int id) -> std::optional<imaging::Profile> {
     const std::string png = journal->ProfilePng(id);

@@ -60,7 +60,7 @@ Eigen::MatrixXd EvenSample(int num_points, Eigen::Index num_parameters) {
 }
 
 ObjectiveModel ObjectiveModel::Fit(std::span<const ModelPoint> points, const Eigen::VectorXd& best,
-                                   const journal::ObjectiveInfo& info, double reference) {
+                                   const Criterion& info, double reference) {
   const auto fitted = FitProcess(Capped(points, best, kMaxFitted), {});
   if (points.size() <= kMaxFitted) return {fitted, info, reference};
   surrogate::GaussianProcessOptions frozen;
@@ -74,13 +74,13 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     ObjectivePrediction& p = made[static_cast<std::size_t>(i)];
     p.quantity =
-        info_.is_angle ? all.mean(i) : std::max(0.0, all.mean(i));  // a distance is not less
+        info_.is_distance ? all.mean(i) : std::max(0.0, all.mean(i));  // a distance is not less
     p.sd = std::sqrt(std::max(0.0, all.variance(i)));
     p.objective = info_.Value(p.quantity, reference_);
     const double least = info_.Value(p.quantity - kNinetyPercent * p.sd, reference_);
     const double most = info_.Value(p.quantity + kNinetyPercent * p.sd, reference_);
     const bool spans_reference =
-        info_.is_angle && std::abs(p.quantity - reference_) < kNinetyPercent * p.sd;
+        info_.is_distance && std::abs(p.quantity - reference_) < kNinetyPercent * p.sd;
     p.low = spans_reference ? 0 : std::max(0.0, std::min(least, most));
     p.high = std::max(least, most);
   }

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "experiments/journal/objective.h"
+#include "experiments/analysis/compare/criterion.h"
 #include "surrogate/process/gaussian_process.h"
 
 namespace talus::analysis {
@@ -32,7 +32,7 @@ class ObjectiveModel {
   // Needs at least kFewestPoints points.
   static constexpr std::size_t kFewestPoints = 6;
   static ObjectiveModel Fit(std::span<const ModelPoint> points, const Eigen::VectorXd& best,
-                            const journal::ObjectiveInfo& info, double reference);
+                            const Criterion& info, double reference);
 
   // One point a row.
   std::vector<ObjectivePrediction> Predict(const Eigen::MatrixXd& points) const;
@@ -43,12 +43,11 @@ class ObjectiveModel {
   double noise_sd() const;  // scatter of one evaluation of the quantity
 
  private:
-  ObjectiveModel(surrogate::GaussianProcess process, const journal::ObjectiveInfo& info,
-                 double reference)
+  ObjectiveModel(surrogate::GaussianProcess process, const Criterion& info, double reference)
       : process_(std::move(process)), info_(info), reference_(reference) {}
 
   surrogate::GaussianProcess process_;
-  journal::ObjectiveInfo info_;
+  Criterion info_;
   double reference_ = 0;
 };
 

@@ -56,7 +56,7 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
   };
   for (const ObjectiveFinding& finding : findings) {
     if (!finding.absent.empty()) continue;
-    const std::string title(finding.info.title);
+    const std::string& title = finding.info.title;
     add(finding.from_trials.best.front().trials.front(), "best by " + title, ", " + title);
   }
   for (const TrialEvidence& trial : evidence.trials) {
@@ -70,6 +70,7 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
 
 std::vector<Picture> ProfilePictures(const Evidence& evidence,
                                      const std::vector<ShownTrial>& shown) {
+  if (!evidence.reference.has_image()) return {};
   const imaging::Profile& aehp = evidence.reference.aehp;
   std::vector<std::optional<imaging::Profile>> profiles;
   std::vector<const imaging::Profile*> all{&aehp};

@@ -7,7 +7,7 @@
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/aligned.h"
-#include "experiments/journal/objective.h"
+#include "experiments/analysis/compare/criterion.h"
 
 namespace talus::analysis {
 namespace {
@@ -31,15 +31,7 @@ void RequireSameTask(const Evidence& first, const Evidence& other, const std::st
   }
 }
 
-const journal::ObjectiveInfo& InfoOf(const std::string& key) {
-  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
-    if (info.key == key) return info;
-  }
-  throw base::Error("\"" + key + "\" is no objective");
-}
-
-StrategyRun RunOf(const std::string& name, const Evidence& evidence,
-                  const journal::ObjectiveInfo& info) {
+StrategyRun RunOf(const std::string& name, const Evidence& evidence, const Criterion& info) {
   StrategyRun run{.campaign = name, .strategy = evidence.strategy, .best = {}};
   const auto column = MetricColumn(evidence, info.metric);
   double best = kUndefined;
@@ -66,7 +58,8 @@ std::string SimulationsTo(const StrategyRun& run, double limit) {
 
 std::vector<StrategyRun> CompareStrategies(const std::vector<std::string>& campaigns,
                                            const std::vector<Evidence>& evidence) {
-  const journal::ObjectiveInfo& info = InfoOf(evidence.front().objective);
+  const std::vector<Criterion> criteria = CriteriaOf(evidence.front());
+  const Criterion& info = criteria.at(OwnCriterion(evidence.front(), criteria));
   std::vector<StrategyRun> runs;
   for (std::size_t i = 0; i < evidence.size(); ++i) {
     RequireSameTask(evidence.front(), evidence[i], campaigns[i]);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/csv.h"
 
@@ -53,7 +54,7 @@ std::string TrialsJson(const journal::CampaignRecord& campaign,
   nlohmann::ordered_json json;
   json["campaign"] = base::ToJson(campaign);
   json["trials"] = base::ToJson(trials);
-  return json.dump(1) + "\n";
+  return base::JsonText(json, 1) + "\n";
 }
 
 void ExportCampaign(const std::filesystem::path& folder, const std::filesystem::path& out) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json/json_text.h"
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -51,7 +53,7 @@ std::string ApartText(const NextCandidate& c) {
 
 std::string CostText(const NextCandidate& c) {
   if (c.num_simulations == 0) return "no simulations";
-  std::string text = std::to_string(c.num_simulations) + " simulations, ";
+  std::string text = base::Counted(c.num_simulations, "simulation") + ", ";
   if (c.num_made > 0) {
     text += std::to_string(c.num_made) + " of them made in " +
             trials::DurationText(c.core_time_made) + ", ";
@@ -129,7 +131,7 @@ std::string NextJson(const NextTable& table) {
     if (!c.picture.empty()) candidate["picture"] = c.picture.string();
     json["candidates"].push_back(std::move(candidate));
   }
-  return json.dump(2) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 }  // namespace talus::analysis

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
@@ -70,7 +71,7 @@ NextCandidate MoreRuns(const Ground& ground, const Known& known) {
   const bool has_image = ground.view.references[e].has_image();
   return {.kind = NextKind::kMoreRuns,
           .name = "more runs of " + NameOf(ground.view, known.experiment),
-          .what = has_image ? "photograph " + std::to_string(num_heaps) + " more runs"
+          .what = has_image ? "photograph " + base::Counted(num_heaps, "more run")
                             : "measure its numbers as often again",
           .learning = LearnWhenLess(ground, known, 0.5 * known.at.measured)};
 }
@@ -100,7 +101,7 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
   all.push_back(
       {.kind = NextKind::kFinerGrains,
        .name = "finer grains in " + NameOf(ground.view, known.experiment),
-       .what = std::to_string(count) + " simulations at scale factor " + base::ShortNumber(finer),
+       .what = base::Counted(count, "simulation") + " at scale factor " + base::ShortNumber(finer),
        .learning = LearnWhenLess(ground, known, (1 - share) * known.at.model),
        .num_simulations = count,
        .core_time = count * cost.OfOne(known.experiment, finest) * std::pow(finest / finer, 4)});
@@ -146,7 +147,7 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
     all.push_back({.kind = NextKind::kNumber,
                    .name = "mass on the plate of " + record.name,
                    .what = "weigh what stays on the plate, or what falls off it, in " +
-                           std::to_string(runs) + " runs",
+                           base::Counted(runs, "run"),
                    .learning = ground.Learn(at.mean, MeasuredBy(ground, at, runs, 1))});
   }
 }
@@ -171,7 +172,7 @@ NextCandidate TestOf(const Ground& ground, const TestCandidate& test, const Next
     candidate.what = "cannot be simulated: " + why;
     return candidate;
   }
-  candidate.what = "make it, " + std::to_string(test.runs) + " runs";
+  candidate.what = "carry it out in " + base::Counted(test.runs, "run");
   EstimateCost(view, test, cost, candidate);
   const auto design = options.simulate ? SimulateDesign(view, test, ground.draws, options.parts)
                                        : StoredDesign(view, test, *options.parts.engine);

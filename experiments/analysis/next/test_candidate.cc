@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -137,7 +138,7 @@ std::string ExperimentText(const campaign::JointView& view, const TestCandidate&
   json["device"] = base::ToJson(*only.device);
   json["filling"] = base::ToJson(*only.filling);
   json["rules"] = base::ToJson(*only.rules);
-  return json.dump(2) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 std::string FileName(const TestCandidate& test) {

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/interrupt.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/campaign/folder/design_folder.h"
 
@@ -22,12 +23,11 @@ campaign::DesignFolder FolderOf(const campaign::JointView& view, const TestCandi
 }
 
 std::string TextOf(const campaign::JointView& view, const TestCandidate& test) {
-  return base::ToJson(
-             campaign::CaseOf(SpecOf(view, test),
-                              {.values = view.space.ToNative(Eigen::VectorXd::Constant(
-                                   static_cast<Eigen::Index>(view.space.Free().size()), 0.5))},
-                              FrameOf(view, test)))
-      .dump();
+  return base::JsonText(base::ToJson(
+      campaign::CaseOf(SpecOf(view, test),
+                       {.values = view.space.ToNative(Eigen::VectorXd::Constant(
+                            static_cast<Eigen::Index>(view.space.Free().size()), 0.5))},
+                       FrameOf(view, test))));
 }
 
 // The farthest from those that are taken already, one after the other.

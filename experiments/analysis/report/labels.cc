@@ -57,6 +57,23 @@ std::string MetricTitle(std::string_view metric) {
       Entry{"repose_angle_2_right_deg", "AOR 2 right"},
       Entry{"repose_angle_3_left_deg", "AOR 3 left"},
       Entry{"repose_angle_3_right_deg", "AOR 3 right"},
+      Entry{"mass_on_plate_kg", "Mass on the plate"},
+      Entry{"mass_fallen_kg", "Mass fallen"},
+      Entry{"mass_left_kg", "Mass left"},
+      Entry{"num_fallen", "Grains fallen"},
+      Entry{"poured_density_kg_per_m3", "Poured density"},
+      Entry{"tapped_density_kg_per_m3", "Tapped density"},
+      Entry{"tapped_solid_fraction", "Tapped solid fraction"},
+      Entry{"hausner_ratio", "Hausner ratio"},
+      Entry{"runout_m", "Runout"},
+      Entry{"height_m", "Height"},
+      Entry{"column_height_m", "Height of the column"},
+      Entry{"aspect_ratio", "Aspect ratio"},
+      Entry{"angle_deg", "Angle"},
+      Entry{"angle_sd_deg", "Angle, standard deviation"},
+      Entry{"shear_angle_deg", "Shear angle"},
+      Entry{"discharge_time_s", "Discharge time"},
+      Entry{"discharge_rate_kg_per_s", "Discharge rate"},
   };
   return Find(kTitles, metric);
 }
@@ -65,8 +82,25 @@ std::string PrettyUnit(std::string_view unit) {
   static constexpr std::array kUnits{
       Entry{"mm2", "mm²"},          Entry{"deg", "°"},      Entry{"-", ""},
       Entry{"gray", "grey levels"}, Entry{"J/m^2", "J/m²"}, Entry{"kg/m^3", "kg/m³"},
+      Entry{"kg/m3", "kg/m³"},
   };
   return Find(kUnits, unit);
+}
+
+ShownUnit ShownUnitOf(std::string_view unit) {
+  if (unit == "kg") return {"mg", 1e6};
+  if (unit == "m") return {"mm", 1e3};
+  if (unit == "kg/s") return {"g/s", 1e3};
+  return {PrettyUnit(unit), 1};
+}
+
+std::string ShownName(const std::string& metric) {
+  static constexpr std::array kSuffixes{Entry{"_kg", "_mg"}, Entry{"_m", "_mm"},
+                                        Entry{"_kg_per_s", "_g_per_s"}};
+  for (const auto& [is, shown] : kSuffixes) {
+    if (metric.ends_with(is)) return metric.substr(0, metric.size() - is.size()).append(shown);
+  }
+  return metric;
 }
 
 }  // namespace talus::analysis

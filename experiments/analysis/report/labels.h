@@ -15,4 +15,14 @@ std::string MetricTitle(std::string_view metric);
 // "mm2" → "mm²", "deg" → "°", "J/m^2" → "J/m²", "-" → "".
 std::string PrettyUnit(std::string_view unit);
 
+// The unit that people read a metric in: milligrams of a heap, millimetres of a column.
+struct ShownUnit {
+  std::string text;     // "mg"
+  double per_unit = 1;  // a number in it / the metric's value
+};
+ShownUnit ShownUnitOf(std::string_view unit);
+
+// "mass_fallen_kg" → "mass_fallen_mg", which is read in milligrams.
+std::string ShownName(const std::string& metric);
+
 }  // namespace talus::analysis

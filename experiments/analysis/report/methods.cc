@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 
 namespace talus::analysis {
@@ -14,7 +16,7 @@ std::string Spaced(std::string name) {
 }
 
 std::string WithUnit(double value, const std::string& unit) {
-  return base::ShortNumber(value) + (unit.empty() ? "" : " " + unit);
+  return base::ShortNumber(value, 3) + (unit.empty() ? "" : " " + unit);
 }
 
 // "a, b and c"
@@ -38,25 +40,30 @@ std::string Searched(const Evidence& evidence) {
   return Listed(words);
 }
 
-std::string Answered(const Evidence& evidence, const ObjectiveFinding& own) {
+// As confirmed, of every experiment.
+std::string Confirmed(const Evidence& evidence) {
+  std::vector<std::string> words;
+  for (const FitRow& row : evidence.fit) {
+    if (row.simulated.empty()) continue;
+    words.push_back(row.simulated + " (" + row.what + " of \"" + row.experiment + "\")");
+  }
+  if (words.empty() || evidence.conclusion->num_confirmed == 0) return "";
+  return " Simulated again with fresh seeds, it gives " + Listed(words) + ".";
+}
+
+std::string Answered(const Evidence& evidence) {
   const Conclusion& c = *evidence.conclusion;
   std::vector<std::string> words;
   for (std::size_t k = 0; k < c.values.size() && k < evidence.parameters.size(); ++k) {
     const ParameterInfo& p = evidence.parameters[k];
     std::string word = p.symbol + " = " + WithUnit(c.values[k].value, p.unit);
     if (std::isfinite(c.values[k].low)) {
-      word += " (90 % credible range " + base::ShortNumber(c.values[k].low) + " to " +
-              base::ShortNumber(c.values[k].high) + ")";
+      word += " (90 % credible range " + base::ShortNumber(c.values[k].low, 3) + " to " +
+              base::ShortNumber(c.values[k].high, 3) + ")";
     }
     words.push_back(word);
   }
-  std::string text = " The recommended set is " + Listed(words) + ".";
-  if (c.num_confirmed > 0) {
-    text += " Simulated again with " + std::to_string(c.num_confirmed) +
-            " fresh seeds, it has a mean " + std::string(own.info.title) + " of " +
-            WithUnit(c.confirmed, std::string(own.info.unit)) + ".";
-  }
-  return text;
+  return " The recommended set is " + Listed(words) + "." + Confirmed(evidence);
 }
 
 // The version and commit of the program that started the campaign.
@@ -64,29 +71,66 @@ std::string StartedWith(const Evidence& evidence) {
   return evidence.versions.empty() ? "" : evidence.versions.front().text;
 }
 
+// What the simulations were held against; empty before there is a conclusion.
+std::string Measured(const ReportData& data) {
+  std::vector<std::string> words;
+  for (const FitRow& row : data.evidence.fit) {
+    if (row.held_out) continue;
+    words.push_back("the " + row.what + " of \"" + row.experiment + "\" (" + row.measured + ")");
+  }
+  if (words.empty()) return "";
+  return " Simulations were compared with " + Listed(words) +
+         "; images after projection into the frame of the experiment's average profile, by the "
+         "SAD.";
+}
+
+struct Counts {
+  std::ptrdiff_t searched = 0;
+  std::ptrdiff_t failed = 0;
+  std::vector<double> scale_factors;  // the coarsest first
+};
+
+// Over all experiments.
+Counts CountsOf(const Evidence& e) {
+  Counts counts;
+  for (const auto* trials : {&e.trials, &e.of_others}) {
+    for (const TrialEvidence& t : *trials) {
+      if (t.state == journal::TrialStatus::kFailed) ++counts.failed;
+      if (t.state != journal::TrialStatus::kOk || t.purpose == "confirm") continue;
+      ++counts.searched;
+      counts.scale_factors.push_back(t.scale_factor);
+    }
+  }
+  std::ranges::sort(counts.scale_factors, std::greater());
+  const auto repeated = std::ranges::unique(counts.scale_factors);
+  counts.scale_factors.erase(repeated.begin(), repeated.end());
+  return counts;
+}
+
+std::string Simulated(const Evidence& e) {
+  const Counts counts = CountsOf(e);
+  std::vector<std::string> factors;
+  for (const double factor : counts.scale_factors) factors.push_back(base::ShortNumber(factor));
+  std::string text =
+      " The strategy \"" + e.strategy + "\" chose " + base::Counted(counts.searched, "simulation");
+  if (!factors.empty()) {
+    text += (factors.size() == 1 ? " at scale factor " : " at scale factors ") + Listed(factors);
+  }
+  return text + (counts.failed > 0 ? "; " + std::to_string(counts.failed) + " failed." : ".");
+}
+
 }  // namespace
 
 std::string MethodsText(const ReportData& data) {
   const Evidence& e = data.evidence;
-  const auto count = [&](journal::TrialStatus state, bool confirming) {
-    return std::ranges::count_if(e.trials, [&](const TrialEvidence& t) {
-      return t.state == state && (t.purpose == "confirm") == confirming;
-    });
-  };
-  const auto failed =
-      count(journal::TrialStatus::kFailed, false) + count(journal::TrialStatus::kFailed, true);
   std::string text = "The contact parameters were calibrated with talus " + StartedWith(e) +
-                     ". Simulated heaps were projected into the frame of the experiment's average "
-                     "heap profile and compared with it by the ";
-  text += data.own().info.title;
-  text += ". Calibrated were " + Searched(e) + ". The strategy \"" + e.strategy + "\" chose " +
-          std::to_string(count(journal::TrialStatus::kOk, false)) + " simulations that gave a heap";
-  text += failed > 0 ? "; " + std::to_string(failed) + " failed." : ".";
-  if (std::isfinite(e.reference.noise_floor)) {
-    text += " The experiment's runs differ from the mean of the others by " +
-            base::ShortNumber(e.reference.noise_floor) + " mm² (leave-one-run-out SAD).";
+                     ". Calibrated were " + Searched(e) + "." + Measured(data) + Simulated(e);
+  if (e.conclusion) {
+    std::string model = e.conclusion->model;
+    if (model.ends_with('.')) model.pop_back();
+    if (!model.empty()) text += " The model that answers: " + model + ".";
+    text += Answered(e);
   }
-  if (e.conclusion) text += Answered(e, data.own());
   return text;
 }
 

@@ -8,13 +8,6 @@
 namespace talus::analysis {
 namespace {
 
-std::size_t IndexOf(const std::vector<ObjectiveFinding>& findings, std::string_view key) {
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (findings[i].info.key == key) return i;
-  }
-  return 0;
-}
-
 // Where the slices pass: the recommended set, before there is one the model's own.
 Eigen::VectorXd SliceCentre(const Evidence& evidence) {
   Eigen::VectorXd point = evidence.model->point;
@@ -46,7 +39,7 @@ ReportData MakeReportData(Evidence evidence) {
   ReportData data;
   data.evidence = std::move(evidence);
   data.findings = CompareTrials(data.evidence);
-  data.objective = IndexOf(data.findings, data.evidence.objective);
+  data.objective = OwnCriterion(data.evidence, CriteriaOf(data.evidence));
   AddModelViews(data);
   AddProfileViews(data);
   data.next_table = ReadNextTable(data.evidence);

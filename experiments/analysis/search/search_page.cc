@@ -8,6 +8,7 @@
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "base/text/csv.h"
+#include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/search/search_figures.h"
@@ -18,21 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return escaped;
-}
-
 // A dash where there is no number.
 std::string Print(double x) { return std::isfinite(x) ? base::ShortNumber(x) : "–"; }
 
 std::string Row(const std::vector<std::string>& cells, const char* tag = "td") {
   std::string row = "<tr>";
   for (const std::string& cell : cells) {
-    row += "<" + std::string(tag) + ">" + Escaped(cell) + "</" + tag + ">";
+    row += "<" + std::string(tag) + ">" + base::MarkupText(cell) + "</" + tag + ">";
   }
   return row + "</tr>\n";
 }
@@ -82,9 +75,9 @@ std::string Answer(const SearchFolder& search) {
             std::to_string(best->number) + ". ";
   }
   text += "Share of the ranges that ties with the recommendation: " + Print(answer.tied_volume) +
-          ".</p>\n<p class=\"note\">" + Escaped(answer.model) + "</p>\n";
+          ".</p>\n<p class=\"note\">" + base::MarkupText(answer.model) + "</p>\n";
   for (const std::string& warning : answer.warnings) {
-    text += "<p class=\"notice\">" + Escaped(warning) + "</p>\n";
+    text += "<p class=\"notice\">" + base::MarkupText(warning) + "</p>\n";
   }
   return text;
 }
@@ -123,7 +116,7 @@ std::string Charts(const std::vector<SearchFigure>& figures) {
   if (figures.empty()) return "<p>No evaluation has succeeded.</p>\n";
   std::string text = "<div class=\"grid two\">\n";
   for (const SearchFigure& figure : figures) {
-    text += "<figure>" + figure.svg + "<figcaption>" + Escaped(figure.caption) +
+    text += "<figure>" + figure.svg + "<figcaption>" + base::MarkupText(figure.caption) +
             "</figcaption></figure>\n";
   }
   return text + "</div>\n";
@@ -135,12 +128,13 @@ std::string SearchPage(const SearchFolder& search) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      Escaped(search.name) + " – search report</title>\n<link rel=\"icon\" href=\"data:,\">\n" +
-      "<style>\n" + ColorProperties() + std::string(page_files::kPageCss) +
+      base::MarkupText(search.name) +
+      " – search report</title>\n<link rel=\"icon\" href=\"data:,\">\n" + "<style>\n" +
+      ColorProperties() + std::string(page_files::kPageCss) +
       "svg { max-width: 100%; height: auto; }\n</style>\n</head>\n<body>\n"
       "<header class=\"top\"><div class=\"wrap\"><p class=\"eyebrow\">Search report</p><h1>" +
-      Escaped(search.name) + "</h1><p id=\"standing\">" + Escaped(Standing(search)) +
-      "</p></div></header>\n<main class=\"wrap\">\n";
+      base::MarkupText(search.name) + "</h1><p id=\"standing\">" +
+      base::MarkupText(Standing(search)) + "</p></div></header>\n<main class=\"wrap\">\n";
   page += Section("answer", "Answer", Answer(search));
   page += Section("charts", "Values", Charts(SearchFigures(search)));
   page += Section("evaluations", "Evaluations",

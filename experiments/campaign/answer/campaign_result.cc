@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -95,6 +96,10 @@ std::string PosteriorLines(const CampaignResult& result) {
     text +=
         "  " + Padded(e.name, 18) + "implausibility " + base::ShortNumber(e.implausibility) + "\n";
   }
+  if (p.experiments.size() > 1) {
+    text += "  tension           " + base::ShortNumber(p.tension, 2) +
+            " standard deviations between the experiments\n";
+  }
   for (const ResultAlone& a : p.alone) {
     text += "  " + a.name + " alone:";
     for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -111,7 +116,9 @@ std::string PosteriorLines(const CampaignResult& result) {
 
 }  // namespace
 
-std::string ResultText(const CampaignResult& result) { return base::ToJson(result).dump(2) + "\n"; }
+std::string ResultText(const CampaignResult& result) {
+  return base::JsonText(base::ToJson(result), 2) + "\n";
+}
 
 CampaignResult ParseResult(const std::string& text) {
   // Earlier versions wrote warnings as sentences only, and one unit in lower case.
@@ -125,7 +132,7 @@ CampaignResult ParseResult(const std::string& text) {
     conditions["youngs_modulus_Pa"] = conditions["youngs_modulus_pa"];
     conditions.erase("youngs_modulus_pa");
   }
-  return journal::ParseRecord<CampaignResult>(json.dump(), "the result");
+  return journal::ParseRecord<CampaignResult>(base::JsonText(json), "the result");
 }
 
 std::string ResultSummary(const CampaignResult& r) {

@@ -7,6 +7,7 @@
 
 #include "base/version.h"
 #include "experiments/campaign/alarms.h"
+#include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/best_confirmed.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/hold_out.h"
@@ -209,13 +210,22 @@ JointView ViewOf(const Planner& planner, const CampaignEvidence& of) {
   return view;
 }
 
-// Where experiments disagree, what each alone would say: it tells which of them is the odd one.
-void AddAloneAnswers(const Planner& planner, const CampaignEvidence& of, CampaignResult& result) {
-  const bool disagree =
-      std::any_of(result.warnings.begin(), result.warnings.end(),
-                  [](const ResultWarning& w) { return w.kind == WarningKind::kImplausible; });
-  if (!disagree || of.references.size() < 2) return;
-  for (const PartialAnswer& answer : AnswersAlone(ViewOf(planner, of))) {
+// Whether the experiments agree and, where they do not, what each alone would say: it tells which
+// of them is the odd one.
+void AddAgreement(const Planner& planner, const CampaignEvidence& of, CampaignResult& result) {
+  if (of.references.size() < 2 || !result.posterior) return;
+  const Agreement agreement = AgreementOf(ViewOf(planner, of));
+  result.posterior->tension = agreement.tension;
+  if (agreement.tension > kDisagree) {
+    result.warnings.push_back(Worded(
+        {.kind = WarningKind::kDisagree, .experiment = agreement.odd, .value = agreement.tension}));
+  }
+  if (std::ranges::none_of(result.warnings, [](const ResultWarning& w) {
+        return w.kind == WarningKind::kImplausible || w.kind == WarningKind::kDisagree;
+      })) {
+    return;
+  }
+  for (const PartialAnswer& answer : agreement.alone) {
     result.posterior->alone.push_back({.name = answer.experiments.front(),
                                        .values = answer.values,
                                        .low = answer.low,
@@ -279,7 +289,7 @@ std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence&
              .reference = of.references.front(),
              .trials = planner.trials()},
             result);
-  AddAloneAnswers(planner, of, result);
+  AddAgreement(planner, of, result);
   result.cost = CostOf(planner, of);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/nearest.h"
 #include "base/problems.h"
@@ -148,7 +149,7 @@ std::string ConsideredJson(const ConsideredSet& c) {
         near.objective ? nlohmann::ordered_json(*near.objective) : nlohmann::ordered_json();
     json["nearest_trials"].push_back(std::move(trial));
   }
-  return json.dump(2) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 }  // namespace talus::campaign

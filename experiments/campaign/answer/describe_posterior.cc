@@ -26,6 +26,10 @@ std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentS
                          .predicted = s.predicted_objective,
                          .predicted_sd = s.predicted_sd,
                          .implausibility = s.implausibility});
+    for (const optimizer::NumberStanding& n : s.numbers) {
+      standings.back().numbers.push_back(
+          {.predicted = n.predicted, .predicted_sd = n.predicted_sd});
+    }
   }
   return standings;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/random.h"
 #include "base/text/number_text.h"
@@ -155,7 +156,7 @@ std::string HeldOutJson(const JointView& view, const HeldOut& h) {
     json["predicted_objective_sd"] = predicted.predicted_sd;
   }
   json["numbers"] = base::ToJson(predicted.numbers);
-  return json.dump(2) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 std::string AloneText(const JointView& view, const std::vector<PartialAnswer>& answers) {
@@ -174,7 +175,7 @@ std::string AloneText(const JointView& view, const std::vector<PartialAnswer>& a
 std::string AloneJson(const JointView& view, const std::vector<PartialAnswer>& answers) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const PartialAnswer& answer : answers) json.push_back(AnswerJson(view, answer));
-  return json.dump(2) + "\n";
+  return base::JsonText(json, 2) + "\n";
 }
 
 }  // namespace talus::campaign

@@ -26,12 +26,25 @@ struct ResultBranch {
   }
 };
 
+// A number of an experiment at a set, as the model expects it: in the order of the experiment's.
+struct ResultPredictedNumber {
+  double predicted = 0;     // mean over seeds, in the metric's unit
+  double predicted_sd = 0;  // of that mean
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("predicted", self.predicted);
+    visit("predicted_sd", self.predicted_sd);
+  }
+};
+
 // A set beside an experiment, at the target scale factor.
 struct ResultStanding {
   std::string name;
   double predicted = std::numeric_limits<double>::quiet_NaN();     // objective; NaN without images
   double predicted_sd = std::numeric_limits<double>::quiet_NaN();  // of that mean
   double implausibility = 0;                                       // [standard deviations]
+  std::vector<ResultPredictedNumber> numbers{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -39,6 +52,7 @@ struct ResultStanding {
     visit("predicted_objective", self.predicted);
     visit("predicted_objective_sd", self.predicted_sd);
     visit("implausibility", self.implausibility);
+    visit("numbers", self.numbers);
   }
 };
 
@@ -69,7 +83,8 @@ struct ResultPosterior {
   int num_left_out = 0;                  // trials that the two are made of
   std::vector<double> unlearnt_scale_factors{};  // scale factors whose bias is not known yet
   std::vector<ResultStanding> experiments;       // at the recommended set
-  std::vector<ResultAlone> alone{};              // where experiments disagree only
+  double tension = 0;                // between the experiments [standard deviations]: agreement.h
+  std::vector<ResultAlone> alone{};  // where experiments disagree only
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -83,6 +98,7 @@ struct ResultPosterior {
     visit("num_left_out", self.num_left_out);
     visit("unlearnt_scale_factors", self.unlearnt_scale_factors);
     visit("experiments", self.experiments);
+    visit("tension", self.tension);
     visit("alone", self.alone);
   }
 };

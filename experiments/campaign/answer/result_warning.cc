@@ -8,6 +8,17 @@
 namespace talus::campaign {
 namespace {
 
+std::string FewGrainsText(const ResultWarning& w) {
+  const double factor = w.scale_factor.value_or(1);
+  const std::string where =
+      factor == 1
+          ? " at their true size: single grains show in its outline, and a wider tube and plate"
+          : " at scale factor " + base::ShortNumber(factor) +
+                "; 30 or more are advised: a smaller scale factor";
+  return "only " + base::ShortNumber(w.value.value_or(0)) + " grains across the plate of \"" +
+         w.experiment.value_or("") + "\"" + where + " would say more";
+}
+
 std::string TextOf(const ResultWarning& w) {
   const std::string factor = "scale factor " + base::ShortNumber(w.scale_factor.value_or(1));
   const std::string experiment = "\"" + w.experiment.value_or("") + "\"";
@@ -16,11 +27,15 @@ std::string TextOf(const ResultWarning& w) {
     case WarningKind::kBound:
       return optimizer::BoundText(w.parameter.value_or(""), w.side == "upper");
     case WarningKind::kFewGrains:
-      return "only " + value + " grains across the plate of " + experiment + " at " + factor +
-             "; 30 or more are advised";
+      return FewGrainsText(w);
     case WarningKind::kImplausible:
       return "no set fits " + experiment + ": the recommended one is " + value +
              " standard deviations off; the contact law, the plate material or the set-up is wrong";
+    case WarningKind::kDisagree:
+      return "the experiments disagree: each is met by sets that the others rule out (tension " +
+             value + " standard deviations, " + experiment +
+             " most); the contact law, the plate material or the set-up of one is wrong (`talus "
+             "consider DIR --alone`)";
     case WarningKind::kExtrapolated:
       return "nothing was simulated at " + factor +
              ", which the answer is for: it is an extrapolation, and a few trials there would "
@@ -33,9 +48,9 @@ std::string TextOf(const ResultWarning& w) {
       return "the set that the model recommends was confirmed worse than another candidate, which "
              "is recommended instead; the predicted value is that of the model's set";
     case WarningKind::kWorseThanPredicted:
-      return "confirmed worse than predicted, by " + value +
-             " of the objective: the model promises too much here; more simulations round this set "
-             "would settle it (`talus resume DIR --add-simulations N`)";
+      return "confirmed worse than predicted: " + w.text +
+             "; more simulations round this set would settle it (`talus resume DIR "
+             "--add-simulations N`)";
     case WarningKind::kWorseThanObserved:
       return "trial " + std::to_string(w.trial.value_or(0)) +
              " came out better than the recommended set, by " + value +
@@ -46,7 +61,8 @@ std::string TextOf(const ResultWarning& w) {
              base::ShortNumber(std::round(100 * w.value.value_or(0)) / 100) +
              "): use them as a pair, or measure one of them in another test";
     case WarningKind::kPoorModel:
-      return "the model predicts badly what it was not told: " + w.text;
+      return "the model is not sure of itself: " + w.text +
+             "; more simulations would sharpen it (`talus resume DIR --add-simulations N`)";
     default:  // a photograph's, or an earlier version's: in words already
       return w.text;
   }

@@ -18,6 +18,7 @@ enum class WarningKind {
   kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`
   kNotModelsChoice,      // another candidate was confirmed better than the model's set
   kImplausible,          // no set fits `experiment`: the best is `value` standard deviations off
+  kDisagree,             // the experiments pull apart by `value`, `experiment` most
   kPoorModel,            // the model predicts badly what it was not told; `value` as the text says
   kExtrapolated,         // nothing was simulated at the target `scale_factor`
   kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
@@ -81,6 +82,7 @@ struct talus::base::Names<talus::campaign::WarningKind> {
       std::pair{"worse_than_observed", K::kWorseThanObserved},
       std::pair{"not_the_models_choice", K::kNotModelsChoice},
       std::pair{"implausible", K::kImplausible},
+      std::pair{"disagree", K::kDisagree},
       std::pair{"poor_model", K::kPoorModel},
       std::pair{"extrapolated", K::kExtrapolated},
       std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},

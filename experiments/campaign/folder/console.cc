@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/printable.h"
 #include "experiments/journal/journal.h"
@@ -18,7 +19,7 @@ namespace {
 void PrintEvent(const char* event, const nlohmann::ordered_json& fields) {
   nlohmann::ordered_json line{{"event", event}, {"time_utc", journal::UtcNow()}};
   line.update(fields);
-  std::cout << line.dump() << std::endl;
+  std::cout << base::JsonText(line) << std::endl;
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ void Console::Trial(const TrialProgress& trial) {
 void Console::Status(const CampaignProgress& progress) {
   if (output_ == Output::kJson) {
     const nlohmann::ordered_json json = base::ToJson(progress);
-    const std::string text = json.dump();
+    const std::string text = base::JsonText(json);
     if (std::exchange(last_status_, text) != text) PrintEvent("progress", json);
   }
   if (!terminal_) return;

@@ -4,6 +4,7 @@
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
 #include "experiments/journal/record_json.h"
@@ -33,7 +34,7 @@ void DesignFolder::Make(const DesignRecord& record) const {
   fs::remove_all(root);
   fs::create_directories(root);
   base::WriteFileAtomically(root / kRecord,
-                            base::WithChecksum(base::ToJson(record).dump(1) + "\n"));
+                            base::WithChecksum(base::JsonText(base::ToJson(record), 1) + "\n"));
 }
 
 fs::path NextFolder(const fs::path& campaign) { return fs::absolute(campaign) / "next"; }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
 
@@ -73,7 +74,7 @@ std::string WithExperiments(const std::filesystem::path& path) {
     json.erase(key);
   }
   json["experiments"] = nlohmann::ordered_json::array({experiment});
-  return json.dump();
+  return base::JsonText(json);
 }
 
 journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {

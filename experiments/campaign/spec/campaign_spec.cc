@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/rigs/rig_list.h"
@@ -24,7 +25,7 @@ constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
 
 std::string Short(const ordered_json& value) {
-  std::string text = value.dump();
+  std::string text = base::JsonText(value);
   return text.size() > 40 ? text.substr(0, 37) + "…" : text;
 }
 
@@ -239,7 +240,9 @@ CampaignSpec LoadCampaignSpec(const std::filesystem::path& path) {
   return ReadCampaignSpec(base::ReadJsonFile(path));
 }
 
-std::string SpecText(const CampaignSpec& spec) { return base::ToJson(spec).dump(2) + "\n"; }
+std::string SpecText(const CampaignSpec& spec) {
+  return base::JsonText(base::ToJson(spec), 2) + "\n";
+}
 
 optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec) {
   optimizer::ParameterSpace space = MakeSpace(spec.parameters.value());

@@ -44,7 +44,9 @@ struct PropertySetter {
   double value;
   template <class Field>
   void operator()(std::string_view name, Field& field, FieldInfo = {}) const {
-    if (name == property) field = value;
+    if constexpr (requires { field = value; }) {
+      if (name == property) field = value;
+    }
   }
 };
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "base/problems.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
@@ -28,7 +29,7 @@ double Read(const std::string& name, const std::string& text, base::Dimension di
   }
 }
 
-std::string Quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string Quoted(const std::string& text) { return base::JsonText(nlohmann::json(text)); }
 
 // Halves are fine enough a step.
 double Rounded(double factor) { return std::max(1.0, std::floor(2 * factor) / 2); }

@@ -1,8 +1,11 @@
 // What must hold between a campaign's experiments, and between each and its rig.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -47,6 +50,44 @@ void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Probl
   }
 }
 
+// What the wall's material gives itself, by the names of the properties.
+std::map<std::string, double> PropertiesOf(const rigs::WallMaterial& wall) {
+  std::map<std::string, double> properties;
+  rigs::WallMaterial::Visit(wall, [&](std::string_view key, const auto& value, base::FieldInfo) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::optional<double>>) {
+      if (value) properties.emplace(key, *value);
+    }
+  });
+  return properties;
+}
+
+// A material by name is one material, in whatever device it stands.
+void CheckNamedWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all,
+                     base::Problems& problems) {
+  struct Wall {
+    std::map<std::string, double> properties;
+    std::string of;
+  };
+  std::map<std::string, Wall> known;
+  const auto check = [&](std::size_t i, const char* key,
+                         const std::optional<rigs::WallMaterial>& material) {
+    if (!material || !material->name) return;
+    const Wall wall{.properties = PropertiesOf(*material),
+                    .of = "the " + std::string(key) + " of \"" + all[i].name + "\""};
+    const auto [first, is_new] = known.emplace(*material->name, wall);
+    if (is_new || first->second.properties == wall.properties) return;
+    const bool own = spec.experiments && (*spec.experiments)[i].device;
+    problems.Add((own ? "experiments[" + std::to_string(i) + "]." : "") + "device." + key,
+                 "\"" + *material->name + "\" has other properties in " + wall.of + " than in " +
+                     first->second.of +
+                     ": give both the same, or two names where they are two materials");
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    check(i, "tube_material", all[i].device->tube_material);
+    check(i, "plate_material", all[i].device->plate_material);
+  }
+}
+
 // A searched property of the plate or tube is one number for all experiments; where two of them
 // give it themselves, with different values, they speak of different materials.
 void CheckWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all,
@@ -59,10 +100,9 @@ void CheckWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all
     for (const ExperimentSpec& e : all) {
       const auto& wall = plate ? e.device->plate_material : e.device->tube_material;
       if (!wall) continue;
-      rigs::WallMaterial::Visit(
-          *wall, [&](std::string_view key, const std::optional<double>& value, base::FieldInfo) {
-            if (value && p.name.ends_with("_" + std::string(key))) given.insert(*value);
-          });
+      for (const auto& [key, value] : PropertiesOf(*wall)) {
+        if (p.name.ends_with("_" + key)) given.insert(value);
+      }
     }
     problems.Require(given.size() < 2, "parameters." + p.name,
                      "is searched as one number for all experiments, whose devices give it "
@@ -94,10 +134,12 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
   problems.Require(!spec.experiment || !spec.experiments, "experiments",
                    "stands beside experiment: give one of the two");
   CheckHoldOut(spec, problems);
+  if (!spec.experiment && !spec.experiments) return;
+  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
+  CheckNamedWalls(spec, all, problems);
   if (!spec.experiments) return;
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;
-  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
     const std::string place = "experiments[" + std::to_string(i) + "]";
     problems.Require(

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "base/field.h"
 #include "base/problems.h"
@@ -12,6 +13,7 @@ namespace talus::rigs {
 
 // Properties of a wall that differ from the powder's; what is not given is the powder's.
 struct WallMaterial {
+  std::optional<std::string> name{};         // one name stands for one set of properties
   std::optional<double> youngs_modulus{};    // [Pa]
   std::optional<double> poisson_ratio{};     // [-]
   std::optional<double> restitution{};       // [-]
@@ -24,6 +26,9 @@ struct WallMaterial {
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     using base::Dimension;
+    visit(
+        "name", self.name,
+        {.doc = "of the material, such as glass: walls of one name must have the same properties"});
     visit("youngs_modulus", self.youngs_modulus,
           {.dimension = Dimension::kPressure, .doc = "Young's modulus, > 0"});
     visit("poisson_ratio", self.poisson_ratio, {.doc = "Poisson's ratio, in (-1, 0.5]"});

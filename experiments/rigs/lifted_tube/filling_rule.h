@@ -49,7 +49,7 @@ struct FillingRule {
            .doc = "pour: of the mouth above the powder, which it follows; default: half the tube's "
                   "diameter"});
     visit("mouth_diameter", self.mouth_diameter,
-          {.dimension = Dimension::kLength, .doc = "pour: default: half the tube's"});
+          {.dimension = Dimension::kLength, .doc = "pour: default: 0.6 of the tube's"});
     visit("rate", self.rate,
           {.dimension = Dimension::kMassRate,
            .doc = "pour: default: as fast as a funnel of this mouth empties"});

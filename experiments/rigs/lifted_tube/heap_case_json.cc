@@ -1,4 +1,5 @@
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/rigs/lifted_tube/heap_case.h"
 
@@ -19,7 +20,7 @@ HeapCase LoadHeapCase(const base::JsonFile& file) {
 }
 
 std::string HeapCaseText(const HeapCase& heap_case) {
-  return base::ToJson(heap_case).dump(2) + "\n";
+  return base::JsonText(base::ToJson(heap_case), 2) + "\n";
 }
 
 bool IsSameRun(const HeapCase& a, const HeapCase& b) {

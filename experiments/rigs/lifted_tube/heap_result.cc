@@ -6,6 +6,7 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
 #include "engine/run/scaling_json.h"
@@ -167,10 +168,10 @@ std::string HeapResultText(const HeapCase& c, const HeapRig& rig,
   }
   if (heap.empty()) warnings.push_back("nothing is left on the plate");
   result["warnings"] = warnings;
-  return base::WithChecksum(result.dump(2) + "\n");
+  return base::WithChecksum(base::JsonText(result, 2) + "\n");
 }
 
-std::string HeapStateLine(const HeapState& state) { return base::ToJson(state).dump(); }
+std::string HeapStateLine(const HeapState& state) { return base::JsonText(base::ToJson(state)); }
 
 HeapState ParseHeapState(const std::string& line) {
   return base::LoadOptions<HeapState>(base::ParseJson(line, "checkpoint"));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "engine/laws/pair_constants.h"
 #include "engine/scene/scene_warnings.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
 
@@ -26,6 +27,39 @@ std::vector<engine::Wall> Walls(const HeapCase& c, double default_tube_length) {
           {.name = "plate", .shape = plate, .material = 2, .motion = {}}};
 }
 
+std::string GrainWarning(const HeapCase& c) {
+  const double across = c.device.plate_diameter / EstimateHeap(c).mean_diameter;
+  std::ostringstream text;
+  text.precision(3);
+  if (across < 15) {
+    text << "COARSE: only " << across
+         << " grains across the plate: the heap is a pile of boulders, and its shape says little "
+            "of the powder; lower the scale factor (30 or more are advised)";
+  } else if (across < 30) {
+    text << "only " << across << " grains across the plate; 30 or more are advised";
+  }
+  return text.str();
+}
+
+// Cohesive stress over the weight of a bed as high as the tube is wide, F_po / (d² ρ g D_i) (A1).
+// With γ_used = f γ (C1) it does not depend on the scale factor.
+double Cohesion(const HeapCase& c) {
+  if (c.models.adhesion == engine::Adhesion::kNone) return 0;
+  const engine::Material powder = MaterialsOf(c).front();
+  const double pull_off = engine::MakePairConstants(powder, powder, c.models).pull_off / 4;
+  return pull_off / (EstimateHeap(c).mean_diameter * powder.density * c.gravity *
+                     c.device.tube_inner_diameter);
+}
+
+// Below 0.1 wet sand makes one heap however it is filled, from 0.3 on its dense bed may stand
+// (docs/validation.md, How the powder got there).
+std::string FillingWarning(const HeapCase& c) {
+  if (c.filling.kind != FillingKind::kDense || Cohesion(c) < 0.2) return {};
+  return "COHESIVE: placed densely, such a powder may keep the shape of its tube where it slumps "
+         "when poured; fill it as the experiment was filled, most likely with filling.kind "
+         "\"pour\"";
+}
+
 }  // namespace
 
 Vessel TubeOf(const HeapCase& c) {
@@ -38,33 +72,30 @@ Vessel TubeOf(const HeapCase& c) {
 FilledScene MakeHeapScene(const HeapCase& c) {
   const Vessel tube = TubeOf(c);
   FilledScene made = FillVessel(c, tube);
-  made.scene.walls = Walls(
-      c, c.filling.kind == FillingKind::kDense ? 1.1 * made.filling.height : PouredHeight(c, tube));
+  // Half its diameter more than poured powder needs, so that no grain hops over its rim.
+  const double poured = PouredHeight(c, tube) + tube.across / 2;
+  made.scene.walls =
+      Walls(c, c.filling.kind == FillingKind::kDense ? 1.1 * made.filling.height : poured);
   return made;
 }
 
 std::vector<std::string> HeapWarnings(const HeapCase& c) {
   std::vector<std::string> warnings;
-  const double across = c.device.plate_diameter / EstimateHeap(c).mean_diameter;
-  std::ostringstream text;
-  text.precision(3);
-  const bool has_plate = KindOf(c) == RigKind::kLiftedTube;
-  if (has_plate && across < 15) {
-    text << "COARSE: only " << across
-         << " grains across the plate: the heap is a pile of boulders, and its shape says little "
-            "of the powder; lower the scale factor (30 or more are advised)";
-  } else if (has_plate && across < 30) {
-    text << "only " << across << " grains across the plate; 30 or more are advised";
+  const auto warn = [&](std::string text) {
+    if (!text.empty()) warnings.push_back(std::move(text));
+  };
+  if (KindOf(c) == RigKind::kLiftedTube) {
+    warn(GrainWarning(c));
+    warn(FillingWarning(c));
   }
-  if (has_plate && across < 30) warnings.push_back(text.str());
   if (c.rayleigh_fraction > kHeapRayleighFraction) {
-    warnings.push_back("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
+    warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }
-  for (std::string& warning : engine::AdhesionWarnings(c.models, MaterialsOf(c))) {
-    warnings.push_back(std::move(warning));
+  for (std::string& text : engine::AdhesionWarnings(c.models, MaterialsOf(c))) {
+    warn(std::move(text));
   }
   if (c.models.rolling == engine::Rolling::kConstant && c.rayleigh_fraction > 0.15) {
-    warnings.push_back(
+    warn(
         "constant rolling resistance creeps in proportion to the time step: set rayleigh_fraction "
         "to 0.15 or less");
   }

@@ -3,6 +3,7 @@
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
 #include "engine/run/scaling_json.h"
@@ -81,7 +82,7 @@ std::string PhasedRig::ResultText(const std::vector<engine::Particle>& grains,
                       {"threads", case_.threads},
                       {"scaling", engine::ScalingJson(simulation_.Scaling())}};
   result["warnings"] = warnings;
-  return base::WithChecksum(result.dump(2) + "\n");
+  return base::WithChecksum(base::JsonText(result, 2) + "\n");
 }
 
 }  // namespace talus::rigs

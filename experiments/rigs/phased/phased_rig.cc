@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "engine/wall_motion.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
@@ -201,6 +202,6 @@ PhasedState PhasedRig::ParseState(const std::string& line) {
   return base::LoadOptions<PhasedState>(base::ParseJson(line, "checkpoint"));
 }
 
-std::string PhasedRig::StateLine() const { return base::ToJson(state_).dump(); }
+std::string PhasedRig::StateLine() const { return base::JsonText(base::ToJson(state_)); }
 
 }  // namespace talus::rigs

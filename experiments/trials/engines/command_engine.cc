@@ -9,12 +9,14 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/runners/local_runner.h"
+#include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
@@ -38,7 +40,7 @@ constexpr const char* kResult = "result.json";
 
 std::string CaseText(const rigs::HeapCase& heap_case, const CommandOptions& options) {
   const CommandCase command_case{.heap = heap_case, .engine = options};
-  return base::ToJson(command_case).dump(2) + "\n";
+  return base::JsonText(base::ToJson(command_case), 2) + "\n";
 }
 
 struct Measured {
@@ -185,7 +187,7 @@ std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured
     result["profile"]["file"] = "profile.png";
     result["profile"]["num_views"] = rigs::NumViewsOf(heap_case);
   }
-  return base::WithChecksum(result.dump(2) + "\n");
+  return base::WithChecksum(base::JsonText(result, 2) + "\n");
 }
 
 // What the placeholders mean: the case's values, and how the command is to run.
@@ -240,7 +242,7 @@ void CommandEngine::Prepare(const rigs::HeapCase& heap_case, const fs::path& fol
     filled.insert(filled.begin(), {kMpiLauncher, "-np", values.scalars["ranks"]});
   }
   const nlohmann::json command = filled;
-  base::WriteFileAtomically(folder / kCommandFile, command.dump(), Outlives::kProgram);
+  base::WriteFileAtomically(folder / kCommandFile, base::JsonText(command), Outlives::kProgram);
 }
 
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
@@ -291,14 +293,16 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
   templates.Check(options, ValuesOf(options, check.heap_case), check.calibrated, problems);
   if (check.elsewhere) return;
   problems.Require(
-      !IsLaunchedByUs(options, templates) || !FindProgram(options, kMpiLauncher).empty(), "ranks",
+      !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),
+      "ranks",
       std::string(kMpiLauncher) +
           " is not found, which is to start them; install an MPI, or start them yourself with "
           "{{ ranks }} in the command");
-  problems.Require(!FindProgram(options, options.command.front()).empty(), "command",
-                   "\"" + options.command.front() +
-                       "\" is not found, or not executable: neither on the PATH nor, if it has a "
-                       "\"/\", in the templates' folder");
+  problems.Require(
+      !runners::FindProgram(options.command.front(), options.templates.value()).empty(), "command",
+      "\"" + options.command.front() +
+          "\" is not found, or not executable: neither on the PATH nor, if it has a "
+          "\"/\", in the templates' folder");
 }
 
 CommandCase LoadCommandCase(const base::JsonFile& file) {
@@ -336,7 +340,8 @@ void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder
     result["status"] = "failed";
     result["talus_version"] = base::Version();
     result["reason"] = error.what();
-    base::WriteFileAtomically(folder / kResult, base::WithChecksum(result.dump(2) + "\n"));
+    base::WriteFileAtomically(folder / kResult,
+                              base::WithChecksum(base::JsonText(result, 2) + "\n"));
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is
   }
 }

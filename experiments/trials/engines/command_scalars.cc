@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -17,6 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kJson = "scalars.json";
 constexpr const char* kCsv = "scalars.csv";
+constexpr std::uint64_t kMostBytes = 1 << 20;  // ten thousand numbers
+constexpr std::size_t kMostQuoted = 200;       // bytes of a line
 
 journal::MetricRecord ScalarOf(const std::string& name, std::optional<double> value) {
   journal::MetricRecord scalar{.name = name, .unit = rigs::UnitOfObservable(name), .undefined = {}};
@@ -28,7 +31,15 @@ journal::MetricRecord ScalarOf(const std::string& name, std::optional<double> va
   return scalar;
 }
 
-std::vector<journal::MetricRecord> FromJson(const std::string& text) {
+std::string Trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+}  // namespace
+
+std::vector<journal::MetricRecord> ParseJsonScalars(const std::string& text) {
   const auto root = nlohmann::json::parse(text, nullptr, false);
   if (!root.is_object()) throw base::Error("left a scalars.json that is no JSON object");
   std::vector<journal::MetricRecord> scalars;
@@ -42,14 +53,8 @@ std::vector<journal::MetricRecord> FromJson(const std::string& text) {
   return scalars;
 }
 
-std::string Trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
 // A first line "name,value" is a head.
-std::vector<journal::MetricRecord> FromCsv(const std::string& text) {
+std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text) {
   std::vector<journal::MetricRecord> scalars;
   std::istringstream lines(text);
   std::string line;
@@ -64,14 +69,12 @@ std::vector<journal::MetricRecord> FromCsv(const std::string& text) {
     const bool whole = read.ec == std::errc() && read.ptr == word.data() + word.size();
     if (comma == std::string::npos || name.empty() || (!whole && !word.empty())) {
       throw base::Error("left scalars.csv whose line " + std::to_string(number) +
-                        " is no name and number: " + line);
+                        " is no name and number: " + line.substr(0, kMostQuoted));
     }
     scalars.push_back(ScalarOf(name, whole ? std::optional(value) : std::nullopt));
   }
   return scalars;
 }
-
-}  // namespace
 
 fs::path ScalarFile(const fs::path& folder) {
   for (const char* name : {kJson, kCsv}) {
@@ -83,8 +86,8 @@ fs::path ScalarFile(const fs::path& folder) {
 std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
   const fs::path file = ScalarFile(folder);
   if (file.empty()) return {};
-  const std::string text = base::ReadFile(file);
-  return file.filename() == kJson ? FromJson(text) : FromCsv(text);
+  const std::string text = base::ReadFile(file, kMostBytes);
+  return file.filename() == kJson ? ParseJsonScalars(text) : ParseCsvScalars(text);
 }
 
 void RemoveScalars(const fs::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "experiments/journal/records.h"
@@ -12,6 +13,8 @@ namespace talus::trials {
 // is neither. A number that is not defined is null in JSON, and empty in CSV. Throws base::Error
 // with the place of what cannot be read.
 std::vector<journal::MetricRecord> ReadScalars(const std::filesystem::path& folder);
+std::vector<journal::MetricRecord> ParseJsonScalars(const std::string& text);
+std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text);
 
 // The one of the two that is read; empty where there is neither.
 std::filesystem::path ScalarFile(const std::filesystem::path& folder);

@@ -7,6 +7,7 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/json/json_file.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/rigs/lifted_tube/heap_result.h"
 #include "experiments/rigs/rig.h"
@@ -63,7 +64,8 @@ void DrawAnew(const rigs::HeapCase& heap_case, const std::filesystem::path& fold
   }
   result["input_hash"] = base::Hex(rigs::HeapCaseHash(heap_case));
   base::WriteFileAtomically(folder / "case.json", rigs::HeapCaseText(heap_case));
-  base::WriteFileAtomically(folder / "result.json", base::WithChecksum(result.dump(2) + "\n"));
+  base::WriteFileAtomically(folder / "result.json",
+                            base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
 
 }  // namespace

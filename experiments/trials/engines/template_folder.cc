@@ -1,11 +1,7 @@
 #include "experiments/trials/engines/template_folder.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -124,24 +120,6 @@ std::vector<std::string> FilledCommand(const CommandOptions& engine, const Templ
   std::vector<std::string> command;
   for (const TextTemplate& part : CommandParts(engine)) command.push_back(part.Fill(values));
   return command;
-}
-
-fs::path FindProgram(const CommandOptions& engine, const std::string& program) {
-  const auto executable = [](const fs::path& path) {
-    return ::access(path.c_str(), X_OK) == 0 && !fs::is_directory(path);
-  };
-  if (program.find('/') != std::string::npos) {
-    const fs::path path =
-        engine.templates.value() / program;  // an absolute program stays what it is
-    return executable(path) ? path : fs::path();
-  }
-  const char* search = std::getenv("PATH");
-  std::istringstream folders(search == nullptr ? "/usr/bin:/bin" : search);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (!folder.empty() && executable(fs::path(folder) / program))
-      return fs::path(folder) / program;
-  }
-  return {};
 }
 
 }  // namespace talus::trials

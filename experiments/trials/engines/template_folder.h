@@ -45,8 +45,4 @@ class TemplateFolder {
 // The command with its placeholders filled.
 std::vector<std::string> FilledCommand(const CommandOptions& engine, const TemplateValues& values);
 
-// Where a program is: a path of its own, a file of the templates, or on the PATH. Empty when it is
-// not found or not executable.
-std::filesystem::path FindProgram(const CommandOptions& engine, const std::string& program);
-
 }  // namespace talus::trials

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/printable.h"
 
 namespace talus::trials {
 namespace {
@@ -45,7 +46,7 @@ std::string LastLogLines(const std::filesystem::path& folder) {
   }
   if (start != std::string::npos) text.erase(0, start + 1);
   if (text.size() > kMostBytes) text.erase(0, text.size() - kMostBytes);
-  return text;
+  return base::Printable(text);
 }
 
 }  // namespace talus::trials

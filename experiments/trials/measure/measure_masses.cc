@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/json/json_text.h"
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
@@ -183,7 +184,8 @@ void MeasureMasses(const MeasureRequest& request, std::ostream& print) {
   base::ClaimOutputFolder(request.out, "measure", request.inputs);
   imaging::WritePng(request.out / "mass_study.png", imaging::DrawMassStudy(runs, study));
   base::WriteFileAtomically(request.out / "mass_study.csv", RunsCsv(runs));
-  base::WriteFileAtomically(request.out / "mass_study.json", StudyJson(study).dump(2) + "\n");
+  base::WriteFileAtomically(request.out / "mass_study.json",
+                            base::JsonText(StudyJson(study), 2) + "\n");
   print << "written to " << request.out.string() << "/\n";
 }
 

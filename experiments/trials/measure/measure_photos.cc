@@ -1,14 +1,19 @@
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/json/json_text.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/photos/overlay.h"
+#include "imaging/photos/photo_collection.h"
 #include "imaging/photos/photo_set.h"
 
 namespace talus::trials {
@@ -48,6 +53,24 @@ std::string OverlayName(const imaging::MeasuredRun& run, const imaging::Measured
   return "run_" + run.name + "_" + view.photo.stem().string();
 }
 
+// Several at a time: coding them takes longer than all the measuring. Of photographs that share a
+// name the last one's is kept.
+void WriteOverlays(const MeasureRequest& request, const imaging::Experiment& experiment) {
+  std::map<fs::path, const imaging::MeasuredView*> views;
+  for (const imaging::MeasuredRun& run : experiment.runs) {
+    for (const imaging::MeasuredView& view : run.views) {
+      views[OverlayPath(request.out, OverlayName(run, view))] = &view;
+    }
+  }
+  const std::vector<std::pair<fs::path, const imaging::MeasuredView*>> files(views.begin(),
+                                                                             views.end());
+  imaging::ForEachPhoto(files.size(), [&](std::size_t i) {
+    const auto& [path, view] = files[i];
+    imaging::WritePng(path, imaging::OverlayOf(*view, experiment.aehp.frame, request.experiment,
+                                               experiment.photo_pixel));
+  });
+}
+
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
   const fs::path& out = request.out;
   base::ClaimOutputFolder(out, "measure", InputsOf(request));
@@ -59,15 +82,12 @@ void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experi
   }
   for (const imaging::MeasuredRun& run : experiment.runs) {
     imaging::WriteProfile(out / "runs" / ("run_" + run.name + ".png"), run.profile);
-    for (const imaging::MeasuredView& view : run.views) {
-      imaging::WritePng(OverlayPath(out, OverlayName(run, view)),
-                        imaging::OverlayOf(view, experiment.aehp.frame, request.experiment,
-                                           experiment.photo_pixel));
-    }
   }
+  WriteOverlays(request, experiment);
   base::WriteFileAtomically(out / "views.csv", ViewsCsv(experiment));
   base::WriteFileAtomically(out / "metrics.csv", MetricsCsv(experiment.metrics));
-  base::WriteFileAtomically(out / "measure.json", ExperimentJson(experiment).dump(2) + "\n");
+  base::WriteFileAtomically(out / "measure.json",
+                            base::JsonText(ExperimentJson(experiment), 2) + "\n");
 }
 
 void PrintSummary(const imaging::Experiment& experiment, const std::string& scale,

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
@@ -69,7 +70,7 @@ void WriteFiles(const fs::path& out, const Projected& projected,
                                     {"num_spheres", projected.num_spheres},
                                     {"num_in_heap", projected.num_in_heap},
                                     {"metrics", MetricsJson(metrics)}};
-  base::WriteFileAtomically(out / "measure.json", json.dump(2) + "\n");
+  base::WriteFileAtomically(out / "measure.json", base::JsonText(json, 2) + "\n");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/json/json_text.h"
 #include "experiments/runners/process_guard.h"
 #include "experiments/runners/tool.h"
 
@@ -25,6 +26,12 @@ AnswerImage TargetImage(const OptimizeTarget& target) {
 
 Evaluator::Evaluator(const OptimizeProblem& problem, std::vector<std::string> command)
     : problem_(problem), command_(std::move(command)) {
+  if (runners::FindProgram(command_.front(), {}).empty()) {
+    throw base::ConfigError(
+        "COMMAND: \"" + command_.front() +
+        "\" is not found, or not executable; give its path, or name one that is on "
+        "the PATH");
+  }
   if (!problem.target) return;
   AnswerImage target = TargetImage(*problem.target);
   const auto num_pixels = static_cast<int>(target.field.size());
@@ -42,7 +49,7 @@ std::string Evaluator::InputOf(const Eigen::VectorXd& point, std::uint64_t seed)
     input[problem_.space.parameters[i].name] = native[i];
   }
   input["seed"] = seed;
-  return input.dump() + "\n";
+  return base::JsonText(input) + "\n";
 }
 
 Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed,

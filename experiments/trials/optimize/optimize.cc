@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/json/json_text.h"
 #include "experiments/runners/process_guard.h"
 #include "experiments/trials/optimize/evaluator.h"
 #include "experiments/trials/optimize/optimize_folder.h"
@@ -44,7 +45,7 @@ class Loop {
       stopped = WhyStop(batch.empty());
     }
     const std::string result =
-        OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped).dump(2) + "\n";
+        base::JsonText(OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped), 2) + "\n";
     if (folder_) folder_->WriteResult(result);
     return result;
   }
@@ -121,7 +122,7 @@ class Loop {
       line["value"] = observation.value;
     }
     if (output_.quiet) return;
-    std::cerr << line.dump(-1, ' ', false, json::error_handler_t::replace) << std::endl;
+    std::cerr << base::JsonText(line) << std::endl;
   }
 
   const OptimizeProblem& problem_;

@@ -13,6 +13,8 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/files/file_lock.h"
+#include "base/files/output_folder.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
 
@@ -46,11 +48,7 @@ std::vector<double> ToList(const Eigen::VectorXd& point) { return {point.begin()
 OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem& problem,
                                const std::vector<std::string>& command)
     : root_(std::move(root)), problem_(problem) {
-  std::error_code code;
-  std::filesystem::create_directories(root_, code);
-  if (code) {
-    throw base::ConfigError(root_.string() + ": cannot be made a folder: " + code.message());
-  }
+  base::MakeOutputFolder(root_);
   lock_ = Open(root_ / "optimize.lock", O_RDWR);
   constexpr std::chrono::milliseconds kPatience{2000};
   constexpr std::chrono::milliseconds kPause{50};
@@ -87,7 +85,7 @@ void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const
     }
   }
   const json both{{"problem", now}, {"command", command}};
-  base::WriteFileAtomically(path, base::WithChecksum(both.dump(2) + "\n"));
+  base::WriteFileAtomically(path, base::WithChecksum(base::JsonText(both, 2) + "\n"));
 }
 
 std::filesystem::path OptimizeFolder::ImagePath(int number) const {
@@ -166,8 +164,7 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
     base::WriteFileAtomically(ImagePath(number), image, base::Outlives::kProgram);
     line[kImageChecksum] = ChecksumOf(image);
   }
-  const std::string text =
-      base::WithChecksum(line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+  const std::string text = base::WithChecksum(base::JsonText(line) + "\n");
   const std::lock_guard guard(writing_);
   if (::write(log_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
     throw base::Error((root_ / kLog).string() + ": cannot be written: " + std::strerror(errno));

@@ -13,6 +13,7 @@
 #include "base/files/output_folder.h"
 #include "base/interrupt.h"
 #include "base/json/json_file.h"
+#include "base/json/json_text.h"
 #include "base/version.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -115,14 +116,13 @@ void RequireOwnFolder(const RunJob& job, const fs::path& folder) {
 }
 
 void PrepareFolder(const RunJob& job, const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw base::Error(folder.string() + ": cannot be made: " + error.message());
+  base::MakeOutputFolder(folder);
   base::WriteFileAtomically(folder / ".talus", std::string(kCommand) + "\n",
                             base::Outlives::kProgram);
-  fs::remove(folder / kResult, error);
+  std::error_code absent;
+  fs::remove(folder / kResult, absent);
   const fs::path input = folder / job.input_name;
-  const bool same = fs::equivalent(input, job.source, error);  // the user's own is left as it is
+  const bool same = fs::equivalent(input, job.source, absent);  // the user's own is left as it is
   if (!same) base::WriteFileAtomically(input, job.input);
 }
 
@@ -136,7 +136,7 @@ void WriteFailure(const RunJob& job, const fs::path& folder, const std::string& 
   result["input_hash"] = base::Hex(job.input_hash);
   result["timing"] = {{"wall_time_s", watch.Total().wall_time},
                       {"cpu_time_s", watch.Total().cpu_time}};
-  base::WriteFileAtomically(folder / kResult, base::WithChecksum(result.dump(2) + "\n"));
+  base::WriteFileAtomically(folder / kResult, base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
 
 void Report(engine::Run& run, RunLog& log) {

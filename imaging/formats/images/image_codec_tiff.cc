@@ -62,6 +62,11 @@ Layout ReadLayout(TIFF* tiff, std::size_t num_bytes, const std::string& name) {
   // We turn the image ourselves: libtiff mirrors, but does not turn by a quarter.
   TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   CheckImageSize({.width = layout.width, .height = layout.height, .num_bytes = num_bytes}, name);
+  // Before libtiff takes memory for a row of them all.
+  constexpr int kMostChannels = 16;
+  if (layout.channels < 1 || layout.channels > kMostChannels) {
+    ThrowDamaged(name, "it says that a pixel has " + std::to_string(layout.channels) + " channels");
+  }
   return layout;
 }
 

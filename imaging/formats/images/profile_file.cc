@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -24,8 +25,8 @@ std::filesystem::path SidecarOf(std::filesystem::path png) { return png.replace_
 
 void WriteProfile(const std::filesystem::path& png, const Profile& profile) {
   WritePng(png, profile.image);
-  base::WriteFileAtomically(SidecarOf(png),
-                            base::ToJson(Sidecar{.frame = profile.frame}).dump(2) + "\n");
+  base::WriteFileAtomically(
+      SidecarOf(png), base::JsonText(base::ToJson(Sidecar{.frame = profile.frame}), 2) + "\n");
 }
 
 Frame ReadFrame(const std::filesystem::path& json) {

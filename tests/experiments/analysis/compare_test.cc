@@ -28,6 +28,7 @@ Evidence OneParameter(const std::string& metric, const std::vector<Sample>& samp
   evidence.parameters[0].range.low = 0;
   evidence.parameters[0].range.high = 1;
   evidence.metrics = {{metric, ""}};
+  evidence.reference.aehp.image = {.width = 1, .height = 1, .pixels = {0}};
   evidence.reference.metrics = {reference};
   for (const Sample& sample : samples) {
     TrialEvidence trial;

@@ -111,7 +111,7 @@ TEST_F(NextTest, ATestOfNumbersOnlyIsJudgedByThem) {
   const NextTable table = Rank(view, {*tapped}, true);
   const NextCandidate& judged = Find(table, "tapped density");
   ASSERT_TRUE(judged.learning.has_value()) << judged.what;
-  EXPECT_LT(judged.learning->width[1], 0.9 * table.width[1]);
+  EXPECT_LT(judged.learning->width[1], 0.97 * table.width[1]);
   EXPECT_EQ(judged.num_made, 16);
   EXPECT_TRUE(judged.picture.empty());
   ASSERT_EQ(judged.numbers.size(), 1u);

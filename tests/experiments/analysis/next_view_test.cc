@@ -25,11 +25,11 @@ using testing::StartsWith;
 constexpr const char* kNextJson = R"({"after_trial": 60,
   "width_90": {"sliding_friction": 0.5, "rolling_friction": 0.4},
   "candidates": [
-    {"kind": "test", "name": "wide plate", "what": "make it, 3 runs", "num_simulations": 38,
+    {"kind": "test", "name": "wide plate", "what": "carry it out in 3 runs", "num_simulations": 38,
      "core_time_s": 150.0, "bits": 1.91,
      "width_90": {"sliding_friction": 0.25, "rolling_friction": 0.1},
      "told_apart": [[0.1, 0.6], [0.6, 0.1]], "picture": "/elsewhere/next/wide-plate.png"},
-    {"kind": "test", "name": "rough plate", "what": "make it, 3 runs", "num_simulations": 38,
+    {"kind": "test", "name": "rough plate", "what": "carry it out in 3 runs", "num_simulations": 38,
      "core_time_s": 150.0, "bits": null, "width_90": null}]})";
 
 // The folder of a synthetic campaign with what `talus next` leaves there.
@@ -53,7 +53,7 @@ TEST(NextTable, OfTheCampaignIsShownWithItsPicturesAndAmongTheSteps) {
   const auto step = std::find_if(data.next_steps.begin(), data.next_steps.end(),
                                  [](const NextStep& s) { return s.remaining == 0.5 * 0.25; });
   ASSERT_NE(step, data.next_steps.end());
-  EXPECT_EQ(step->what, "Wide plate: make it, 3 runs");
+  EXPECT_EQ(step->what, "Wide plate: carry it out in 3 runs");
   EXPECT_THAT(step->leaves, HasSubstr("μ_t known within 0.17 (now 0.35)"));
   for (const NextStep& s : data.next_steps) EXPECT_THAT(s.what, Not(HasSubstr("rough plate")));
   const json next = json::parse(PageJson(data))["next"];

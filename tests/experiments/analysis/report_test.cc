@@ -275,13 +275,16 @@ Conclusion Concluded(const campaign::CampaignResult& result) {
 TEST(ConclusionOf, VerdictSaysWhatKindOfAnswerThereIs) {
   campaign::CampaignResult result = ResultWithPosterior();
   EXPECT_EQ(Concluded(result).verdict_kind, "curve");
-  EXPECT_THAT(Concluded(result).verdict, StartsWith("The measurements determine μ_"));
-  EXPECT_THAT(Concluded(result).verdict,
-              HasSubstr("not both: sets from (μ_t 0.06, μ_r 0.44) to (μ_t 0.44, μ_r 0.06) fit "
-                        "equally; the joint 90 % region fills 20 % of the searched ranges."));
+  EXPECT_THAT(Concluded(result).verdict, StartsWith("The measurements determine "));
+  EXPECT_THAT(
+      Concluded(result).verdict,
+      HasSubstr("not both: sets from (sliding friction μ_t 0.06, rolling friction μ_r 0.44) to "
+                "(sliding friction μ_t 0.44, rolling friction μ_r 0.06) fit equally; the joint 90 "
+                "% region fills about 20 % of the searched ranges."));
   result.correlation = {{1, 0}, {0, 1}};
   EXPECT_EQ(Concluded(result).verdict_kind, "region");
-  EXPECT_THAT(Concluded(result).verdict, HasSubstr("leave a region, not a point: μ_t in 0.05 to"));
+  EXPECT_THAT(Concluded(result).verdict,
+              HasSubstr("leave a region, not a point: sliding friction μ_t in 0.05 to"));
   for (campaign::ResultParameter& p : result.parameters) p.credible_high = 0.1;
   EXPECT_EQ(Concluded(result).verdict_kind, "point");
   result.posterior->branches.push_back(

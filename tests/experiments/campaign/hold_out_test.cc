@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/campaign/answer/consider.h"
@@ -45,6 +47,10 @@ TEST_F(TwoExperiments, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
   EXPECT_NEAR(result.posterior->alone[0].values[0], kTrueSliding, 0.15);
   EXPECT_THAT(ResultSummary(result), HasSubstr("no set fits"));
   EXPECT_THAT(ResultSummary(result), HasSubstr("heap alone"));
+  EXPECT_GT(result.posterior->tension, 3);
+  EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const ResultWarning& w) {
+    return w.kind == WarningKind::kDisagree && !w.experiment.value_or("").empty();
+  }));
 }
 
 TEST_F(TwoExperiments, TestsThatAgreeRaiseNoAlarm) {
@@ -52,6 +58,7 @@ TEST_F(TwoExperiments, TestsThatAgreeRaiseNoAlarm) {
   RunFake(folder, {});
   const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
   EXPECT_TRUE(result.posterior.value().alone.empty()) << ResultSummary(result);
+  EXPECT_LT(result.posterior->tension, 3);
   EXPECT_EQ(ResultSummary(result).find("no set fits"), std::string::npos);
 }
 

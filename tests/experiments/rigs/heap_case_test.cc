@@ -19,7 +19,9 @@ namespace talus::rigs {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kExample = TALUS_SOURCE_DIR "/examples/scenes/heap_case.json";
 
@@ -127,6 +129,27 @@ TEST(HeapScene, WarnsWhenTheGrainsAreTooFewAcrossThePlate) {
   EXPECT_THAT(HeapWarnings(heap_case).at(0), HasSubstr("only 16.7 grains"));
   heap_case.coarse_graining.scale_factor = 3;  // 11 across
   EXPECT_THAT(HeapWarnings(heap_case).at(0), HasSubstr("COARSE"));
+}
+
+// Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at
+// γ = 3.75e-3 J/m², whatever the scale factor.
+TEST(HeapScene, WarnsWhenACohesivePowderIsPlacedDensely) {
+  HeapCase heap_case = LoadHeapCase(kExample);
+  heap_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.3e-3};
+  heap_case.powder.material.density = 2000;
+  heap_case.models.adhesion = engine::Adhesion::kJkr;
+  for (const double scale_factor : {1.0, 1.1}) {
+    heap_case.coarse_graining.scale_factor = scale_factor;
+    heap_case.powder.material.surface_energy = 3.6e-3;
+    EXPECT_TRUE(HeapWarnings(heap_case).empty());
+    heap_case.powder.material.surface_energy = 3.9e-3;
+    EXPECT_THAT(HeapWarnings(heap_case).at(0), HasSubstr("COHESIVE"));
+  }
+  heap_case.filling.kind = FillingKind::kPour;
+  EXPECT_TRUE(HeapWarnings(heap_case).empty());
+  heap_case.filling.kind = FillingKind::kDense;
+  heap_case.models.adhesion = engine::Adhesion::kNone;
+  EXPECT_THAT(HeapWarnings(heap_case), Not(Contains(HasSubstr("COHESIVE"))));
 }
 
 // After a change, run with TALUS_UPDATE_SCHEMAS=1 and commit what it writes.

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """campaign_test.py TALUS SOURCE_DIR: a campaign of 24 trials on a one-node Slurm ends with the trial
 table of the local runner with one worker, also when its process is killed five times in between, when
-its node fails while it is dead, and when its jobs are cancelled with Ctrl-C. Trials that are proposed
-together are one job array, and Slurm is not asked more than once in 5 s. A trial of two MPI ranks gets two
-tasks."""
+its node fails while it is dead, and when its jobs are cancelled with Ctrl-C; so does a campaign of two
+experiments. Trials that are proposed together are one job array, and Slurm is not asked more than once
+in 5 s. A trial of two MPI ranks gets two tasks."""
 import csv
 import json
 import os
@@ -57,11 +57,40 @@ def spec(folder, runner, num_trials=24, workers=1):
     return folder / "campaign.json"
 
 
-def table(out):
+def two_experiments(folder, runner):
+    """The heap, and the same powder lifted fast with the mass that falls: proposals of the surrogate."""
+    path = spec(folder, runner)
+    text = json.loads(path.read_text())
+    heap = {"name": "heap", **text.pop("experiment")}
+    text["experiments"] = [heap, {**heap, "name": "fast lift",
+                                  "device": {"plate": "disc", "lift_velocity": "20 cm/s"},
+                                  "mass_fallen": {"value": "20 mg", "sd": "5 mg"}}]
+    del text["noise"]
+    text.update(strategy={"kind": "surrogate"}, budget={"simulations": 12},
+                confirm={"candidates": 1, "replicates": 1}, coarse_graining={"scale_factor": 1})
+    path.write_text(json.dumps(text))
+    return path
+
+
+def check_two_experiments(root):
+    """On Slurm, killed twice, they end with the table of the local runner, and are reported."""
+    folders = {name: root / ("two_" + name) for name in ("local", "slurm")}
+    local, on_slurm = (folder / "out" for folder in folders.values())
+    run("calibrate", two_experiments(folders["local"], {"kind": "local"}), "--out", local)
+    run_killed(root, two_experiments(folders["slurm"], {"kind": "slurm"}), on_slurm, 2)
+    expected, got = table(local, SAME + ("experiment",)), table(on_slurm, SAME + ("experiment",))
+    assert len(expected) == 14 and {row[-1] for row in expected} == {"heap", "fast lift"}, expected
+    assert got == expected, "\n".join(map(str, set(got) ^ set(expected)))
+    for name in ("heap", "fast lift"):
+        run("compare", on_slurm, "--experiment", name)
+        run("report", on_slurm, "--experiment", name)
+
+
+def table(out, columns=SAME):
     subprocess.run([talus, "export", out, "--out", out / "tables"], check=True,
                    stdout=subprocess.DEVNULL)
     with open(out / "tables/trials.csv") as file:
-        return [tuple(row[key] for key in SAME) for row in csv.DictReader(file)]
+        return [tuple(row[key] for key in columns) for row in csv.DictReader(file)]
 
 
 def run(*arguments):
@@ -199,6 +228,7 @@ def main(root):
         lost = run_twice(root, "lost", die_and_lose_node, by_us)
         dropped = run_twice(root, "dropped", press_ctrl_c_twice, {"kind": "slurm"})
         check_array()
+        check_two_experiments(root)
         if shutil.which("mpirun"):
             check_ranks(root)
     finally:

@@ -32,13 +32,14 @@ std::vector<Valued> ValuedTrials(const ReportData& data) {
   if (!column) return valued;
   for (const TrialEvidence& t : data.evidence.trials) {
     if (t.state != journal::TrialStatus::kOk || std::isnan(t.metrics[*column])) continue;
-    valued.push_back({&t, data.own().info.Value(t.metrics[*column], data.own().reference)});
+    const double value = data.own().info.Value(t.metrics[*column], data.own().reference);
+    valued.push_back({&t, data.own().info.per_unit * value});
   }
   return valued;
 }
 
 std::string Convergence(const ReportData& data, const std::vector<Valued>& valued) {
-  const journal::ObjectiveInfo& info = data.own().info;
+  const Criterion& info = data.own().info;
   double top = 0;
   for (const Valued& v : valued) top = std::max(top, v.objective);
   const double last = data.evidence.trials.back().id;
@@ -46,7 +47,7 @@ std::string Convergence(const ReportData& data, const std::vector<Valued>& value
                  {.title = WithUnit(info.title, info.unit), .low = 0, .high = 1.05 * top});
   std::map<std::string, std::vector<SvgPoint>> by_purpose;
   std::vector<SvgPoint> best, low, high;
-  const double noise = std::isnan(data.own().noise_sd) ? 0 : data.own().noise_sd;
+  const double noise = std::isnan(data.own().noise_sd) ? 0 : info.per_unit * data.own().noise_sd;
   const auto extend = [&](double x, double y) {
     best.push_back({x, y});
     low.push_back({x, std::max(0.0, y - noise)});
@@ -67,7 +68,7 @@ std::string Convergence(const ReportData& data, const std::vector<Valued>& value
   }
   chart.Line(best, {.width = 2}, "best so far");
   const double floor = data.evidence.reference.noise_floor;
-  if (info.objective == journal::Objective::kSad && std::isfinite(floor)) {
+  if (info.is_sad && std::isfinite(floor)) {
     chart.Line({{0, floor}, {last, floor}}, {.color = kSoft, .dashed = true},
                "noise floor of the experiment");
   }
@@ -100,7 +101,7 @@ std::string Outlines(const ReportData& data) {
 
 std::string Slice(const ReportData& data, const ModelSlice& slice) {
   const ParameterInfo& parameter = data.evidence.parameters[slice.parameter];
-  const journal::ObjectiveInfo& info = data.own().info;
+  const Criterion& info = data.own().info;
   std::vector<SvgPoint> mean, low, high;
   double top = 0;
   const bool has_band = std::isfinite(slice.high.front());
@@ -178,7 +179,7 @@ std::string Scatter(const ReportData& data, const PairMap& pair) {
     if (best.empty()) continue;
     // Smaller from one objective to the next, so that sets that several prefer show all of them.
     const SvgStyle style{.color = PaletteColor(k), .width = 13 - 2 * static_cast<double>(k)};
-    chart.Points(best, style, "ten best by " + std::string(data.findings[k].info.title));
+    chart.Points(best, style, "ten best by " + data.findings[k].info.title);
   }
   AddStar(data, pair.i, pair.j, chart);
   return chart.Text();
@@ -190,7 +191,7 @@ std::vector<NamedText> ReportFigures(const ReportData& data) {
   std::vector<NamedText> figures;
   const std::vector<Valued> valued = ValuedTrials(data);
   if (!valued.empty()) figures.push_back({"convergence", Convergence(data, valued)});
-  figures.push_back({"outlines", Outlines(data)});
+  if (!data.outlines.empty()) figures.push_back({"outlines", Outlines(data)});
   const auto& parameters = data.evidence.parameters;
   for (const ModelSlice& slice : data.slices) {
     figures.push_back({"slice_" + parameters[slice.parameter].range.name, Slice(data, slice)});

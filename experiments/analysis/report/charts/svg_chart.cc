@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text/markup.h"
 #include "base/text/number_text.h"
 
 namespace talus::analysis {
@@ -28,14 +29,6 @@ std::string Pixel(double x) {
   return text;
 }
 
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    escaped += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  }
-  return escaped;
-}
-
 std::string LineStyle(const SvgStyle& style) {
   return " fill=\"none\" stroke=\"" + style.color + "\" stroke-width=\"" + Number(style.width) +
          "\"" + (style.dashed ? " stroke-dasharray=\"6 4\"" : "");
@@ -43,7 +36,7 @@ std::string LineStyle(const SvgStyle& style) {
 
 std::string Words(double x, double y, const std::string& anchor, const std::string& text) {
   return "<text x=\"" + Pixel(x) + "\" y=\"" + Pixel(y) + "\" text-anchor=\"" + anchor + "\">" +
-         Escaped(text) + "</text>\n";
+         base::MarkupText(text) + "</text>\n";
 }
 
 // Powers of ten within a logarithmic axis, else about five round values.

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "base/text/markup.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "page_files.h"  // made by talus_embed
 
@@ -10,20 +11,6 @@ namespace {
 
 void Replace(std::string& text, std::string_view what, std::string_view with) {
   text.replace(text.find(what), what.size(), with);
-}
-
-std::string EscapedHtml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
 }
 
 // JSON inside a script element: a `<` could end it.
@@ -48,10 +35,11 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
       std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
       std::string(page_files::kSearchChartsJs) + std::string(page_files::kSpaceChartsJs) +
       std::string(page_files::kProfileChartsJs) + std::string(page_files::kOverlayJs) +
-      std::string(page_files::kTrialTableJs) + std::string(page_files::kSectionsJs) +
+      std::string(page_files::kTrialTableJs) + std::string(page_files::kAnswerJs) +
+      std::string(page_files::kRunningJs) + std::string(page_files::kSectionsJs) +
       std::string(page_files::kPageJs);
   // The data come last: what they hold is never searched for a placeholder.
-  Replace(page, "{{title}}", EscapedHtml(data.evidence.name) + " – calibration report");
+  Replace(page, "{{title}}", base::MarkupText(data.evidence.name) + " – calibration report");
   const bool reloads = options.reload > 0 && data.evidence.state == "running";
   Replace(page, "{{reload}}",
           reloads

@@ -48,7 +48,7 @@ void FindNearest(const Evidence& evidence, const Eigen::VectorXd& point, Represe
 }
 
 void AddHeap(const Evidence& evidence, std::size_t index, RepresentativeView& view) {
-  if (view.trial == nullptr) return;
+  if (view.trial == nullptr || !evidence.reference.has_image()) return;
   const std::vector<base::Sphere> grains = GrainsOf(evidence, view.trial->id);
   if (grains.empty()) return;
   const double plate = evidence.reference.aehp.frame.plate_diameter;
@@ -139,7 +139,7 @@ std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
 PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
                          std::string& absent) {
   PhotoOverlay overlay{.photographs = {}, .simulated = {}};
-  if (shown.empty()) return overlay;
+  if (shown.empty() || !evidence.reference.has_image()) return overlay;
   overlay.trial = shown.front().trial;
   for (const ShownTrial& s : shown) {
     if (s.trial->purpose == "confirm") overlay.trial = s.trial;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -55,22 +56,24 @@ void AddMeasuring(const Evidence& evidence, Eigen::Index k, std::vector<NextStep
       parameter.range.ToUnit(evidence.conclusion->values[static_cast<std::size_t>(k)].value);
   const Eigen::MatrixXd given = Near(draws, k, recommended);
   if (given.rows() < kFewestNear) return;
-  NextStep step{.what = "Measure " + parameter.symbol + " in another test and fix it",
-                .cost = "one direct measurement, to about " + Number(100 * kMeasured) +
-                        " % of its range; no simulation",
+  NextStep step{.what = "Measure " + parameter.symbol + " directly and set it in the spec",
+                .cost = "one measurement to ± " + Number(50 * kMeasured) +
+                        " % of its searched range; no simulation",
                 .leaves = {},
                 .remaining = kMeasured / width};
   for (Eigen::Index j = 0; j < draws.cols(); ++j) {
     if (j == k) continue;
     const ParameterInfo& other = evidence.parameters[static_cast<std::size_t>(j)];
     const auto [low, high] = RangeOf(given, j);
-    step.remaining *= std::min(1.0, std::max(high - low, 1e-3) / WidthOf(draws, j));
+    const double share = std::min(1.0, std::max(high - low, 1e-3) / WidthOf(draws, j));
+    step.remaining *= share;
     step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol + " in " +
-                   RangeText(other, {low, high}) + " (now " + RangeText(other, RangeOf(draws, j)) +
-                   ")";
+                   RangeText(other, {low, high}) + ", " + Number(std::round(100 * (1 - share))) +
+                   " % narrower";
   }
   if (step.leaves.empty()) step.leaves = "nothing open";
-  step.leaves += ", if it is " + Number(parameter.range.ToNative(recommended));
+  step.leaves += ", if " + parameter.symbol + " turns out to be " +
+                 Number(parameter.range.ToNative(recommended));
   if (step.remaining < kWorthAWord) steps.push_back(step);
 }
 
@@ -79,29 +82,51 @@ void AddPhotographing(const Evidence& evidence, std::vector<NextStep>& steps) {
   const int runs = evidence.reference.num_heaps;
   const double factor = std::sqrt(0.5);
   const auto dimension = static_cast<double>(evidence.parameters.size());
-  steps.push_back(
-      {.what = "Photograph " + std::to_string(runs) + " more " + (runs == 1 ? "heap" : "heaps"),
-       .cost = std::to_string(runs) + (runs == 1 ? " more run" : " more runs") +
-               " of the test; no simulation",
-       .leaves = "ranges at best " + Number(std::round(100 * factor) / 100) +
-                 " times as wide, where the experiment's scatter sets them",
-       .remaining = std::pow(factor, dimension)});
+  const bool several = evidence.experiments.size() > 1;
+  steps.push_back({.what = several ? "Repeat every measurement"
+                                   : "Photograph " + base::Counted(runs, "more heap"),
+                   .cost = several
+                               ? "as many runs again of each test; no simulation"
+                               : base::Counted(runs, "more run") + " of the test; no simulation",
+                   .leaves = "ranges at best " + Number(std::round(100 * factor) / 100) +
+                             " times as wide as now, where the measurements' scatter sets them",
+                   .remaining = std::pow(factor, dimension)});
 }
 
 void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
   if (evidence.parameters.size() < 2) return;
-  steps.push_back({.what = "Add a test that moves the grains otherwise",
-                   .cost = "its photographs, and as many simulations again",
-                   .leaves = "what `talus next DIR --simulate` works out: this page then shows it",
+  steps.push_back({.what = "Add a different kind of test",
+                   .cost = "its measurement, and about as many simulations again",
+                   .leaves = "what this command works out and this page then shows: talus next " +
+                             evidence.folder.string() + " --simulate",
                    .remaining = 0.9});
 }
 
+// Processor time of a simulation at the finest scale factor [s].
+double TimeOfOne(const Evidence& evidence) {
+  double sum = 0, count = 0;
+  for (const TrialEvidence& trial : evidence.trials) {
+    if (trial.scale_factor != evidence.scale_factor || !std::isfinite(trial.cpu_seconds)) continue;
+    sum += trial.cpu_seconds;
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// First where an alarm asks for it.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
-  if (evidence.stop_reason.find("surrogate's variance") != std::string::npos) return;
-  steps.push_back({.what = "Simulate more: talus resume DIR --add-simulations 20",
-                   .cost = "20 simulations",
-                   .leaves = "not more than what the measurements themselves leave open",
-                   .remaining = 0.95});
+  constexpr int kMore = 20;
+  const bool asked = evidence.conclusion->asks_for_simulations;
+  // It stopped because more simulations would hardly tell more.
+  if (!asked && evidence.stop_reason.find("surrogate's variance") != std::string::npos) return;
+  const std::string more = std::to_string(kMore);
+  steps.push_back({.what = "Simulate more: talus resume " + evidence.folder.string() +
+                           " --add-simulations " + more,
+                   .cost = more + " simulations, up to " +
+                           trials::DurationText(kMore * TimeOfOne(evidence)) + " of core time",
+                   .leaves = asked ? "an answer that the warnings above do not hang on"
+                                   : "not more than what the measurements themselves leave open",
+                   .remaining = asked ? 0 : 0.95});
 }
 
 // "0.12", of a logarithmic range "a factor of 3".
@@ -123,7 +148,7 @@ NextStep StepOf(const Evidence& evidence, const NextTableView& table,
   NextStep step{.what = candidate.name + ": " + candidate.what,
                 .cost = candidate.num_simulations == 0
                             ? "no simulation"
-                            : std::to_string(candidate.num_simulations) + " simulations, " +
+                            : base::Counted(candidate.num_simulations, "simulation") + ", " +
                                   trials::DurationText(candidate.core_time) + " of core time",
                 .leaves = {}};
   step.what.front() =
@@ -165,6 +190,7 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
   }
   if (table) {
     AddCandidates(evidence, *table, steps);
+    if (has_draws && evidence.conclusion->asks_for_simulations) AddSimulating(evidence, steps);
   } else if (has_draws) {
     AddPhotographing(evidence, steps);
     AddSecondTest(evidence, steps);

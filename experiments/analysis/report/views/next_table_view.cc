@@ -31,13 +31,19 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::
                           .num_simulations = json.at("num_simulations").get<int>(),
                           .core_time = json.at("core_time_s").get<double>(),
                           .apart = {},
+                          .apart_by = {},
                           .picture = {}};
   if (!json.at("bits").is_null()) {
     candidate.bits = json["bits"].get<double>();
     candidate.width = WidthsOf(json.at("width_90"), evidence);
   }
+  if (!json.contains("told_apart")) return candidate;
+  candidate.apart = json["told_apart"].get<std::vector<std::vector<double>>>();
+  for (const Json& number : json.value("told_apart_by", Json::array())) {
+    candidate.apart_by.push_back({.metric = number.at("name").get<std::string>(),
+                                  .values = number.at("values").get<std::vector<double>>()});
+  }
   if (!json.contains("picture")) return candidate;
-  candidate.apart = json.at("told_apart").get<std::vector<std::vector<double>>>();
   // Beside the table, wherever the campaign was when that was written.
   const fs::path path = folder / fs::path(json["picture"].get<std::string>()).filename();
   if (!fs::exists(path)) return candidate;

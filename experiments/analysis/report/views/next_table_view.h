@@ -12,6 +12,11 @@ namespace talus::analysis {
 
 // Something that could be done.
 struct CandidateView {
+  // A number of the test as it is predicted at each of the two sets.
+  struct Number {
+    std::string metric;
+    std::vector<double> values;
+  };
   std::string kind;  // as in next.json: "test", "more_runs", …
   std::string name;
   std::string what;           // in words
@@ -19,8 +24,9 @@ struct CandidateView {
   std::vector<double> width;  // of the joint 90 % ranges that it leaves, unit cube; or none
   int num_simulations = 0;
   double core_time = 0;  // [s]
-  // The two sets that it tells apart best, SI, with their heaps side by side; or none.
+  // The two sets that it tells apart best, SI, with what they would show; or none.
   std::vector<std::vector<double>> apart;
+  std::vector<Number> apart_by;
   Picture picture;
 };
 

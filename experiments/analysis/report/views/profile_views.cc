@@ -26,8 +26,11 @@ OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profi
 void AddProfileViews(ReportData& data) {
   const ReferenceEvidence& reference = data.evidence.reference;
   const std::vector<ShownTrial> shown = TrialsToShow(data.evidence, data.findings);
-  data.measures.push_back({"experiment", "AEHP", reference.metrics});
-  data.outlines.push_back(MakeOutline("experiment (AEHP)", reference.aehp));
+  data.measures.push_back(
+      {"experiment", reference.has_image() ? "AEHP" : "measured", reference.metrics});
+  if (reference.has_image()) {
+    data.outlines.push_back(MakeOutline("experiment (AEHP)", reference.aehp));
+  }
   for (const ShownTrial& s : shown) {
     const std::string name = "trial " + std::to_string(s.trial->id);
     data.measures.push_back({name, s.why, s.trial->metrics});

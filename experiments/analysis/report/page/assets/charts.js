@@ -24,8 +24,12 @@ function redrawAll() {
   for (const made of window.talusCharts) made.redraw();
 }
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
-// Charts are drawn when they scroll into view; on paper all of them are, as pictures in light colours.
-window.addEventListener("beforeprint", () => window.talusCharts.forEach((made) => made.start()));
+// Charts are drawn when they scroll into view; on paper all of them are, as pictures in light colours. The pictures
+// must stand before the pages are laid out: what grows afterwards pushes the end of the page off the paper.
+window.addEventListener("beforeprint", () => window.talusCharts.forEach((made) => {
+  made.start();
+  made.toPaper();
+}));
 window.matchMedia("print").addEventListener("change", (e) => {
   redrawAll();
   if (e.matches) window.talusCharts.forEach((made) => made.toPaper());

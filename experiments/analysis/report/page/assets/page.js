@@ -29,24 +29,28 @@ function modelSection() {
 }
 
 function build() {
-  const o = D.campaign.objective;
+  const o = D.campaign.objective, c = D.campaign;
+  const known = doneTrials().length > 0 && D.objectives.some((objective) => !objective.absent);
+  // What follows the first section is of one experiment.
+  const of = c.num_experiments > 1 ? "Of the experiment \u201c" + c.experiment + "\u201d: talus report DIR " +
+    "--experiment NAME shows another. " : "";
   document.getElementById("name").textContent = D.campaign.name;
   document.getElementById("standing").append(...standing());
   section("answer", "Answer", "", answerSection());
-  section("convergence-section", "Convergence", "", doneTrials().length ? [card(convergenceChart())] : []);
-  section("space-section", "Parameter space", "", doneTrials().length ? [card(spaceChart())] : []);
+  section("convergence-section", "Convergence", of, known ? [card(convergenceChart())] : []);
+  section("space-section", "Parameter space", of, known ? [card(spaceChart())] : []);
   section("model", "Model", D.model ? modelLead() : "", modelSection());
-  section("profiles", "Profiles", "The average profile of the experiment (AEHP) and the average profiles of " +
+  if (c.has_image) section("profiles", "Profiles", of + "The average profile of the experiment (AEHP) and the average profiles of " +
     "the best simulations (ANHP). In a signed map, blue is where the simulation has too little powder, red " +
     "where it has too much.", [D.overlay ? overlayFigure()
       : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to show: " + D.overlay_absent) : null,
       D.outlines.length ? card(outlineChart()) : null,
       D.pictures.length ? pictures() : null]);
-  section("measures", "Angles and measures", "", [measuresTable()]);
-  section("compare", "Objectives", "", D.objectives.length ? comparisonSection() : []);
-  section("trials-section", "Trials", "", D.trials.id.length ? [card(trialTable())] : []);
-  section("failures", "Failures", "", D.trials.id.length ? failuresSection() : []);
-  section("time", "Time", "", D.trials.id.length ? [card(timeChart()), ...stagesTable()] : []);
+  section("measures", c.has_image ? "Angles and measures" : "Measures", of, [measuresTable()]);
+  section("compare", "Objectives", of, D.objectives.length ? comparisonSection() : []);
+  section("trials-section", "Trials", of, D.trials.id.length ? [card(trialTable())] : []);
+  section("failures", "Failures", of, D.trials.id.length ? failuresSection() : []);
+  section("time", "Time", of, D.trials.id.length ? [card(timeChart()), ...stagesTable()] : []);
   section("methods", "For a methods section", "Written from this campaign's journal; check it before you use it.",
     [element("div", {class: "card"}, element("p", {id: "methods-text"}, D.methods))]);
   section("spec", "Spec and versions", "", [

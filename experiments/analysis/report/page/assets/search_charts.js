@@ -2,7 +2,7 @@
 function convergenceChart() {
   const m = D.metrics.findIndex((metric) => metric.name === D.campaign.objective.metric);
   const t = D.trials, o = D.campaign.objective;
-  const value = (i) => o.is_angle ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
+  const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
   const all = doneTrials().filter((i) => t.metrics[m][i] !== null);
   const best = [];
   let least = Infinity;
@@ -17,12 +17,12 @@ function convergenceChart() {
   const noise = o.noise_sd;
   const shown = thin(all, 4000);
   // Grains of another size make another heap: what is compared is told apart by colour.
-  const kindOf = scaleFactors.length > 1 ? (i) => "scale factor " + format(t.scale[i]) +
+  const kindOf = scaleFactors.length > 1 ? (i) => "scale factor " + tick(t.scale[i]) +
     (t.purpose[i] === "confirm" ? ", confirm" : "") : (i) => t.purpose[i];
   const kinds = [...new Set(shown.map(kindOf))];
   const lookOf = (name, k) => scaleFactors.length < 2
     ? {symbol: "circle", itemStyle: {color: palette[k % palette.length], opacity: .8}}
-    : name.endsWith("confirm") ? {symbol: "pin", itemStyle: {color: starColor}}
+    : name.endsWith("confirm") ? {symbol: "diamond", itemStyle: {color: starColor}}
     : scaleLook(t.scale[shown.find((i) => kindOf(i) === name)]);
   const top = Math.max(...shown.map(value));
   let logarithmic = false;
@@ -56,7 +56,7 @@ function convergenceChart() {
   });
   const made = chart("convergence", o.title + " of each trial, and the best so far",
       "Each point is one simulation" + (scaleFactors.length > 1 ? "; the best is of those at scale factor " +
-        format(D.campaign.scale_factor) : "") + ". The axis starts at zero unless it is logarithmic. " +
+        tick(D.campaign.scale_factor) : "") + ". The axis starts at zero unless it is logarithmic. " +
       (all.length > shown.length ? shown.length + " of " + all.length + " trials are drawn. " : "") +
       (t.state.includes("failed") ? "Failed trials have no value and are listed below." : ""), option);
   made.figure.insertBefore(element("div", {class: "row"}, element("label", {},

@@ -18,7 +18,7 @@ function spaceChart() {
   const option = (width) => {
     const o = answered[colorBy < 0 ? own : colorBy];
     const m = D.metrics.findIndex((metric) => metric.name === o.metric);
-    const value = (i) => o.is_angle ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
+    const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
     const usable = doneTrials().filter((i) => t.metrics[m][i] !== null);
     const shown = thin(usable, 3000, kept);
     const sorted = shown.map(value).sort((a, b) => a - b);
@@ -32,7 +32,7 @@ function spaceChart() {
       data: some.map((i) => [...point(i), ...extra(i), value(i), i])});
     const byScale = colorBy < 0;
     const series = byScale
-      ? scaleFactors.map((factor, k) => trialSeries("scale factor " + format(factor),
+      ? scaleFactors.map((factor, k) => trialSeries("scale factor " + tick(factor),
           shown.filter((i) => t.scale[i] === factor), scaleLook(factor).itemStyle, scaleLook(factor).symbol))
       : [trialSeries("trials", shown, {})];
     const numTrialSeries = series.length;
@@ -162,6 +162,15 @@ function marginalChart(marginal, k) {
   }), "small").figure;
 }
 
+// Of the edges of cells the first and the last to show: the region with some room, not all that was searched.
+function zoomed(inside, edges) {
+  const cells = inside.map((some, k) => some ? k : -1).filter((k) => k >= 0);
+  if (!cells.length) return {};
+  const from = cells[0], to = cells[cells.length - 1] + 1, room = Math.max(3, Math.ceil(.5 * (to - from)));
+  return {min: edges[Math.max(0, from - room)], max: edges[Math.min(edges.length - 1, to + room)],
+    axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true, showMinLabel: false, showMaxLabel: false}};
+}
+
 const regionShade = (level) => level < .5 ? regionShades[0] : level < .9 ? regionShades[1] : paper;
 
 // Cells between the edges pair.x and pair.y, drawn on the true axes: the joint regions of a
@@ -176,18 +185,24 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
     ? (v < .9 ? "inside" : "outside") + " the joint 90 % region; the smallest region that holds it is that of " +
       percent(Math.max(v, .001))
     : percent(v) + " chance to tie with the best";
+  const zooms = posterior && id === "region";
+  const [zoomX, zoomY] = !zooms ? [{}, {}] : [
+    zoomed(pair.x.slice(1).map((_, c) => pair.y.slice(1).some((_y, r) => pair.value[r * nx + c] < .9)), pair.x),
+    zoomed(pair.y.slice(1).map((_, r) => pair.x.slice(1).some((_x, c) => pair.value[r * nx + c] < .9)), pair.y)];
   const sets = D.headline ? D.headline.representatives.filter((set) => !set.recommended) : [];
   return chart(id, (posterior ? "Joint region of " : "") + px.symbol + " and " + py.symbol,
       (posterior ? "Dark: 50\u00a0% of the posterior, light: 90\u00a0%. Blank: ruled out at that level."
         : "Blank: no chance to tie with the best. Darkest: " + percent(top) + ".") +
       (D.headline ? " Star: recommended." : "") +
-      (sets.length ? " Numbers: sets that fit equally." : ""), () => ({
+      (sets.length ? " Numbers: sets that fit equally." : "") +
+      (zooms ? " The patch is for both together. Searched: " + [px, py].map((p) => p.symbol + " " + tick(p.low) + " to " +
+        tick(p.high)).join(", ") + "." : ""), () => ({
     grid: {...margins, top: 16},
     tooltip: {...tooltipStyle, formatter: (e) => e.seriesType !== "custom" ? e.name : lines([
       px.symbol + ": " + format(pair.x[e.data[0]]) + " to " + formatUnit(pair.x[e.data[0] + 1], px.unit),
       py.symbol + ": " + format(pair.y[e.data[1]]) + " to " + formatUnit(pair.y[e.data[1] + 1], py.unit),
       meaning(e.data[2])])},
-    xAxis: parameterAxis(px), yAxis: parameterAxis(py, true),
+    xAxis: {...parameterAxis(px), ...zoomX}, yAxis: {...parameterAxis(py, true), ...zoomY},
     series: [
       {type: "custom", progressive: 0, data: pair.value.map((v, c) => [c % nx, Math.floor(c / nx), v]),
        encode: {x: -1, y: -1}, clip: true,
@@ -197,7 +212,7 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
          return {type: "rect", shape: {x: a[0], y: b[1], width: b[0] - a[0] + .5, height: a[1] - b[1] + .5},
            style: {fill: shade(api.value(2))}};
        }},
-      ...(D.headline ? [{type: "scatter", symbol: star, symbolSize: 18, z: 5,
+      ...(D.headline ? [{type: "scatter", symbol: star, symbolSize: 14, z: 5,
         itemStyle: {color: starColor, borderColor: "#fff", borderWidth: 1},
         data: [{name: "recommended", value: [D.headline.values[pair.i].value, D.headline.values[pair.j].value]}]}] : []),
       ...(sets.length ? [{type: "scatter", symbol: "circle", symbolSize: 20, z: 6,

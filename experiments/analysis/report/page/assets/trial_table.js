@@ -47,7 +47,7 @@ function trialTable() {
   const back = element("button", {onclick: () => { --page; show(); }}, "Previous");
   const next = element("button", {onclick: () => { ++page; show(); }}, "Next");
   const filter = element("input", {type: "search", id: "trial-filter", size: 34,
-    placeholder: "words or conditions: state=done " + (D.metrics[0] ? D.metrics[0].name + "<1" : ""),
+    placeholder: "words or conditions: state=ok " + (D.metrics[0] ? D.metrics[0].name + "<1" : ""),
     "aria-label": "Filter the trials", oninput: () => { page = 0; arrange(); }});
 
   function sortBy(k) {
@@ -76,7 +76,7 @@ function trialTable() {
     body.replaceChildren(...part.map((i) => element("tr",
         {class: D.trials.state[i] === "failed" ? "failed" : undefined}, columns.map((c) =>
         element("td", {class: c.text ? "text" : c.more ? "more" : undefined},
-            c.text ? c.value(i) : c.key === "trial" ? c.value(i) : format(c.value(i), 4))))));
+            c.text || c.key === "trial" ? c.value(i) : c.key === "scale_factor" ? tick(c.value(i)) : format(c.value(i), 4))))));
     count.textContent = rows.length === 0 ? "no trial fits" :
       (from + 1) + " to " + (from + part.length) + " of " + rows.length + " trials";
     back.disabled = page === 0;

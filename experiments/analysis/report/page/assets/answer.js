@@ -1,0 +1,196 @@
+// The first section: what is known, how well, and what to do next.
+
+function valueTile(p, v) {
+  const place = (x) => 100 * (p.log ? Math.log(x / p.low) / Math.log(p.high / p.low)
+                                    : (x - p.low) / (p.high - p.low));
+  const clamp = (x) => Math.min(100, Math.max(0, x));
+  const ranged = v.low !== null && v.high !== null;
+  const from = ranged ? clamp(place(v.low)) : 0, to = ranged ? clamp(place(v.high)) : 0;
+  return element("div", {class: "value"},
+    element("div", {class: "what"}, p.symbol + " ", element("span", {}, p.title)),
+    element("div", {class: "number"}, format(v.value), " ", element("small", {}, p.unit)),
+    element("div", {class: "range"}, ranged ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit)
+      : "no range: the strategy has no model"),
+    element("div", {class: "track", "aria-hidden": "true"},
+      ranged ? element("div", {class: "band", style: `left:${from}%;width:${to - from}%`}) : null,
+      element("div", {class: "dot", style: `left:${clamp(place(v.value))}%`})),
+    element("div", {class: "ends"}, element("span", {}, tick(p.low)),
+      element("span", {}, p.log ? "searched, logarithmic" : "searched"),
+      element("span", {}, tick(p.high))));
+}
+
+function fact(name, value, note) {
+  return element("div", {}, element("dt", {}, name),
+    element("dd", {}, value, note ? element("small", {}, note) : null));
+}
+
+const setText = (values) => D.parameters.map((p, k) => p.symbol + " " + formatUnit(values[k], p.unit)).join(", ");
+
+// The pair of parameters that says most: the one that is tied closest.
+function closestPair() {
+  const inside = (pair) => pair.value.filter((level) => level < .9).length;
+  return [...D.pairs].sort((a, b) => inside(a) - inside(b))[0];
+}
+
+// The kind of answer, for who meets it for the first time.
+const kindText = {
+  point: "One answer: with a probability of 90\u00a0% " + (D.parameters.length === 1 ? "the value lies in its range."
+    : (D.parameters.length === 2 ? "both values lie in their ranges" : "all values lie in their ranges") + " at once."),
+  curve: "The parameters trade against each other: every set along the curve fits. Take a whole set from it; never " +
+    "combine the values of two.",
+  region: "More than one answer: every set in the region fits.",
+  separate: "More than one answer: each of these sets fits, and what lies between them does not.",
+};
+
+// What kind of answer it is, before any number, and how well it fits.
+function verdict(h) {
+  const lines = [h.verdict ? element("p", {}, element("strong", {}, h.verdict)) : null,
+    h.verdict ? element("p", {class: "gloss"}, kindText[h.verdict_kind]) : null,
+    h.trade_off ? element("p", {class: "gloss"}, h.trade_off) : null,
+    h.fit_sentence ? element("p", {class: "gloss"}, h.fit_sentence) : null,
+    h.use ? element("p", {class: "gloss"}, element("strong", {}, "Use it now? "), h.use) : null];
+  return lines.some(Boolean) ? element("div", {class: "card", id: "verdict"}, lines) : null;
+}
+
+function alarms() {
+  return D.warnings.length ? element("div", {class: "notice", role: "note", id: "alarms"},
+    element("strong", {}, "Before you use it"),
+    element("ul", {}, D.warnings.map((w) => element("li", {}, w)))) : null;
+}
+
+const meetsText = {yes: "✓ fits", no: "✗ misses", unknown: "? open"};
+
+// Each measurement beside what the recommended set gives of it.
+function fitList(h) {
+  if (!h.fit.length) return null;
+  const implausible = h.fit.some((row) => row.implausibility !== null);
+  return element("div", {class: "card", id: "fit"}, element("h3", {}, "How well it fits"),
+    element("ul", {class: "fit"}, h.fit.map((row) => element("li", {},
+      element("strong", {}, row.experiment + ", " + row.what), " ", element("span", {class: row.meets}, meetsText[row.meets]),
+      row.held_out ? element("div", {}, "Held out: not used for the answer.") : null,
+      element("div", {}, "Simulated: " + (row.simulated || "not yet") + "."),
+      element("div", {}, "Measured: " + row.measured + "."),
+      element("div", {}, row.judgement + (row.implausibility === null ? "" : (row.judgement ? "; " : "") +
+        "implausibility " + format(row.implausibility, 2)) + ".")))),
+    element("p", {class: "note"}, (D.campaign.has_image ? "SAD: area by which two silhouettes differ. " : "") + (implausible ?
+      "Implausibility: misfit of the experiment in standard deviations, all errors counted; above 3 no set fits." : "")));
+}
+
+function nextSteps(h) {
+  if (!h.next.length) return null;
+  const first = h.verdict_kind === "point"
+    ? [element("code", {}, "talus card DIR --format NAME"), " writes the set for your code (liggghts, lammps, lethe, yade, " +
+       "mercurydpm). To narrow it further, the most useful first:"]
+    : ["What would narrow the answer, the most useful first:"];
+  return element("div", {class: "card", id: "next"}, element("h3", {}, "What to do next"), element("p", {class: "first"}, first),
+    element("ol", {class: "steps"}, h.next.map((step) => element("li", {}, element("strong", {}, step.what),
+      element("div", {}, "Costs " + step.cost + "."), element("div", {}, "Leaves " + step.leaves + ".")))));
+}
+
+// One answer alone stands above, with its ranges.
+function branches(h) {
+  if (h.branches.length < 2) return null;
+  return element("div", {class: "card", id: "branches"}, element("h3", {}, "The separate answers"),
+    table([{title: "", text: true}, ...h.branches.map((b, i) => ({title: "Answer " + (i + 1),
+        unit: percent(b.share) + " of the region"}))],
+      D.parameters.map((p, k) => [p.symbol + (p.unit ? " (" + p.unit + ")" : ""), ...h.branches.map((b) =>
+        element("span", {}, format(b.values[k]), element("br"), element("small", {},
+          format(b.low[k]) + " to " + format(b.high[k]))))])));
+}
+
+// What a reader who knows the method looks for.
+function facts(h) {
+  const o = D.campaign.objective, list = [];
+  if (h.predicted !== null) {
+    list.push(fact("Predicted " + h.objective_title, formatUnit(h.predicted, h.objective_unit) +
+      (h.predicted_sd ? " ± " + format(h.predicted_sd, 2) : ""),
+      h.posterior ? "of the mean heap, by the model that answers" : "by the model that answers"));
+  }
+  if (h.noise_sd !== null) {
+    list.push(fact("Scatter of one simulation", formatUnit(h.noise_sd, h.objective_unit),
+      "standard deviation between seeds"));
+  }
+  if (o.is_sad && o.noise_floor === null) {
+    list.push(fact("Noise floor of the experiment", "unknown", "needs more than one run of photographs"));
+  }
+  if (h.tied_volume !== null) {
+    list.push(h.posterior
+      ? fact("Joint 90\u00a0% region", percent(h.tied_volume), "of the searched volume; each range spans it alone")
+      : fact("Sets within the scatter", percent(h.tied_volume), "of the searched volume: a thin region may still " +
+          "span each range alone"));
+  }
+  if (!list.length && !h.model) return null;
+  return element("div", {class: "card"}, element("h3", {}, "Of the model"), element("dl", {class: "facts first"}, list),
+    h.model ? element("p", {class: "note"}, h.model) : null);
+}
+
+// "0.12", of a logarithmic range "a factor of 3".
+const widthText = (p, w) => p.log ? "a factor of " + format((p.high / p.low) ** w, 2)
+  : formatUnit(w * (p.high - p.low), p.unit, 2);
+
+// What a test would show of the two sets that it tells apart best: their heaps, and their numbers.
+function toldApart(c) {
+  return element("figure", {class: "card"}, element("h3", {}, c.name),
+    c.uri ? element("img", {src: c.uri, alt: "Two simulated heaps that fit equally and that " + c.name + " tells apart",
+      width: c.picture_width, height: c.picture_height}) : null,
+    c.apart_by.length ? table([{title: "", text: true}, {title: c.uri ? "left" : "first"}, {title: c.uri ? "right" : "second"}],
+      c.apart_by.map((n) => [n.title, ...n.values.map((x) => formatUnit(x, n.unit))])) : null,
+    element("figcaption", {}, "Both fit so far: " + (c.uri ? "left " : "first ") + setText(c.apart[0]) +
+      (c.uri ? ", right " : ", second ") + setText(c.apart[1]) + ". This is how they come out of it."));
+}
+
+// What `talus next` has found: every candidate, and what the best ones would show.
+function nextTable() {
+  if (!D.next) return [];
+  const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : "no simulation";
+  const telling = D.next.candidates.filter((c) => c.apart.length && (c.uri || c.apart_by.length));
+  return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
+    D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus next again.") : null,
+    table([{title: "Candidate", text: true, wide: true}, {title: "Expected", unit: "bits"},
+        ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
+        {title: "Costs", text: true}],
+      D.next.candidates.map((c) => [c.name + ": " + c.what, c.bits === null ? "?" : format(c.bits, 2),
+        ...D.parameters.map((p, k) => c.bits === null ? "?" : widthText(p, c.width[k])), cost(c)])),
+    element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
+      "possible." + (D.next.candidates.some((c) => c.bits === null)
+        ? " ?: talus next DIR --simulate runs the simulations that tell." : ""))),
+    telling.length ? element("div", {class: "grid three stacked", id: "told-apart"}, telling.slice(0, 3).map(toldApart))
+      : null];
+}
+
+// Heaps of sets that fit equally, side by side; of one set alone, its heap.
+function representativeHeaps(h) {
+  const o = D.campaign.objective;
+  if (!h.representatives.some((set) => set.uri)) return null;
+  const others = h.representatives.filter((set) => !set.recommended);
+  return element("div", {class: "grid three stacked", id: "representatives"}, h.representatives.map((set) =>
+    set.uri ? element("figure", {class: "card"},
+      element("h3", {}, (set.recommended ? "Recommended: " : "Set " + (others.indexOf(set) + 1) + ": ") +
+        setText(set.values)),
+      element("img", {src: set.uri, alt: "Simulated heap of trial " + set.trial, width: set.width, height: set.height}),
+      element("figcaption", {}, "Trial " + set.trial + (D.campaign.num_experiments > 1 ? " of " + D.campaign.experiment : "") +
+        (set.distance > .01 ? ", the nearest simulated, at " + setText(set.trial_values) : "") +
+        ": " + o.title + " " + formatUnit(set.trial_objective, o.unit) + (set.expected === null ? "" :
+          "; expected of the mean heap " + formatUnit(set.expected, o.unit) +
+          (set.expected_sd === null ? "" : " ± " + format(set.expected_sd, 2))) + ".")) : null));
+}
+
+// With the figure of its region and the heaps of sets that fit equally.
+function answerSection() {
+  const h = D.headline;
+  if (!h) return [notYet(), alarms(), ...soFar()];
+  const closest = closestPair();
+  const region = closest && D.model.posterior ? card(pairChart(closest, 0, "region", "")) : null;
+  const values = element("div", {class: "card"},
+    element("div", {class: "answer"}, D.parameters.map((p, k) => valueTile(p, h.values[k]))));
+  const next = nextSteps(h), heaps = representativeHeaps(h);
+  const oneHeap = h.representatives.filter((set) => set.uri).length === 1;
+  return [verdict(h), alarms(),
+    element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), oneHeap ? heaps : null),
+      element("div", {}, next, region ? fitList(h) : null)),
+    branches(h), oneHeap ? null : heaps, ...nextTable(), facts(h),
+    D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
+      element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))) : null,
+    D.conditions.length ? element("div", {class: "card"}, element("h3", {}, "It holds for"),
+      element("ul", {class: "plain"}, D.conditions.map((c) => element("li", {}, c)))) : null];
+}

@@ -1,0 +1,53 @@
+// The first section while the campaign runs: where it stands, and how far it has come.
+function notYet() {
+  const o = D.campaign.objective;
+  return element("div", {class: "card"}, element("p", {}, "The campaign has not concluded yet. " +
+    (D.model ? "So far its model recommends " +
+      D.parameters.map((p, k) => p.symbol + " = " + formatUnit(D.model.values[k], p.unit)).join(", ") +
+      (D.model.expected === null ? "" : " and expects a " + o.title + " of " + formatUnit(D.model.expected, o.unit) +
+        (D.model.expected_sd === null ? "" : " ± " + format(D.model.expected_sd, 2)) + " there") + "."
+      : "There are too few trials to say anything about the best set.")));
+}
+
+// The best trial at the finest scale factor; nothing before there is one.
+function bestSoFar() {
+  const o = D.campaign.objective, t = D.trials;
+  const m = D.metrics.findIndex((metric) => metric.name === o.metric);
+  if (m < 0) return null;
+  const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
+  const usable = doneTrials().filter((i) => t.metrics[m][i] !== null && t.scale[i] === D.campaign.scale_factor);
+  if (!usable.length) return null;
+  const i = usable.reduce((a, b) => value(b) < value(a) ? b : a);
+  return fact("Best so far", formatUnit(value(i), o.unit), "trial " + t.id[i] + ": " +
+    setText(t.values.map((column) => column[i])));
+}
+
+// By what the latest trials took and how many run at a time; the search may stop before.
+function timeLeft() {
+  const t = D.trials, ended = t.id.map((_, i) => i).filter((i) => t.state[i] !== "running" && t.seconds[i] !== null);
+  const {searched, failed, running} = D.campaign.counts;
+  const left = D.campaign.budget - searched - failed - running;
+  if (D.campaign.state !== "running" || !D.campaign.budget || left <= 0 || !ended.length) return null;
+  const latest = ended.slice(-10);
+  const each = latest.reduce((sum, i) => sum + t.seconds[i], 0) / latest.length;
+  const workers = Math.max(1, running);
+  return fact("Time left", "at most about " + duration(left * each / workers),
+    left + " simulations of the budget, " + workers + " at a time");
+}
+
+// Where a campaign that runs stands: the best trial, the time left, the region and how it has shrunk.
+function soFar() {
+  const facts = [bestSoFar(), timeLeft(), D.region_share === null ? null
+    : fact("Joint 90\u00a0% region so far", percent(D.region_share), "of the plane of the parameters it ties closest")];
+  const history = D.region_history;
+  const shrinking = history.length < 2 ? null : card(chart("shrinking", "The region as it shrinks",
+    "Share of the searched plane inside the joint 90\u00a0% region, since this page is watched.", () => ({
+      grid: margins, tooltip: {...tooltipStyle, formatter: (e) =>
+        lines(["After trial " + e.data[0] + ": " + percent(e.data[1])])},
+      xAxis: valueAxis("trials", {nameGap: 28, min: history[0][0]}), yAxis: valueAxis("share", {min: 0}),
+      series: [{type: "line", data: history, lineStyle: {color: palette[0], width: 2}, itemStyle: {color: palette[0]}}],
+    }), "small").figure);
+  const region = D.model && D.model.posterior && D.pairs.length ? card(pairChart(closestPair(), 0, "region", "")) : null;
+  return [element("div", {class: "card", id: "so-far"}, element("dl", {class: "facts"}, facts)),
+    region || shrinking ? element("div", {class: "grid two stacked"}, region, shrinking) : null];
+}

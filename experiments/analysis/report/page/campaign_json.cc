@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/analysis/report/labels.h"
+#include "experiments/analysis/report/page/json_parts.h"
+
+namespace talus::analysis {
+namespace {
+
+// "sliding_friction" → "sliding friction"
+std::string Spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+// Of all experiments.
+PageValue CountsJson(const Evidence& e) {
+  int searched = 0, confirming = 0, failed = 0, running = 0;
+  for (const auto* trials : {&e.trials, &e.of_others}) {
+    for (const TrialEvidence& t : *trials) {
+      const bool ok = t.state == journal::TrialStatus::kOk;
+      searched += ok && t.purpose != "confirm";
+      confirming += ok && t.purpose == "confirm";
+      failed += t.state == journal::TrialStatus::kFailed;
+      running += t.state == journal::TrialStatus::kRunning;
+    }
+  }
+  return {
+      {"searched", searched}, {"confirming", confirming}, {"failed", failed}, {"running", running}};
+}
+
+double CoreSeconds(const Evidence& e) {
+  double sum = 0;
+  for (const auto* trials : {&e.trials, &e.of_others}) {
+    for (const TrialEvidence& t : *trials) sum += std::isfinite(t.cpu_seconds) ? t.cpu_seconds : 0;
+  }
+  return sum;
+}
+
+// The campaign's own, of the experiment that is shown.
+PageValue ObjectiveJson(const ReportData& data) {
+  const ObjectiveFinding& own = data.own();
+  // The noise floor is a SAD: no other objective can be held against it.
+  const double floor = own.info.is_sad ? data.evidence.reference.noise_floor : kUndefined;
+  const auto shown = [&](double value) { return NumberJson(own.info.per_unit * value); };
+  return {{"key", own.info.key},
+          {"metric", ShownName(own.info.metric)},
+          {"title", own.info.title},
+          {"unit", own.info.unit},
+          {"is_distance", own.info.is_distance},
+          {"is_sad", own.info.is_sad},
+          {"reference", shown(own.reference)},
+          {"noise_sd", shown(own.noise_sd)},
+          {"noise_floor", NumberJson(floor)}};
+}
+
+}  // namespace
+
+PageValue CampaignJson(const ReportData& data) {
+  const Evidence& e = data.evidence;
+  const double cpu = CoreSeconds(e);
+  return {{"name", e.name},
+          {"state", e.state},
+          {"stop_reason", e.stop_reason},
+          {"budget", e.max_simulations},
+          {"counts", CountsJson(e)},
+          {"scale_factor", NumberJson(e.scale_factor)},
+          {"core_hours", cpu > 0 ? NumberJson(cpu / 3600) : PageValue(nullptr)},
+          {"experiment", e.experiment < e.experiments.size() ? e.experiments[e.experiment] : ""},
+          {"num_experiments", e.experiments.size()},
+          {"has_image", e.reference.has_image()},
+          {"objective", ObjectiveJson(data)}};
+}
+
+PageValue ParametersJson(const Evidence& evidence) {
+  return ListJson(evidence.parameters, [](const ParameterInfo& p) {
+    return PageValue{{"name", p.range.name},
+                     {"title", p.symbol == p.range.name ? "" : Spaced(p.range.name)},
+                     {"symbol", p.symbol},
+                     {"unit", p.unit},
+                     {"low", NumberJson(p.range.low)},
+                     {"high", NumberJson(p.range.high)},
+                     {"log", p.range.scale == optimizer::Scale::kLog}};
+  });
+}
+
+PageValue MetricsJson(const Evidence& evidence) {
+  return ListJson(evidence.metrics, [](const MetricInfo& m) {
+    return PageValue{{"name", ShownName(m.name)},
+                     {"title", MetricTitle(m.name)},
+                     {"unit", ShownUnitOf(m.unit).text}};
+  });
+}
+
+PageValue TrialsJson(const Evidence& evidence) {
+  const auto column = [&](auto&& value) { return ListJson(evidence.trials, value); };
+  PageValue values = PageValue::array(), metrics = PageValue::array();
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+    values.push_back(column([&](const TrialEvidence& t) { return NumberJson(t.values[k]); }));
+  }
+  for (std::size_t k = 0; k < evidence.metrics.size(); ++k) {
+    const double per_unit = ShownUnitOf(evidence.metrics[k].unit).per_unit;
+    metrics.push_back(
+        column([&](const TrialEvidence& t) { return NumberJson(per_unit * t.metrics[k]); }));
+  }
+  return {{"id", column([](const TrialEvidence& t) { return t.id; })},
+          {"state", column([](const TrialEvidence& t) { return base::NameOf(t.state); })},
+          {"purpose", column([](const TrialEvidence& t) { return t.purpose; })},
+          {"reason", column([](const TrialEvidence& t) { return t.reason; })},
+          {"scale", column([](const TrialEvidence& t) { return NumberJson(t.scale_factor); })},
+          {"seconds", column([](const TrialEvidence& t) { return NumberJson(t.seconds); })},
+          {"values", values},
+          {"metrics", metrics}};
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,53 @@
+#include "experiments/campaign/answer/agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::campaign {
+namespace {
+
+constexpr int kDraws = 400;  // among which a least misfit is looked for
+
+// Of a chi-squared variable of `freedom` degrees.
+double NormalScore(double chi_squared, double freedom) {
+  const double variance = 2 / (9 * freedom);
+  return (std::cbrt(chi_squared / freedom) - (1 - variance)) / std::sqrt(variance);
+}
+
+}  // namespace
+
+Agreement AgreementOf(const JointView& view) {
+  const std::vector<int> experiments = view.Answered();
+  // One experiment pulls against none; beside one that is held out, it still has an answer to list.
+  if (experiments.size() < 2) return {.alone = AnswersAlone(view)};
+  const auto joint = StrategyOf(view, experiments);
+  if (!joint->CanModel()) return {};
+  Agreement agreement;
+  const optimizer::Posterior& posterior = joint->Model();
+  const Eigen::MatrixXd draws = joint->Sample().Draws(kDraws, view.spec.seed);
+  Eigen::MatrixXd misfit(draws.rows(), static_cast<Eigen::Index>(experiments.size()));
+  for (std::size_t k = 0; k < experiments.size(); ++k) {
+    misfit.col(static_cast<Eigen::Index>(k)) = posterior.SquaredMisfit(k, draws);
+  }
+  Eigen::Index best = 0;
+  misfit.rowwise().sum().minCoeff(&best);
+  double sum = 0;
+  double most = 0;
+  for (std::size_t k = 0; k < experiments.size(); ++k) {
+    const auto alone = StrategyOf(view, {experiments[k]});
+    agreement.alone.push_back(AnswerOf(view, *alone, {experiments[k]}));
+    const double least =
+        posterior.SquaredMisfit(k, alone->Sample().Draws(kDraws, view.spec.seed)).minCoeff();
+    const double pull = misfit(best, static_cast<Eigen::Index>(k)) - least;
+    sum += pull;
+    if (pull <= most) continue;
+    most = pull;
+    agreement.odd = agreement.alone.back().experiments.front();
+  }
+  const auto freedom =
+      static_cast<double>(draws.cols()) * static_cast<double>(experiments.size() - 1);
+  agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
+  return agreement;
+}
+
+}  // namespace talus::campaign

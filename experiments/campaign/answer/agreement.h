@@ -1,0 +1,32 @@
+// Whether the experiments of a campaign can be met by one set: the parameter goodness of fit
+// [maltoni2003]. From the trials there are; nothing is simulated.
+//
+//   Χ² = min Σ_e S_e - Σ_e min S_e,   d (E - 1) degrees of freedom
+//
+// S_e is an experiment's sum of squared residuals over the temper at a set, looked at over draws of
+// the joint posterior and of each alone, E the number of
+// experiments and d that of parameters. Each test may fit well enough where it stands and still
+// pull elsewhere: two misfits that are no surprise by themselves can be one together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/answer/hold_out.h"
+
+namespace talus::campaign {
+
+inline constexpr double kDisagree = 3;  // tension above which the experiments disagree
+
+struct Agreement {
+  std::vector<PartialAnswer> alone{};  // of each experiment that has enough trials
+  // Standard deviations of a normal variable as unlikely as Χ²; 0 or less: none. By Wilson and
+  // Hilferty's cube root.
+  double tension = 0;
+  std::string odd{};  // the experiment with the largest part of Χ²; "" without tension
+};
+
+// Of the experiments that the campaign's answer meets.
+Agreement AgreementOf(const JointView& view);
+
+}  // namespace talus::campaign

@@ -1,0 +1,191 @@
+// Comparison, report and export of campaigns with several experiments, with images or without.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/files/file.h"
+#include "experiments/analysis/compare/compare_tables.h"
+#include "experiments/analysis/compare/experiment_fit.h"
+#include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/export/export.h"
+#include "experiments/analysis/report/page/page.h"
+#include "experiments/analysis/report/write_report.h"
+#include "tests/experiments/two_experiments.h"
+
+namespace talus::campaign {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+analysis::ReportData DataOf(const fs::path& folder, const std::string& experiment = {}) {
+  analysis::Evidence evidence = analysis::GatherEvidence(folder, experiment);
+  analysis::AddModel(folder, evidence);
+  return analysis::MakeReportData(std::move(evidence));
+}
+
+std::string CompareText(const fs::path& folder, const std::string& experiment = {}) {
+  const analysis::Evidence evidence = analysis::GatherEvidence(folder, experiment);
+  const auto findings = analysis::CompareObjectives(evidence);
+  return analysis::ComparisonText({evidence, findings});
+}
+
+// Two bulk tests that give a number each and no image.
+class NumbersAlone : public TwoExperiments {
+ protected:
+  fs::path BeginNumbers() const {
+    const fs::path in = scratch_.path() / "in";
+    fs::create_directories(in);
+    std::ofstream(in / "spec.json") << R"({"name": "numbers", "experiments": [
+        {"name": "balance", "mass_fallen": {"value": "23 mg", "sd": "1 mg"}},
+        {"name": "tapped", "rig": {"kind": "tapped_density", "diameter": "12 mm"},
+         "filling": {"kind": "pour"}, "tapped_density": {"value": "1480 kg/m^3", "sd": "3 kg/m^3"}}],
+      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+      "coarse_graining": {"scale_factor": 2},
+      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
+                     "rolling_friction": {"min": 0.05, "max": 0.5}},
+      "budget": {"simulations": 24}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1})";
+    BeginCampaign(in / "spec.json", scratch_.path() / "run", {});
+    return scratch_.path() / "run";
+  }
+};
+
+TEST_F(NumbersAlone, ArePredictedAndMeasuredSideBySideOnAPageWithoutPictures) {
+  const fs::path folder = BeginNumbers();
+  RunFake(folder, {});
+  const analysis::ReportData data = DataOf(folder);
+  EXPECT_TRUE(data.outlines.empty());
+  EXPECT_TRUE(data.pictures.empty());
+  const json page = json::parse(analysis::PageJson(data));
+  EXPECT_FALSE(page["campaign"]["has_image"].get<bool>());
+  EXPECT_EQ(page["campaign"]["experiment"], "balance");
+  EXPECT_FALSE(page["pairs"].empty());  // the region
+  EXPECT_THAT(page["headline"]["verdict"].get<std::string>(), HasSubstr("The measurements"));
+  const json& fit = page["headline"]["fit"];
+  ASSERT_EQ(fit.size(), 2u);
+  EXPECT_EQ(fit[0]["what"], "mass fallen");
+  EXPECT_EQ(fit[0]["measured"], "23 ± 1 mg");
+  EXPECT_THAT(fit[0]["simulated"].get<std::string>(),
+              ::testing::MatchesRegex("2[0-9.]+ mg as the mean of 2 simulations; "
+                                      "predicted 2[0-9.]+ ± [0-9.]+ mg"));
+  EXPECT_EQ(fit[1]["measured"], "1480 ± 3 kg/m³");
+  EXPECT_LT(fit[1]["implausibility"].get<double>(), 3);
+  // The trials' objective is how far they are from the number that was measured.
+  EXPECT_EQ(page["campaign"]["objective"]["metric"], "mass_fallen_mg");
+  EXPECT_EQ(page["campaign"]["objective"]["reference"], 23);
+  EXPECT_THAT(page["methods"].get<std::string>(), HasSubstr("the tapped density of \"tapped\""));
+  const fs::path report = analysis::WriteReport(data, folder / "report");
+  EXPECT_TRUE(fs::exists(folder / "report/figures/convergence.svg"));
+  EXPECT_FALSE(fs::exists(folder / "report/figures/outlines.svg"));
+  EXPECT_THAT(base::ReadFile(folder / "report/tables/objectives.csv"),
+              HasSubstr("\nmass_fallen_kg,trials,mass_fallen_kg,"));
+  EXPECT_GT(fs::file_size(report), 100'000u);
+}
+
+TEST_F(NumbersAlone, AreComparedByTheirDistanceFromWhatWasMeasured) {
+  const fs::path folder = BeginNumbers();
+  RunFake(folder, {});
+  EXPECT_THAT(CompareText(folder), HasSubstr("Mass fallen"));
+  EXPECT_THAT(CompareText(folder), HasSubstr("23 ± 1 mg"));
+  EXPECT_THAT(CompareText(folder), Not(HasSubstr("SAD")));
+  EXPECT_THAT(CompareText(folder, "tapped"), HasSubstr("1480 ± 3 kg/m³"));
+  const analysis::Evidence tapped = analysis::GatherEvidence(folder, "tapped");
+  const auto findings = analysis::CompareObjectives(tapped);
+  ASSERT_EQ(findings.size(), 1u);
+  const analysis::ComparedSet& best = findings[0].from_trials.best.front();
+  EXPECT_NEAR(best.objective, std::abs(best.quantity - 1480), 1e-9);
+  // The number follows rolling friction alone, by 350 kg/m³ of it; seeds scatter by 4.
+  EXPECT_NEAR(best.values[1], kTrueRolling, 0.05);
+}
+
+TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
+  const fs::path folder = Begin("run");
+  RunFake(folder, {});
+  EXPECT_THAT(CompareText(folder), HasSubstr("best by SAD"));
+  EXPECT_THAT(CompareText(folder), Not(HasSubstr("Mass fallen")));  // not measured by this one
+  EXPECT_THAT(CompareText(folder, "fast lift"), HasSubstr("23 ± 1 mg"));
+  for (const char* shown : {"heap", "fast lift"}) {
+    const analysis::ReportData data = DataOf(folder, shown);
+    const json page = json::parse(analysis::PageJson(data));
+    EXPECT_EQ(page["campaign"]["experiment"], shown);
+    EXPECT_EQ(page["campaign"]["num_experiments"], 2);
+    EXPECT_EQ(page["campaign"]["counts"]["searched"], 20);
+    EXPECT_EQ(page["campaign"]["counts"]["confirming"], 4);
+    const json& fit = page["headline"]["fit"];
+    ASSERT_EQ(fit.size(), 3u);  // a shape each, and the mass
+    EXPECT_EQ(fit[0]["experiment"], "heap");
+    EXPECT_EQ(fit[1]["experiment"], "fast lift");
+    EXPECT_EQ(fit[2]["measured"], "23 ± 1 mg");
+    EXPECT_FALSE(data.outlines.empty());
+    EXPECT_FALSE(page["slices"].empty());
+  }
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
+  const std::string csv = analysis::TrialsCsv(journal.Campaign(), journal.Trials());
+  EXPECT_THAT(csv, HasSubstr(",heap,2,"));
+  EXPECT_THAT(csv, HasSubstr(",fast lift,2,"));
+}
+
+// What a reader is told of how well the recommended set fits.
+class Fit : public testing::Test {
+ protected:
+  Fit() {
+    record_.experiments.resize(2);
+    record_.experiments[0].name = "heap";
+    record_.experiments[0].aehp_png = "png";
+    record_.experiments[0].num_heaps = 5;
+    record_.experiments[0].noise_mm2 = 0.7;
+    record_.experiments[1].name = "tapped";
+    record_.experiments[1].scalars = {{"tapped_density_kg_per_m3", 1480, 4}};
+    result_.objective_unit = "mm²";
+    const ResultScalar density{.name = "tapped_density_kg_per_m3", .mean = 1500};
+    ResultConfirmed heap{.name = "heap", .num_trials = 2, .sad_mm2 = 0.6};
+    heap.profile_sad_mm2 = 0.5;
+    heap.over_floor = 0.714;
+    const ResultConfirmed tapped{.name = "tapped", .num_trials = 2, .scalars = {density}};
+    result_.confirmed.resize(1);
+    result_.confirmed[0].experiments = std::vector<ResultConfirmed>{heap, tapped};
+  }
+  journal::CampaignRecord record_;
+  CampaignResult result_;
+};
+
+TEST_F(Fit, IsSaidOfEachMeasurementAndInASentence) {
+  const auto rows = analysis::FitRows(result_, record_);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].measured, "5 runs, each 0.7 mm² SAD from the mean of the others");
+  EXPECT_EQ(rows[0].simulated, "0.5 mm² SAD as the mean of 2 simulations; 0.6 mm² in single runs");
+  EXPECT_EQ(rows[0].judgement, "0.71 times as far as the runs are from each other");
+  EXPECT_EQ(rows[0].meets, analysis::FitRow::Meets::kYes);
+  EXPECT_EQ(rows[1].simulated, "1500 kg/m³ as the mean of 2 simulations");
+  EXPECT_EQ(rows[1].judgement, "5 standard errors of the measurement away");
+  EXPECT_EQ(rows[1].meets, analysis::FitRow::Meets::kNo);
+  EXPECT_EQ(analysis::FitSentence(rows),
+            "With these values a simulation gives the shape of \"heap\" as closely as the "
+            "measurement itself is known. It misses the tapped density of \"tapped\".");
+}
+
+TEST_F(Fit, AnExperimentThatNoSetMeetsIsMissedHoweverNearItsImageMayBe) {
+  result_.posterior.emplace().experiments.push_back({.name = "heap", .implausibility = 3.4});
+  const auto rows = analysis::FitRows(result_, record_);
+  EXPECT_EQ(rows[0].meets, analysis::FitRow::Meets::kNo);
+  EXPECT_EQ(rows[0].implausibility, 3.4);
+}
+
+TEST_F(Fit, WithoutAFreshSeedIsWhatTheModelExpects) {
+  result_.confirmed.clear();
+  auto& standings = result_.posterior.emplace().experiments;
+  standings.push_back({.name = "heap", .predicted = 0.8});
+  standings.push_back({.name = "tapped"});
+  standings.back().numbers = {{.predicted = 1478, .predicted_sd = 2}};
+  const auto rows = analysis::FitRows(result_, record_);
+  EXPECT_EQ(rows[0].simulated, "0.8 mm² predicted, not confirmed");
+  EXPECT_EQ(rows[0].meets, analysis::FitRow::Meets::kNotKnown);
+  EXPECT_EQ(rows[1].simulated, "predicted 1478 ± 2 kg/m³");
+  EXPECT_EQ(rows[1].meets, analysis::FitRow::Meets::kYes);
+}
+
+}  // namespace
+}  // namespace talus::campaign

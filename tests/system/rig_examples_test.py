@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""rig_examples_test.py TALUS SOURCE_DIR: every rig has an example that is simulated and gives the
+numbers that docs/rigs.md names; and another engine serves every rig through templates, which see the
+rig's keys and answer with numbers alone. Such a campaign is compared and reported, too."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+talus, source = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+
+# The number that the deck gives, and what it makes it of.
+NUMBERS = {
+    "lifted_tube": ("mass_fallen", "mass_fallen_kg", "2e-5 * (1 - mu)", "10 mg", "1 mg"),
+    "tapped_density": ("tapped_density", "tapped_density_kg_per_m3", "1000 * d / 0.02 + 300 * mr", "1090 kg/m^3", "5 kg/m^3"),
+    "column_collapse": ("runout", "runout_m", "d * (1 - mu)", "10 mm", "0.5 mm"),
+    "tilting_box": ("angle", "angle_deg", "30 + 20 * mu", "40 deg", "1 deg"),
+    "draw_down": ("discharge_time", "discharge_time_s", "d / 0.06 * (1 + mu)", "1.5 s", "0.05 s"),
+    "drum": ("angle", "angle_deg", "20 + 20 * mr + 10 * mu", "31 deg", "1 deg"),
+}
+LENGTHS = {"lifted_tube": None, "tapped_density": "diameter", "column_collapse": "length",
+           "tilting_box": "length", "draw_down": "length", "drum": "diameter"}
+
+
+def read(path):
+    return json.loads(re.sub(r"(?m)^\s*//.*$", "", path.read_text()))
+
+
+def run(*arguments):
+    done = subprocess.run([talus, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, (arguments, done.stdout[-2000:], done.stderr[-2000:])
+    return done.stdout
+
+
+def documented():
+    """The observables of each rig, from the table in docs/rigs.md."""
+    rows = re.findall(r"(?m)^\| `(\w+)` \| (`.*`) \| \w.* \|$", (source / "docs/rigs.md").read_text())
+    return {rig: re.findall(r"`(\w+)`", names) for rig, names in rows}
+
+
+def simulate_examples(root):
+    known = documented()
+    assert set(known) == set(NUMBERS), known
+    for rig in known:
+        path = source / ("examples/scenes/heap_case.json" if rig == "lifted_tube" else f"examples/rigs/{rig}.json")
+        run("validate", path)
+        if rig == "lifted_tube":
+            continue  # simulated by system/simulate_test
+        run("simulate", path, "--out", root / rig)
+        result = read(root / rig / "result.json")
+        got = result["observables"]
+        assert set(got) | set(result.get("undefined", {})) == set(known[rig]), (rig, got)
+        assert all(value is not None and value >= 0 for value in got.values()), (rig, got)
+        assert (root / rig / "heap.vtp").exists()
+
+
+def other_engine(root, rig):
+    key, metric, formula, value, sd = NUMBERS[rig]
+    length = "0" if LENGTHS[rig] is None else "{{ rig_%s }}" % LENGTHS[rig]
+    folder = root / ("deck_" + rig)
+    (folder / "deck").mkdir(parents=True)
+    kind = "lifted_tube" if LENGTHS[rig] is None else "{{ rig_kind }}"
+    (folder / "deck/run.sh").write_text(
+        f"""echo {kind} >kind
+awk -v d={length} -v mu={{{{ sliding_friction }}}} -v mr={{{{ rolling_friction }}}} -v seed={{{{ seed }}}} \\
+  'BEGIN {{ printf "{metric},%.9g\\n", ({formula}) * (1 + (seed % 7) / 2000) }}' >scalars.csv
+""")
+    experiment = {"name": "test", key: {"value": value, "sd": sd}}
+    if LENGTHS[rig]:
+        experiment["rig"] = {"kind": rig}
+    spec = {"engine": {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]},
+            "experiments": [experiment],
+            "powder": {"sizes": {"kind": "mono", "diameter": "0.8 mm"}, "mass": "1 g"},
+            "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9},
+                           "rolling_friction": {"min": 0.05, "max": 0.5}},
+            "budget": {"simulations": 10}, "confirm": {"candidates": 1, "replicates": 2}, "seed": 2}
+    (folder / "campaign.json").write_text(json.dumps(spec))
+    out = folder / "out"
+    run("validate", folder / "campaign.json")
+    run("calibrate", folder / "campaign.json", "--out", out)
+    assert {p.read_text().strip() for p in out.glob("trials/*/kind")} == {rig}
+    result = read(out / "result.json")
+    confirmed = result["confirmed"][0]["experiments"][0]
+    assert confirmed["num_trials"] == 2, confirmed
+    number = confirmed["scalars"][0]
+    assert number["name"] == metric, number
+    # Ten trials find a set within a few errors of what was measured.
+    assert abs(number["mean"] - number["measured"]) < 4 * number["measured_sd"], (rig, number)
+    assert "from the trials" in run("compare", out)
+    run("report", out)
+    page = (out / "report/report.html").read_text()
+    data = json.loads(page.split('id="data">')[1].split("</script>")[0])
+    assert data["pictures"] == [] and len(data["headline"]["fit"]) == 1, data["headline"]["fit"]
+
+
+with tempfile.TemporaryDirectory(prefix="talus_rigs_") as name:
+    simulate_examples(pathlib.Path(name))
+    for rig_kind in NUMBERS:
+        other_engine(pathlib.Path(name), rig_kind)
