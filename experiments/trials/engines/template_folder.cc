@@ -1,7 +1,6 @@
 #include "experiments/trials/engines/template_folder.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -108,10 +107,9 @@ void TemplateFolder::Fill(const TemplateValues& values, const fs::path& target) 
   for (const File& file : files_) {
     const fs::path path = target / file.path;
     fs::create_directories(path.parent_path());
-    std::ofstream out(path, std::ios::binary);
-    out << (file.text ? file.text->Fill(values) : file.bytes);
-    out.close();
-    if (!out) throw base::Error(path.string() + ": cannot be written");
+    // Made again from the template after a power cut, so there is no need to wait for the disk.
+    base::WriteFileAtomically(path, file.text ? file.text->Fill(values) : file.bytes,
+                              base::Outlives::kProgram);
     fs::permissions(path, fs::status(folder_ / file.path).permissions());
   }
 }
