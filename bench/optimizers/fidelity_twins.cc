@@ -10,6 +10,7 @@
 // coarse heap is that of other parameters altogether, and tells nothing of the true one.
 #include <cstdio>
 #include <ctime>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -90,10 +91,12 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
       {.num_parameters = D}, {target});
   double spent = 0;
   int told = 0;
+  std::map<double, double> spent_at;  // core seconds, by scale factor
   for (; spent < options.core_time; ++told) {
     const optimizer::Proposal p = strategy->AskAt(1, {}).front();
     const double cost = HeapCost(p.scale_factor);
     spent += cost;
+    spent_at[p.scale_factor] += cost;
     const Image image = Heap(*problem, {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
                              1000 * seed + static_cast<std::uint64_t>(told), options.useless);
     strategy->Tell({.point = p.point,
@@ -108,10 +111,12 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
   const double distance = (answer.point - at).norm();
   std::printf(
       "%3d: level %.2f, volume %.4f, distance %.3f, branches %zu, temper %.2f, raw %.2f, "
-      "implausibility %.2f, %d simulations\n",
+      "implausibility %.2f, %d simulations",
       instance, standing->credible_level, answer.posterior->region_volume, distance,
       answer.posterior->branches.size(), answer.posterior->temper, answer.posterior->raw_coverage,
       answer.posterior->experiments[0].implausibility, told);
+  for (const auto& [factor, seconds] : spent_at) std::printf(", %.1f s at %g", seconds, factor);
+  std::printf("\n");
   std::fflush(stdout);
   tally.covered += standing->credible_level <= 0.9 ? 1 : 0;
   tally.solved += distance < kSolved ? 1 : 0;

@@ -294,15 +294,6 @@ void ExperimentModel::AddFantasy(const Eigen::VectorXd& x, int level) {
   }
 }
 
-double ExperimentModel::DiscrepancyLeft() const {
-  if (setup_.levels->growth(0) == 0) return 0;
-  double most = 0;
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, outputs_.size()); ++k) {
-    most = std::max(most, outputs_[k].DiscrepancyLeft());
-  }
-  return most;
-}
-
 double ExperimentModel::ObjectiveOf(const Eigen::VectorXd& coefficients,
                                     const Eigen::VectorXd& variance) const {
   const FieldObjective& image = setup_.target->image;

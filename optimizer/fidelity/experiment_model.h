@@ -82,9 +82,6 @@ class ExperimentModel {
 
   void AddFantasy(const Eigen::VectorXd& x, int level);
 
-  // The least learnt discrepancy of the strongest outputs, in [0, 1]; 0 for one scale factor.
-  double DiscrepancyLeft() const;
-
   double weight() const { return setup_.target->weight; }
   bool has_image() const { return setup_.code != nullptr; }
   // Of the objective of the mean image at the target; wants an image.

@@ -212,23 +212,4 @@ double FidelityProcess::noise_variance(int level) const {
   return noise * noise;
 }
 
-double FidelityProcess::DiscrepancyLeft() const {
-  const auto lower = lower_.triangularView<Eigen::Lower>();
-  double left = 0;
-  double prior = 0;
-  for (Eigen::Index j = 0; j < data_.values.size(); ++j) {
-    const Eigen::MatrixXd x = warped_.col(j);
-    // The change from the target to growth 1: the quadratic discrepancy vanishes at both.
-    const Eigen::VectorXd step = Cross(x, 1) - Cross(x, 0);
-    const FidelityPair same = FidelityPair::Of(state_.hyper, x.data(), x.data());
-    const auto covariance = [&](double g1, double g2) {
-      return FidelityCovarianceOf(state_.hyper, same, g1, g2);
-    };
-    const double own = covariance(1, 1) - 2 * covariance(1, 0) + covariance(0, 0);
-    prior += own;
-    left += std::max(0.0, own - lower.solve(step).squaredNorm());
-  }
-  return prior > 0 ? std::sqrt(left / prior) : 0;
-}
-
 }  // namespace talus::surrogate

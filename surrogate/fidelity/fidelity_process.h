@@ -62,9 +62,6 @@ class FidelityProcess {
   void AddFantasy(const FidelityPoint& at, int level);
 
   double noise_variance(int level) const;
-  // sd of the linear discrepancy that the prior allows, and that evaluations leave, averaged over
-  // the evaluated points at growth 1: a ratio near 1 says that it was not learnt.
-  double DiscrepancyLeft() const;
 
   const FidelityState& state() const { return state_; }
   Eigen::VectorXd values() const { return state_.centre + state_.scale * data_.values.array(); }

@@ -99,8 +99,6 @@ TEST(FidelityProcess, CoarseEvaluationsAloneLeaveTheDiscrepancyOpen) {
   // The prior sd of the discrepancy is 0.3 of the spread and more: the target is not known better.
   EXPECT_GT(std::sqrt(process.Predict(x, 0).variance[0]),
             4 * std::sqrt(process.Predict(x, 1).variance[0]));
-  EXPECT_GT(process.DiscrepancyLeft(), 0.8);
-  EXPECT_LT(FidelityProcess::Fit(TwoLevels(12, 4), kOptions).DiscrepancyLeft(), 0.5);
 }
 
 TEST(FidelityProcess, LeaveOneOutIsThePredictionFromTheOthers) {
