@@ -160,7 +160,11 @@ void ExperimentModel::MeasureImages() {
   double heaps = std::max(1, target.image.num_target_heaps);
   double factor = 1;
   if (target.runs.size() < 2) {
-    measured_.head(num_modes) = modes_.Coefficients(setup_.code->Encode(target.image.target));
+    // The mean image of several heaps has wider edges than each of them.
+    const Eigen::VectorXd among_heaps =
+        (1 - 1 / heaps) * (modes_.basis.cwiseAbs2() * noise + modes_.discarded);
+    measured_.head(num_modes) = modes_.Coefficients(
+        setup_.code->OneOfMean(setup_.code->Encode(target.image.target), among_heaps));
   } else {
     Eigen::MatrixXd runs(target.runs.size(), num_modes);
     for (std::size_t r = 0; r < target.runs.size(); ++r) {

@@ -13,6 +13,11 @@ namespace {
 constexpr double kReach = 4;       // widths from the edge beyond which a pixel is black or white
 constexpr double kNoEdge = 3;      // widths inside the image an edge must lie to be measured
 constexpr double kMinWidth = 0.2;  // [px]: sharper than pixels can tell
+// A column without powder has no edge: it is given one that is white all the same, and equal in all
+// images, so that it tells nothing.
+constexpr double kEmptyWidth = 1;    // [px]
+constexpr double kEmptyHeight = -3;  // [px], above the floor
+constexpr double kFaint = 0.5;       // [px]: less powder than this counts the less for the width
 
 // The pixels of a column that are neither black nor white.
 struct Band {
@@ -42,12 +47,12 @@ double AreaOf(const Column& column, double height, double width) {
 }
 
 // The height at which a column of this edge width has this area; near the floor that is not the
-// area above it, since the edge is cut there.
+// area above it, since the edge is cut there. Not below that of an empty column.
 double HeightOf(const Column& column, double area, double width) {
   const double floor = column.vessel.Floor(column.index);
   const double margin = kNoEdge * width;
   if (area > margin && area + floor < column.num_rows - margin) return area + floor;
-  double low = floor - margin;
+  double low = floor + kEmptyHeight;
   double high = column.num_rows + margin;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
@@ -56,8 +61,9 @@ double HeightOf(const Column& column, double area, double width) {
   return 0.5 * (low + high);
 }
 
-// Columns whose edge is cut take the width of the nearest whole one.
-void FillFromNeighbours(const std::vector<bool>& known, Eigen::VectorXd& width) {
+// Columns whose edge is cut take the width of the nearest whole one, as far as there is powder.
+void FillFromNeighbours(const std::vector<bool>& known, const Eigen::VectorXd& area,
+                        Eigen::VectorXd& width) {
   const auto size = static_cast<int>(width.size());
   const Eigen::VectorXd given = width;
   for (int c = 0; c < size; ++c) {
@@ -71,6 +77,8 @@ void FillFromNeighbours(const std::vector<bool>& known, Eigen::VectorXd& width) 
                                        : given[has_left ? left : right];
       break;
     }
+    if (known[static_cast<std::size_t>(c)]) continue;
+    width[c] = std::lerp(kEmptyWidth, width[c], std::min(1.0, area[c] / kFaint));
   }
 }
 
@@ -92,7 +100,7 @@ ColumnEdges FitEdges(std::span<const float> field, const FieldSize& size, const 
   if (std::find(known.begin(), known.end(), true) == known.end()) {
     edges.width.setConstant(1);
   } else {
-    FillFromNeighbours(known, edges.width);
+    FillFromNeighbours(known, area, edges.width);
   }
   for (int c = 0; c < size.width; ++c) {
     edges.height[c] = HeightOf({vessel, c, size.height}, area[c], edges.width[c]);

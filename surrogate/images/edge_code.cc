@@ -40,6 +40,15 @@ Eigen::VectorXd EdgeCode::MeanOfImages(const Eigen::VectorXd& vector,
   return mean;
 }
 
+Eigen::VectorXd EdgeCode::OneOfMean(const Eigen::VectorXd& mean,
+                                    const Eigen::VectorXd& variance) const {
+  const Eigen::ArrayXd width = mean.tail(size_.width) / kWidthWeight;
+  const Eigen::ArrayXd squared = width.square() - variance.head(size_.width).array();
+  Eigen::VectorXd one = mean;
+  one.tail(size_.width) = kWidthWeight * squared.max(kMinWidth * kMinWidth).sqrt();
+  return one;
+}
+
 double EdgeCode::Sad(const Eigen::VectorXd& vector) const { return sad_->Of(Edges(vector)); }
 
 double EdgeCode::ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const {

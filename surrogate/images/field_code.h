@@ -23,6 +23,10 @@ class FieldCode {
   virtual Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
                                        const Eigen::VectorXd& variance) const = 0;
 
+  // The other way round: of one such image, when `mean` is the vector of their mean.
+  virtual Eigen::VectorXd OneOfMean(const Eigen::VectorXd& mean,
+                                    const Eigen::VectorXd& variance) const = 0;
+
   // Σ |pixel - target| [px] of the decoded image: itself, and expected when each element of the
   // vector is normal with this variance. Wants a target.
   virtual double Sad(const Eigen::VectorXd& vector) const = 0;
@@ -44,6 +48,8 @@ class EdgeCode : public FieldCode {
   // Edges that move up and down make a wider edge.
   Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
                                const Eigen::VectorXd& variance) const override;
+  Eigen::VectorXd OneOfMean(const Eigen::VectorXd& mean,
+                            const Eigen::VectorXd& variance) const override;
   double Sad(const Eigen::VectorXd& vector) const override;
   double ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const override;
 
@@ -67,6 +73,9 @@ class PixelCode : public FieldCode {
   Eigen::VectorXd MeanOfImages(const Eigen::VectorXd& vector,
                                const Eigen::VectorXd&) const override {
     return vector;
+  }
+  Eigen::VectorXd OneOfMean(const Eigen::VectorXd& mean, const Eigen::VectorXd&) const override {
+    return mean;
   }
   double Sad(const Eigen::VectorXd& vector) const override;
   double ExpectedSad(const Eigen::VectorXd& mean, const Eigen::VectorXd& variance) const override;

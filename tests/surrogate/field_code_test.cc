@@ -57,6 +57,51 @@ TEST(ColumnEdges, EmptyAndFullImagesHaveNone) {
   }
 }
 
+// A wide plate has many of them. Their code is the same whatever the heap beside them is like: it
+// was three widths of its edge below the plate, and said more of two heaps than the heaps did.
+TEST(ColumnEdges, ColumnsWithoutPowderTellNothing) {
+  ColumnEdges heap = Heap(15, 1);
+  heap.height.head(10).setConstant(-20);
+  for (const double width : {0.5, 1.0, 2.0}) {
+    heap.width.setConstant(width);
+    const ColumnEdges found = FitEdges(Render(heap, kSize, kPlate), kSize, kPlate);
+    const ColumnEdges empty = FitEdges(
+        std::vector<float>(static_cast<std::size_t>(kSize.num_pixels()), 0.0F), kSize, kPlate);
+    EXPECT_EQ(found.height.head(10), empty.height.head(10)) << width;
+    EXPECT_EQ(found.width.head(10), empty.width.head(10)) << width;
+  }
+}
+
+// The code of a mean image is that of none of its heaps, until its edges are made narrower.
+TEST(EdgeCode, OneOfAMeanHasTheMeanCodeOfTheHeaps) {
+  constexpr int kHeaps = 400;
+  constexpr double kScatter = 1;  // of the heights [px]
+  base::Random random(5, base::Stream("mean image"));
+  const EdgeCode code(kSize, {});
+  std::vector<float> image(static_cast<std::size_t>(kSize.num_pixels()));
+  Eigen::VectorXd mean_code = Eigen::VectorXd::Zero(2 * kSize.width);
+  for (int i = 0; i < kHeaps; ++i) {
+    ColumnEdges heap = Heap(15, 1);
+    for (double& height : heap.height) height += kScatter * random.Normal();
+    const auto one = Render(heap, kSize, kPlate);
+    for (std::size_t p = 0; p < image.size(); ++p) image[p] += one[p] / kHeaps;
+    mean_code += code.Encode(one) / kHeaps;
+  }
+  const Eigen::VectorXd of_mean = code.Encode(image);
+  const Eigen::VectorXd variance = Eigen::VectorXd::Constant(mean_code.size(), kScatter * kScatter);
+  const Eigen::VectorXd one = code.OneOfMean(of_mean, variance);
+  // Whole columns only: a quarter of the image beside its middle. A variance of 400 draws is known
+  // to 7 %, which is 0.035 of a width of √2, and 0.8 of widths are in the code.
+  const auto widths = [](const Eigen::VectorXd& v) { return v.segment(kSize.width + 14, 12); };
+  EXPECT_GT((widths(of_mean) - widths(mean_code)).minCoeff(), 0.2);
+  EXPECT_LT((widths(one) - widths(mean_code)).cwiseAbs().maxCoeff(), 0.12);
+  EXPECT_LT((code.MeanOfImages(one, variance) - of_mean)
+                .segment(kSize.width + 14, 12)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
+}
+
 TEST(EdgeCode, SadIsThatOfTheDecodedImage) {
   const auto target = Render(Heap(15, 1), kSize, kPlate);
   const EdgeCode code(kSize, target);
