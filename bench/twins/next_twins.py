@@ -5,7 +5,8 @@ FOLDER is that of dem_twins.py. For each of its powders the campaign with the he
 wide plate would teach, and the campaign with both tests, which spent the same core time, tells what it taught.
 One line a powder: whether the wide plate ranks above more runs of the heap, the expected and the realised
 widths of the joint 90 % ranges, in shares of the searched ones, and the realised over the expected width, as
-the geometric mean of both parameters.
+the geometric mean of both parameters. What is expected is the mean over the sets that the posterior holds, and what
+one of them leaves may be far from it: the last line compares the sums over all powders.
 """
 import argparse
 import json
@@ -48,7 +49,7 @@ def main():
     parser.add_argument("talus")
     parser.add_argument("folder", type=pathlib.Path)
     options = parser.parse_args()
-    ratios, first = [], 0
+    ratios, first, sums = [], 0, {}
     for twin in sorted(options.folder.glob("twin*")):
         if not (twin / "both" / "result.json").exists():
             continue
@@ -56,6 +57,10 @@ def main():
         is_now = realised(twin)
         ratio = math.prod(is_now[k] / after[k] for k in after) ** (1 / len(after))
         ratios.append(ratio)
+        for k in after:
+            sums.setdefault(k, [0, 0])
+            sums[k][0] += after[k]
+            sums[k][1] += is_now[k]
         first += above
         print(f"{twin.name}: {'above' if above else 'below'} more runs; expected "
               + ", ".join(f"{k} {v:.3f}" for k, v in after.items()) + "; realised "
@@ -63,7 +68,8 @@ def main():
     within = sum(1 / WITHIN <= r <= WITHIN for r in ratios)
     mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
     print(f"{len(ratios)} powders: above more runs in {first}, within a factor {WITHIN} in {within}, "
-          f"geometric mean of the ratios {mean:.2f}")
+          f"geometric mean of the ratios {mean:.2f}; realised over expected, sums over all powders: "
+          + ", ".join(f"{k} {now / then:.2f}" for k, (then, now) in sums.items()))
 
 
 main()
