@@ -216,7 +216,9 @@ void AddAgreement(const Planner& planner, const CampaignEvidence& of, CampaignRe
   if (of.references.size() < 2 || !result.posterior) return;
   const Agreement agreement = AgreementOf(ViewOf(planner, of));
   result.posterior->tension = agreement.tension;
-  if (agreement.tension > kDisagree) {
+  // Surrogates that miss most of their own trials cannot tell; the answer warns of them.
+  constexpr double kLeastCoverage = 0.5;
+  if (agreement.tension > kDisagree && result.posterior->raw_coverage >= kLeastCoverage) {
     result.warnings.push_back(Worded(
         {.kind = WarningKind::kDisagree, .experiment = agreement.odd, .value = agreement.tension}));
   }

@@ -54,12 +54,23 @@ TEST_F(TwoExperiments, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
 }
 
 TEST_F(TwoExperiments, TestsThatAgreeRaiseNoAlarm) {
-  const auto folder = Begin("run");
+  const auto folder = Begin("run", "23 mg", 40);
   RunFake(folder, {});
   const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
   EXPECT_TRUE(result.posterior.value().alone.empty()) << ResultSummary(result);
   EXPECT_LT(result.posterior->tension, 3);
   EXPECT_EQ(ResultSummary(result).find("no set fits"), std::string::npos);
+}
+
+// Ten simulations of each leave surrogates that cover one in five of them: no ground for an alarm.
+TEST_F(TwoExperiments, SurrogatesThatMissTheirOwnTrialsRaiseNoAlarmOfTests) {
+  const auto folder = Begin("run");
+  RunFake(folder, {});
+  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+  ASSERT_LT(result.posterior.value().raw_coverage, 0.5);
+  EXPECT_TRUE(result.posterior->alone.empty()) << ResultSummary(result);
+  EXPECT_TRUE(std::ranges::any_of(
+      result.warnings, [](const ResultWarning& w) { return w.kind == WarningKind::kPoorModel; }));
 }
 
 // 42 mg would drag the answer to low friction (the test above); held out, it does not.
