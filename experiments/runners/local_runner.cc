@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/eventfd.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -19,6 +20,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files/file.h"
 #include "experiments/runners/mpi_environment.h"
 
 namespace talus::runners {
@@ -90,12 +92,44 @@ void EndLeftOver(const std::filesystem::path& folder) {
   if (in >> mark && mark.size() > kShortest && mark.back() == ';') KillMarked(mark);
 }
 
+// What EndLeftOver reads. The command waits for it: one of which nothing is written would run on
+// unseen, and one that takes its folder away would be too fast for it.
+void WriteGroup(const std::filesystem::path& folder, pid_t pid, const std::string& mark) {
+  const std::string start = StateOf(std::to_string(pid)).start;
+  base::WriteFileAtomically(folder / kGroupFile,
+                            std::to_string(pid) + " " + start + " " + mark + "\n",
+                            base::Outlives::kProgram);
+}
+
+// Holds a forked process back until it may begin.
+class Gate {
+ public:
+  Gate() : event_(::eventfd(0, EFD_CLOEXEC)) {
+    if (event_ < 0) {
+      throw base::Error(std::string("no process can be started: ") + std::strerror(errno));
+    }
+  }
+  Gate(const Gate&) = delete;
+  Gate& operator=(const Gate&) = delete;
+  ~Gate() { ::close(event_); }
+
+  void Open() const { (void)::eventfd_write(event_, 1); }
+  bool Pass() const {  // in the child
+    eventfd_t count = 0;
+    return ::eventfd_read(event_, &count) == 0;
+  }
+
+ private:
+  int event_;
+};
+
 // The child's side: only what is allowed between fork and exec.
 struct Launch {
   const char* folder;
   std::vector<char*> arguments;
   std::vector<char*> environment;
   int log;
+  const Gate* gate;
   pid_t parent;
 };
 
@@ -108,6 +142,7 @@ struct Launch {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (!launch.gate->Pass()) ::_exit(kCannotRun);
   const int null = ::open("/dev/null", O_RDONLY);
   if (null < 0 || ::dup2(null, 0) < 0 || ::dup2(launch.log, 1) < 0 || ::dup2(launch.log, 2) < 0 ||
       ::chdir(launch.folder) != 0) {
@@ -201,6 +236,7 @@ bool LocalRunner::Adopt(const Job& job, const std::string&) {
 
 void LocalRunner::StartProcess(const Job& job) {
   EndLeftOver(job.folder);
+  const Gate gate;
   const std::string log_name = (job.folder / "log.txt").string();
   const int log = ::open(log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (log < 0) throw base::Error(log_name + ": cannot be written: " + std::strerror(errno));
@@ -212,6 +248,7 @@ void LocalRunner::StartProcess(const Job& job) {
                       .arguments = Pointers(command),
                       .environment = Pointers(environment),
                       .log = log,
+                      .gate = &gate,
                       .parent = ::getpid()};
   const pid_t pid = ::fork();
   if (pid == 0) BecomeCommand(launch);
@@ -219,6 +256,14 @@ void LocalRunner::StartProcess(const Job& job) {
   ::close(log);
   if (pid < 0) throw base::Error(std::string("no process can be started: ") + std::strerror(code));
   ::setpgid(pid, pid);  // in parent and child, so that it holds before either goes on
+  try {
+    WriteGroup(job.folder, pid, mark);
+  } catch (const base::Error&) {
+    ::kill(pid, SIGKILL);
+    ::waitpid(pid, nullptr, 0);
+    throw;
+  }
+  gate.Open();
 
   const auto now = Clock::now();
   const auto cap =
@@ -230,8 +275,6 @@ void LocalRunner::StartProcess(const Job& job) {
                       .stopped = JobEnd::kExit,
                       .why = {},
                       .folder = job.folder};
-  std::ofstream(job.folder / kGroupFile)
-      << pid << ' ' << StateOf(std::to_string(pid)).start << ' ' << mark << '\n';
 }
 
 std::vector<FinishedJob> LocalRunner::Wait(double seconds) {

@@ -67,6 +67,7 @@ struct FakeEngineOptions {
   double sleep = 0;               // of each trial [s]
   bool no_command = false;        // the program is not there
   bool vanish = false;            // every trial's folder is taken away while it runs
+  int hang_at = 0;                // the trial with this id never ends; none if 0
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -79,6 +80,9 @@ class FakeEngine : public trials::TrialEngine {
     const auto seed = heap_case.seed;
     imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, m.rolling_friction, seed));
     std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
+    if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
+      script = "sleep 3600\n";
+    }
     if (options_.die_once && seed % 3 == 0) {
       script += "if [ ! -e died ]; then touch died; kill -9 $$; fi\n";
     }

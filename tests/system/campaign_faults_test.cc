@@ -56,12 +56,10 @@ TEST_F(CampaignFaults, KilledAtManyMoments) {
   base::Random random(1, base::Stream("moments of death"));
   int kills = 0;
   for (int session = 0; session < 200; ++session) {
-    const pid_t child = StartSession(folder, {.sleep = 0.01});
     // From the opening of the journal to several trials on; longer and longer, so that a slow
     // machine gets on too.
-    Pause(random.Uniform(0.005, 0.05 + 0.01 * session));
-    ::kill(child, SIGKILL);
-    const int end = WaitForExit(child);
+    const double lifetime = random.Uniform(0.005, 0.05 + 0.01 * session);
+    const int end = WaitForExit(StartSession(folder, {.sleep = 0.01}, {.lifetime = lifetime}));
     if (end == static_cast<int>(CampaignEnd::kFinished)) break;
     ASSERT_EQ(end, -SIGKILL);
     ++kills;
@@ -80,7 +78,7 @@ TEST_F(CampaignFaults, KilledWorkersAreRunAgain) {
 TEST_F(CampaignFaults, SigtermStopsAtOnceAndResumeGoesOn) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("terminated");
-  const pid_t child = StartSession(folder, {.sleep = 1});
+  const pid_t child = StartSession(folder, {.hang_at = 2});
   while (NumTrials(folder) < 2) Pause(0.02);
   ::kill(child, SIGTERM);
   EXPECT_EQ(WaitForExit(child), static_cast<int>(CampaignEnd::kInterrupted));
@@ -106,7 +104,7 @@ TEST_F(CampaignFaults, CtrlCDrainsSoThatNothingRunsAfterwards) {
 TEST_F(CampaignFaults, FullDiskStopsTheCampaignAndIsNotTakenForAFailedTrial) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("full");
-  EXPECT_EQ(WaitForExit(StartSession(folder, {}, 120'000)), kThrew);
+  EXPECT_EQ(WaitForExit(StartSession(folder, {}, {.largest_file = 120'000})), kThrew);
   const std::size_t before = NumTrials(folder);
   EXPECT_LT(before, 22u);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
@@ -197,7 +195,7 @@ TEST_F(ClockChange, ChangesNeitherTrialsNorResultNorEndsByTheTimeBudget) {
   constexpr long kYear = 365L * 86400;
   for (const long jump : {kYear, -kYear}) {
     const fs::path folder = CampaignFixture::Begin(spec, jump > 0 ? "forwards" : "backwards");
-    const pid_t child = StartSession(folder, {.sleep = 0.02});
+    const pid_t child = StartSession(folder, {.hang_at = 6});
     while (NumTrials(folder) < 6) Pause(0.02);
     ::kill(child, SIGKILL);
     WaitForExit(child);
@@ -232,7 +230,7 @@ TEST_F(ClockChange, EvenBetweenAnyTwoReadings) {
 TEST_F(CampaignFaults, ATruncatedJournalIsMadeAnewFromTheTrials) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("truncated");
-  const pid_t child = StartSession(folder, {.sleep = 0.05});
+  const pid_t child = StartSession(folder, {.hang_at = 8});
   while (NumTrials(folder) < 8) Pause(0.02);
   ::kill(child, SIGKILL);
   WaitForExit(child);
@@ -246,7 +244,7 @@ TEST_F(CampaignFaults, ATruncatedJournalIsMadeAnewFromTheTrials) {
 TEST_F(CampaignFaults, ALostLogOfTheJournalLosesNoTrialAndRunsNoneTwice) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("lost_log");
-  const pid_t child = StartSession(folder, {.sleep = 0.05});
+  const pid_t child = StartSession(folder, {.hang_at = 8});
   while (NumTrials(folder) < 8) Pause(0.02);
   ::kill(child, SIGKILL);
   WaitForExit(child);
@@ -261,7 +259,7 @@ TEST_F(CampaignFaults, LostFoldersOfTrialsAreNotMissed) {
   const Calm calm = RunCalm();
   for (const bool journal_too : {false, true}) {
     const fs::path folder = Begin(journal_too ? "lost_both" : "lost");
-    const pid_t child = StartSession(folder, {.sleep = 0.05});
+    const pid_t child = StartSession(folder, {.hang_at = 8});
     while (NumTrials(folder) < 8) Pause(0.02);
     ::kill(child, SIGKILL);
     WaitForExit(child);
@@ -289,7 +287,7 @@ TEST_F(CampaignFaults, AFolderThatVanishesUnderItsTrialStopsTheCampaign) {
 TEST_F(CampaignFaults, TruncatedImagesOfFinishedTrialsDoNotMatter) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("images");
-  const pid_t child = StartSession(folder, {.sleep = 0.05});
+  const pid_t child = StartSession(folder, {.hang_at = 8});
   while (NumTrials(folder) < 8) Pause(0.02);
   ::kill(child, SIGTERM);
   WaitForExit(child);

@@ -139,7 +139,7 @@ class Progress(unittest.TestCase):
         out = self.folder / "out"
         both = [subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"],
                                  stderr=subprocess.PIPE, text=True) for _ in range(2)]
-        said = [process.communicate(timeout=110)[1] for process in both]
+        said = [process.communicate(timeout=600)[1] for process in both]
         self.assertIn(sorted(process.returncode for process in both), ([0, 1], [0, 2]), said)
         self.assertRegex("".join(said), "holds a campaign already|another process")
         self.assertEqual(talus("resume", out, "--quiet").returncode, 0)
@@ -222,7 +222,7 @@ class Progress(unittest.TestCase):
             os.write(ours, (answers[key].pop(0) + "\n").encode())
             seen = ""
         os.close(ours)
-        self.assertEqual(init.wait(timeout=60), 0)
+        self.assertEqual(init.wait(timeout=600), 0)
         self.assertEqual([len(left) for left in answers.values()], [0] * 5)
         self.assertEqual(len(asked), 8)  # five questions, three asked again
         self.assertFalse(any(question.startswith("diameter of the plate") for question in asked))
@@ -252,11 +252,13 @@ class Progress(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertIn(says, done.stdout)
 
-    # The report is watched from the second trial on; it must end by itself with the campaign, and only
-    # its pages of the running campaign may load themselves again.
+    # The report is watched from the second trial on, which ends when the page has been read; it must end
+    # by itself with the campaign, and only its pages of the running campaign may load themselves again.
     def test_a_watched_report_follows_the_campaign_to_its_end(self):
         out = self.folder / "out"
-        (self.folder / "deck/run.sh").write_text(ENGINE.replace("awk", "sleep 0.5; awk", 1))
+        read = self.folder / "read"
+        wait = f"case $PWD in */0001) ;; *) until [ -e {read} ]; do sleep 0.05; done ;; esac\nawk"
+        (self.folder / "deck/run.sh").write_text(ENGINE.replace("awk", wait, 1))
         campaign = subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"])
         self.addCleanup(campaign.kill)
         while not list(out.glob("trials/0002")):
@@ -266,7 +268,8 @@ class Progress(unittest.TestCase):
         self.addCleanup(watch.kill)
         self.assertIn("report.html", watch.stdout.readline())
         self.assertIn('http-equiv="refresh"', (out / "report/report.html").read_text())
-        self.assertEqual((campaign.wait(timeout=100), watch.wait(timeout=100)), (0, 0))
+        read.touch()
+        self.assertEqual((campaign.wait(timeout=600), watch.wait(timeout=600)), (0, 0))
         page = (out / "report/report.html").read_text()
         self.assertNotIn('http-equiv="refresh"', page)
         data = json.loads(page.split('id="data">')[1].split("</script>")[0])

@@ -38,7 +38,7 @@ OURS = re.compile("\r\x1b\\[K|\r\n")  # of a line of progress
 
 
 def talus(*arguments, **more):
-    return subprocess.run([TALUS, *map(str, arguments)], capture_output=True, timeout=120, **more)
+    return subprocess.run([TALUS, *map(str, arguments)], capture_output=True, timeout=600, **more)
 
 
 def at_a_terminal(*arguments):
@@ -54,7 +54,7 @@ def at_a_terminal(*arguments):
         except OSError:  # the other end is closed
             break
     os.close(ours)
-    process.wait(timeout=120)
+    process.wait(timeout=600)
     return seen
 
 

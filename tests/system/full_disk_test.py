@@ -59,7 +59,7 @@ def talus(arguments, folder, **environment):
     preload = {"LD_PRELOAD": FULL_DISK, "TALUS_FULL_IN": str(pathlib.Path(TALUS).resolve()),
                "OMP_WAIT_POLICY": "passive"}
     return subprocess.run([TALUS, *arguments], cwd=folder, capture_output=True, text=True,
-                          env={**os.environ, **preload, **environment}, timeout=120)
+                          env={**os.environ, **preload, **environment}, timeout=600)
 
 
 def inputs(folder):

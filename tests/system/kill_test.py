@@ -96,10 +96,10 @@ def main():
                 campaign.send_signal(signal.SIGKILL)
                 output = campaign.communicate()[0].decode()
                 kills += 1
-            deadline = time.monotonic() + 20
-            while processes_in(folder) and time.monotonic() < deadline:
+            deadline = time.monotonic() + 60  # a busy machine ends them late
+            while (left := processes_in(folder)) and time.monotonic() < deadline:
                 time.sleep(0.01)
-            assert not processes_in(folder), f"these live on: {processes_in(folder)}"
+            assert not left, f"these live on: {left}"
             if not (folder / "out/journal.sqlite").exists():
                 assert campaign.returncode == -9, output
                 for file in sorted((folder / "out").rglob("*")) if (folder / "out").exists() else []:

@@ -35,11 +35,9 @@ TEST_F(TwoExperimentsFaults, KilledAtManyMomentsItComesToTheSameEnd) {
   base::Random random(2, base::Stream("moments of death"));
   int kills = 0;
   for (int session = 0; session < 200; ++session) {
-    const pid_t child = StartSession(folder, {.sleep = 0.01});
     // Longer and longer, so that a slow machine gets on too.
-    Pause(random.Uniform(0.005, 0.05 + 0.02 * session));
-    ::kill(child, SIGKILL);
-    const int end = WaitForExit(child);
+    const double lifetime = random.Uniform(0.005, 0.05 + 0.02 * session);
+    const int end = WaitForExit(StartSession(folder, {.sleep = 0.01}, {.lifetime = lifetime}));
     if (end == static_cast<int>(CampaignEnd::kFinished)) break;
     ASSERT_EQ(end, -SIGKILL);
     ++kills;
