@@ -22,7 +22,6 @@ enum class WarningKind {
   kPoorModel,            // the model predicts badly what it was not told; `value` as the text says
   kExtrapolated,         // nothing was simulated at the target `scale_factor`
   kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
-  kFewSimulations,       // `value` at the smallest scale factor: the region may be too small
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
@@ -87,7 +86,6 @@ struct talus::base::Names<talus::campaign::WarningKind> {
       std::pair{"poor_model", K::kPoorModel},
       std::pair{"extrapolated", K::kExtrapolated},
       std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},
-      std::pair{"few_simulations", K::kFewSimulations},
       std::pair{"correlated", K::kCorrelated},
       std::pair{"bound", K::kBound},
       std::pair{"few_grains", K::kFewGrains},
