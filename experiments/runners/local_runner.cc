@@ -92,8 +92,9 @@ void EndLeftOver(const std::filesystem::path& folder) {
   if (in >> mark && mark.size() > kShortest && mark.back() == ';') KillMarked(mark);
 }
 
-// What EndLeftOver reads. The command waits for it: one of which nothing is written would run on
-// unseen, and one that takes its folder away would be too fast for it.
+// What EndLeftOver reads, where the guard was killed too. The command waits for it: one of which
+// nothing is written could not be found, and one that takes its folder away would be too fast for
+// it.
 void WriteGroup(const std::filesystem::path& folder, pid_t pid, const std::string& mark) {
   const std::string start = StateOf(std::to_string(pid)).start;
   base::WriteFileAtomically(folder / kGroupFile,

@@ -120,7 +120,7 @@ TEST_F(LocalRunnerTest, EveryWayToFailHasItsReason) {
   EXPECT_EQ(RunOne(absent).end, JobEnd::kNotStarted);
   EXPECT_THAT(base::ReadFile(absent.folder / "log.txt"), HasSubstr("cannot be run"));
 
-  // It ran on after a kill of the program, with nothing that told of it.
+  // It ran, with nothing for the next program to find it by.
   const Job unwritten = Shell(7, "touch ran");
   std::filesystem::create_directory(unwritten.folder / ".process_group");
   const FinishedJob refused = RunOne(unwritten);
