@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -29,9 +30,9 @@ void PrintEnd(const campaign::Campaign& campaign, const Ended& ended) {
                   << std::endl;
         return;
       }
-      std::cout << campaign::ResultSummary(*campaign.result()) << "  written to        "
+      std::cout << campaign::ResultSummary(*campaign.result(), folder) << "  written to        "
                 << (folder / "result.json").string() << "\n  report            talus report "
-                << folder.string() << std::endl;
+                << base::ShellWord(folder.string()) << std::endl;
       return;
     case campaign::CampaignEnd::kInterrupted:
       throw base::Interrupted("interrupted; `talus resume " + folder.string() + "` goes on");

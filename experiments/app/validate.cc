@@ -1,5 +1,6 @@
 // talus validate
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -63,10 +64,12 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
     std::cout << "  warning: " << *warning << '\n';
   }
   const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
+  const double finest = std::ranges::min(spec.coarse_graining.Levels());
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
+      const rigs::HeapCase heap_case = campaign::TypicalCase(spec, static_cast<int>(e), factor);
       for (const std::string& warning :
-           rigs::HeapWarnings(campaign::TypicalCase(spec, static_cast<int>(e), factor))) {
+           factor == finest ? rigs::HeapWarnings(heap_case) : rigs::SetUpWarnings(heap_case)) {
         std::cout << "  warning: " << At(spec, experiments[e].name, factor) << warning << '\n';
       }
     }

@@ -65,15 +65,13 @@ const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>
 
 // At the finest scale factor, which decides: coarser ones only guide the search.
 void AddGrainWarnings(const CampaignSpec& spec, CampaignResult& result) {
-  constexpr double kAdvised = 30;  // grains across the plate
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   const double finest = std::ranges::min(spec.coarse_graining.Levels());
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), finest);
     if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
-    const double across =
-        heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
-    if (across >= kAdvised) continue;
+    const double across = rigs::GrainsAcrossPlate(heap_case);
+    if (across >= rigs::kAdvisedAcross) continue;
     result.warnings.push_back(Worded({.kind = WarningKind::kFewGrains,
                                       .experiment = experiments[e].name,
                                       .scale_factor = finest,
@@ -180,10 +178,18 @@ std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer) {
                           "100 %"})};
 }
 
+std::vector<ResultWarning> BudgetAlarms(const CampaignResult& result) {
+  if (!result.unsettled) return {};
+  ResultWarning warning{.kind = WarningKind::kBudgetEnded, .text = result.unsettled->why};
+  if (std::isfinite(result.unsettled->num_more)) warning.value = result.unsettled->num_more;
+  return {Worded(std::move(warning))};
+}
+
 void AddAlarms(const AlarmBasis& basis, CampaignResult& result) {
   Append(DisappointmentAlarms(result, basis.trials, basis.reference), result.warnings);
   Append(ModelAlarms(basis.answer), result.warnings);
   if (result.posterior) Append(PosteriorWarnings(*result.posterior), result.warnings);
+  Append(BudgetAlarms(result), result.warnings);
   Append(CorrelationAlarms(result), result.warnings);
   Append(BoundAlarms(result, basis.space), result.warnings);
   AddGrainWarnings(basis.spec, result);

@@ -38,6 +38,9 @@ std::vector<ResultWarning> CorrelationAlarms(const CampaignResult& result);
 std::vector<ResultWarning> BoundAlarms(const CampaignResult& result,
                                        const optimizer::ParameterSpace& space);
 
+// Whether the budget ended the search before its stopping rule did.
+std::vector<ResultWarning> BudgetAlarms(const CampaignResult& result);
+
 // Whether the model predicts what it was not told.
 std::vector<ResultWarning> ModelAlarms(const optimizer::Answer& answer);
 

@@ -85,10 +85,17 @@ Answer FidelityStrategy::Recommend() {
   return answer;
 }
 
+std::optional<Eigen::VectorXd> FidelityStrategy::CredibleLevels(const Eigen::MatrixXd& points) {
+  if (!CanModel()) return std::nullopt;
+  const PosteriorSample& sample = Sample();
+  return Model().LogDensity(points).unaryExpr(
+      [&](double log_density) { return sample.CredibleLevel(log_density); });
+}
+
 std::optional<Standing> FidelityStrategy::Consider(const Eigen::VectorXd& point) {
   if (!CanModel()) return std::nullopt;
   Standing standing;
-  standing.credible_level = Sample().CredibleLevel(Model().LogDensity(point.transpose())[0]);
+  standing.credible_level = (*CredibleLevels(point.transpose()))[0];
   standing.experiments = Model().StandingsAt(point);
   return standing;
 }

@@ -300,12 +300,12 @@ Proposal FidelityStrategy::MostPerCost(const Posterior& with_fantasies,
   return best;
 }
 
-std::optional<std::string> FidelityStrategy::StopReason() {
+bool FidelityStrategy::HasDesign() {
+  return CanModel() && !FromDesign({}) && !TooFewAt(Eigen::VectorXd(), {});
+}
+
+SurrogateShare FidelityStrategy::ShareNow() {
   constexpr int kDraws = 64;
-  if (options_.stop_share == 0 || !CanModel() || FromDesign({}) ||
-      TooFewAt(Eigen::VectorXd(), {})) {
-    return std::nullopt;
-  }
   const Eigen::MatrixXd draws = Sample().Draws(kDraws, options_.seed);
   double gain = 0;
   double outputs = 0;
@@ -313,8 +313,20 @@ std::optional<std::string> FidelityStrategy::StopReason() {
     gain += model.GainOfAll(draws).mean();
     outputs += model.num_outputs();
   }
-  const double share = std::expm1(2 * gain / outputs);  // V/B of the typical output
-  return StopByShare(share, Model().temper(), options_.stop_share);
+  // V/B of the typical output.
+  return {.share = std::expm1(2 * gain / outputs), .temper = Model().temper()};
+}
+
+std::optional<std::string> FidelityStrategy::StopReason() {
+  if (options_.stop_share == 0 || !HasDesign()) return std::nullopt;
+  return StopByShare(ShareNow(), options_.stop_share);
+}
+
+std::optional<StopShortfall> FidelityStrategy::Shortfall() {
+  if (options_.stop_share == 0) return std::nullopt;
+  if (!HasDesign())
+    return StopShortfall{.text = "the first trials at each scale factor are missing"};
+  return ShortOfShare(ShareNow(), options_.stop_share, static_cast<int>(observations_.size()));
 }
 
 std::optional<Moments> FidelityStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {

@@ -29,8 +29,10 @@ class FidelityStrategy : public Strategy {
   std::vector<Proposal> AskAt(int count, std::span<const Proposal> pending) override;
   void Tell(const Observation& observation) override;
   std::optional<std::string> StopReason() override;
+  std::optional<StopShortfall> Shortfall() override;
   Answer Recommend() override;
   std::optional<Standing> Consider(const Eigen::VectorXd& point) override;
+  std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) override;
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 
   // Whether enough was told for the two below.
@@ -56,6 +58,9 @@ class FidelityStrategy : public Strategy {
   };
 
   Proposal Next(std::span<const Proposal> asked);
+  // Whether the stopping rule has something to judge.
+  bool HasDesign();
+  SurrogateShare ShareNow();
   bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);

@@ -7,10 +7,19 @@
 //   or experiments            experiments do
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
 namespace talus::optimizer {
+
+// What a rule still lacks: for searches that their budget ends.
+struct StopShortfall {
+  std::string text;  // in words, without a full stop
+  // StopByShare's share [-], and the evaluations that would bring it down; NaN: not known.
+  double share = std::numeric_limits<double>::quiet_NaN();
+  double num_more = std::numeric_limits<double>::quiet_NaN();
+};
 
 // `gain`: what going on could improve the best value by, at most. `noise`: standard deviation of
 // one evaluation, same unit.
@@ -22,6 +31,15 @@ std::optional<std::string> StopByExactGain(double gain, double typical);
 // `share`: the surrogate's variance over the posterior, as a share of what the experiments' own
 // errors leave open [-]. `temper`: by how much the variance had to be raised until the trials, each
 // left out in turn, were covered; a model that needs much does not know how little it knows.
-std::optional<std::string> StopByShare(double share, double temper, double stop_share);
+struct SurrogateShare {
+  double share = 0;
+  double temper = 1;
+};
+std::optional<std::string> StopByShare(const SurrogateShare& now, double stop_share);
+
+// Nothing where the rule is met. The variance of a mean of n falls as 1/n, so `num_told`
+// evaluations become share/stop_share times as many: told up to 20 times more, of no temper.
+std::optional<StopShortfall> ShortOfShare(const SurrogateShare& now, double stop_share,
+                                          int num_told);
 
 }  // namespace talus::optimizer

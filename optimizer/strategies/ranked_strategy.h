@@ -24,6 +24,7 @@ class RankedStrategy : public Strategy {
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
   void Tell(const Observation& observation) override;
   std::optional<std::string> StopReason() override { return inner_->StopReason(); }
+  std::optional<StopShortfall> Shortfall() override { return inner_->Shortfall(); }
   Answer Recommend() override;
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 

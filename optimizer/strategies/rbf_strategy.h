@@ -14,6 +14,7 @@ class RbfStrategy : public SurrogateStrategy {
 
   // Never: without a variance nobody knows what is left to gain.
   std::optional<std::string> StopReason() override { return std::nullopt; }
+  std::optional<StopShortfall> Shortfall() override { return std::nullopt; }
   Answer Recommend() override;
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 

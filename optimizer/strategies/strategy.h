@@ -14,6 +14,7 @@
 
 #include "optimizer/fidelity/posterior_summary.h"
 #include "optimizer/models/moments.h"
+#include "optimizer/stopping/stopping_rule.h"
 
 namespace talus::optimizer {
 
@@ -90,6 +91,8 @@ class Strategy {
 
   // In words, when going on is not worth it ("what is left to gain is below 0.7 × the noise sd").
   virtual std::optional<std::string> StopReason() = 0;
+  // What that still lacks; nothing where it is met, switched off or where there is no rule.
+  virtual std::optional<StopShortfall> Shortfall() { return std::nullopt; }
   virtual Answer Recommend() = 0;
 
   // As Ask, for strategies that choose experiments and scale factors too.
@@ -100,6 +103,10 @@ class Strategy {
   }
   // Where a set stands in the posterior; nothing for strategies without one.
   virtual std::optional<Standing> Consider(const Eigen::VectorXd& /*point*/) {
+    return std::nullopt;
+  }
+  // Its credible level alone, of many: one point a row.
+  virtual std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& /*points*/) {
     return std::nullopt;
   }
   // The objective of an experiment by the model that Recommend answers with, one point a row; at

@@ -28,4 +28,9 @@ void SurrogateStrategy::Tell(const Observation& observation) {
   Update(observation);
 }
 
+std::optional<StopShortfall> SurrogateStrategy::Shortfall() {
+  if (record_.options().stop_multiple == 0 || StopReason()) return std::nullopt;
+  return StopShortfall{.text = "a better set may still be found"};
+}
+
 }  // namespace talus::optimizer

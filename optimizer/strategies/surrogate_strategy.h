@@ -18,6 +18,7 @@ class SurrogateStrategy : public Strategy {
 
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) final;
   void Tell(const Observation& observation) final;
+  std::optional<StopShortfall> Shortfall() override;
 
  protected:
   // One more proposal while those `asked` are being evaluated. At least two evaluations succeeded.

@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "imaging/heap/metrics.h"
+#include "optimizer/answer/credible_ranges.h"
 #include "optimizer/designs/design.h"
 #include "optimizer/strategies/make_strategy.h"
 
@@ -151,13 +152,15 @@ analysis::Conclusion MakeConclusion(const analysis::Evidence& evidence,
           "Gaussian process of 8 image modes; leave-one-out error 0.19 mm² "
           "(0.9 × the scatter of one simulation)."};
   const bool has_draws = evidence.model && evidence.model->draws.rows() > 0;
+  std::vector<optimizer::Range> ranges;
+  if (has_draws) ranges = optimizer::CredibleRanges(evidence.model->draws, 0.9);
   for (Eigen::Index k = 0; k < truth.size(); ++k) {
     const auto& range = evidence.parameters[static_cast<std::size_t>(k)].range;
     double low = std::max(0.0, truth(k) - 0.09);
     double high = std::min(1.0, truth(k) + 0.07);
-    if (has_draws) {  // what the valley spans
-      low = evidence.model->draws.col(k).minCoeff();
-      high = evidence.model->draws.col(k).maxCoeff();
+    if (has_draws) {
+      low = ranges[static_cast<std::size_t>(k)].low;
+      high = ranges[static_cast<std::size_t>(k)].high;
     }
     conclusion.values.push_back(
         {range.ToNative(truth(k)), range.ToNative(low), range.ToNative(high)});

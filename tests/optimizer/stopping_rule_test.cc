@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace talus::optimizer {
@@ -27,10 +28,27 @@ TEST(StoppingRule, ExactSearchesEndWhereNothingIsLeftToGain) {
 }
 
 TEST(StoppingRule, CalibrationsEndWhereTheSurrogateKnowsEnoughAndPredictsItsTrials) {
-  EXPECT_THAT(StopByShare(0.049, 1.1, 0.05).value_or(""), HasSubstr("4.9 % of what"));
-  EXPECT_FALSE(StopByShare(0.051, 1.1, 0.05));
-  EXPECT_FALSE(StopByShare(0.028, 2.9, 0.05));  // an early model that misses a third of its trials
-  EXPECT_FALSE(StopByShare(kNan, 1, 0.05));
+  EXPECT_THAT(StopByShare({.share = 0.049, .temper = 1.1}, 0.05).value_or(""),
+              HasSubstr("4.9 % of what"));
+  EXPECT_FALSE(StopByShare({.share = 0.051, .temper = 1.1}, 0.05));
+  EXPECT_FALSE(StopByShare({.share = 0.028, .temper = 2.9},
+                           0.05));  // an early model that misses a third of its trials
+  EXPECT_FALSE(StopByShare({.share = kNan}, 0.05));
+}
+
+TEST(StoppingRule, WhatACalibrationLacksFallsAsOneOverItsEvaluations) {
+  const auto shortfall = ShortOfShare({.share = 0.07, .temper = 1.2}, 0.02, 40);
+  ASSERT_TRUE(shortfall);
+  EXPECT_DOUBLE_EQ(shortfall->num_more, 100);  // 40 × 7/2 in all
+  EXPECT_THAT(shortfall->text, HasSubstr("7 % of what the measurements leave open"));
+  EXPECT_DOUBLE_EQ(ShortOfShare({.share = 0.0671}, 0.02, 40)->num_more, 95);  // 94.2
+  EXPECT_DOUBLE_EQ(ShortOfShare({.share = 0.2}, 0.02, 47)->num_more, 430);    // 423
+  EXPECT_TRUE(std::isnan(ShortOfShare({.share = 0.5}, 0.02, 47)->num_more));
+  EXPECT_FALSE(ShortOfShare({.share = 0.019, .temper = 1.4}, 0.02, 40));
+  const auto unsure = ShortOfShare({.share = 0.01, .temper = 4}, 0.02, 40);
+  ASSERT_TRUE(unsure);
+  EXPECT_TRUE(std::isnan(unsure->num_more));
+  EXPECT_THAT(unsure->text, HasSubstr("missed by 2 times what the model expects"));
 }
 
 }  // namespace

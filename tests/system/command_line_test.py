@@ -172,6 +172,13 @@ class Progress(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("sliding_friction in 0.1 … 0.9", done.stdout)
 
+    # The alarm of the result is of the finest grains, too: coarser ones guide the search only.
+    def test_few_grains_are_a_warning_at_the_finest_scale_factor_only(self):
+        done = talus("validate", str(SOURCE / "examples/demo/campaign.json"), "--without-experiment")
+        grains = [line for line in done.stdout.splitlines() if "grains across the plate" in line]
+        self.assertEqual(len(grains), 1, done.stdout)
+        self.assertIn("heap at scale factor 1: only 25 grains across the plate at their true size", grains[0])
+
     def test_a_spec_to_start_from_is_written_and_valid(self):
         out = self.folder / "started.json"
         known = {"--plate-diameter": "10 mm", "--tube-diameter": "10 mm", "--lift-velocity": "50 mm/s",

@@ -5,8 +5,10 @@
 
 #include "base/error.h"
 #include "base/json/json_writer.h"
+#include "base/text/shell_text.h"
 #include "experiments/analysis/card/card_formats.h"
 #include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/lifted_tube/heap_scene.h"
 
@@ -21,8 +23,8 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   const std::string text = journal.Progress().result_json;
   if (text.empty()) {
-    throw base::ConfigError(folder.string() +
-                            ": has no result yet; `talus status` says where the campaign stands");
+    throw base::ConfigError(folder.string() + ": has no result yet; `talus status " +
+                            base::ShellWord(folder.string()) + "` says where the campaign stands");
   }
   const campaign::CampaignResult result = campaign::ParseResult(text);
   const journal::CampaignRecord record = journal.Campaign();
@@ -34,7 +36,9 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
                        campaign::ReferencesOf(record, spec).front().frame());
   Card card = CardOf(heap_case);
   card.title = result.name;
-  for (const campaign::ResultWarning& warning : result.warnings) card.notes.push_back(warning.text);
+  for (const campaign::ResultWarning& warning : result.warnings) {
+    card.notes.push_back(campaign::WithFolder(warning.text, folder));
+  }
   for (const campaign::ResultParameter& p : result.parameters) {
     card.ranges.push_back({.name = p.name,
                            .unit = p.unit,

@@ -78,9 +78,12 @@ struct AnswerBranch {
 
 // What the campaign itself concludes.
 struct Conclusion {
-  std::string verdict_kind{};         // "point", "curve", "region", "separate"; empty: not known
-  std::string verdict{};              // the same in a sentence
-  std::string trade_off{};            // which parameters change together; empty where none do
+  std::string verdict_kind{};           // "point", "curve", "region", "separate"; empty: not known
+  std::string verdict{};                // the same in a sentence
+  std::string trade_off{};              // which parameters change together; empty where none do
+  std::string unsettled{};              // that the budget ended the search, where it did too early
+  double unsettled_share = kUndefined;  // campaign::ResultUnsettled
+  double more_simulations = kUndefined;
   std::string use{};                  // whether to use the recommended set now
   bool asks_for_simulations = false;  // an alarm does
   bool has_posterior = false;
@@ -111,6 +114,8 @@ struct ModelEvidence {
   double expected_sd = kUndefined;
   double noise_sd = kUndefined;  // scatter of one evaluation there
   Eigen::MatrixXd draws;  // of the posterior, one a row; none where it works out no posterior
+  // Share of the posterior that is denser than at a point, one a row; empty without a posterior.
+  std::function<Eigen::VectorXd(const Eigen::MatrixXd&)> credible_levels{};
   // The objective, >= 0, one point a row; empty where the experiment that is shown has no image.
   std::function<optimizer::Moments(const Eigen::MatrixXd&)> predict;
 };

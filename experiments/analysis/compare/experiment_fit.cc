@@ -119,11 +119,15 @@ FitRow NumberRow(const CampaignResult& result, const journal::ExperimentRecord& 
   double simulated = campaign::kNotKnown;
   if (confirmed && index < confirmed->scalars.size()) simulated = confirmed->scalars[index].mean;
   const bool is_confirmed = std::isfinite(simulated);
+  double uncertain = 0;  // of a number that is predicted only
   if (standing != nullptr && index < standing->numbers.size()) {
     const campaign::ResultPredictedNumber& number = standing->numbers[index];
     row.simulated = "predicted " + shown(number.predicted) + " ± " +
                     Number(unit.per_unit * number.predicted_sd, 2) + ending;
-    if (!is_confirmed) simulated = number.predicted;
+    if (!is_confirmed) {
+      simulated = number.predicted;
+      uncertain = number.predicted_sd;
+    }
   }
   if (is_confirmed) {
     row.simulated = shown(simulated) + ending + " as the mean of " +
@@ -131,9 +135,11 @@ FitRow NumberRow(const CampaignResult& result, const journal::ExperimentRecord& 
                     (row.simulated.empty() ? "" : "; " + row.simulated);
   }
   if (!std::isfinite(simulated)) return row;
-  const double off = std::abs(simulated - scalar.value) / scalar.standard_error;
+  const double off =
+      std::abs(simulated - scalar.value) / std::hypot(scalar.standard_error, uncertain);
   row.meets = off <= kCloseNumber ? Meets::kYes : Meets::kNo;
-  row.judgement = Number(off, 2) + " standard errors of the measurement away";
+  row.judgement = Number(off, 2) + " standard errors of the measurement" +
+                  (is_confirmed ? "" : " and the prediction") + " away";
   return row;
 }
 

@@ -73,6 +73,19 @@ bool AsksForSimulations(const campaign::CampaignResult& result) {
                       K::kExtrapolated, K::kUnlearntScaleFactor});
 }
 
+// Whether the search came to its own end. The alarm says what is missing.
+void AddUnsettled(const campaign::CampaignResult& result, Conclusion& conclusion) {
+  if (!result.unsettled) return;
+  conclusion.unsettled_share = result.unsettled->share;
+  conclusion.more_simulations = result.unsettled->num_more;
+  conclusion.unsettled = "The budget ended the search before its stopping rule did";
+  if (std::isfinite(conclusion.more_simulations)) {
+    conclusion.unsettled += ": about " + std::to_string(std::llround(conclusion.more_simulations)) +
+                            " more simulations would settle it";
+  }
+  conclusion.unsettled += ".";
+}
+
 std::string UseNow(const campaign::CampaignResult& result, const std::string& verdict_kind) {
   using K = campaign::WarningKind;
   if (Has(result, {K::kImplausible})) {
@@ -133,6 +146,7 @@ Conclusion ConclusionOf(const std::string& result_json,
                         .model = result.model};
   AddVerdict(result, parameters, conclusion);
   conclusion.trade_off = TradeOff(result.correlation, parameters);
+  AddUnsettled(result, conclusion);
   conclusion.use = UseNow(result, conclusion.verdict_kind);
   conclusion.asks_for_simulations = AsksForSimulations(result);
   for (const campaign::ResultWarning& warning : result.warnings)

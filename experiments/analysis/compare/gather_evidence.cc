@@ -16,6 +16,7 @@
 #include "engine/kernel/dispatch.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/journal.h"
 #include "experiments/rigs/rig.h"
 #include "imaging/formats/images/image_file.h"
@@ -193,6 +194,9 @@ void AddConclusion(const std::string& result_json, const journal::CampaignRecord
                    Evidence& evidence) {
   if (result_json.empty()) return;
   evidence.conclusion = ConclusionOf(result_json, evidence.parameters);
+  for (std::string& warning : evidence.conclusion->warnings) {
+    warning = campaign::WithFolder(warning, evidence.folder);
+  }
   evidence.objective = evidence.conclusion->objective;
   evidence.fit = FitRows(campaign::ParseResult(result_json), record);
 }

@@ -43,7 +43,12 @@ void AddModel(const std::filesystem::path& campaign, Evidence& evidence) {
   ModelEvidence model;
   model.point = answer.point;
   model.noise_sd = answer.noise_sd;
-  if (answer.posterior) model.draws = answer.posterior->draws;
+  if (answer.posterior) {
+    model.draws = answer.posterior->draws;
+    model.credible_levels = [strategy](const Eigen::MatrixXd& points) {
+      return *strategy->CredibleLevels(points);
+    };
+  }
   if (expected) {
     model.expected = NotNegative(*expected).mean[0];
     model.expected_sd = expected->sd[0];

@@ -52,7 +52,8 @@ double RegionShare(const ReportData& data) {
   for (const PairMap& pair : data.has_posterior() ? data.pairs : std::vector<PairMap>{}) {
     const auto inside = std::count_if(pair.value.begin(), pair.value.end(),
                                       [](double level) { return level < 0.9; });
-    const double share = static_cast<double>(inside) / static_cast<double>(pair.value.size());
+    const double share =
+        pair.plane * static_cast<double>(inside) / static_cast<double>(pair.value.size());
     if (!(share >= least)) least = share;
   }
   return least;

@@ -7,6 +7,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/record_json.h"
 
 namespace talus::campaign {
@@ -135,7 +136,7 @@ CampaignResult ParseResult(const std::string& text) {
   return journal::ParseRecord<CampaignResult>(base::JsonText(json), "the result");
 }
 
-std::string ResultSummary(const CampaignResult& r) {
+std::string ResultSummary(const CampaignResult& r, const std::filesystem::path& folder) {
   std::string text = r.name + ": recommended set\n" + ParameterLines(r);
   if (r.verdict) text += "  verdict           " + r.verdict->text + "\n";
   const bool has_image = std::isfinite(r.predicted);
@@ -170,7 +171,7 @@ std::string ResultSummary(const CampaignResult& r) {
           " core hours, " + base::ShortNumber(r.cost.elapsed / 60) + " min\n";
   text += "  model             " + r.model + "\n";
   for (const ResultWarning& warning : r.warnings) text += "  warning: " + warning.text + "\n";
-  return text;
+  return WithFolder(text, folder);
 }
 
 }  // namespace talus::campaign

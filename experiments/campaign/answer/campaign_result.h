@@ -1,6 +1,7 @@
 // What a campaign says in the end: the content of result.json, every number with its unit.
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -123,6 +124,20 @@ struct ResultConditions {
   }
 };
 
+// The budget ended the search before its stopping rule did.
+struct ResultUnsettled {
+  std::string why{};            // what the rule lacks
+  double share = kNotKnown;     // surrogate's variance / what the measurements leave open [-]
+  double num_more = kNotKnown;  // simulations that would settle it, an estimate
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("why", self.why);
+    visit("surrogate_variance_share", self.share);
+    visit("more_simulations", self.num_more);
+  }
+};
+
 struct ResultCost {
   int num_trials = 0;
   int num_failed = 0;
@@ -142,6 +157,7 @@ struct CampaignResult {
   std::string name;
   std::string talus_version;
   std::string stop_reason;
+  std::optional<ResultUnsettled> unsettled{};
   std::string objective;                   // key with the unit: "sad_mm2"
   std::string objective_unit;              // for people: "mm²"
   std::optional<ResultVerdict> verdict{};  // what kind of answer it is
@@ -171,6 +187,7 @@ struct CampaignResult {
     visit("name", self.name);
     visit("talus_version", self.talus_version);
     visit("stop_reason", self.stop_reason);
+    visit("unsettled", self.unsettled);
     visit("objective", self.objective);
     visit("objective_unit", self.objective_unit);
     visit("verdict", self.verdict);
@@ -199,7 +216,7 @@ struct CampaignResult {
 std::string ResultText(const CampaignResult& result);
 CampaignResult ParseResult(const std::string& text);
 
-// The same for people, in some twenty lines.
-std::string ResultSummary(const CampaignResult& result);
+// The same for people, in some twenty lines; commands in it are for the campaign in `folder`.
+std::string ResultSummary(const CampaignResult& result, const std::filesystem::path& folder);
 
 }  // namespace talus::campaign

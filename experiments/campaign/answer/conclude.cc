@@ -252,6 +252,9 @@ std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence&
   result.name = of.spec.name;
   result.talus_version = base::Version();
   result.stop_reason = planner.stop_reason();
+  if (const auto lacks = planner.Shortfall()) {
+    result.unsettled = {.why = lacks->text, .share = lacks->share, .num_more = lacks->num_more};
+  }
   result.objective = of.references.front().info().ValueKey();
   result.objective_unit = of.references.front().info().unit;
   AddParameters(*answer, planner, result);

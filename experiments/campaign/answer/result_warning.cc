@@ -3,20 +3,23 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "optimizer/answer/answer.h"
 
 namespace talus::campaign {
 namespace {
 
-std::string FewGrainsText(const ResultWarning& w) {
-  const double factor = w.scale_factor.value_or(1);
-  const std::string where =
-      factor == 1
-          ? " at their true size: single grains show in its outline, and a wider tube and plate"
-          : " at scale factor " + base::ShortNumber(factor) +
-                "; 30 or more are advised: a smaller scale factor";
-  return "only " + base::ShortNumber(w.value.value_or(0)) + " grains across the plate of \"" +
-         w.experiment.value_or("") + "\"" + where + " would say more";
+// "`talus resume DIR --add-simulations 20`"
+std::string ResumeCommand(double num_more) {
+  return "`talus resume DIR --add-simulations " + std::to_string(std::llround(num_more)) + "`";
+}
+
+std::string BudgetText(const ResultWarning& w) {
+  std::string text = "the budget ended the search before its stopping rule did: " + w.text + "; ";
+  if (w.value)
+    text += "about " + std::to_string(std::llround(*w.value)) + " more simulations would settle it";
+  return text + (w.value ? "" : "go on with more simulations") + " (" +
+         ResumeCommand(w.value.value_or(kMoreSimulations)) + ")";
 }
 
 std::string TextOf(const ResultWarning& w) {
@@ -27,7 +30,8 @@ std::string TextOf(const ResultWarning& w) {
     case WarningKind::kBound:
       return optimizer::BoundText(w.parameter.value_or(""), w.side == "upper");
     case WarningKind::kFewGrains:
-      return FewGrainsText(w);
+      return rigs::FewGrainsText(w.value.value_or(0), w.scale_factor.value_or(1),
+                                 w.experiment.value_or(""));
     case WarningKind::kImplausible:
       return "no set fits " + experiment + ": the recommended one is " + value +
              " standard deviations off; the contact law, the plate material or the set-up is wrong";
@@ -43,18 +47,21 @@ std::string TextOf(const ResultWarning& w) {
     case WarningKind::kUnlearntScaleFactor:
       return "too few trials at " + factor +
              " tell its bias, and the ranges are wider for it; more simulations there would "
-             "settle it (`talus resume DIR --add-simulations N`)";
+             "settle it (" +
+             ResumeCommand(kMoreSimulations) + ")";
     case WarningKind::kNotModelsChoice:
       return "the set that the model recommends was confirmed worse than another candidate, which "
              "is recommended instead; the predicted value is that of the model's set";
     case WarningKind::kWorseThanPredicted:
       return "confirmed worse than predicted: " + w.text +
-             "; more simulations round this set would settle it (`talus resume DIR "
-             "--add-simulations N`)";
+             "; more simulations round this set would settle it (" +
+             ResumeCommand(kMoreSimulations) + ")";
     case WarningKind::kWorseThanObserved:
       return "trial " + std::to_string(w.trial.value_or(0)) +
              " came out better than the recommended set, by " + value +
              " of the objective: look at its set before you use this one";
+    case WarningKind::kBudgetEnded:
+      return BudgetText(w);
     case WarningKind::kCorrelated:
       return w.parameter.value_or("") + " and " + w.other_parameter.value_or("") +
              " are known together only (correlation " +
@@ -62,7 +69,7 @@ std::string TextOf(const ResultWarning& w) {
              "): use them as a pair, or measure one of them in another test";
     case WarningKind::kPoorModel:
       return "the model is not sure of itself: " + w.text +
-             "; more simulations would sharpen it (`talus resume DIR --add-simulations N`)";
+             "; more simulations would sharpen it (" + ResumeCommand(kMoreSimulations) + ")";
     default:  // a photograph's, or an earlier version's: in words already
       return w.text;
   }

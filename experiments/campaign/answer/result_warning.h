@@ -22,6 +22,7 @@ enum class WarningKind {
   kPoorModel,            // the model predicts badly what it was not told; `value` as the text says
   kExtrapolated,         // nothing was simulated at the target `scale_factor`
   kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
+  kBudgetEnded,          // … the search before its stopping rule; about `value` simulations more
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
@@ -65,7 +66,9 @@ struct ResultWarning {
   }
 };
 
-// With its text filled in.
+inline constexpr int kMoreSimulations = 20;  // to go on with where no better number is known
+
+// With its text filled in. Commands in it name the campaign's folder DIR (folder_in_text.h).
 ResultWarning Worded(ResultWarning warning);
 
 // Of an experiment's photographs, under the name that it has there.
@@ -86,6 +89,7 @@ struct talus::base::Names<talus::campaign::WarningKind> {
       std::pair{"poor_model", K::kPoorModel},
       std::pair{"extrapolated", K::kExtrapolated},
       std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},
+      std::pair{"budget_ended", K::kBudgetEnded},
       std::pair{"correlated", K::kCorrelated},
       std::pair{"bound", K::kBound},
       std::pair{"few_grains", K::kFewGrains},

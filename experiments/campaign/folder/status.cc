@@ -9,6 +9,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -117,9 +118,12 @@ std::string StatusText(const std::filesystem::path& root) {
   const bool alive = IsWorkedOn(folder.root);
 
   std::string state = progress.state;
-  if (state == "running" && !alive) state = "ended without a word; `talus resume` goes on";
+  if (state == "running" && !alive) state = "ended without a word; `talus resume DIR` goes on";
+  if (!progress.result_json.empty() && ParseResult(progress.result_json).unsettled) {
+    state += ", ended by its budget";
+  }
   const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
-  std::string text = campaign.name + ": " + state + "\n";
+  std::string text = campaign.name + ": " + WithFolder(state, root) + "\n";
   if (!progress.stop_reason.empty()) text += "  because           " + progress.stop_reason + "\n";
   text += "  trials            " + std::to_string(searched) +
           (spec.budget.simulations > 0 ? " of " + std::to_string(spec.budget.simulations) : "") +
@@ -141,7 +145,7 @@ std::string StatusText(const std::filesystem::path& root) {
   }
   text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
   if (!progress.result_json.empty())
-    text += "\n" + ResultSummary(ParseResult(progress.result_json));
+    text += "\n" + ResultSummary(ParseResult(progress.result_json), root);
   return text;
 }
 

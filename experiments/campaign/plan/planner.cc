@@ -220,6 +220,7 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
   if (!stop_reason_.empty()) return false;
   if (const auto reason = WhyBudgetIsUsed()) {
     StopSearch(*reason);
+    budget_ended_ = true;
     return false;
   }
   LeaveCoresToTrials();
@@ -251,6 +252,11 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
   }
   if (proposals.empty() && pending.empty()) StopSearch("the strategy has no more to propose");
   return !proposals.empty();
+}
+
+std::optional<optimizer::StopShortfall> Planner::Shortfall() {
+  if (!budget_ended_) return std::nullopt;
+  return strategy_->Shortfall();
 }
 
 std::optional<optimizer::Answer> Planner::Recommend() {

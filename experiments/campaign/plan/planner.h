@@ -37,6 +37,8 @@ class Planner {
   // No more trials of noise and search, because …
   void StopSearch(const std::string& reason);
   const std::string& stop_reason() const { return stop_reason_; }
+  // What the strategy's own rule lacks; nothing where the budget did not end the search.
+  std::optional<optimizer::StopShortfall> Shortfall();
 
   // What the trials so far say; nothing before the first that succeeded.
   std::optional<optimizer::Answer> Recommend();
@@ -82,6 +84,7 @@ class Planner {
   std::vector<journal::TrialRecord> trials_;
   std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
   std::string stop_reason_;
+  bool budget_ended_ = false;
   CoreTime core_time_;
   const int most_threads_ = base::MostLoopThreads();
 };

@@ -7,6 +7,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "imaging/spheres/projection.h"
@@ -100,8 +101,7 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
       heap_case.Validate(problems);
       if (!problems.empty()) return;  // the same for every scale factor
       if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
-      const double across =
-          heap_case.device.plate_diameter / rigs::EstimateHeap(heap_case).mean_diameter;
+      const double across = rigs::GrainsAcrossPlate(heap_case);
       problems.Require(across >= kFewestAcross, "coarse_graining",
                        "leaves " + std::to_string(across).substr(0, 4) +
                            " grains across the plate of \"" + experiments[e].name +

@@ -9,12 +9,13 @@
 #include "base/problems.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
+#include "experiments/rigs/lifted_tube/heap_scene.h"
 
 namespace talus::campaign {
 namespace {
 
 // The heap's shape needs so many grains across the plate; twice as coarse ones find the region.
-constexpr double kFineAcross = 30;
+constexpr double kFineAcross = rigs::kAdvisedAcross;
 constexpr double kCoarseAcross = 12.5;
 
 double Read(const std::string& name, const std::string& text, base::Dimension dimension,

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
+#include "base/text/number_text.h"
 #include "engine/laws/pair_constants.h"
 #include "engine/scene/scene_warnings.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
@@ -27,19 +27,8 @@ std::vector<engine::Wall> Walls(const HeapCase& c, double default_tube_length) {
           {.name = "plate", .shape = plate, .material = 2, .motion = {}}};
 }
 
-std::string GrainWarning(const HeapCase& c) {
-  const double across = c.device.plate_diameter / EstimateHeap(c).mean_diameter;
-  std::ostringstream text;
-  text.precision(3);
-  if (across < 15) {
-    text << "COARSE: only " << across
-         << " grains across the plate: the heap is a pile of boulders, and its shape says little "
-            "of the powder; lower the scale factor (30 or more are advised)";
-  } else if (across < 30) {
-    text << "only " << across << " grains across the plate; 30 or more are advised";
-  }
-  return text.str();
-}
+// Below it a heap is a pile of boulders.
+constexpr double kBoulders = 15;
 
 // Cohesive stress over the weight of a bed as high as the tube is wide, F_po / (d² ρ g D_i) (A1).
 // With γ_used = f γ (C1) it does not depend on the scale factor.
@@ -79,15 +68,37 @@ FilledScene MakeHeapScene(const HeapCase& c) {
   return made;
 }
 
+double GrainsAcrossPlate(const HeapCase& c) {
+  return c.device.plate_diameter / EstimateHeap(c).mean_diameter;
+}
+
+std::string FewGrainsText(double across, double scale_factor, const std::string& plate) {
+  const std::string remedy =
+      scale_factor == 1
+          ? " at their true size: single grains show in its outline, and a wider tube and plate"
+          : " at scale factor " + base::ShortNumber(scale_factor) + ": a smaller scale factor";
+  return "only " + base::ShortNumber(across, 3) + " grains across the plate" +
+         (plate.empty() ? "" : " of \"" + plate + "\"") + remedy + " would say more (" +
+         base::ShortNumber(kAdvisedAcross) + " or more are advised)";
+}
+
 std::vector<std::string> HeapWarnings(const HeapCase& c) {
+  std::vector<std::string> warnings;
+  const double across = GrainsAcrossPlate(c);
+  if (KindOf(c) == RigKind::kLiftedTube && across < kAdvisedAcross) {
+    warnings.push_back((across < kBoulders ? "COARSE: " : "") +
+                       FewGrainsText(across, c.coarse_graining.scale_factor, ""));
+  }
+  for (std::string& text : SetUpWarnings(c)) warnings.push_back(std::move(text));
+  return warnings;
+}
+
+std::vector<std::string> SetUpWarnings(const HeapCase& c) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::string text) {
     if (!text.empty()) warnings.push_back(std::move(text));
   };
-  if (KindOf(c) == RigKind::kLiftedTube) {
-    warn(GrainWarning(c));
-    warn(FillingWarning(c));
-  }
+  if (KindOf(c) == RigKind::kLiftedTube) warn(FillingWarning(c));
   if (c.rayleigh_fraction > kHeapRayleighFraction) {
     warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }

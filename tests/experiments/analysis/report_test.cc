@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/random.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/charts/figures.h"
@@ -219,6 +221,22 @@ TEST(PosteriorDensity, AnEvenSampleHasAnEvenDensity) {
   for (const double density : MarginalDensity(even, 40)) EXPECT_NEAR(density, 1, 0.1);
 }
 
+// A region that is drawn larger than it is contradicts the share that the verdict states.
+TEST(PosteriorDensity, TheRegionOfABentBandIsAsLargeAsTheBand) {
+  constexpr double kThick = 0.04;
+  Eigen::MatrixXd draws(2000, 2);
+  base::Random random(3, base::Stream("bent band"));
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const double x = 0.1 + 0.8 * random.Uniform();
+    draws.row(i) << x, 0.8 - 1.2 * x * (1 - 0.4 * x) + kThick * (random.Uniform() - 0.5);
+  }
+  const std::vector<double> levels = CredibleLevels(draws, 120);
+  const auto inside = std::count_if(levels.begin(), levels.end(), [](double l) { return l < 0.9; });
+  const double band = 0.8 * kThick;
+  // Half a kernel beyond each edge: 0.004 of 0.04. Kernels of a cell of 1/60 made it 1.9 bands.
+  EXPECT_NEAR(static_cast<double>(inside) / (120 * 120), 0.9 * band, 0.2 * band);
+}
+
 TEST_F(Report, JournalGivesBackWhatTheCampaignHas) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "talus_report_test";
   std::filesystem::remove_all(folder);
@@ -318,6 +336,13 @@ TEST(NextSteps, MeasuringOneOfTwoTiedParametersLeavesANarrowRangeOfTheOther) {
   for (std::size_t i = 1; i < data.next_steps.size(); ++i) {
     EXPECT_LE(data.next_steps[i - 1].remaining, data.next_steps[i].remaining);
   }
+  // What it leaves stands beside the very range that the page shows.
+  ASSERT_TRUE(first.what == "Measure μ_t directly and set it in the spec" ||
+              first.what == "Measure μ_r directly and set it in the spec");
+  const bool leaves_second = first.what.find("μ_t") != std::string::npos;
+  const RecommendedValue& shown = data.evidence.conclusion->values[leaves_second ? 1 : 0];
+  EXPECT_THAT(first.leaves, HasSubstr("(now " + base::ShortNumber(shown.low, 3) + " to " +
+                                      base::ShortNumber(shown.high, 3) + ")"));
   EXPECT_TRUE(
       NextSteps(test::MakeSyntheticCampaign(), {}).empty());  // no posterior, nothing to say
 }

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "experiments/campaign/answer/best_confirmed.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/journal.h"
 #include "imaging/photos/photo_warning.h"
 
@@ -206,9 +208,29 @@ TEST(Alarms, EveryKindHasWordsOfItsOwn) {
     ++of_results;
     texts.insert(Worded({.kind = kind}).text);
   }
-  EXPECT_EQ(of_results, 11);
-  EXPECT_THAT(texts, SizeIs(11));
+  EXPECT_EQ(of_results, 12);
+  EXPECT_THAT(texts, SizeIs(12));
   EXPECT_FALSE(texts.contains(""));
+}
+
+TEST(Alarms, CommandsNameTheFolderWhereTheyAreShown) {
+  EXPECT_EQ(WithFolder("try `talus resume DIR --add-simulations 20` or `talus next DIR`", "runs/a"),
+            "try `talus resume runs/a --add-simulations 20` or `talus next runs/a`");
+  EXPECT_EQ(WithFolder("talus card DIR", "my runs/it's $a"), "talus card 'my runs/it'\\''s $a'");
+  EXPECT_EQ(WithFolder("in DIR, talus report DIRECTORY", "a"), "in DIR, talus report DIRECTORY");
+}
+
+TEST(Alarms, ABudgetThatEndedTheSearchSaysHowManyMoreWouldSettleIt) {
+  CampaignResult result;
+  EXPECT_THAT(BudgetAlarms(result), IsEmpty());
+  result.unsettled = {.why = "it is far off", .share = 0.1, .num_more = 160};
+  EXPECT_THAT(BudgetAlarms(result).at(0).text,
+              HasSubstr("it is far off; about 160 more simulations would settle it (`talus resume "
+                        "DIR --add-simulations 160`)"));
+  result.unsettled->num_more = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(BudgetAlarms(result).at(0).value);
+  EXPECT_THAT(BudgetAlarms(result).at(0).text,
+              HasSubstr("go on with more simulations (`talus resume DIR --add-simulations 20`)"));
 }
 
 // One vocabulary: what measure.json calls a doubt is what result.json calls it.

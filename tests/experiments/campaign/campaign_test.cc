@@ -72,7 +72,7 @@ TEST_F(CampaignTest, TheResultSaysWhatIsRecommendedHowSureAndUnderWhichCondition
   EXPECT_EQ(result.conditions.lift_velocity, 0.01);
   EXPECT_EQ(result.conditions.scale_factor, 1);
   EXPECT_FALSE(result.stop_reason.empty());
-  const std::string summary = ResultSummary(result);
+  const std::string summary = ResultSummary(result, "runs/heap");
   EXPECT_THAT(summary, HasSubstr("stopped because"));
   EXPECT_THAT(summary, HasSubstr("lift velocity 0.01 m/s"));
 }

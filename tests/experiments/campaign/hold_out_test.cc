@@ -45,8 +45,8 @@ TEST_F(TwoExperiments, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
   EXPECT_EQ(result.posterior->alone[0].name, "heap");
   // The runs went to where both are least wrong, so the heap's own answer is a coarse one.
   EXPECT_NEAR(result.posterior->alone[0].values[0], kTrueSliding, 0.15);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("no set fits"));
-  EXPECT_THAT(ResultSummary(result), HasSubstr("heap alone"));
+  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("no set fits"));
+  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("heap alone"));
   EXPECT_GT(result.posterior->tension, 3);
   EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const ResultWarning& w) {
     return w.kind == WarningKind::kDisagree && !w.experiment.value_or("").empty();
@@ -57,9 +57,9 @@ TEST_F(TwoExperiments, TestsThatAgreeRaiseNoAlarm) {
   const auto folder = Begin("run", "23 mg", 40);
   RunFake(folder, {});
   const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
-  EXPECT_TRUE(result.posterior.value().alone.empty()) << ResultSummary(result);
+  EXPECT_TRUE(result.posterior.value().alone.empty()) << ResultSummary(result, "runs/heap");
   EXPECT_LT(result.posterior->tension, 3);
-  EXPECT_EQ(ResultSummary(result).find("no set fits"), std::string::npos);
+  EXPECT_EQ(ResultSummary(result, "runs/heap").find("no set fits"), std::string::npos);
 }
 
 // Ten simulations of each leave surrogates that cover one in five of them: no ground for an alarm.
@@ -92,8 +92,9 @@ TEST_F(TwoExperiments, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   EXPECT_EQ(fallen.measured, 42e-6);
   EXPECT_FALSE(fallen.IsInside());
   EXPECT_GT(held_out.implausibility, 3);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("fast lift, which the answer is made without"));
-  EXPECT_EQ(ResultSummary(result).find("no set fits"), std::string::npos);
+  EXPECT_THAT(ResultSummary(result, "runs/heap"),
+              HasSubstr("fast lift, which the answer is made without"));
+  EXPECT_EQ(ResultSummary(result, "runs/heap").find("no set fits"), std::string::npos);
   const analysis::Evidence evidence = analysis::GatherEvidence(folder, "");
   EXPECT_THAT(evidence.conclusion.value().held_out.front(), HasSubstr("without fast lift"));
   // It is simulated where the others are, by design and to confirm, but nowhere for its own sake.

@@ -71,6 +71,36 @@ TEST_F(JointCampaign, ItEndsWhenItsCoreTimeIsUsed) {
   EXPECT_THAT(Result(folder).stop_reason, HasSubstr("core time is used"));
 }
 
+bool SaysThatTheBudgetEndedIt(const CampaignResult& result) {
+  return std::ranges::any_of(
+      result.warnings, [](const ResultWarning& w) { return w.kind == WarningKind::kBudgetEnded; });
+}
+
+TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
+  const std::string rule = R"(, "coarse_graining": {"scale_factors": [2, 1]},
+    "confirm": {"candidates": 0}, "workers": 1, "posterior": {"stop_share": )";
+  const fs::path early = Begin(rule + R"(1e-6}, "budget": {"simulations": 30})", "early");
+  RunFake(early, {});
+  const CampaignResult cut = Result(early);
+  ASSERT_TRUE(cut.unsettled);
+  EXPECT_THAT(cut.unsettled->why, HasSubstr("of what the measurements leave open"));
+  EXPECT_GT(cut.unsettled->share, 1e-6);
+  EXPECT_TRUE(SaysThatTheBudgetEndedIt(cut));
+  EXPECT_THAT(StatusText(early), HasSubstr("finished, ended by its budget"));
+  EXPECT_THAT(StatusText(early),
+              HasSubstr("talus resume " + early.string() + " --add-simulations "));
+  EXPECT_THAT(base::ReadFile(early / "result.json"), HasSubstr("talus resume DIR"));
+  // A rule that any share meets ends it before the budget; one that is off is not missed.
+  const fs::path own = Begin(rule + R"(0.99}, "budget": {"simulations": 200})", "own");
+  RunFake(own, {});
+  EXPECT_THAT(Result(own).stop_reason, HasSubstr("would hardly narrow the answer"));
+  EXPECT_FALSE(Result(own).unsettled);
+  EXPECT_FALSE(SaysThatTheBudgetEndedIt(Result(own)));
+  const fs::path off = Begin(rule + R"(0}, "budget": {"simulations": 30})", "off");
+  RunFake(off, {});
+  EXPECT_FALSE(Result(off).unsettled);
+}
+
 TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
   const fs::path folder = Begin(kTwoSizes);
   RunFake(folder, {});
@@ -95,7 +125,7 @@ TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
   const double sliding = std::stod(line);
   EXPECT_GE(sliding, 0.1);  // SI, so within the range and not in the unit cube
   EXPECT_LE(sliding, 0.8);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("the joint 90 % region fills"));
+  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("the joint 90 % region fills"));
 }
 
 TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
@@ -151,7 +181,10 @@ TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
   ASSERT_EQ(found.size(), 1u);  // at the finest scale factor; there are 12.5 at the other
   EXPECT_EQ(found[0].scale_factor, 1);
   EXPECT_NEAR(found[0].value.value(), 25, 1e-9);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("only 25 grains across the plate of \"heap\""));
+  EXPECT_THAT(
+      ResultSummary(result, "runs/heap"),
+      HasSubstr("only 25 grains across the plate of \"heap\" at their true size: single grains "
+                "show in its outline"));
 }
 
 TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
@@ -183,7 +216,7 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   EXPECT_EQ((*experiments)[1].name, "fast lift");
   EXPECT_EQ((*experiments)[1].scalars.at(0).measured, 23e-6);
   EXPECT_EQ(result.posterior.value().experiments.size(), 2u);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("mass_fallen_kg"));
+  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("mass_fallen_kg"));
   EXPECT_THAT(StatusText(folder), HasSubstr("fast lift at scale factor 2: "));
   EXPECT_THAT(analysis::TrialsCsv(record, trials), HasSubstr(",fast lift,2,"));
   // Trials are compared with the experiment that they are of.

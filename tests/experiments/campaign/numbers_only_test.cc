@@ -112,8 +112,8 @@ TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
   EXPECT_LE(result.parameters[1].credible_low, kTrueRolling);
   EXPECT_GE(result.parameters[1].credible_high, kTrueRolling);
   EXPECT_EQ(result.confirmed.at(0).num_trials, 2);
-  EXPECT_THAT(ResultSummary(result), HasSubstr("tapped_density_kg_per_m3"));
-  EXPECT_THAT(ResultSummary(result), ::testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("tapped_density_kg_per_m3"));
+  EXPECT_THAT(ResultSummary(result, "runs/heap"), ::testing::Not(HasSubstr("nan")));
   EXPECT_THAT(StatusText(folder), HasSubstr("numbers only"));
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   EXPECT_THAT(analysis::TrialsCsv(journal.Campaign(), journal.Trials()),

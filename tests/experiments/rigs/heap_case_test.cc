@@ -126,9 +126,15 @@ TEST(HeapScene, WarnsWhenTheGrainsAreTooFewAcrossThePlate) {
   heap_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.3e-3};  // 33 across
   EXPECT_TRUE(HeapWarnings(heap_case).empty());
   heap_case.coarse_graining.scale_factor = 2;  // 17 across
-  EXPECT_THAT(HeapWarnings(heap_case).at(0), HasSubstr("only 16.7 grains"));
+  EXPECT_THAT(HeapWarnings(heap_case).at(0),
+              HasSubstr("only 16.7 grains across the plate at scale factor 2: a smaller scale "
+                        "factor would say more (30 or more are advised)"));
   heap_case.coarse_graining.scale_factor = 3;  // 11 across
   EXPECT_THAT(HeapWarnings(heap_case).at(0), HasSubstr("COARSE"));
+  EXPECT_TRUE(SetUpWarnings(heap_case).empty());
+  heap_case.coarse_graining.scale_factor = 1;
+  heap_case.powder.sizes.diameter = 0.5e-3;  // nothing finer can be simulated
+  EXPECT_THAT(HeapWarnings(heap_case).at(0), HasSubstr("a wider tube and plate would say more"));
 }
 
 // Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at

@@ -150,9 +150,10 @@ std::string PairFigure(const ReportData& data, const PairMap& pair) {
   const double top = *std::max_element(pair.value.begin(), pair.value.end());
   const auto shade = [&](double value) -> std::string {
     if (!data.has_posterior()) return ChanceShade(top > 0 ? value / top : 0);
-    return value < 0.5 ? kRegion50 : value < 0.9 ? kRegion90 : "#ffffff";
+    return value < 0.5 ? kRegion50 : kRegion90;
   };
   for (std::size_t cell = 0; cell < pair.value.size(); ++cell) {
+    if (data.has_posterior() && pair.value[cell] >= 0.9) continue;
     const std::size_t x = cell % num_x;
     const std::size_t y = cell / num_x;
     chart.Cell({.from = {pair.x_edges[x], pair.y_edges[y]},

@@ -98,6 +98,7 @@ PageValue HeadlineJson(const ReportData& data) {
           {"verdict", c.verdict},
           {"verdict_kind", c.verdict_kind},
           {"trade_off", c.trade_off},
+          {"unsettled", c.unsettled},
           {"use", c.use},
           {"posterior", c.has_posterior},
           {"branches", ListJson(c.branches, BranchJson)},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/shell_text.h"
 #include "experiments/analysis/report/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
 
@@ -62,6 +63,7 @@ PageValue CampaignJson(const ReportData& data) {
   return {{"name", e.name},
           {"state", e.state},
           {"stop_reason", e.stop_reason},
+          {"folder", base::ShellWord(e.folder.string())},
           {"budget", e.max_simulations},
           {"counts", CountsJson(e)},
           {"scale_factor", NumberJson(e.scale_factor)},

@@ -10,7 +10,8 @@ namespace talus::analysis {
 namespace {
 
 constexpr int kSlicePoints = 61;
-constexpr int kPosteriorCells = 60;       // of a pair, each way
+constexpr int kMarginalCells = 60;
+constexpr int kRegionCells = 120;         // of a pair, each way
 constexpr int kTieCells = 16;             // … where each point is asked of the model
 constexpr int kTieSample = 4096;          // points of the cube: 16 fall into each cell
 constexpr double kNinetyPercent = 1.645;  // standard deviations each side
@@ -67,6 +68,38 @@ std::vector<PairMap> EachPair(const Evidence& evidence, const Eigen::MatrixXd& p
   return maps;
 }
 
+// Where the draws lie with some room, from and to of the unit interval.
+std::pair<double, double> SpanOf(const Eigen::VectorXd& draws) {
+  constexpr double kRoom = 0.25;
+  const double room = kRoom * (draws.maxCoeff() - draws.minCoeff());
+  return {std::max(0.0, draws.minCoeff() - room), std::min(1.0, draws.maxCoeff() + room)};
+}
+
+// Of two parameters the region itself, as the model has it: a sum of kernels is a little larger.
+// Its cells lie where the draws do, since a region may be as thin as a hundredth of the plane.
+PairMap RegionMap(const Evidence& evidence) {
+  const ModelEvidence& model = *evidence.model;
+  PairMap map{.i = 0, .j = 1, .x_edges = {}, .y_edges = {}, .value = {}};
+  Eigen::MatrixXd middles(kRegionCells * kRegionCells, 2);
+  for (const int k : {0, 1}) {
+    const auto [from, to] = SpanOf(model.draws.col(k));
+    const auto at = [from = from, to = to](double cell) {
+      return from + (to - from) * cell / kRegionCells;
+    };
+    for (int edge = 0; edge <= kRegionCells; ++edge) {
+      (k == 0 ? map.x_edges : map.y_edges)
+          .push_back(evidence.parameters[static_cast<std::size_t>(k)].range.ToNative(at(edge)));
+    }
+    for (int cell = 0; cell < middles.rows(); ++cell) {
+      middles(cell, k) = at((k == 0 ? cell % kRegionCells : cell / kRegionCells) + 0.5);
+    }
+    map.plane *= to - from;
+  }
+  const Eigen::VectorXd levels = model.credible_levels(middles);
+  map.value.assign(levels.begin(), levels.end());
+  return map;
+}
+
 }  // namespace
 
 std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::VectorXd& point) {
@@ -96,15 +129,18 @@ std::vector<Marginal> Marginals(const Evidence& evidence) {
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     const Eigen::VectorXd draws = evidence.model->draws.col(static_cast<Eigen::Index>(k));
     marginals.push_back({.parameter = k,
-                         .x = Along(evidence.parameters[k], kPosteriorCells, 0.5),
-                         .density = MarginalDensity(draws, kPosteriorCells)});
+                         .x = Along(evidence.parameters[k], kMarginalCells, 0.5),
+                         .density = MarginalDensity(draws, kMarginalCells)});
   }
   return marginals;
 }
 
 std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
-  return EachPair(evidence, evidence.model->draws, kPosteriorCells,
-                  [](const Eigen::MatrixXd& two) { return CredibleLevels(two, kPosteriorCells); });
+  if (evidence.parameters.size() == 2 && evidence.model->credible_levels) {
+    return {RegionMap(evidence)};
+  }
+  return EachPair(evidence, evidence.model->draws, kRegionCells,
+                  [](const Eigen::MatrixXd& two) { return CredibleLevels(two, kRegionCells); });
 }
 
 std::vector<PairMap> TiePairs(const Evidence& evidence) {

@@ -35,6 +35,7 @@ struct PairMap {
   std::vector<double> x_edges;  // of the cells, parameter i, SI
   std::vector<double> y_edges;  // parameter j
   std::vector<double> value;
+  double plane = 1;  // what the cells cover together, share of the searched plane
 };
 
 // Through `point` of the unit cube.

@@ -6,7 +6,10 @@
 
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "base/text/shell_text.h"
+#include "experiments/campaign/answer/result_warning.h"
 #include "experiments/trials/simulate/run_log.h"
+#include "optimizer/answer/credible_ranges.h"
 
 namespace talus::analysis {
 namespace {
@@ -14,66 +17,63 @@ namespace {
 constexpr double kMeasured = 0.05;        // of a searched range: what a direct measurement leaves
 constexpr Eigen::Index kFewestNear = 30;  // draws that a conditional range is made of
 constexpr double kWorthAWord = 0.7;       // of the ranges' volume
+constexpr double kNoNarrower = 0.95;      // of a range's width: less is not told from chance
 
 // Three digits: none of these ranges is known better.
 std::string Number(double value) { return base::ShortNumber(value, 3); }
 
-// The middle 90 % of a column, unit cube.
-std::pair<double, double> RangeOf(const Eigen::MatrixXd& draws, Eigen::Index column) {
-  std::vector<double> sorted(draws.col(column).data(), draws.col(column).data() + draws.rows());
-  std::sort(sorted.begin(), sorted.end());
-  const auto last = static_cast<double>(sorted.size() - 1);
-  return {sorted[static_cast<std::size_t>(0.05 * last)],
-          sorted[static_cast<std::size_t>(0.95 * last)]};
+// As the page shows them, "0.1 to 0.2".
+std::string RangeText(const RecommendedValue& v) { return Number(v.low) + " to " + Number(v.high); }
+
+// Of the unit cube, on the parameter's own scale.
+double WidthOf(const ParameterInfo& parameter, const RecommendedValue& v) {
+  const double width = parameter.range.ToUnit(v.high) - parameter.range.ToUnit(v.low);
+  return std::max(width, 1e-3);
 }
 
-// "0.1 to 0.2"; ends in the unit cube.
-std::string RangeText(const ParameterInfo& parameter, const std::pair<double, double>& range) {
-  return Number(parameter.range.ToNative(range.first)) + " to " +
-         Number(parameter.range.ToNative(range.second));
-}
-
-double WidthOf(const Eigen::MatrixXd& draws, Eigen::Index column) {
-  const auto [low, high] = RangeOf(draws, column);
-  return std::max(high - low, 1e-3);
-}
-
-Eigen::MatrixXd Near(const Eigen::MatrixXd& draws, Eigen::Index column, double value) {
-  std::vector<Eigen::Index> rows;
+// The draws near a value of one parameter, with the other parameters only.
+Eigen::MatrixXd OthersNear(const Eigen::MatrixXd& draws, Eigen::Index column, double value) {
+  std::vector<Eigen::Index> rows, others;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
     if (std::abs(draws(i, column) - value) <= kMeasured / 2) rows.push_back(i);
   }
-  return draws(rows, Eigen::all);
+  for (Eigen::Index j = 0; j < draws.cols(); ++j) {
+    if (j != column) others.push_back(j);
+  }
+  return draws(rows, others);
 }
 
-// Another test tells this parameter: where do the others lie, given it?
-void AddMeasuring(const Evidence& evidence, Eigen::Index k, std::vector<NextStep>& steps) {
-  const Eigen::MatrixXd& draws = evidence.model->draws;
-  const ParameterInfo& parameter = evidence.parameters[static_cast<std::size_t>(k)];
-  const double width = WidthOf(draws, k);
-  if (width <= kMeasured) return;
-  const double recommended =
-      parameter.range.ToUnit(evidence.conclusion->values[static_cast<std::size_t>(k)].value);
-  const Eigen::MatrixXd given = Near(draws, k, recommended);
+// Another test tells this parameter: where do the others lie, given it? As the ranges that the page
+// shows, these hold 90 % of the draws all together.
+void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>& steps) {
+  const ParameterInfo& parameter = evidence.parameters[k];
+  const RecommendedValue& measured = evidence.conclusion->values[k];
+  const double width = WidthOf(parameter, measured);
+  if (!(width > kMeasured)) return;
+  const Eigen::MatrixXd given = OthersNear(evidence.model->draws, static_cast<Eigen::Index>(k),
+                                           parameter.range.ToUnit(measured.value));
   if (given.rows() < kFewestNear) return;
   NextStep step{.what = "Measure " + parameter.symbol + " directly and set it in the spec",
                 .cost = "one measurement to ± " + Number(50 * kMeasured) +
                         " % of its searched range; no simulation",
                 .leaves = {},
                 .remaining = kMeasured / width};
-  for (Eigen::Index j = 0; j < draws.cols(); ++j) {
+  const std::vector<optimizer::Range> ranges = optimizer::CredibleRanges(given, 0.9);
+  for (std::size_t j = 0, left = 0; j < evidence.parameters.size(); ++j) {
     if (j == k) continue;
-    const ParameterInfo& other = evidence.parameters[static_cast<std::size_t>(j)];
-    const auto [low, high] = RangeOf(given, j);
-    const double share = std::min(1.0, std::max(high - low, 1e-3) / WidthOf(draws, j));
+    const ParameterInfo& other = evidence.parameters[j];
+    const RecommendedValue& now = evidence.conclusion->values[j];
+    const optimizer::Range& range = ranges[left++];
+    const RecommendedValue then{.low = other.range.ToNative(range.low),
+                                .high = other.range.ToNative(range.high)};
+    const double share = std::min(1.0, WidthOf(other, then) / WidthOf(other, now));
     step.remaining *= share;
-    step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol + " in " +
-                   RangeText(other, {low, high}) + ", " + Number(std::round(100 * (1 - share))) +
-                   " % narrower";
+    step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol;
+    step.leaves += share < kNoNarrower ? " in " + RangeText(then) + " (now " + RangeText(now) + ")"
+                                       : " as it is";
   }
   if (step.leaves.empty()) step.leaves = "nothing open";
-  step.leaves += ", if " + parameter.symbol + " turns out to be " +
-                 Number(parameter.range.ToNative(recommended));
+  step.leaves += ", if " + parameter.symbol + " turns out to be " + Number(measured.value);
   if (step.remaining < kWorthAWord) steps.push_back(step);
 }
 
@@ -98,7 +98,7 @@ void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
   steps.push_back({.what = "Add a different kind of test",
                    .cost = "its measurement, and about as many simulations again",
                    .leaves = "what this command works out and this page then shows: talus next " +
-                             evidence.folder.string() + " --simulate",
+                             base::ShellWord(evidence.folder.string()) + " --simulate",
                    .remaining = 0.9});
 }
 
@@ -113,20 +113,38 @@ double TimeOfOne(const Evidence& evidence) {
   return count > 0 ? sum / count : 0;
 }
 
+// A range's width is the root of a variance: what the measurements leave open, and the surrogate's
+// share of it beside, which more simulations take away.
+double WidthWithoutSurrogate(double share) {
+  constexpr double kInflation = 1.5;  // of the surrogate's deviation in the posterior's misfit
+  return 1 / std::sqrt(1 + kInflation * kInflation * share);
+}
+
 // First where an alarm asks for it.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
-  constexpr int kMore = 20;
-  const bool asked = evidence.conclusion->asks_for_simulations;
+  const Conclusion& conclusion = *evidence.conclusion;
+  const bool asked = conclusion.asks_for_simulations;
   // It stopped because more simulations would hardly tell more.
   if (!asked && evidence.stop_reason.find("surrogate's variance") != std::string::npos) return;
-  const std::string more = std::to_string(kMore);
-  steps.push_back({.what = "Simulate more: talus resume " + evidence.folder.string() +
-                           " --add-simulations " + more,
-                   .cost = more + " simulations, up to " +
-                           trials::DurationText(kMore * TimeOfOne(evidence)) + " of core time",
-                   .leaves = asked ? "an answer that the warnings above do not hang on"
-                                   : "not more than what the measurements themselves leave open",
-                   .remaining = asked ? 0 : 0.95});
+  const double count = std::isfinite(conclusion.more_simulations) ? conclusion.more_simulations
+                                                                  : campaign::kMoreSimulations;
+  const std::string more = std::to_string(std::llround(count));
+  NextStep step{.what = "Simulate more: talus resume " + base::ShellWord(evidence.folder.string()) +
+                        " --add-simulations " + more,
+                .cost = more + " simulations, up to " +
+                        trials::DurationText(count * TimeOfOne(evidence)) + " of core time",
+                .leaves = "not more than what the measurements themselves leave open",
+                .remaining = 0.95};
+  if (std::isfinite(conclusion.unsettled_share)) {
+    const double width = WidthWithoutSurrogate(conclusion.unsettled_share);
+    step.leaves = "ranges about " + Number(std::round(100 * width) / 100) + " times as wide as now";
+    step.remaining = std::pow(width, static_cast<double>(evidence.parameters.size()));
+  }
+  if (asked) {
+    step.leaves = "an answer that the warnings above do not hang on";
+    step.remaining = 0;
+  }
+  steps.push_back(step);
 }
 
 // "0.12", of a logarithmic range "a factor of 3".
@@ -184,7 +202,7 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
   std::vector<NextStep> steps;
   const bool has_draws = evidence.conclusion && evidence.model && evidence.model->draws.rows() > 0;
   if (has_draws) {
-    for (Eigen::Index k = 0; k < evidence.model->draws.cols(); ++k) {
+    for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
       AddMeasuring(evidence, k, steps);
     }
   }

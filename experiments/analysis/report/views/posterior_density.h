@@ -13,8 +13,8 @@ namespace talus::analysis {
 // Density over the unit interval at the middles of `num_cells` cells; its mean is 1.
 std::vector<double> MarginalDensity(const Eigen::VectorXd& draws, int num_cells);
 
-// For each of num_cells × num_cells cells, x fastest: the share of the posterior in cells that are
-// denser, in [0, 1). Cells below 0.5 are the joint 50 % region of the two parameters.
+// For each of num_cells × num_cells cells, x fastest: the share of the draws that lie where it is
+// denser, in [0, 1]. Cells below 0.5 are the joint 50 % region of the two parameters.
 std::vector<double> CredibleLevels(const Eigen::MatrixXd& draws, int num_cells);
 
 }  // namespace talus::analysis

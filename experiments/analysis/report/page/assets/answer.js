@@ -38,7 +38,7 @@ const kindText = {
     : (D.parameters.length === 2 ? "both values lie in their ranges" : "all values lie in their ranges") + " at once."),
   curve: "The parameters trade against each other: every set along the curve fits. Take a whole set from it; never " +
     "combine the values of two.",
-  region: "More than one answer: every set in the region fits.",
+  region: "More than one answer: every set in the region fits as well as the errors of measurements and model allow.",
   separate: "More than one answer: each of these sets fits, and what lies between them does not.",
 };
 
@@ -46,6 +46,7 @@ const kindText = {
 function verdict(h) {
   const lines = [h.verdict ? element("p", {}, element("strong", {}, h.verdict)) : null,
     h.verdict ? element("p", {class: "gloss"}, kindText[h.verdict_kind]) : null,
+    h.unsettled ? element("p", {class: "gloss"}, h.unsettled) : null,
     h.trade_off ? element("p", {class: "gloss"}, h.trade_off) : null,
     h.fit_sentence ? element("p", {class: "gloss"}, h.fit_sentence) : null,
     h.use ? element("p", {class: "gloss"}, element("strong", {}, "Use it now? "), h.use) : null];
@@ -79,7 +80,7 @@ function fitList(h) {
 function nextSteps(h) {
   if (!h.next.length) return null;
   const first = h.verdict_kind === "point"
-    ? [element("code", {}, "talus card DIR --format NAME"), " writes the set for your code (liggghts, lammps, lethe, yade, " +
+    ? [element("code", {}, "talus card " + D.campaign.folder + " --format NAME"), " writes the set for your code (liggghts, lammps, lethe, yade, " +
        "mercurydpm). To narrow it further, the most useful first:"]
     : ["What would narrow the answer, the most useful first:"];
   return element("div", {class: "card", id: "next"}, element("h3", {}, "What to do next"), element("p", {class: "first"}, first),
@@ -153,7 +154,7 @@ function nextTable() {
         ...D.parameters.map((p, k) => c.bits === null ? "?" : widthText(p, c.width[k])), cost(c)])),
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
       "possible." + (D.next.candidates.some((c) => c.bits === null)
-        ? " ?: talus next DIR --simulate runs the simulations that tell." : ""))),
+        ? " ?: talus next " + D.campaign.folder + " --simulate runs the simulations that tell." : ""))),
     telling.length ? element("div", {class: "grid three stacked", id: "told-apart"}, telling.slice(0, 3).map(toldApart))
       : null];
 }

@@ -32,8 +32,8 @@ function build() {
   const o = D.campaign.objective, c = D.campaign;
   const known = doneTrials().length > 0 && D.objectives.some((objective) => !objective.absent);
   // What follows the first section is of one experiment.
-  const of = c.num_experiments > 1 ? "Of the experiment \u201c" + c.experiment + "\u201d: talus report DIR " +
-    "--experiment NAME shows another. " : "";
+  const of = c.num_experiments > 1 ? "Of the experiment \u201c" + c.experiment + "\u201d: talus report " + c.folder +
+    " --experiment NAME shows another. " : "";
   document.getElementById("name").textContent = D.campaign.name;
   document.getElementById("standing").append(...standing());
   section("answer", "Answer", "", answerSection());

@@ -7,7 +7,7 @@ function standing() {
   if (failed) parts.push(failed + " failed");
   if (running) parts.push(running + " running");
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time");
-  return [element("span", {class: "state"}, c.state),
+  return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
     parts.join(" · ") + (c.stop_reason ? ". Why it stopped: " + c.stop_reason : "")];
 }
 

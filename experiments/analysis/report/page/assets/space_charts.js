@@ -171,7 +171,7 @@ function zoomed(inside, edges) {
     axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true, showMinLabel: false, showMaxLabel: false}};
 }
 
-const regionShade = (level) => level < .5 ? regionShades[0] : level < .9 ? regionShades[1] : paper;
+const regionShade = (level) => regionShades[level < .5 ? 0 : 1];
 
 // Cells between the edges pair.x and pair.y, drawn on the true axes: the joint regions of a
 // posterior, or the chance to tie where the strategy works out none.
@@ -182,10 +182,11 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
   const shade = (v) => posterior ? regionShade(v)
     : echarts.color.lerp(top > 0 ? v / top : 0, [paper, ...chanceShades]);
   const meaning = (v) => posterior
-    ? (v < .9 ? "inside" : "outside") + " the joint 90 % region; the smallest region that holds it is that of " +
+    ? "inside the joint 90 % region; the smallest region that holds it is that of " +
       percent(Math.max(v, .001))
     : percent(v) + " chance to tie with the best";
   const zooms = posterior && id === "region";
+  const inside = pair.value.filter((v) => v < .9).length / pair.value.length;
   const [zoomX, zoomY] = !zooms ? [{}, {}] : [
     zoomed(pair.x.slice(1).map((_, c) => pair.y.slice(1).some((_y, r) => pair.value[r * nx + c] < .9)), pair.x),
     zoomed(pair.y.slice(1).map((_, r) => pair.x.slice(1).some((_x, c) => pair.value[r * nx + c] < .9)), pair.y)];
@@ -195,7 +196,9 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
         : "Blank: no chance to tie with the best. Darkest: " + percent(top) + ".") +
       (D.headline ? " Star: recommended." : "") +
       (sets.length ? " Numbers: sets that fit equally." : "") +
-      (zooms ? " The patch is for both together. Searched: " + [px, py].map((p) => p.symbol + " " + tick(p.low) + " to " +
+      (posterior && D.parameters.length > 2 ? " The light area is " + percent(inside) + " of the searched plane: all that these " +
+        "two may be, whatever the others are." : "") +
+      (zooms ? (D.parameters.length > 2 ? "" : " The patch is for both together.") + " Searched: " + [px, py].map((p) => p.symbol + " " + tick(p.low) + " to " +
         tick(p.high)).join(", ") + "." : ""), () => ({
     grid: {...margins, top: 16},
     tooltip: {...tooltipStyle, formatter: (e) => e.seriesType !== "custom" ? e.name : lines([
@@ -204,7 +207,8 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
       meaning(e.data[2])])},
     xAxis: {...parameterAxis(px), ...zoomX}, yAxis: {...parameterAxis(py, true), ...zoomY},
     series: [
-      {type: "custom", progressive: 0, data: pair.value.map((v, c) => [c % nx, Math.floor(c / nx), v]),
+      {type: "custom", progressive: 0, data: pair.value.map((v, c) => [c % nx, Math.floor(c / nx), v])
+         .filter((cell) => !posterior || cell[2] < .9),
        encode: {x: -1, y: -1}, clip: true,
        renderItem: (params, api) => {
          const cx = api.value(0), cy = api.value(1);

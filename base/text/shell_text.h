@@ -1,0 +1,21 @@
+// Text for a command line that people paste into their shell.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace talus::base {
+
+// One word of a shell: in single quotes where it would not be taken as it is.
+inline std::string ShellWord(std::string_view text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+=,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) {
+    return std::string(text);
+  }
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace talus::base
