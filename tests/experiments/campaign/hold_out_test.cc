@@ -68,7 +68,7 @@ TEST_F(TwoExperiments, SurrogatesThatMissTheirOwnTrialsRaiseNoAlarmOfTests) {
   RunFake(folder, {});
   const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
   ASSERT_LT(result.posterior.value().raw_coverage, 0.5);
-  EXPECT_TRUE(result.posterior->alone.empty()) << ResultSummary(result);
+  EXPECT_TRUE(result.posterior->alone.empty()) << ResultSummary(result, folder);
   EXPECT_TRUE(std::ranges::any_of(
       result.warnings, [](const ResultWarning& w) { return w.kind == WarningKind::kPoorModel; }));
 }
