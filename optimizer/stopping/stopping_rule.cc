@@ -18,7 +18,7 @@ std::string PercentText(double x) { return base::ShortNumber(100 * x, 2) + " %";
 // 137 → 140: an estimate.
 double TwoDigitsUp(double count) {
   const double unit = count < 100 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 1);
-  return unit * std::ceil(count / unit);
+  return unit * std::ceil(count / unit - 1e-9);  // 100.0000001 is 100
 }
 
 std::string LeftToGain(double gain) {
