@@ -11,6 +11,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double kCaution = 1.5;  // see MisfitOf
 constexpr int kMostModes = 8;
 constexpr std::size_t kNumOwn = 4;  // outputs with hyper-parameters of their own, of the modes
 constexpr int kNumDraws = 16;       // of an objective, half of them mirror images of the others
@@ -35,19 +36,6 @@ Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
     median[l] = coarsest * levels.NoiseAtTarget(0) / levels.NoiseAtTarget(l);
   }
   return median;
-}
-
-// Inflation of a surrogate's variance: point-estimated hyper-parameters and constant noise make it
-// overconfident where the posterior selects (bench/optimizers/fidelity_twins).
-double Caution(const ExperimentModel::Setup& setup, const surrogate::FidelityData& data) {
-  constexpr double kCaution = 1.5 * 1.5;
-  if (!setup.is_one_of_several) return kCaution;
-  // Several experiments leave a region that is small against the errors of surrogates of few
-  // evaluations (bench/twins/dem_twins.py). The factor is that of a linear model with as many
-  // coefficients.
-  const auto coefficients = static_cast<double>(data.points.rows() + 3);
-  const auto count = static_cast<double>((data.level.array() == setup.levels->finest()).count());
-  return kCaution * (1 + coefficients / std::max(3.0, count - coefficients));
 }
 
 // The strongest mode left out is nearly all noise, and noise is somewhat larger along strong modes.
@@ -143,7 +131,6 @@ void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentSta
     } else if (k < num_modes && output >= kNumOwn) {
       options.frozen = Rescaled(outputs_.back().state(), one.values);
     }
-    caution_.push_back(Caution(setup_, one));
     outputs_.push_back(surrogate::FidelityProcess::Fit(std::move(one), options));
     evaluations_.push_back(std::move(rows));
   }
@@ -213,13 +200,14 @@ void ExperimentModel::MeasureScalars() {
   }
 }
 
+// The surrogate's sd is inflated by kCaution: point-estimated hyper-parameters and constant noise
+// make it overconfident where the posterior selects (bench/optimizers/fidelity_twins).
 OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
   OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
                       .log_sd = Eigen::VectorXd::Zero(points.rows())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
-    const auto output = static_cast<std::size_t>(k);
-    const surrogate::Predictions all = outputs_[output].Predict(points, 0);
-    const Eigen::ArrayXd cautious = caution_[output] * all.variance.array() + open_[k];
+    const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
+    const Eigen::ArrayXd cautious = kCaution * kCaution * all.variance.array() + open_[k];
     misfit.residual.col(k) = (measured_[k] - all.mean.array()) / cautious.sqrt();
     misfit.log_sd.array() += 0.5 * (all.variance.array() + open_[k]).log();
   }
@@ -236,7 +224,7 @@ OutputPredictions ExperimentModel::Predict(const Eigen::MatrixXd& points) const 
     const auto output = static_cast<std::size_t>(k);
     const surrogate::Predictions all = outputs_[output].Predict(points, 0);
     predictions.mean.col(k) = all.mean;
-    predictions.variance.col(k) = caution_[output] * all.variance;
+    predictions.variance.col(k) = kCaution * kCaution * all.variance;
     predictions.single[k] = TargetNoise(output);
   }
   return predictions;

@@ -54,8 +54,7 @@ class ExperimentModel {
     const ExperimentTarget* target = nullptr;          // outlives the model
     std::shared_ptr<const surrogate::FieldCode> code;  // null without images
     const Levels* levels = nullptr;
-    double model_error = 1;          // FidelityOptions
-    bool is_one_of_several = false;  // experiments of a posterior
+    double model_error = 1;  // FidelityOptions
   };
   // `frozen`, where not null, is taken instead of fitting.
   ExperimentModel(const Setup& setup, const ExperimentData& data, const ExperimentState* frozen);
@@ -111,7 +110,6 @@ class ExperimentModel {
   Setup setup_;
   surrogate::PrincipalModes modes_;
   std::vector<surrogate::FidelityProcess> outputs_;     // modes, then scalars
-  std::vector<double> caution_;                         // inflation of each one's variance
   std::vector<std::vector<Eigen::Index>> evaluations_;  // rows of the data that each has
   Eigen::Index num_evaluations_ = 0;
   Eigen::VectorXd measured_;  // of each output

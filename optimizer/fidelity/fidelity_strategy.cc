@@ -123,8 +123,7 @@ Posterior FidelityStrategy::MakePosterior() {
     const ExperimentModel::Setup setup{.target = &targets_[e],
                                        .code = told.codes.empty() ? nullptr : told.codes[code],
                                        .levels = &levels_,
-                                       .model_error = options_.model_error,
-                                       .is_one_of_several = told_.size() > 1};
+                                       .model_error = options_.model_error};
     data.push_back(told.by_code[code]);
     const int count = SizeToFit(told.size(), kFewest);
     if (!told.state || told.num_fitted != count || told.fitted_code != code) {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "optimizer/designs/design.h"
 #include "optimizer/fidelity/branches.h"
 
 namespace talus::optimizer {
@@ -166,30 +165,6 @@ TEST(FidelityStrategy, SaysThatItExtrapolates) {
   EXPECT_EQ(answer.posterior->target_scale_factor, 1);
   // At 1.5 the numbers belong to (0.48, 0.24); a line through the three scale factors does better.
   EXPECT_LT((answer.point - twin.truth).norm(), 0.1);
-}
-
-// Variances of the surrogates are taken the larger the fewer evaluations they rest on, where their
-// errors decide: several experiments together leave a small region.
-TEST(FidelityStrategy, OneOfSeveralExperimentsIsTakenTheLessSurelyTheFewerItsEvaluations) {
-  const Twin twin{.factors = {1}};
-  const ExperimentTarget target = twin.MakeTarget();
-  const Levels levels({1}, 0);
-  const Eigen::MatrixXd at = Eigen::MatrixXd::Constant(1, 2, 0.5);
-  const auto ratio = [&](int count) {
-    ExperimentData data;
-    for (const Eigen::VectorXd& point : LatinHypercube(count, 2, 3)) {
-      data.points.push_back(point);
-      data.level.push_back(0);
-      data.scalars.push_back(Measure(point, 1, static_cast<int>(data.points.size())));
-    }
-    const ExperimentModel alone({.target = &target, .code = {}, .levels = &levels}, data, nullptr);
-    const ExperimentModel of_several(
-        {.target = &target, .code = {}, .levels = &levels, .is_one_of_several = true}, data,
-        nullptr);
-    return of_several.Predict(at).variance(0, 0) / alone.Predict(at).variance(0, 0);
-  };
-  EXPECT_NEAR(ratio(8), 1 + 5.0 / 3, 1e-9);
-  EXPECT_NEAR(ratio(55), 1.1, 1e-9);
 }
 
 TEST(FidelityStrategy, NamesScaleFactorsWithoutEvaluations) {
