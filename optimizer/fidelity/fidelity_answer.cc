@@ -1,6 +1,7 @@
 // What the search over scale factors answers.
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "optimizer/answer/answer.h"
@@ -28,6 +29,14 @@ std::vector<double> FidelityStrategy::UnlearntScaleFactors() const {
   return unlearnt;
 }
 
+int FidelityStrategy::FewestAtFinest() const {
+  std::ptrdiff_t fewest = std::numeric_limits<int>::max();
+  for (const Told& told : told_) {
+    fewest = std::min(fewest, std::ranges::count(told.by_code.front().level, levels_.finest()));
+  }
+  return static_cast<int>(fewest);
+}
+
 void FidelityStrategy::Summarise(Answer& answer) {
   constexpr int kDraws = 2000;
   const Posterior& posterior = Model();
@@ -42,6 +51,7 @@ void FidelityStrategy::Summarise(Answer& answer) {
                            .target_scale_factor = levels_.target(),
                            .is_extrapolated = levels_.is_extrapolated(),
                            .unlearnt_scale_factors = UnlearntScaleFactors(),
+                           .fewest_at_finest = FewestAtFinest(),
                            .experiments = {}};
   answer.point = summary.branches.front().point;
   summary.experiments = posterior.StandingsAt(answer.point);

@@ -74,6 +74,7 @@ class FidelityStrategy : public Strategy {
   double CostOf(std::size_t experiment, int level) const;
   Posterior MakePosterior();
   std::vector<double> UnlearntScaleFactors() const;
+  int FewestAtFinest() const;
   void Summarise(Answer& answer);
 
   FidelityOptions options_;

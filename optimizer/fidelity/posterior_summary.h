@@ -47,6 +47,8 @@ struct PosteriorSummary {
   bool is_extrapolated = false;  // no simulation at the target scale factor
   std::vector<double>
       unlearnt_scale_factors;  // scale factors whose discrepancy from the target is not known
+  int fewest_at_finest = 0;  // evaluations at the smallest scale factor, of the experiment with the
+                             // fewest
   std::vector<ExperimentStanding> experiments;  // at the recommended set
 };
 

@@ -44,6 +44,7 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                             .tempered_coverage = summary.tempered_coverage,
                             .num_left_out = summary.num_left_out,
                             .unlearnt_scale_factors = summary.unlearnt_scale_factors,
+                            .fewest_at_finest = summary.fewest_at_finest,
                             .experiments = StandingsOf(summary.experiments)};
   for (const optimizer::PosteriorBranch& branch : summary.branches) {
     posterior.branches.push_back({.share = branch.share,
@@ -67,6 +68,15 @@ std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
   }
   for (const double level : posterior.unlearnt_scale_factors) {
     warnings.push_back(Worded({.kind = WarningKind::kUnlearntScaleFactor, .scale_factor = level}));
+  }
+  // Of several experiments the regions are small, and the errors of their surrogates weigh more:
+  // bench/twins/dem_twins.py.
+  constexpr int kEnough = 12;
+  if (posterior.experiments.size() > 1 && !posterior.is_extrapolated &&
+      posterior.unlearnt_scale_factors.empty() && posterior.fewest_at_finest > 0 &&
+      posterior.fewest_at_finest < kEnough) {
+    warnings.push_back(
+        Worded({.kind = WarningKind::kFewSimulations, .value = 1.0 * posterior.fewest_at_finest}));
   }
   return warnings;
 }

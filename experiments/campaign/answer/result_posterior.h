@@ -82,7 +82,9 @@ struct ResultPosterior {
   double tempered_coverage = 0;          // … after it
   int num_left_out = 0;                  // trials that the two are made of
   std::vector<double> unlearnt_scale_factors{};  // scale factors whose bias is not known yet
-  std::vector<ResultStanding> experiments;       // at the recommended set
+  int fewest_at_finest = 0;  // simulations at the smallest one, of the experiment with the fewest;
+                             // 0: not known, of an earlier version
+  std::vector<ResultStanding> experiments;  // at the recommended set
   double tension = 0;                // between the experiments [standard deviations]: agreement.h
   std::vector<ResultAlone> alone{};  // where experiments disagree only
 
@@ -97,6 +99,7 @@ struct ResultPosterior {
     visit("tempered_coverage_90", self.tempered_coverage);
     visit("num_left_out", self.num_left_out);
     visit("unlearnt_scale_factors", self.unlearnt_scale_factors);
+    visit("fewest_at_finest", self.fewest_at_finest);
     visit("experiments", self.experiments);
     visit("tension", self.tension);
     visit("alone", self.alone);

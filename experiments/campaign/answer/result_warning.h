@@ -23,6 +23,7 @@ enum class WarningKind {
   kExtrapolated,         // nothing was simulated at the target `scale_factor`
   kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
   kBudgetEnded,          // … the search before its stopping rule; about `value` simulations more
+  kFewSimulations,       // `value` at the smallest scale factor: the region may be too small
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
@@ -90,6 +91,7 @@ struct talus::base::Names<talus::campaign::WarningKind> {
       std::pair{"extrapolated", K::kExtrapolated},
       std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},
       std::pair{"budget_ended", K::kBudgetEnded},
+      std::pair{"few_simulations", K::kFewSimulations},
       std::pair{"correlated", K::kCorrelated},
       std::pair{"bound", K::kBound},
       std::pair{"few_grains", K::kFewGrains},

@@ -249,6 +249,21 @@ TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
   EXPECT_EQ(warnings[2].scale_factor, 2);
 }
 
+TEST(PosteriorInWords, FewSimulationsOfSeveralExperimentsAreSaid) {
+  ResultPosterior posterior{.target_scale_factor = 1,
+                            .fewest_at_finest = 8,
+                            .experiments = {{.name = "heap"}, {.name = "wide plate"}}};
+  const auto warnings = PosteriorWarnings(posterior);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].kind, WarningKind::kFewSimulations);
+  EXPECT_THAT(warnings[0].text, HasSubstr("only 8 simulations"));
+  posterior.fewest_at_finest = 12;
+  EXPECT_TRUE(PosteriorWarnings(posterior).empty());
+  posterior.fewest_at_finest = 8;
+  posterior.experiments.pop_back();  // one alone has room enough
+  EXPECT_TRUE(PosteriorWarnings(posterior).empty());
+}
+
 TEST(ResultText, WarningsOfEarlierVersionsAreRead) {
   const CampaignResult result = ParseResult(R"({"name": "old", "warnings": ["mind the gap"]})");
   ASSERT_EQ(result.warnings.size(), 1u);
