@@ -72,7 +72,7 @@ TEST_F(TwoExperimentsFaults, AFailedTrialOfOneExperimentLeavesTheOtherTrialsAndT
   EXPECT_TRUE(told_by_the_other);
   const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
   EXPECT_LT(result.parameters[0].credible_low, kTrueSliding);
-  EXPECT_GT(result.parameters[0].credible_high, kTrueSliding) << ResultSummary(result);
+  EXPECT_GT(result.parameters[0].credible_high, kTrueSliding) << ResultSummary(result, "run");
   EXPECT_EQ(result.cost.num_failed, failed);
   const std::string page =
       analysis::PageJson(analysis::MakeReportData(analysis::GatherEvidence(folder, "fast lift")));
