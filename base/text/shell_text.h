@@ -1,10 +1,17 @@
-// Text for a command line that people paste into their shell.
+// Text for a shell: command lines that people paste, scripts, completions.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 namespace talus::base {
+
+// In single quotes, as a shell takes any text.
+inline std::string ShellQuoted(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
 
 // One word of a shell: in single quotes where it would not be taken as it is.
 inline std::string ShellWord(std::string_view text) {
@@ -13,9 +20,7 @@ inline std::string ShellWord(std::string_view text) {
   if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) {
     return std::string(text);
   }
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+  return ShellQuoted(text);
 }
 
 }  // namespace talus::base

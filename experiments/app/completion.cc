@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/shell_text.h"
 #include "experiments/app/command_line.h"
 
 namespace talus::app {
@@ -72,13 +73,6 @@ std::string Join(const std::vector<std::string>& words) {
   return text;
 }
 
-// In single quotes for a shell.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
 std::string Bash(const std::vector<Verb>& verbs) {
   std::string cases;
   std::vector<std::string> names;
@@ -88,12 +82,12 @@ std::string Bash(const std::vector<Verb>& verbs) {
     for (const Flag& flag : verb.flags) {
       flags.push_back(flag.name);
       if (flag.words.empty()) continue;
-      cases +=
-          "    " + verb.name + "," + flag.name + ") words=" + Quoted(Join(flag.words)) + " ;;\n";
+      cases += "    " + verb.name + "," + flag.name +
+               ") words=" + base::ShellQuoted(Join(flag.words)) + " ;;\n";
     }
     cases += "    " + verb.name +
-             ",*)\n      [[ $current == -* ]] && words=" + Quoted(Join(flags)) +
-             " || words=" + Quoted(Join(verb.words)) + " ;;\n";
+             ",*)\n      [[ $current == -* ]] && words=" + base::ShellQuoted(Join(flags)) +
+             " || words=" + base::ShellQuoted(Join(verb.words)) + " ;;\n";
   }
   return "# bash completion for talus\n"
          "_talus() {\n"
@@ -101,7 +95,7 @@ std::string Bash(const std::vector<Verb>& verbs) {
          "  COMPREPLY=()\n"
          "  if [[ $COMP_CWORD == 1 ]]; then\n"
          "    COMPREPLY=($(compgen -W " +
-         Quoted(Join(names) + " --help --version") +
+         base::ShellQuoted(Join(names) + " --help --version") +
          " -- \"$current\"))\n"
          "    return\n"
          "  fi\n"
@@ -126,7 +120,7 @@ std::string ForZsh(const std::string& text) {
 std::string Zsh(const std::vector<Verb>& verbs) {
   std::string script = "#compdef talus\n_talus() {\n  local -a verbs\n  verbs=(\n";
   for (const Verb& verb : verbs) {
-    script += "    " + Quoted(verb.name + ":" + ForZsh(verb.description)) + "\n";
+    script += "    " + base::ShellQuoted(verb.name + ":" + ForZsh(verb.description)) + "\n";
   }
   script +=
       "  )\n  if (( CURRENT == 2 )); then\n    _describe verb verbs\n    return\n  fi\n"
@@ -140,10 +134,10 @@ std::string Zsh(const std::vector<Verb>& verbs) {
       } else if (flag.takes_value) {
         spec += ":value:_files";
       }
-      script += " " + Quoted(spec);
+      script += " " + base::ShellQuoted(spec);
     }
     const std::string rest = verb.words.empty() ? "_files" : "(" + Join(verb.words) + ")";
-    script += " " + Quoted("*:argument:" + rest) + " ;;\n";
+    script += " " + base::ShellQuoted("*:argument:" + rest) + " ;;\n";
   }
   return script + "  esac\n}\n_talus \"$@\"\n";
 }
@@ -153,19 +147,20 @@ std::string Fish(const std::vector<Verb>& verbs) {
   for (const Verb& verb : verbs) {
     const std::string in_verb = " -n '__fish_seen_subcommand_from " + verb.name + "'";
     script += "complete -c talus -n __fish_use_subcommand -f -a " + verb.name + " -d " +
-              Quoted(verb.description) + "\n";
+              base::ShellQuoted(verb.description) + "\n";
     for (const Flag& flag : verb.flags) {
       script += "complete -c talus" + in_verb + " -l " + flag.name.substr(2) + " -d " +
-                Quoted(flag.description);
+                base::ShellQuoted(flag.description);
       if (!flag.words.empty()) {
-        script += " -x -a " + Quoted(Join(flag.words));
+        script += " -x -a " + base::ShellQuoted(Join(flag.words));
       } else if (flag.takes_value) {
         script += " -r";
       }
       script += "\n";
     }
     if (!verb.words.empty()) {
-      script += "complete -c talus" + in_verb + " -f -a " + Quoted(Join(verb.words)) + "\n";
+      script +=
+          "complete -c talus" + in_verb + " -f -a " + base::ShellQuoted(Join(verb.words)) + "\n";
     }
   }
   return script;

@@ -7,19 +7,13 @@
 
 #include "base/error.h"
 #include "base/text/printable.h"
+#include "base/text/shell_text.h"
 #include "experiments/runners/mpi_environment.h"
 
 namespace talus::runners {
 namespace {
 
 constexpr const char* kRecord = "#talus ";
-
-// In single quotes, so that the shell takes it as it is.
-std::string Quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 // In double quotes, as sbatch reads its own lines; a percent sign would begin a pattern.
 std::string QuotedForSbatch(const std::string& text) {
@@ -81,8 +75,8 @@ void AddJobs(std::ostream& out, const Batch& batch) {
   out << "task=${SLURM_ARRAY_TASK_ID:-0}\ncase $task in\n";
   for (std::size_t task = 0; task < batch.jobs.size(); ++task) {
     const Job& job = batch.jobs[task];
-    out << task << ") folder=" << Quoted(job.folder.string()) << "; command=(";
-    for (const std::string& argument : job.command) out << ' ' << Quoted(argument);
+    out << task << ") folder=" << base::ShellQuoted(job.folder.string()) << "; command=(";
+    for (const std::string& argument : job.command) out << ' ' << base::ShellQuoted(argument);
     out << " ) ;;\n";
   }
   out << "esac\n";
@@ -104,7 +98,7 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   out << "cd \"$folder\" || exit 1\n";
   if (!options.modules.empty()) {
     out << "module load";
-    for (const std::string& module : options.modules) out << ' ' << Quoted(module);
+    for (const std::string& module : options.modules) out << ' ' << base::ShellQuoted(module);
     out << " || exit 1\n";
   }
   for (const std::string& line : options.setup) out << line << '\n';
@@ -121,7 +115,7 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
       << "echo " << batch.number << " $task $status $took $cpu ${SLURM_RESTART_COUNT:-0} "
       << "$(hostname) end >" << kTaskEndFile << ".part\n"
       << "mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"
-      << "log=" << Quoted(TaskLog(stem, "").string()) << "\n"
+      << "log=" << base::ShellQuoted(TaskLog(stem, "").string()) << "\n"
       << "log=${log%.log}$task.log\n"
       << "[ -s \"$log\" ] || rm -f \"$log\"\n"
       << "exit $status\n";
