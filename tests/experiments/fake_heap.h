@@ -47,16 +47,16 @@ inline imaging::GrayImage DrawHeap(double sliding, double rolling, std::uint64_t
   return image;
 }
 
-// [kg] that falls over the rim: less the more the grains rub; scatters by 1 mg.
-inline double FallenMass(double sliding, std::uint64_t seed) {
+// [kg] that falls over the rim: less the more the grains rub.
+inline double FallenMass(double sliding, double scatter, std::uint64_t seed) {
   base::Random random(seed, base::Stream("fake balance"));
-  return 1e-6 * (50 - 60 * sliding + random.Normal());
+  return 1e-6 * (50 - 60 * sliding) + scatter * random.Normal();
 }
 
-// [kg/m³] after taps: less the more the grains resist rolling; scatters by 4 kg/m³.
-inline double TappedDensity(double rolling, std::uint64_t seed) {
+// [kg/m³] after taps: less the more the grains resist rolling.
+inline double TappedDensity(double rolling, double scatter, std::uint64_t seed) {
   base::Random random(seed, base::Stream("fake taps"));
-  return 1550 - 350 * rolling + 4 * random.Normal();
+  return 1550 - 350 * rolling + scatter * random.Normal();
 }
 
 struct FakeEngineOptions {
@@ -68,6 +68,8 @@ struct FakeEngineOptions {
   bool no_command = false;        // the program is not there
   bool vanish = false;            // every trial's folder is taken away while it runs
   int hang_at = 0;                // the trial with this id never ends; none if 0
+  double mass_scatter = 1e-6;     // of the mass fallen, from seed to seed [kg]
+  double density_scatter = 4;     // of the tapped density, from seed to seed [kg/m³]
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -113,19 +115,21 @@ class FakeEngine : public trials::TrialEngine {
               .num_steps = 100000,
               .num_particles = size.num_grains,
               .scalars = {{.name = "tapped_density_kg_per_m3",
-                           .value = TappedDensity(m.rolling_friction, heap_case.seed),
+                           .value = TappedDensity(m.rolling_friction, options_.density_scatter,
+                                                  heap_case.seed),
                            .unit = "kg/m3",
                            .undefined = ""}},
               .note = ""};
     }
-    return {.profile = imaging::ReadGrayImage(folder / "profile.png"),
-            .num_steps = std::llround(size.simulated_time / size.time_step),
-            .num_particles = size.num_grains,
-            .scalars = {{.name = "mass_fallen_kg",
-                         .value = FallenMass(m.sliding_friction, heap_case.seed),
-                         .unit = "kg",
-                         .undefined = ""}},
-            .note = ""};
+    return {
+        .profile = imaging::ReadGrayImage(folder / "profile.png"),
+        .num_steps = std::llround(size.simulated_time / size.time_step),
+        .num_particles = size.num_grains,
+        .scalars = {{.name = "mass_fallen_kg",
+                     .value = FallenMass(m.sliding_friction, options_.mass_scatter, heap_case.seed),
+                     .unit = "kg",
+                     .undefined = ""}},
+        .note = ""};
   }
 
   bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
