@@ -54,7 +54,8 @@ class AddExperimentTest : public CampaignFixture {
 TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
   const fs::path folder = Ended();
   const auto before = Trials(folder);
-  Add(folder, Write(TwoExperiments::FastLift("23 mg")));
+  // A busy machine, and a sanitizer, take several times as much core time for a trial as was used.
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")), {.core_time = 0.35});
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   const auto after = Trials(folder);
   ASSERT_GT(after.size(), before.size());
@@ -62,7 +63,7 @@ TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
     EXPECT_EQ(after[i].experiment, 0);
     EXPECT_EQ(after[i].unit, before[i].unit);
   }
-  EXPECT_GE(Count(folder, 1), 8);
+  EXPECT_GE(Count(folder, 1), 6);
   const CampaignResult result = Result(folder);
   ASSERT_EQ(result.posterior.value().experiments.size(), 2u);
   EXPECT_EQ(result.posterior->experiments[0].name, "heap");
