@@ -44,20 +44,6 @@ double NoiseOfMode(double next_sd, const Eigen::VectorXd& coefficients) {
   return spread > 0 ? std::clamp(1.5 * next_sd / spread, 0.1, 0.8) : 0.8;
 }
 
-// Evaluations count by the inverse of their noise variance: in coarse heaps much of what differs is
-// noise, or how they differ from true ones.
-surrogate::PrincipalModes ModesOf(const ExperimentData& data, const Levels& levels) {
-  Eigen::MatrixXd vectors(data.size(), data.vectors.front().size());
-  Eigen::VectorXd weights(data.size());
-  for (int i = 0; i < data.size(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const double relative = levels.NoiseAtTarget(data.level[k]);
-    vectors.row(i) = data.vectors[k];
-    weights[i] = relative * relative;
-  }
-  return surrogate::FitModes(vectors, weights, kMostModes);
-}
-
 // A state for a weak mode: the correlation of a stronger one at its own scale.
 surrogate::FidelityState Rescaled(surrogate::FidelityState state, const Eigen::VectorXd& values) {
   state.centre = values.mean();
@@ -85,7 +71,11 @@ ExperimentModel::ExperimentModel(const Setup& setup, const ExperimentData& data,
     if (frozen != nullptr) {
       modes_ = frozen->modes;
     } else {
-      modes_ = ModesOf(data, *setup_.levels);
+      Eigen::MatrixXd vectors(data.size(), data.vectors.front().size());
+      for (int i = 0; i < data.size(); ++i) {
+        vectors.row(i) = data.vectors[static_cast<std::size_t>(i)];
+      }
+      modes_ = surrogate::FitModes(vectors, kMostModes);
     }
   }
   FitOutputs(data, frozen);

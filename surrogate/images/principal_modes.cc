@@ -7,17 +7,10 @@
 namespace talus::surrogate {
 
 PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes) {
-  return FitModes(vectors, Eigen::VectorXd::Ones(vectors.rows()), max_modes);
-}
-
-PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& weights,
-                        int max_modes) {
   constexpr double kRounding = 1e-12;  // share of the whole variance
-  const double total_weight = weights.sum();
   PrincipalModes modes;
-  modes.mean = vectors.transpose() * weights / total_weight;
-  const Eigen::MatrixXd centred =
-      (vectors.rowwise() - modes.mean.transpose()).array().colwise() * weights.array().sqrt();
+  modes.mean = vectors.colwise().mean().transpose();
+  const Eigen::MatrixXd centred = vectors.rowwise() - modes.mean.transpose();
   // There are far fewer vectors than elements, so the small Gram matrix has all there is to know.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred * centred.transpose());
   const Eigen::VectorXd& eigenvalues = solver.eigenvalues();  // ascending
@@ -29,7 +22,8 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& w
     ++count;
   }
   if (count < size) {
-    modes.next_sd = std::sqrt(std::max(0.0, eigenvalues[size - 1 - count]) / total_weight);
+    modes.next_sd =
+        std::sqrt(std::max(0.0, eigenvalues[size - 1 - count]) / static_cast<double>(size));
   }
   modes.basis.resize(vectors.cols(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -42,7 +36,7 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& w
     if (modes.basis(largest, k) < 0) modes.basis.col(k) *= -1;
   }
   const Eigen::MatrixXd rest = centred - (centred * modes.basis) * modes.basis.transpose();
-  modes.discarded = rest.colwise().squaredNorm().transpose() / total_weight;
+  modes.discarded = rest.colwise().squaredNorm().transpose() / static_cast<double>(size);
   return modes;
 }
 

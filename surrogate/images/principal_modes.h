@@ -18,11 +18,7 @@ struct PrincipalModes {
   }
 };
 
-// `vectors`: one a row, as many as `weights`, > 0, by which they count in mean and variance. At
-// most max_modes, fewer when the rest is rounding.
-PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& weights,
-                        int max_modes);
-// All of them alike.
+// `vectors`: one a row. At most max_modes, fewer when the rest is rounding.
 PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes);
 
 }  // namespace talus::surrogate

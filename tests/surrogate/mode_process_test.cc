@@ -53,23 +53,6 @@ TEST(PrincipalModes, OfEqualVectorsAreNone) {
   EXPECT_EQ(modes.mean, Eigen::VectorXd::Constant(4, 2.5));
 }
 
-TEST(PrincipalModes, AWeightOfTwoCountsAsTwoVectors) {
-  const Eigen::MatrixXd vectors = MakeData(0.01).vectors;
-  const Eigen::Index size = vectors.rows();
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(size);
-  weights[0] = 2;
-  Eigen::MatrixXd doubled(size + 1, vectors.cols());
-  doubled << vectors, vectors.row(0);
-  const PrincipalModes weighted = FitModes(vectors, weights, 3);
-  const PrincipalModes repeated = FitModes(doubled, 3);
-  constexpr double kRounding = 1e-9;
-  EXPECT_LT((weighted.mean - repeated.mean).norm(), kRounding);
-  EXPECT_LT((weighted.basis - repeated.basis).norm(), kRounding);
-  EXPECT_LT((weighted.discarded - repeated.discarded).norm(), kRounding);
-  EXPECT_NEAR(weighted.next_sd, repeated.next_sd, kRounding);
-  EXPECT_GT((weighted.mean - FitModes(vectors, 3).mean).norm(), 0.01);
-}
-
 TEST(ModeProcess, PredictsCurvesItHasNotSeen) {
   const Data data = MakeData(0);
   ModeOptions options;
