@@ -11,10 +11,9 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCaution = 1.5;  // see MisfitOf
+constexpr double kCaution = 2;  // see MisfitOf
 constexpr int kMostModes = 8;
-constexpr std::size_t kNumOwn = 4;  // outputs with hyper-parameters of their own, of the modes
-constexpr int kNumDraws = 16;       // of an objective, half of them mirror images of the others
+constexpr int kNumDraws = 16;  // of an objective, half of them mirror images of the others
 
 // Values far above the target are compressed, so that a mass that spans decades stays smooth where
 // it matters. Linear up to the target.
@@ -42,14 +41,6 @@ Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
 double NoiseOfMode(double next_sd, const Eigen::VectorXd& coefficients) {
   const double spread = surrogate::StandardDeviation(coefficients);
   return spread > 0 ? std::clamp(1.5 * next_sd / spread, 0.1, 0.8) : 0.8;
-}
-
-// A state for a weak mode: the correlation of a stronger one at its own scale.
-surrogate::FidelityState Rescaled(surrogate::FidelityState state, const Eigen::VectorXd& values) {
-  state.centre = values.mean();
-  state.scale = surrogate::StandardDeviation(values);
-  if (!(state.scale > 0)) state.scale = 1;
-  return state;
 }
 
 Eigen::MatrixXd MirroredNormals(Eigen::Index num_modes) {
@@ -105,7 +96,6 @@ void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentSta
   const Eigen::MatrixXd values = OutputValues(data);
   const Eigen::Index num_modes = modes_.basis.cols();
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
-    const auto output = static_cast<std::size_t>(k);
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
       if (std::isfinite(values(i, k))) rows.push_back(i);
@@ -126,11 +116,7 @@ void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentSta
         .noise_median =
             NoiseMedians(*setup_.levels,
                          k < num_modes ? NoiseOfMode(modes_.next_sd, one.values) : kNoiseOfScalar)};
-    if (frozen != nullptr) {
-      options.frozen = frozen->outputs[output];
-    } else if (k < num_modes && output >= kNumOwn) {
-      options.frozen = Rescaled(outputs_.back().state(), one.values);
-    }
+    if (frozen != nullptr) options.frozen = frozen->outputs[static_cast<std::size_t>(k)];
     outputs_.push_back(surrogate::FidelityProcess::Fit(std::move(one), options));
     evaluations_.push_back(std::move(rows));
   }

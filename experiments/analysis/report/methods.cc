@@ -101,9 +101,9 @@ Counts CountsOf(const Evidence& e) {
       counts.scale_factors.push_back(t.scale_factor);
     }
   }
-  std::ranges::sort(counts.scale_factors, std::greater());
-  const auto repeated = std::ranges::unique(counts.scale_factors);
-  counts.scale_factors.erase(repeated.begin(), repeated.end());
+  std::vector<double>& factors = counts.scale_factors;
+  std::sort(factors.begin(), factors.end(), std::greater());
+  factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
   return counts;
 }
 

@@ -50,4 +50,10 @@ Agreement AgreementOf(const JointView& view) {
   return agreement;
 }
 
+bool Disagree(double tension, double raw_coverage) {
+  constexpr double kTolerated = 3;  // standard deviations
+  constexpr double kLeastCoverage = 0.5;
+  return tension > kTolerated && raw_coverage >= kLeastCoverage;
+}
+
 }  // namespace talus::campaign

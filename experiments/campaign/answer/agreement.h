@@ -16,8 +16,6 @@
 
 namespace talus::campaign {
 
-inline constexpr double kDisagree = 3;  // tension above which the experiments disagree
-
 struct Agreement {
   std::vector<PartialAnswer> alone{};  // of each experiment that has enough trials
   // Standard deviations of a normal variable as unlikely as Χ²; 0 or less: none. By Wilson and
@@ -28,5 +26,9 @@ struct Agreement {
 
 // Of the experiments that the campaign's answer meets.
 Agreement AgreementOf(const JointView& view);
+
+// Whether the tension is an alarm. Surrogates that miss most of their own trials (`raw_coverage` of
+// nominal 90 %, leave-one-out) cannot tell; the answer warns of them.
+bool Disagree(double tension, double raw_coverage);
 
 }  // namespace talus::campaign

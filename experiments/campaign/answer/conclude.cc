@@ -216,9 +216,7 @@ void AddAgreement(const Planner& planner, const CampaignEvidence& of, CampaignRe
   if (of.references.size() < 2 || !result.posterior) return;
   const Agreement agreement = AgreementOf(ViewOf(planner, of));
   result.posterior->tension = agreement.tension;
-  // Surrogates that miss most of their own trials cannot tell; the answer warns of them.
-  constexpr double kLeastCoverage = 0.5;
-  if (agreement.tension > kDisagree && result.posterior->raw_coverage >= kLeastCoverage) {
+  if (Disagree(agreement.tension, result.posterior->raw_coverage)) {
     result.warnings.push_back(Worded(
         {.kind = WarningKind::kDisagree, .experiment = agreement.odd, .value = agreement.tension}));
   }
