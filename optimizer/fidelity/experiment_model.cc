@@ -11,7 +11,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCaution = 2;  // see MisfitOf
+constexpr double kCaution = 2.5;  // see MisfitOf
 constexpr int kMostModes = 8;
 constexpr int kNumDraws = 16;  // of an objective, half of them mirror images of the others
 
