@@ -72,8 +72,8 @@ function spaceChart() {
     const axis = (k) => {
       const p = D.parameters[axes[k]];
       return {type: "value", min: logOf(axes[k], p.low), max: logOf(axes[k], p.high), name: nameOf(p),
-        nameGap: narrow ? 18 : 24, nameTextStyle: {color: ink, fontSize: narrow ? 12 : 14},
-        axisLabel: {textStyle: {color: soft, fontSize: narrow ? 10 : 12},
+        nameGap: narrow ? 18 : 24, nameTextStyle: {color: ink, fontSize: narrow ? 12 : 14, lineHeight: 24},
+        axisLabel: {textStyle: {color: soft, fontSize: narrow ? 10 : 12, lineHeight: 22},
           // The first label of x would stand on that of z.
           formatter: (x) => k === 0 && x === logOf(axes[0], p.low) ? ""
             : tick(p.log ? Number((10 ** x).toPrecision(3)) : x)},
