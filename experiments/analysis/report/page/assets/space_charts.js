@@ -192,7 +192,8 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
     zoomed(pair.y.slice(1).map((_, r) => pair.x.slice(1).some((_x, c) => pair.value[r * nx + c] < .9)), pair.y)];
   const sets = D.headline ? D.headline.representatives.filter((set) => !set.recommended) : [];
   return chart(id, (posterior ? "Joint region of " : "") + px.symbol + " and " + py.symbol,
-      (posterior ? "Dark: 50\u00a0% of the posterior, light: 90\u00a0%. Blank: ruled out at that level."
+      (posterior ? (D.parameters.length > 2 ? "The shadow of the joint region on this plane: dark 50\u00a0%, light 90\u00a0%."
+          : "Dark: 50\u00a0% of the posterior, light: 90\u00a0%.") + " Blank: ruled out at that level."
         : "Blank: no chance to tie with the best. Darkest: " + percent(top) + ".") +
       (D.headline ? " Star: recommended." : "") +
       (sets.length ? " Numbers: sets that fit equally." : "") +
