@@ -59,10 +59,19 @@ bool IsJoined(const Posterior& posterior, const Eigen::MatrixXd& draws, const Pa
   return posterior.LogDensity(between).minCoeff() > least - kDip;
 }
 
-PosteriorBranch Describe(const Eigen::MatrixXd& members, Eigen::Index num_draws) {
+double Median(Eigen::VectorXd values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::VectorXd& density,
+                         Eigen::Index num_draws) {
+  const double dense = Median(density);
   Eigen::Index middle = 0;
   double least = -1;
   for (Eigen::Index i = 0; i < members.rows(); ++i) {
+    if (density[i] < dense) continue;
     const double sum = (members.rowwise() - members.row(i)).rowwise().norm().sum();
     if (least < 0 || sum < least) {
       least = sum;
@@ -80,12 +89,13 @@ PosteriorBranch Describe(const Eigen::MatrixXd& members, Eigen::Index num_draws)
 std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const PosteriorSample& sample,
                                           std::uint64_t seed) {
   Eigen::MatrixXd draws = sample.Draws(kDraws, seed);
-  const Eigen::VectorXd density = posterior.LogDensity(draws);
+  Eigen::VectorXd density = posterior.LogDensity(draws);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
     if (density[i] >= sample.region_log_density) inside.push_back(i);
   }
   draws = Eigen::MatrixXd(draws(inside, Eigen::all));
+  density = Eigen::VectorXd(density(inside));
   Components components(inside.size());
   int tries = 0;
   for (const Pair& pair : NearPairs(draws)) {
@@ -101,7 +111,7 @@ std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const Post
   }
   std::vector<PosteriorBranch> branches;
   for (const auto& [root, rows] : members) {
-    PosteriorBranch branch = Describe(draws(rows, Eigen::all), draws.rows());
+    PosteriorBranch branch = Describe(draws(rows, Eigen::all), density(rows), draws.rows());
     if (branch.share >= kLeastShare) branches.push_back(std::move(branch));
   }
   std::stable_sort(branches.begin(), branches.end(),

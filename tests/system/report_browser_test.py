@@ -324,6 +324,19 @@ class ReportInABrowser(unittest.TestCase):
         self.assertGreater(first, 3)
         self.assertEqual(first, pages())
 
+    # WebGL draws it with a camera of its own, on a screen of any density.
+    def test_the_space_of_three_parameters_is_on_paper(self):
+        self.open_report("three", 60, 3, "finished")
+        self.driver.execute_cdp_cmd("Page.printToPDF", {})  # seen for the first time there
+        coloured = self.driver.execute_script(
+            "const canvas = document.querySelector('#space + canvas.paper');"
+            "const pixels = canvas.getContext('2d').getImageData(0, 80, canvas.width, canvas.height - 80).data;"
+            "let count = 0;"
+            "for (let i = 0; i < pixels.length; i += 4)"
+            "  if (Math.max(...pixels.slice(i, i + 3)) - Math.min(...pixels.slice(i, i + 3)) > 40) ++count;"
+            "return count")
+        self.assertGreater(coloured, 500)
+
     # Every chart is drawn, seen or not, and none is wider than A4 with its margins.
     def test_prints_on_a4(self):
         self.open_report("posterior", 60, 2, "finished", posterior=True)

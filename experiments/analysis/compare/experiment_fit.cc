@@ -66,14 +66,15 @@ std::string SimulatedShape(const ResultConfirmed& confirmed) {
   return text;
 }
 
-void JudgeShape(const ResultConfirmed& confirmed, FitRow& row) {
+void JudgeShape(const ResultConfirmed& confirmed, int num_heaps, FitRow& row) {
   if (!confirmed.over_floor) {
-    row.judgement = "not known: no second run to compare with";
+    row.judgement = num_heaps > 1 ? "not known: one map of all runs does not tell how they scatter"
+                                  : "not known: no second run to compare with";
     return;
   }
   const double ratio = *confirmed.over_floor;
   row.meets = ratio <= kCloseRuns ? Meets::kYes : Meets::kNo;
-  row.judgement = Number(ratio, 2) + " times as far as the runs are from each other";
+  row.judgement = Number(ratio) + " times as far as the runs are from each other";
 }
 
 FitRow ShapeRow(const CampaignResult& result, const journal::ExperimentRecord& record,
@@ -82,7 +83,7 @@ FitRow ShapeRow(const CampaignResult& result, const journal::ExperimentRecord& r
   const auto confirmed = ConfirmedOf(result, experiment);
   if (confirmed && confirmed->profile_sad_mm2) {
     row.simulated = SimulatedShape(*confirmed);
-    JudgeShape(*confirmed, row);
+    JudgeShape(*confirmed, record.num_heaps, row);
     return row;
   }
   const ResultStanding* standing = StandingOf(result, record.name);

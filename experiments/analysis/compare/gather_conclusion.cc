@@ -81,7 +81,7 @@ void AddUnsettled(const campaign::CampaignResult& result, Conclusion& conclusion
   conclusion.unsettled = "The budget ended the search before its stopping rule did";
   if (std::isfinite(conclusion.more_simulations)) {
     conclusion.unsettled += ": about " + std::to_string(std::llround(conclusion.more_simulations)) +
-                            " more simulations would settle it";
+                            " more simulations would meet it";
   }
   conclusion.unsettled += ".";
 }

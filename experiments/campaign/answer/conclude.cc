@@ -38,11 +38,13 @@ Sample SampleOf(const std::vector<double>& values) {
   return sample;
 }
 
-std::vector<const journal::TrialRecord*> Confirming(const Planner& planner, std::size_t candidate,
+std::vector<const journal::TrialRecord*> Confirming(const Planner& planner,
+                                                    const Eigen::VectorXd& candidate,
                                                     int experiment) {
+  const std::int64_t set = planner.ConfirmSet(candidate);
   std::vector<const journal::TrialRecord*> trials;
   for (const journal::TrialRecord& trial : planner.trials()) {
-    if (trial.kind == journal::TrialKind::kConfirm && trial.set == planner.ConfirmSet(candidate) &&
+    if (trial.kind == journal::TrialKind::kConfirm && trial.set == set &&
         trial.experiment == experiment) {
       trials.push_back(&trial);
     }
@@ -97,12 +99,12 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   return confirmed;
 }
 
-ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& of, std::size_t index,
+ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& of,
                             const Eigen::VectorXd& point) {
   ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
   std::vector<ResultConfirmed> all;
   for (std::size_t e = 0; e < of.references.size(); ++e) {
-    const auto trials = Confirming(planner, index, static_cast<int>(e));
+    const auto trials = Confirming(planner, point, static_cast<int>(e));
     for (const journal::TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
     all.push_back(ConfirmedOf(trials, of, e));
   }
@@ -136,9 +138,8 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
 
 void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
                      const CampaignEvidence& of, CampaignResult& result) {
-  const auto candidates = planner.Candidates(answer);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const ResultCandidate candidate = CandidateOf(planner, of, i, candidates[i]);
+  for (const Eigen::VectorXd& point : planner.Candidates(answer)) {
+    const ResultCandidate candidate = CandidateOf(planner, of, point);
     if (candidate.num_trials > 0) result.confirmed.push_back(candidate);
   }
   if (result.confirmed.empty()) return;
@@ -149,13 +150,24 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
   }
 }
 
+// Of the joint 90 % region: a set outside it does not fit equally.
+Eigen::MatrixXd InRegion(const Eigen::MatrixXd& draws, const Planner& planner) {
+  const auto levels = planner.CredibleLevels(draws);
+  if (!levels) return draws;
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    if ((*levels)[i] <= 0.9) inside.push_back(i);
+  }
+  return draws(inside, Eigen::all);
+}
+
 // What the sentence and the sets to look at stand on: the posterior's draws, or the sets that tie.
 void AddVerdict(const optimizer::Answer& answer, const Planner& planner, CampaignResult& result) {
   Eigen::MatrixXd points(static_cast<Eigen::Index>(answer.tied.size()), answer.point.size());
   for (std::size_t i = 0; i < answer.tied.size(); ++i) {
     points.row(static_cast<Eigen::Index>(i)) = answer.tied[i];
   }
-  if (answer.posterior) points = answer.posterior->draws;
+  if (answer.posterior) points = InRegion(answer.posterior->draws, planner);
   for (const Eigen::VectorXd& set : RepresentativeSets(points, answer.point)) {
     result.representative.push_back(FreeValues(planner.space(), set));
   }

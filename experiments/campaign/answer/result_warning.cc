@@ -17,7 +17,7 @@ std::string ResumeCommand(double num_more) {
 std::string BudgetText(const ResultWarning& w) {
   std::string text = "the budget ended the search before its stopping rule did: " + w.text + "; ";
   if (w.value)
-    text += "about " + std::to_string(std::llround(*w.value)) + " more simulations would settle it";
+    text += "about " + std::to_string(std::llround(*w.value)) + " more simulations would meet it";
   return text + (w.value ? "" : "go on with more simulations") + " (" +
          ResumeCommand(w.value.value_or(kMoreSimulations)) + ")";
 }

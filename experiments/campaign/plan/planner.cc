@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kMostAsked = 8;         // the strategies' limit
 constexpr double kDifferent = 0.05;   // between two candidates, in the unit cube
+constexpr double kSame = 1e-3;        // of a candidate that is confirmed already
 constexpr int kFailuresToGiveUp = 8;  // as the first trials of all: the set-up is wrong
 // Confirmations after different searches must not share numbers.
 constexpr std::int64_t kMostCandidates = 1000;
@@ -268,8 +269,17 @@ std::optional<optimizer::Answer> Planner::Recommend() {
   return strategy_->Recommend();
 }
 
-std::int64_t Planner::ConfirmSet(std::size_t candidate) const {
-  return NumOfSearch() * kMostCandidates + static_cast<std::int64_t>(candidate);
+// A program of another version may recommend another set after the same search. What confirmed the
+// former one says nothing of it.
+std::int64_t Planner::ConfirmSet(const Eigen::VectorXd& candidate) const {
+  std::int64_t next = NumOfSearch() * kMostCandidates;
+  for (const journal::TrialRecord& trial : trials_) {
+    if (trial.kind != journal::TrialKind::kConfirm || trial.set / kMostCandidates != NumOfSearch())
+      continue;
+    if ((PointOf(trial) - candidate).lpNorm<Eigen::Infinity>() < kSame) return trial.set;
+    next = std::max(next, trial.set + 1);
+  }
+  return next;
 }
 
 // The points of a joint search are of several experiments and sizes, whose objectives do not
@@ -331,19 +341,19 @@ bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
     if (!answer) return false;
     candidates_ = Candidates(*answer);
   }
-  for (std::size_t c = 0; c < candidates_->size(); ++c) {
+  for (const Eigen::VectorXd& candidate : *candidates_) {
+    const std::int64_t set = ConfirmSet(candidate);
     for (int e = 0; e < static_cast<int>(references_.size()); ++e) {
       const auto done =
           std::count_if(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
-            return t.kind == journal::TrialKind::kConfirm && t.set == ConfirmSet(c) &&
-                   t.experiment == e;
+            return t.kind == journal::TrialKind::kConfirm && t.set == set && t.experiment == e;
           });
       if (done >= spec_.confirm.replicates) continue;
       journal::TrialRecord trial = Make(journal::TrialKind::kConfirm,
-                                        {.point = (*candidates_)[c],
+                                        {.point = candidate,
                                          .experiment = e,
                                          .scale_factor = spec_.confirm.scale_factor.value_or(0)});
-      trial.set = ConfirmSet(c);
+      trial.set = set;
       Append(std::move(trial), planned);
       return true;
     }

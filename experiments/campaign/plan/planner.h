@@ -45,8 +45,13 @@ class Planner {
 
   // The sets to be confirmed: the recommended one first, then the best of the others.
   std::vector<Eigen::VectorXd> Candidates(const optimizer::Answer& answer) const;
-  // TrialRecord::set of the trials that confirm a candidate.
-  std::int64_t ConfirmSet(std::size_t candidate) const;
+  // TrialRecord::set of the trials that confirm a candidate: theirs where there are any.
+  std::int64_t ConfirmSet(const Eigen::VectorXd& candidate) const;
+
+  // Strategy::CredibleLevels; the evaluations told so far.
+  std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) const {
+    return strategy_->CredibleLevels(points);
+  }
 
   const std::vector<journal::TrialRecord>& trials() const { return trials_; }  // by id
   const optimizer::ParameterSpace& space() const { return space_; }

@@ -225,7 +225,7 @@ TEST(Alarms, ABudgetThatEndedTheSearchSaysHowManyMoreWouldSettleIt) {
   EXPECT_THAT(BudgetAlarms(result), IsEmpty());
   result.unsettled = {.why = "it is far off", .share = 0.1, .num_more = 160};
   EXPECT_THAT(BudgetAlarms(result).at(0).text,
-              HasSubstr("it is far off; about 160 more simulations would settle it (`talus resume "
+              HasSubstr("it is far off; about 160 more simulations would meet it (`talus resume "
                         "DIR --add-simulations 160`)"));
   result.unsettled->num_more = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(BudgetAlarms(result).at(0).value);

@@ -15,6 +15,7 @@
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/status.h"
+#include "experiments/journal/checksums.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 
@@ -61,6 +62,26 @@ TEST_F(JointCampaign, AnInterruptedOneGoesOnAsIfNothingHadHappened) {
           "DELETE FROM points WHERE trial > 7; DELETE FROM trials WHERE id > 7");
   EXPECT_EQ(RunFake(cut, {}), CampaignEnd::kFinished);
   EXPECT_EQ(TrialTable(cut), TrialTable(whole));
+}
+
+// A later version may recommend another set after the same search. What confirmed the former one
+// must not be read as confirming this one.
+TEST_F(JointCampaign, ASetIsConfirmedByTrialsOfItsOwn) {
+  const fs::path folder = Begin(kTwoSizes);
+  RunFake(folder, {});
+  {
+    journal::Database database(journal::JournalPath(folder), journal::Database::Mode::kReadWrite);
+    database.Execute("UPDATE points SET unit_value = 0.5 * unit_value WHERE trial > 16");
+    journal::SealAll(database);
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const auto trials = Trials(folder);
+  ASSERT_EQ(trials.size(), 16u + 2u + 2u);
+  EXPECT_EQ(trials[18].set, trials[17].set + 1);
+  EXPECT_EQ(trials[19].set, trials[18].set);
+  EXPECT_EQ(Result(folder).confirmed.at(0).num_trials, 2);
+  RunFake(folder, {});
+  EXPECT_EQ(Trials(folder).size(), trials.size());
 }
 
 TEST_F(JointCampaign, ItEndsWhenItsCoreTimeIsUsed) {

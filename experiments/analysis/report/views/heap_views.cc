@@ -89,7 +89,9 @@ std::vector<imaging::MeasuredView> SomeViews(const std::vector<imaging::Measured
 }
 
 void AddPhotographs(const Evidence& evidence, const Box& box, PhotoOverlay& overlay) {
-  const imaging::ExperimentOptions options = FirstRun(PhotographsOf(evidence));
+  const imaging::ExperimentOptions given = PhotographsOf(evidence);
+  if (!given.map.empty()) throw base::ConfigError("the experiment is given as a map");
+  const imaging::ExperimentOptions options = FirstRun(given);
   const imaging::Experiment measured = imaging::MeasureExperiment(options);
   for (const imaging::MeasuredView& view : SomeViews(measured.runs.front().views)) {
     const imaging::GrayImage photo =

@@ -139,8 +139,10 @@ std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
   if (evidence.parameters.size() == 2 && evidence.model->credible_levels) {
     return {RegionMap(evidence)};
   }
-  return EachPair(evidence, evidence.model->draws, kRegionCells,
-                  [](const Eigen::MatrixXd& two) { return CredibleLevels(two, kRegionCells); });
+  const Eigen::VectorXd levels = evidence.model->credible_levels(evidence.model->draws);
+  return EachPair(evidence, evidence.model->draws, kRegionCells, [&](const Eigen::MatrixXd& two) {
+    return ProjectedLevels(two, levels, kRegionCells);
+  });
 }
 
 std::vector<PairMap> TiePairs(const Evidence& evidence) {

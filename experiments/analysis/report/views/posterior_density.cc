@@ -6,14 +6,14 @@
 namespace talus::analysis {
 namespace {
 
-// A draw's kernel is half as wide as the distance to this many of the others. Draws repeat, so some
-// of these are at no distance: then it is as wide as `least`.
+// A draw reaches half as far as this many of the others are. Draws repeat, so some
+// of these are at no distance: then it is `least`.
 struct KernelWidth {
   double neighbour_share = 0;  // of the draws
   double least = 0;            // in cells
 };
-constexpr KernelWidth kCurve{.neighbour_share = 0.03, .least = 1};     // smooth to look at
-constexpr KernelWidth kRegion{.neighbour_share = 0.02, .least = 0.6};  // a thin valley stays thin
+constexpr KernelWidth kCurve{.neighbour_share = 0.03, .least = 1};      // smooth to look at
+constexpr KernelWidth kRegion{.neighbour_share = 0.01, .least = 0.71};  // its own cell's middle
 
 constexpr double kReach = 4;  // of a kernel, in its widths
 
@@ -50,10 +50,6 @@ Eigen::VectorXd Shares(double x, double width, int num_cells) {
   return shares / shares.sum();
 }
 
-Eigen::Index CellOf(double x, int num_cells) {
-  return std::clamp(static_cast<int>(x * num_cells), 0, num_cells - 1);
-}
-
 }  // namespace
 
 std::vector<double> MarginalDensity(const Eigen::VectorXd& draws, int num_cells) {
@@ -64,27 +60,24 @@ std::vector<double> MarginalDensity(const Eigen::VectorXd& draws, int num_cells)
   return {sum.data(), sum.data() + sum.size()};
 }
 
-std::vector<double> CredibleLevels(const Eigen::MatrixXd& draws, int num_cells) {
-  const Eigen::VectorXd widths = Widths(draws, kRegion, num_cells);
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(num_cells, num_cells);  // (x, y): x fastest
+std::vector<double> ProjectedLevels(const Eigen::MatrixXd& draws, const Eigen::VectorXd& levels,
+                                    int num_cells) {
+  const Eigen::VectorXd reach = num_cells * Widths(draws, kRegion, num_cells);  // in cells
+  Eigen::MatrixXd least = Eigen::MatrixXd::Ones(num_cells, num_cells);          // (x, y): x fastest
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    mass += Shares(draws(i, 0), widths[i], num_cells) *
-            Shares(draws(i, 1), widths[i], num_cells).transpose();
+    const Eigen::Vector2d at = num_cells * draws.row(i).transpose();
+    const auto first = [&](int k) { return std::max(0, static_cast<int>(at[k] - reach[i])); };
+    const auto last = [&](int k) {
+      return std::min(num_cells - 1, static_cast<int>(at[k] + reach[i]));
+    };
+    for (int y = first(1); y <= last(1); ++y) {
+      for (int x = first(0); x <= last(0); ++x) {
+        if ((Eigen::Vector2d(x + 0.5, y + 0.5) - at).norm() > reach[i]) continue;
+        least(x, y) = std::min(least(x, y), levels[i]);
+      }
+    }
   }
-  // The draws themselves say which share of them a density holds; the kernels' mass would, too, but
-  // it lies farther out than the draws, and its region is larger than theirs.
-  std::vector<double> at_draws;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    at_draws.push_back(mass(CellOf(draws(i, 0), num_cells), CellOf(draws(i, 1), num_cells)));
-  }
-  std::sort(at_draws.begin(), at_draws.end());
-  std::vector<double> levels;
-  for (const double density : mass.reshaped()) {
-    const auto denser =
-        at_draws.end() - std::upper_bound(at_draws.begin(), at_draws.end(), density);
-    levels.push_back(static_cast<double>(denser) / static_cast<double>(at_draws.size()));
-  }
-  return levels;
+  return {least.data(), least.data() + least.size()};
 }
 
 }  // namespace talus::analysis

@@ -56,7 +56,7 @@ function verdict(h) {
 function alarms() {
   return D.warnings.length ? element("div", {class: "notice", role: "note", id: "alarms"},
     element("strong", {}, "Before you use it"),
-    element("ul", {}, D.warnings.map((w) => element("li", {}, w)))) : null;
+    element("ul", {}, D.warnings.map((w) => element("li", {}, withCode(w))))) : null;
 }
 
 const meetsText = {yes: "✓ fits", no: "✗ misses", unknown: "? open"};
@@ -116,7 +116,7 @@ function facts(h) {
   }
   if (h.tied_volume !== null) {
     list.push(h.posterior
-      ? fact("Joint 90\u00a0% region", percent(h.tied_volume), "of the searched volume; each range spans it alone")
+      ? fact("Joint 90\u00a0% region", percent(h.tied_volume), "of the searched volume; the ranges are the box round it")
       : fact("Sets within the scatter", percent(h.tied_volume), "of the searched volume: a thin region may still " +
           "span each range alone"));
   }

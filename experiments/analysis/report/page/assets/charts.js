@@ -44,6 +44,16 @@ const hasWebGl = (() => {
   }
 })();
 
+// All that the next frames would draw, now. The canvases are numbered among everything that was drawn since.
+function drawSpace(made) {
+  const first = made.getZr().id + 1, canvases = [];
+  for (let id = first; id < first + 100000; ++id) canvases.push(echarts.zrender.getInstance(id));
+  for (let frame = 0; frame < 3; ++frame) {
+    canvases.filter(Boolean).forEach((canvas) => canvas.flush());
+    made.getZr().animation.update();
+  }
+}
+
 // Draws `makeOption(width)` into a new element when that scrolls near the window: a long page opens
 // at once. Returns {figure, redraw}.
 function chart(id, title, caption, makeOption, size = "") {
@@ -83,7 +93,12 @@ function chart(id, title, caption, makeOption, size = "") {
   const toPaper = () => {
     if (!made) return;
     if (entry.picture) entry.picture.remove();
-    entry.picture = made.getRenderedCanvas({pixelRatio: 2, backgroundColor: paper});
+    // A picture finer than the screen's would leave out what WebGL draws. Its camera moves with the frames, and its
+    // texts come from canvases of their own.
+    const inSpace = Boolean(made.getOption().grid3D);
+    if (inSpace) drawSpace(made);
+    const pixelRatio = inSpace ? window.devicePixelRatio : 2;
+    entry.picture = made.getRenderedCanvas({pixelRatio, backgroundColor: paper});
     entry.picture.removeAttribute("style");  // its size on the screen
     entry.picture.className = "paper";
     place.after(entry.picture);

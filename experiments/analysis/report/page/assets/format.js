@@ -38,6 +38,9 @@ function duration(seconds) {
   return format(seconds / 3600, 3) + " h";
 }
 
+// What stands in backticks, as the terminal has it, is a command.
+const withCode = (text) => text.split("`").map((part, i) => i % 2 ? element("code", {}, part) : part);
+
 // element("p", {class: "note"}, "text", child …): text is never taken for markup.
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);

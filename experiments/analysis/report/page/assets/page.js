@@ -43,7 +43,7 @@ function build() {
   if (c.has_image) section("profiles", "Profiles", of + "The average profile of the experiment (AEHP) and the average profiles of " +
     "the best simulations (ANHP). In a signed map, blue is where the simulation has too little powder, red " +
     "where it has too much.", [D.overlay ? overlayFigure()
-      : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to show: " + D.overlay_absent) : null,
+      : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to lay the heap over: " + D.overlay_absent) : null,
       D.outlines.length ? card(outlineChart()) : null,
       D.pictures.length ? pictures() : null]);
   section("measures", c.has_image ? "Angles and measures" : "Measures", of, [measuresTable()]);

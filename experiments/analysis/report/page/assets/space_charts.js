@@ -72,8 +72,8 @@ function spaceChart() {
     const axis = (k) => {
       const p = D.parameters[axes[k]];
       return {type: "value", min: logOf(axes[k], p.low), max: logOf(axes[k], p.high), name: nameOf(p),
-        nameGap: narrow ? 18 : 24, nameTextStyle: {color: ink, fontSize: narrow ? 12 : 14},
-        axisLabel: {textStyle: {color: soft, fontSize: narrow ? 10 : 12},
+        nameGap: narrow ? 18 : 24, nameTextStyle: {color: ink, fontSize: narrow ? 12 : 14, lineHeight: 24},
+        axisLabel: {textStyle: {color: soft, fontSize: narrow ? 10 : 12, lineHeight: 22},
           // The first label of x would stand on that of z.
           formatter: (x) => k === 0 && x === logOf(axes[0], p.low) ? ""
             : tick(p.log ? Number((10 ** x).toPrecision(3)) : x)},
@@ -192,7 +192,8 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
     zoomed(pair.y.slice(1).map((_, r) => pair.x.slice(1).some((_x, c) => pair.value[r * nx + c] < .9)), pair.y)];
   const sets = D.headline ? D.headline.representatives.filter((set) => !set.recommended) : [];
   return chart(id, (posterior ? "Joint region of " : "") + px.symbol + " and " + py.symbol,
-      (posterior ? "Dark: 50\u00a0% of the posterior, light: 90\u00a0%. Blank: ruled out at that level."
+      (posterior ? (D.parameters.length > 2 ? "The shadow of the joint region on this plane: dark 50\u00a0%, light 90\u00a0%."
+          : "Dark: 50\u00a0% of the posterior, light: 90\u00a0%.") + " Blank: ruled out at that level."
         : "Blank: no chance to tie with the best. Darkest: " + percent(top) + ".") +
       (D.headline ? " Star: recommended." : "") +
       (sets.length ? " Numbers: sets that fit equally." : "") +
