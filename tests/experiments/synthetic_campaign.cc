@@ -170,19 +170,52 @@ analysis::Conclusion MakeConclusion(const analysis::Evidence& evidence,
   return conclusion;
 }
 
+constexpr double kAlong = 0.18;   // sd along the valley, unit cube
+constexpr double kAcross = 0.02;  // … across it, of each parameter
+
+// Of the second parameter, where the first is `along` from the truth.
+double Bend(double along) { return along * along - 0.8 * along; }
+
 // Draws of a bent valley through the truth: the first two parameters are known together only.
 Eigen::MatrixXd MakeDraws(const Eigen::VectorXd& truth) {
   constexpr int kDraws = 1000;
   Eigen::MatrixXd draws(kDraws, truth.size());
   base::Random random(5, base::Stream("synthetic posterior"));
   for (Eigen::Index i = 0; i < kDraws; ++i) {
-    const double along = 0.18 * random.Normal();
+    const double along = kAlong * random.Normal();
     for (Eigen::Index k = 0; k < truth.size(); ++k) {
-      const double shift = k == 0 ? along : k == 1 ? along * along - 0.8 * along : 0;
-      draws(i, k) = std::clamp(truth(k) + shift + 0.02 * random.Normal(), 0.0, 1.0);
+      const double shift = k == 0 ? along : k == 1 ? Bend(along) : 0;
+      draws(i, k) = std::clamp(truth(k) + shift + kAcross * random.Normal(), 0.0, 1.0);
     }
   }
   return draws;
+}
+
+// Squared distance from the truth along the valley and across it, in standard deviations.
+Eigen::VectorXd SquaredDistance(const Eigen::MatrixXd& points, const Eigen::VectorXd& truth) {
+  Eigen::VectorXd squared(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    Eigen::VectorXd from = points.row(i).transpose() - truth;
+    const double along = from[0];
+    from[0] /= kAlong;
+    if (from.size() > 1) from[1] = (from[1] - Bend(along)) / (kAcross * std::hypot(1, 0.8));
+    if (from.size() > 2) from[2] /= kAcross;
+    squared[i] = from.squaredNorm();
+  }
+  return squared;
+}
+
+// The share of the draws that are nearer.
+Eigen::VectorXd LevelsOf(const Eigen::MatrixXd& points, const Eigen::MatrixXd& draws,
+                         const Eigen::VectorXd& truth) {
+  Eigen::VectorXd sorted = SquaredDistance(draws, truth);
+  std::sort(sorted.begin(), sorted.end());
+  Eigen::VectorXd levels = SquaredDistance(points, truth);
+  for (double& level : levels) {
+    const auto nearer = std::lower_bound(sorted.begin(), sorted.end(), level) - sorted.begin();
+    level = static_cast<double>(nearer) / static_cast<double>(sorted.size());
+  }
+  return levels;
 }
 
 analysis::ModelEvidence MakeModel(const analysis::Evidence& evidence, bool posterior,
@@ -201,7 +234,12 @@ analysis::ModelEvidence MakeModel(const analysis::Evidence& evidence, bool poste
   model.expected = answer.predicted_value;
   model.expected_sd = answer.predicted_sd;
   model.noise_sd = answer.noise_sd;
-  if (posterior) model.draws = MakeDraws(truth);
+  if (posterior) {
+    model.draws = MakeDraws(truth);
+    model.credible_levels = [draws = model.draws, truth](const Eigen::MatrixXd& points) {
+      return LevelsOf(points, draws, truth);
+    };
+  }
   model.predict = [strategy](const Eigen::MatrixXd& points) {
     return *strategy->Predict(points, 0);
   };

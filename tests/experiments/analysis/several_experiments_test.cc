@@ -168,7 +168,7 @@ TEST_F(Fit, IsSaidOfEachMeasurementAndInASentence) {
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].measured, "5 runs, each 0.7 mm² SAD from the mean of the others");
   EXPECT_EQ(rows[0].simulated, "0.5 mm² SAD as the mean of 2 simulations; 0.6 mm² in single runs");
-  EXPECT_EQ(rows[0].judgement, "0.71 times as far as the runs are from each other");
+  EXPECT_EQ(rows[0].judgement, "0.714 times as far as the runs are from each other");
   EXPECT_EQ(rows[0].meets, analysis::FitRow::Meets::kYes);
   EXPECT_EQ(rows[1].simulated, "1500 kg/m³ as the mean of 2 simulations");
   EXPECT_EQ(rows[1].judgement, "5 standard errors of the measurement away");

@@ -136,9 +136,7 @@ std::vector<Marginal> Marginals(const Evidence& evidence) {
 }
 
 std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
-  if (evidence.parameters.size() == 2 && evidence.model->credible_levels) {
-    return {RegionMap(evidence)};
-  }
+  if (evidence.parameters.size() == 2) return {RegionMap(evidence)};
   const Eigen::VectorXd levels = evidence.model->credible_levels(evidence.model->draws);
   return EachPair(evidence, evidence.model->draws, kRegionCells, [&](const Eigen::MatrixXd& two) {
     return ProjectedLevels(two, levels, kRegionCells);
