@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/text/number_text.h"
+
 namespace talus::imaging {
 namespace {
 
@@ -18,10 +20,11 @@ double Median(std::vector<double> values) {
 }
 
 std::string Percent(double share) {
-  std::ostringstream text;
-  text.precision(2);
-  text << 100 * share << " %";
-  return text.str();
+  constexpr double kWhole = 10;  // from here on
+  const double percent = 100 * share;
+  return base::ShortNumber(percent < kWhole ? percent : std::round(percent),
+                           percent < kWhole ? 2 : 6) +
+         " %";
 }
 
 std::string Times(double factor) {
