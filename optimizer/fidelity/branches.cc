@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "optimizer/models/median.h"
+
 namespace talus::optimizer {
 namespace {
 
@@ -57,12 +59,6 @@ bool IsJoined(const Posterior& posterior, const Eigen::MatrixXd& draws, const Pa
   const Eigen::RowVectorXd b = draws.row(static_cast<Eigen::Index>(pair.b));
   for (int i = 0; i < 3; ++i) between.row(i) = a + 0.25 * (i + 1) * (b - a);
   return posterior.LogDensity(between).minCoeff() > least - kDip;
-}
-
-double Median(Eigen::VectorXd values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::VectorXd& density,

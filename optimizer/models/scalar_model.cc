@@ -4,14 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "optimizer/models/median.h"
+
 namespace talus::optimizer {
 namespace {
-
-double Median(Eigen::VectorXd values) {
-  const auto middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  return values[middle];
-}
 
 // The largest of 8, 11, 16, 23, 32, … (factors of √2) up to n; n itself below 8.
 int MilestoneBefore(int n) {

@@ -15,11 +15,11 @@ std::string ResumeCommand(double num_more) {
 }
 
 std::string BudgetText(const ResultWarning& w) {
-  std::string text = "the budget ended the search before its stopping rule did: " + w.text + "; ";
-  if (w.value)
-    text += "about " + std::to_string(std::llround(*w.value)) + " more simulations would meet it";
-  return text + (w.value ? "" : "go on with more simulations") + " (" +
-         ResumeCommand(w.value.value_or(kMoreSimulations)) + ")";
+  const std::string remedy = w.value ? "about " + std::to_string(std::llround(*w.value)) +
+                                           " more simulations would meet it"
+                                     : "go on with more simulations";
+  return "the budget ended the search before its stopping rule did: " + w.text + "; " + remedy +
+         " (" + ResumeCommand(w.value.value_or(kMoreSimulations)) + ")";
 }
 
 std::string TextOf(const ResultWarning& w) {
