@@ -15,7 +15,8 @@
 
 namespace talus::bench {
 
-inline constexpr double kCaution = 1.5;  // as experiment_model.cc inflates the surrogate's sd
+inline constexpr double kCaution = 1.5;  // of the surrogate's sd, as the tables were made; the
+                                         // program's is optimizer::kSurrogateCaution
 
 // One output at every set.
 class Output {

@@ -11,7 +11,6 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCaution = 2.5;  // see MisfitOf
 constexpr int kMostModes = 8;
 constexpr int kNumDraws = 16;  // of an objective, half of them mirror images of the others
 
@@ -186,14 +185,13 @@ void ExperimentModel::MeasureScalars() {
   }
 }
 
-// The surrogate's sd is inflated by kCaution: point-estimated hyper-parameters and constant noise
-// make it overconfident where the posterior selects (bench/optimizers/fidelity_twins).
 OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
   OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
                       .log_sd = Eigen::VectorXd::Zero(points.rows())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
-    const Eigen::ArrayXd cautious = kCaution * kCaution * all.variance.array() + open_[k];
+    const Eigen::ArrayXd cautious =
+        kSurrogateCaution * kSurrogateCaution * all.variance.array() + open_[k];
     misfit.residual.col(k) = (measured_[k] - all.mean.array()) / cautious.sqrt();
     misfit.log_sd.array() += 0.5 * (all.variance.array() + open_[k]).log();
   }
@@ -210,7 +208,7 @@ OutputPredictions ExperimentModel::Predict(const Eigen::MatrixXd& points) const 
     const auto output = static_cast<std::size_t>(k);
     const surrogate::Predictions all = outputs_[output].Predict(points, 0);
     predictions.mean.col(k) = all.mean;
-    predictions.variance.col(k) = kCaution * kCaution * all.variance;
+    predictions.variance.col(k) = kSurrogateCaution * kSurrogateCaution * all.variance;
     predictions.single[k] = TargetNoise(output);
   }
   return predictions;

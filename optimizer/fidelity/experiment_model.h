@@ -16,6 +16,11 @@
 
 namespace talus::optimizer {
 
+// The surrogate's sd is taken for so many times as large in the misfit: point-estimated
+// hyper-parameters and constant noise make it overconfident where the posterior selects
+// (bench/optimizers/fidelity_twins).
+inline constexpr double kSurrogateCaution = 2.5;
+
 // The evaluations of one experiment.
 struct ExperimentData {
   std::vector<Eigen::VectorXd> points;  // unit cube

@@ -10,6 +10,7 @@
 #include "experiments/campaign/answer/result_warning.h"
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/answer/credible_ranges.h"
+#include "optimizer/fidelity/experiment_model.h"
 
 namespace talus::analysis {
 namespace {
@@ -116,8 +117,8 @@ double TimeOfOne(const Evidence& evidence) {
 // A range's width is the root of a variance: what the measurements leave open, and the surrogate's
 // share of it beside, which more simulations take away.
 double WidthWithoutSurrogate(double share) {
-  constexpr double kInflation = 1.5;  // of the surrogate's deviation in the posterior's misfit
-  return 1 / std::sqrt(1 + kInflation * kInflation * share);
+  constexpr double kCaution = optimizer::kSurrogateCaution;
+  return 1 / std::sqrt(1 + kCaution * kCaution * share);
 }
 
 // First where an alarm asks for it.
