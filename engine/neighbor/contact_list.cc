@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "engine/neighbor/skin_tuner.h"
 #include "engine/thread_seconds.h"
 
 namespace talus::engine {
@@ -23,8 +24,14 @@ constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them e
 // their other pairs, their walls and their motion come one after the other.
 constexpr std::int64_t kPanelSize = 1024;
 
-// An overlap, in parts of the distance at which surfaces meet, that no contact law is meant for.
+// An overlap of spheres, in parts of the distance at which surfaces meet, that no contact law is
+// meant for.
 constexpr double kMaxOverlapShare = 0.5;
+
+// As far as that a sphere may sink into a wall, in its radii. Between two lists it moves by less
+// than the skin, 0.6 radii at most: from a higher place to one as far behind the wall takes more,
+// so none goes through unseen.
+constexpr double kMaxWallShare = 1 - SkinTuner::kLargestSkin / 2;
 
 std::int64_t RoundUp(std::int64_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
 
@@ -170,7 +177,7 @@ void ContactList::FindWalls(const RebuildInput& input, const Panel& panel, Scrat
     for (std::int64_t i = panel.begin; i < std::min(panel.end, p.num); ++i) {
       const double gap = scratch.gaps[i - panel.begin];
       if (!(gap < input.reach)) continue;
-      if (!(gap > -kMaxOverlapShare * p.Radius(i))) {
+      if (!(gap > -kMaxWallShare * p.Radius(i))) {
         throw base::Error("sphere " + std::to_string(p.ids[i]) + " goes through the wall \"" +
                           input.walls.walls()[w].name + "\"");
       }

@@ -13,7 +13,6 @@ constexpr double kRebuildOverPair = 150;
 
 constexpr double kFirstSkin = 0.08;  // in smallest radii, as are the bounds
 constexpr double kSmallestSkin = 0.01;
-constexpr double kLargestSkin = 0.6;
 
 }  // namespace
 

@@ -13,6 +13,8 @@ namespace talus::engine {
 
 class SkinTuner {
  public:
+  static constexpr double kLargestSkin = 0.6;  // in smallest radii
+
   SkinTuner() = default;
   explicit SkinTuner(double smallest_radius);
 

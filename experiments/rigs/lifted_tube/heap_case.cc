@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "engine/scene/filling.h"
 #include "engine/scene/scene.h"
 #include "experiments/rigs/lifted_tube/pouring.h"
@@ -109,22 +110,26 @@ namespace {
 void ValidatePour(const HeapCase& c, const Vessel& vessel, base::Problems& problems) {
   const double largest =
       c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
-  const double mouth = c.filling.mouth_diameter.value_or(vessel.across / 2);
+  const double mouth = MouthDiameter(c, vessel);
   problems.Require(mouth < vessel.across, "filling.mouth_diameter", mouth,
                    KindOf(c) == RigKind::kLiftedTube ? "must be below device.tube_inner_diameter"
                                                      : "must be below the width of the vessel");
   problems.Require(!c.filling.mouth_diameter || mouth > 2 * largest, "filling.mouth_diameter",
                    mouth, "must be above two (scaled) grain diameters");
   if (!problems.empty()) return;
-  const double share = ImpactShare(c, vessel);
-  if (share <= kMaxImpactShare) return;
   // (δ/R)^(5/2) goes with v²/E, and v² nearly with the height.
-  const double ratio = std::pow(share / kMaxImpactShare, 2.5);
-  problems.Add("filling.drop_height",
-               "lets grains sink " + std::to_string(share) +
-                   " of their radius into each other or into a wall, above the 0.3 that holds; "
-                   "raise youngs_modulus " +
-                   std::to_string(ratio) + " times, lower drop_height, or fill with kind dense");
+  const auto require = [&](double share, double limit, const std::string& what) {
+    if (share <= limit) return;
+    problems.Add("filling.drop_height",
+                 what + ", " + base::ShortNumber(share) + " of their radius, above the " +
+                     base::ShortNumber(limit) + " that holds; raise youngs_modulus " +
+                     base::ShortNumber(std::pow(share / limit, 2.5)) +
+                     " times, lower drop_height, or fill with kind dense");
+  };
+  require(ImpactShare(c, vessel), kMaxImpactShare,
+          "lets grains sink into each other or into a wall");
+  require(SqueezeShare(c, vessel), kMaxSqueezeShare,
+          "presses the smallest grains into the plate where the largest fall on them");
 }
 
 }  // namespace

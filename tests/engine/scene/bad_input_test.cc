@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "base/error.h"
 #include "tests/engine/cloud.h"
 
@@ -84,6 +87,31 @@ TEST(BlowUp, ASphereThatSinksThroughAWallIsNamed) {
   Simulation simulation(scene);
   EXPECT_THAT(ErrorOf([&] { simulation.Advance(100000); }),
               AllOf(HasSubstr("step "), HasSubstr("sphere 42 goes through the wall \"floor\"")));
+}
+
+// An elastic sphere with v² = 4 E* (δ/R)^(5/2) / (5 π ρ) sinks by δ (Hertz) and comes back.
+TEST(BlowUp, ASphereMaySinkByAShareOfItsRadius) {
+  const auto error_at = [](double depth) {
+    Scene scene = Sound();
+    engine::Material& soft = scene.materials[0];
+    soft.youngs_modulus = 1e5;
+    soft.restitution = 1;
+    const double e_star = 1e5 / (1 - soft.poisson_ratio * soft.poisson_ratio) / 2;
+    const double speed =
+        std::sqrt(4 * e_star * std::pow(depth, 2.5) / (5 * std::numbers::pi * soft.density));
+    scene.gravity = {};
+    scene.rayleigh_fraction = 0.03;
+    scene.particles = {
+        {.id = 42, .radius = 1e-3, .position = {0, 0, 1.01e-3}, .velocity = {0, 0, -speed}}};
+    Simulation simulation(scene);
+    const std::string error = ErrorOf([&] { simulation.Advance(20000); });
+    if (error.empty()) {
+      EXPECT_NEAR(simulation.Particles()[0].velocity.z, speed, 0.01 * speed);
+    }
+    return error;
+  };
+  EXPECT_EQ(error_at(0.65), "");
+  EXPECT_THAT(error_at(1.3), HasSubstr("sphere 42 goes through the wall \"floor\""));
 }
 
 TEST(BlowUp, AWallThatIsDrivenThroughSpheresIsCaught) {
