@@ -239,7 +239,8 @@ int Run(const Options& options) {
   std::vector<Measurement> slopes;
   for (const int speed : kSpeeds) {
     const Eigen::MatrixXd pixels = ReadImages(options.folder, speed, table.sets.cols());
-    const surrogate::PrincipalModes modes = surrogate::FitModes(pixels, options.modes);
+    const surrogate::PrincipalModes modes =
+        surrogate::FitModes(pixels, Eigen::VectorXd::Ones(pixels.rows()), options.modes);
     const Eigen::MatrixXd values = (pixels.rowwise() - modes.mean.transpose()) * modes.basis;
     Eigen::MatrixXd slope(pixels.rows(), 1);
     for (Eigen::Index i = 0; i < pixels.rows(); ++i) slope(i, 0) = SlopeOf(pixels.row(i));

@@ -26,6 +26,15 @@ double CompressionSlope(const ScalarTarget& target) {
   return 1 / std::sqrt(scale * scale + target.value * target.value);
 }
 
+// A heap of a few coarse grains says less of the image than one of many fine ones.
+Eigen::VectorXd ImageWeights(const Levels& levels, const ExperimentData& data) {
+  Eigen::VectorXd weights(data.size());
+  for (int i = 0; i < data.size(); ++i) {
+    weights[i] = std::pow(levels.NoiseAtTarget(data.level[static_cast<std::size_t>(i)]), 2);
+  }
+  return weights;
+}
+
 // Prior medians of an output's noise sd over its own spread, one a level: `coarsest` at the
 // coarsest, less at finer ones.
 Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
@@ -37,6 +46,7 @@ Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
 }
 
 // The strongest mode left out is nearly all noise, and noise is somewhat larger along strong modes.
+// `next_sd` and the result at the coarsest level.
 double NoiseOfMode(double next_sd, const Eigen::VectorXd& coefficients) {
   const double spread = surrogate::StandardDeviation(coefficients);
   return spread > 0 ? std::clamp(1.5 * next_sd / spread, 0.1, 0.8) : 0.8;
@@ -65,7 +75,7 @@ ExperimentModel::ExperimentModel(const Setup& setup, const ExperimentData& data,
       for (int i = 0; i < data.size(); ++i) {
         vectors.row(i) = data.vectors[static_cast<std::size_t>(i)];
       }
-      modes_ = surrogate::FitModes(vectors, kMostModes);
+      modes_ = surrogate::FitModes(vectors, ImageWeights(*setup_.levels, data), kMostModes);
     }
   }
   FitOutputs(data, frozen);
@@ -111,10 +121,10 @@ void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentSta
       one.growth[i] = setup_.levels->growth(data.level[row]);
     }
     constexpr double kNoiseOfScalar = 0.2;
+    const double next_sd = modes_.next_sd / setup_.levels->NoiseAtTarget(0);
     surrogate::FidelityFitOptions options{
-        .noise_median =
-            NoiseMedians(*setup_.levels,
-                         k < num_modes ? NoiseOfMode(modes_.next_sd, one.values) : kNoiseOfScalar)};
+        .noise_median = NoiseMedians(
+            *setup_.levels, k < num_modes ? NoiseOfMode(next_sd, one.values) : kNoiseOfScalar)};
     if (frozen != nullptr) options.frozen = frozen->outputs[static_cast<std::size_t>(k)];
     outputs_.push_back(surrogate::FidelityProcess::Fit(std::move(one), options));
     evaluations_.push_back(std::move(rows));

@@ -40,7 +40,8 @@ ModeProcess ModeProcess::Fit(const Eigen::MatrixXd& points, const Eigen::MatrixX
   process.num_parameters_ = static_cast<int>(points.cols());
   process.deterministic_ = options.process.deterministic;
   process.state_.modes =
-      options.frozen ? options.frozen->modes : FitModes(vectors, options.max_modes);
+      options.frozen ? options.frozen->modes
+                     : FitModes(vectors, Eigen::VectorXd::Ones(vectors.rows()), options.max_modes);
   const PrincipalModes& modes = process.state_.modes;
   const Eigen::MatrixXd coefficients = (vectors.rowwise() - modes.mean.transpose()) * modes.basis;
   const Eigen::Index count = coefficients.cols();

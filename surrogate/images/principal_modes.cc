@@ -6,11 +6,15 @@
 
 namespace talus::surrogate {
 
-PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes) {
+PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& weights,
+                        int max_modes) {
   constexpr double kRounding = 1e-12;  // share of the whole variance
   PrincipalModes modes;
-  modes.mean = vectors.colwise().mean().transpose();
-  const Eigen::MatrixXd centred = vectors.rowwise() - modes.mean.transpose();
+  const double mean_weight = weights.mean();
+  const Eigen::ArrayXd shares = weights.array() / mean_weight;
+  modes.mean = (vectors.array().colwise() * shares).matrix().colwise().mean().transpose();
+  const Eigen::MatrixXd centred =
+      (vectors.rowwise() - modes.mean.transpose()).array().colwise() * shares.sqrt();
   // There are far fewer vectors than elements, so the small Gram matrix has all there is to know.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred * centred.transpose());
   const Eigen::VectorXd& eigenvalues = solver.eigenvalues();  // ascending
@@ -22,8 +26,8 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes) {
     ++count;
   }
   if (count < size) {
-    modes.next_sd =
-        std::sqrt(std::max(0.0, eigenvalues[size - 1 - count]) / static_cast<double>(size));
+    modes.next_sd = std::sqrt(mean_weight * std::max(0.0, eigenvalues[size - 1 - count]) /
+                              static_cast<double>(size));
   }
   modes.basis.resize(vectors.cols(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -36,7 +40,8 @@ PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes) {
     if (modes.basis(largest, k) < 0) modes.basis.col(k) *= -1;
   }
   const Eigen::MatrixXd rest = centred - (centred * modes.basis) * modes.basis.transpose();
-  modes.discarded = rest.colwise().squaredNorm().transpose() / static_cast<double>(size);
+  modes.discarded =
+      mean_weight * rest.colwise().squaredNorm().transpose() / static_cast<double>(size);
   return modes;
 }
 

@@ -10,6 +10,7 @@ namespace talus::surrogate {
 struct PrincipalModes {
   Eigen::VectorXd mean;       // m
   Eigen::MatrixXd basis;      // m × k, orthonormal columns, the strongest first
+  // Of a vector of weight 1:
   Eigen::VectorXd discarded;  // m: variance of each element that the modes leave out
   double next_sd = 0;         // standard deviation of the strongest mode left out; 0 where none is
 
@@ -18,7 +19,9 @@ struct PrincipalModes {
   }
 };
 
-// `vectors`: one a row. At most max_modes, fewer when the rest is rounding.
-PrincipalModes FitModes(const Eigen::MatrixXd& vectors, int max_modes);
+// `vectors`: one a row. At most max_modes, fewer when the rest is rounding. `weights` > 0, one a
+// vector: the inverse of its noise variance over that of a vector of weight 1.
+PrincipalModes FitModes(const Eigen::MatrixXd& vectors, const Eigen::VectorXd& weights,
+                        int max_modes);
 
 }  // namespace talus::surrogate
