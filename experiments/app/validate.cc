@@ -48,10 +48,21 @@ void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
   std::cout << " minimising " << base::NameOf(spec.objective) << '\n';
 }
 
+// Photographs that are not there yet need not keep the cost from being planned.
+journal::CampaignRecord MeasuredRecord(const campaign::CampaignSpec& spec,
+                                       const base::JsonFile& file) {
+  try {
+    return campaign::MakeRecord(spec, file);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(std::string(error.what()) +
+                            "\n--without-experiment checks all else and plans the cost");
+  }
+}
+
 void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   const campaign::CampaignSpec spec = campaign::ReadCampaignSpec(file);
   journal::CampaignRecord record;
-  if (with_experiment) record = campaign::MakeRecord(spec, file);
+  if (with_experiment) record = MeasuredRecord(spec, file);
   std::cout << file.path.string() << ": is in order\n";
   PrintSearched(campaign::SearchedParameters(spec), spec);
   if (!with_experiment) std::cout << "  experiment        not looked at (--without-experiment)\n";

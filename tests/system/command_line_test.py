@@ -168,6 +168,7 @@ class Progress(unittest.TestCase):
         done = talus("validate", str(self.spec))
         self.assertEqual(done.returncode, 2)
         self.assertIn("not taken yet", done.stderr)
+        self.assertIn("--without-experiment", done.stderr)
         done = talus("validate", str(self.spec), "--without-experiment")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("sliding_friction in 0.1 … 0.9", done.stdout)
