@@ -78,14 +78,15 @@ struct AnswerBranch {
 
 // What the campaign itself concludes.
 struct Conclusion {
-  std::string verdict_kind{};           // "point", "curve", "region", "separate"; empty: not known
-  std::string verdict{};                // the same in a sentence
-  std::string trade_off{};              // which parameters change together; empty where none do
-  std::string unsettled{};              // that the budget ended the search, where it did too early
-  double unsettled_share = kUndefined;  // campaign::ResultUnsettled
-  double more_simulations = kUndefined;
-  std::string use{};                  // whether to use the recommended set now
-  bool asks_for_simulations = false;  // an alarm does
+  std::string verdict_kind{};            // "point", "curve", "region", "separate"; empty: not known
+  std::string verdict{};                 // the same in a sentence
+  std::string trade_off{};               // which parameters change together; empty where none do
+  std::vector<int> traded{};             // these two, as they are listed
+  std::string unsettled{};               // that the budget ended the search, where it did too early
+  double more_simulations = kUndefined;  // that would end it by its rule
+  double width_then = kUndefined;        // of the ranges after these, over today's [-]
+  std::string use{};                     // whether to use the recommended set now
+  bool asks_for_simulations = false;     // an alarm does
   bool has_posterior = false;
   std::vector<std::vector<double>> representative{};  // sets to look at side by side, SI
   std::vector<AnswerBranch> branches{};  // the likeliest first; empty where there is no posterior

@@ -10,6 +10,7 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/verdict.h"
 #include "experiments/journal/objective.h"
+#include "optimizer/fidelity/experiment_model.h"
 
 namespace talus::analysis {
 namespace {
@@ -44,21 +45,20 @@ std::string LongName(const ParameterInfo& parameter) {
 }
 
 // The two that change together most, where they do so clearly.
-std::string TradeOff(const std::vector<std::vector<double>>& correlation,
-                     const std::vector<ParameterInfo>& parameters) {
+void AddTradeOff(const std::vector<std::vector<double>>& correlation,
+                 const std::vector<ParameterInfo>& parameters, Conclusion& conclusion) {
   constexpr double kClear = 0.5;
   double most = kClear;
-  std::string text;
   for (std::size_t i = 0; i < correlation.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!(std::abs(correlation[i][j]) >= most)) continue;
       most = std::abs(correlation[i][j]);
-      text = "Higher " + parameters[j].symbol + " goes with " +
-             (correlation[i][j] < 0 ? "lower " : "higher ") + parameters[i].symbol +
-             ": change them together.";
+      conclusion.traded = {static_cast<int>(j), static_cast<int>(i)};
+      conclusion.trade_off = "Higher " + parameters[j].symbol + " goes with " +
+                             (correlation[i][j] < 0 ? "lower " : "higher ") + parameters[i].symbol +
+                             ": change them together.";
     }
   }
-  return text;
 }
 
 bool Has(const campaign::CampaignResult& result, std::initializer_list<campaign::WarningKind> of) {
@@ -73,15 +73,27 @@ bool AsksForSimulations(const campaign::CampaignResult& result) {
                       K::kExtrapolated, K::kUnlearntScaleFactor});
 }
 
+// A range's width is the root of a variance: what the measurements leave open, and the surrogate's
+// share of it beside, which more simulations take away.
+double WidthWithoutSurrogate(double share) {
+  constexpr double kCaution = optimizer::kSurrogateCaution;
+  return 1 / std::sqrt(1 + kCaution * kCaution * share);
+}
+
 // Whether the search came to its own end. The alarm says what is missing.
 void AddUnsettled(const campaign::CampaignResult& result, Conclusion& conclusion) {
   if (!result.unsettled) return;
-  conclusion.unsettled_share = result.unsettled->share;
   conclusion.more_simulations = result.unsettled->num_more;
+  conclusion.width_then = WidthWithoutSurrogate(result.unsettled->share);
   conclusion.unsettled = "The budget ended the search before its stopping rule did";
   if (std::isfinite(conclusion.more_simulations)) {
     conclusion.unsettled += ": about " + std::to_string(std::llround(conclusion.more_simulations)) +
                             " more simulations would meet it";
+    if (std::isfinite(conclusion.width_then)) {
+      conclusion.unsettled += " and leave ranges about " +
+                              base::ShortNumber(std::round(100 * conclusion.width_then) / 100) +
+                              " times as wide";
+    }
   }
   conclusion.unsettled += ".";
 }
@@ -103,7 +115,7 @@ std::string UseNow(const campaign::CampaignResult& result, const std::string& ve
     return "For trial runs: more simulations should confirm it first, as the warnings say.";
   }
   if (Has(result, {K::kBound})) return "Not yet: a parameter lies on the end of its range.";
-  return "Yes, within these ranges and for what it holds for (below).";
+  return "Yes, as one set, for what it holds for (below).";
 }
 
 // The report's first line, with symbols beside the names; and what it stands on.
@@ -145,7 +157,7 @@ Conclusion ConclusionOf(const std::string& result_json,
                         .conditions = ConditionTexts(result.conditions),
                         .model = result.model};
   AddVerdict(result, parameters, conclusion);
-  conclusion.trade_off = TradeOff(result.correlation, parameters);
+  AddTradeOff(result.correlation, parameters, conclusion);
   AddUnsettled(result, conclusion);
   conclusion.use = UseNow(result, conclusion.verdict_kind);
   conclusion.asks_for_simulations = AsksForSimulations(result);

@@ -315,6 +315,7 @@ TEST(ConclusionOf, VerdictSaysWhatKindOfAnswerThereIs) {
   campaign::CampaignResult result = ResultWithPosterior();
   EXPECT_EQ(Concluded(result).verdict_kind, "curve");
   EXPECT_THAT(Concluded(result).verdict, StartsWith("The measurements determine "));
+  EXPECT_EQ(Concluded(result).traded, std::vector<int>({0, 1}));
   EXPECT_THAT(
       Concluded(result).verdict,
       HasSubstr("not both: sets from (sliding friction μ_t 0.06, rolling friction μ_r 0.44) to "
@@ -322,6 +323,7 @@ TEST(ConclusionOf, VerdictSaysWhatKindOfAnswerThereIs) {
                 "% region fills about 20 % of the searched ranges."));
   result.correlation = {{1, 0}, {0, 1}};
   EXPECT_EQ(Concluded(result).verdict_kind, "region");
+  EXPECT_TRUE(Concluded(result).traded.empty());
   EXPECT_THAT(Concluded(result).verdict,
               HasSubstr("leave a region, not a point: sliding friction μ_t in 0.05 to"));
   for (campaign::ResultParameter& p : result.parameters) p.credible_high = 0.1;

@@ -98,6 +98,7 @@ PageValue HeadlineJson(const ReportData& data) {
           {"verdict", c.verdict},
           {"verdict_kind", c.verdict_kind},
           {"trade_off", c.trade_off},
+          {"traded", c.traded},
           {"unsettled", c.unsettled},
           {"use", c.use},
           {"posterior", c.has_posterior},

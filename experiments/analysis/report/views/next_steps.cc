@@ -10,7 +10,6 @@
 #include "experiments/campaign/answer/result_warning.h"
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/answer/credible_ranges.h"
-#include "optimizer/fidelity/experiment_model.h"
 
 namespace talus::analysis {
 namespace {
@@ -114,13 +113,6 @@ double TimeOfOne(const Evidence& evidence) {
   return count > 0 ? sum / count : 0;
 }
 
-// A range's width is the root of a variance: what the measurements leave open, and the surrogate's
-// share of it beside, which more simulations take away.
-double WidthWithoutSurrogate(double share) {
-  constexpr double kCaution = optimizer::kSurrogateCaution;
-  return 1 / std::sqrt(1 + kCaution * kCaution * share);
-}
-
 // First where an alarm asks for it.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const Conclusion& conclusion = *evidence.conclusion;
@@ -136,10 +128,11 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
                         trials::DurationText(count * TimeOfOne(evidence)) + " of core time",
                 .leaves = "not more than what the measurements themselves leave open",
                 .remaining = 0.95};
-  if (std::isfinite(conclusion.unsettled_share)) {
-    const double width = WidthWithoutSurrogate(conclusion.unsettled_share);
-    step.leaves = "ranges about " + Number(std::round(100 * width) / 100) + " times as wide as now";
-    step.remaining = std::pow(width, static_cast<double>(evidence.parameters.size()));
+  if (std::isfinite(conclusion.width_then)) {
+    step.leaves = "ranges about " + Number(std::round(100 * conclusion.width_then) / 100) +
+                  " times as wide as now";
+    step.remaining =
+        std::pow(conclusion.width_then, static_cast<double>(evidence.parameters.size()));
   }
   if (asked) {
     step.leaves = "an answer that the warnings above do not hang on";

@@ -26,8 +26,12 @@ function fact(name, value, note) {
 
 const setText = (values) => D.parameters.map((p, k) => p.symbol + " " + formatUnit(values[k], p.unit)).join(", ");
 
-// The pair of parameters that says most: the one that is tied closest.
+// The pair of parameters that says most: the one that the answer says to change together, or the
+// one whose region is smallest.
 function closestPair() {
+  const [i, j] = D.headline ? D.headline.traded : [];
+  const traded = D.pairs.find((pair) => pair.i === i && pair.j === j);
+  if (traded) return traded;
   const inside = (pair) => pair.value.filter((level) => level < .9).length;
   return [...D.pairs].sort((a, b) => inside(a) - inside(b))[0];
 }

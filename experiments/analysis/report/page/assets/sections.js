@@ -6,7 +6,7 @@ function standing() {
   if (confirming) parts[0] += " and " + confirming + (confirming === 1 ? " that confirms" : " that confirm") + " the answer";
   if (failed) parts.push(failed + " failed");
   if (running) parts.push(running + " running");
-  if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time");
+  if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
     parts.join(" · ") + (c.stop_reason ? ". Why it stopped: " + c.stop_reason : "")];
 }
