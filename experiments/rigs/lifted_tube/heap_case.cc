@@ -117,19 +117,15 @@ void ValidatePour(const HeapCase& c, const Vessel& vessel, base::Problems& probl
   problems.Require(!c.filling.mouth_diameter || mouth > 2 * largest, "filling.mouth_diameter",
                    mouth, "must be above two (scaled) grain diameters");
   if (!problems.empty()) return;
+  const double share = ImpactShare(c, vessel);
+  if (share <= kMaxImpactShare) return;
   // (δ/R)^(5/2) goes with v²/E, and v² nearly with the height.
-  const auto require = [&](double share, double limit, const std::string& what) {
-    if (share <= limit) return;
-    problems.Add("filling.drop_height",
-                 what + ", " + base::ShortNumber(share) + " of their radius, above the " +
-                     base::ShortNumber(limit) + " that holds; raise youngs_modulus " +
-                     base::ShortNumber(std::pow(share / limit, 2.5)) +
-                     " times, lower drop_height, or fill with kind dense");
-  };
-  require(ImpactShare(c, vessel), kMaxImpactShare,
-          "lets grains sink into each other or into a wall");
-  require(SqueezeShare(c, vessel), kMaxSqueezeShare,
-          "presses the smallest grains into the plate where the largest fall on them");
+  const double ratio = std::pow(share / kMaxImpactShare, 2.5);
+  problems.Add("filling.drop_height",
+               "lets grains sink " + base::ShortNumber(share) +
+                   " of their radius into each other or into a wall, above the " +
+                   base::ShortNumber(kMaxImpactShare) + " that holds; raise youngs_modulus " +
+                   base::ShortNumber(ratio) + " times, lower drop_height, or fill with kind dense");
 }
 
 }  // namespace

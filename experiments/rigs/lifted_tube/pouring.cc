@@ -62,54 +62,22 @@ engine::Pour MakePour(const HeapCase& c, const Vessel& vessel) {
   return engine::Pour(std::move(plan));
 }
 
-namespace {
-
-// Square of the speed at which a grain comes down [m²/s²].
-double SpeedSquared(const HeapCase& c, const Vessel& vessel) {
-  const engine::Pour pour = MakePour(c, vessel);
-  const double fall = 2 * c.gravity * (DropHeight(c, vessel) + pour.slab());
-  return std::pow(engine::StreamSpeed(pour.plan()), 2) + fall;
-}
-
-// Y* of the powder with the powder itself, the plate and the tube [Pa].
-struct Moduli {
-  double powder, plate, tube;
-};
-
-Moduli ModuliOf(const HeapCase& c) {
-  const engine::Material powder = UsedMaterial(c);
-  const WallMaterial same;
-  const auto with = [&](const engine::Material& other) {
-    return engine::MakePairConstants(powder, other, c.models).y_star;
-  };
-  return {with(powder), with(c.device.plate_material.value_or(same).Over(powder)),
-          with(c.device.tube_material.value_or(same).Over(powder))};
-}
-
-}  // namespace
-
 // With m = (4/3) π ρ R³: (δ/R)^(5/2) = (5π/4) ρ v²/E* on a wall, and √2/2 of it between like
 // grains.
 double ImpactShare(const HeapCase& c, const Vessel& vessel) {
-  const double scale =
-      5 * std::numbers::pi / 4 * c.powder.material.density * SpeedSquared(c, vessel);
-  const Moduli e_star = ModuliOf(c);
-  return std::pow(
-      scale / std::min({e_star.powder * std::numbers::sqrt2, e_star.plate, e_star.tube}), 0.4);
-}
-
-// (8/15) E* √r δ^(5/2) = s M v²/2, with s the share of two springs in a row that the lower takes.
-// One of stiffness k = E* √R* bends by (F/k)^(2/3) under the force of both, and its energy goes
-// with that.
-double SqueezeShare(const HeapCase& c, const Vessel& vessel) {
-  const engine::SizeCurve sizes(c.powder.sizes);
-  const double ratio = sizes.largest() / sizes.smallest();
-  const Moduli e_star = ModuliOf(c);
-  const double plate = std::pow(e_star.plate, -2.0 / 3);
-  const double grain = std::pow(e_star.powder * std::sqrt(ratio / (1 + ratio)), -2.0 / 3);
-  const double energy = 5 * std::numbers::pi / 4 * c.powder.material.density *
-                        SpeedSquared(c, vessel) * std::pow(ratio, 3);
-  return std::pow(plate / (plate + grain) * energy / e_star.plate, 0.4);
+  const engine::Pour pour = MakePour(c, vessel);
+  const double fall = 2 * c.gravity * (DropHeight(c, vessel) + pour.slab());
+  const double square = std::pow(engine::StreamSpeed(pour.plan()), 2) + fall;
+  const double scale = 5 * std::numbers::pi / 4 * c.powder.material.density * square;
+  const engine::Material powder = UsedMaterial(c);
+  const auto share = [&](const engine::Material& other, double factor) {
+    const double e_star = engine::MakePairConstants(powder, other, c.models).y_star;
+    return std::pow(factor * scale / e_star, 0.4);
+  };
+  const WallMaterial same;
+  return std::max({share(powder, std::numbers::sqrt2 / 2),
+                   share(c.device.plate_material.value_or(same).Over(powder), 1),
+                   share(c.device.tube_material.value_or(same).Over(powder), 1)});
 }
 
 }  // namespace talus::rigs

@@ -1,6 +1,5 @@
 #include "experiments/rigs/lifted_tube/heap_rig.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -304,25 +303,6 @@ TEST(PouredHeap, SoftGrainsFromAHeightAreRefusedWithWhatHolds) {
   base::Problems problems;
   c.filling.Validate(problems);
   EXPECT_FALSE(problems.empty());  // a drop height belongs to pouring
-}
-
-// Grains of one size share a blow between two contacts. Of several, the largest brings (R/r)³ times
-// the energy: 8^(3·0.4) = 12.1 of the overlap, and the lower contact a little more of it, as the
-// upper one is the stiffer by √(8/9) in place of √(1/2).
-TEST(PouredHeap, LargeGrainsPressSmallOnesIntoThePlate) {
-  HeapCase c = Poured(0.5, 0.2);
-  const double alone = ImpactShare(c, TubeOf(c));
-  EXPECT_NEAR(SqueezeShare(c, TubeOf(c)) / alone, std::pow(1 / (1 + std::cbrt(2)), 0.4), 1e-9);
-  c.powder.sizes = {.kind = engine::SizeKind::kUniform, .min = 0.125e-3, .max = 1e-3};
-  c.powder.material.youngs_modulus = 5e5;
-  EXPECT_NEAR(SqueezeShare(c, TubeOf(c)) / ImpactShare(c, TubeOf(c)),
-              12.13 * std::pow(1 / (1 + std::pow(8.0 / 9, -1.0 / 3)), 0.4), 0.01);
-  EXPECT_LT(ImpactShare(c, TubeOf(c)), kMaxImpactShare);
-  base::Problems problems;
-  c.Validate(problems);
-  ASSERT_FALSE(problems.empty());
-  EXPECT_EQ(problems.list()[0].path, "filling.drop_height");
-  EXPECT_THAT(problems.list()[0].message, ::testing::HasSubstr("presses the smallest grains"));
 }
 
 TEST(Landing, WithinADiameterOfTheHeapAGrainBelongsToIt) {
