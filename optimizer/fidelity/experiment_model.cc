@@ -195,13 +195,12 @@ void ExperimentModel::MeasureScalars() {
   }
 }
 
-OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points) const {
+OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points, double caution) const {
   OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
                       .log_sd = Eigen::VectorXd::Zero(points.rows())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::Predictions all = outputs_[static_cast<std::size_t>(k)].Predict(points, 0);
-    const Eigen::ArrayXd cautious =
-        kSurrogateCaution * kSurrogateCaution * all.variance.array() + open_[k];
+    const Eigen::ArrayXd cautious = caution * caution * all.variance.array() + open_[k];
     misfit.residual.col(k) = (measured_[k] - all.mean.array()) / cautious.sqrt();
     misfit.log_sd.array() += 0.5 * (all.variance.array() + open_[k]).log();
   }
@@ -236,7 +235,7 @@ double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd ExperimentModel::SquaredMisfit(const Eigen::MatrixXd& points) const {
-  return MisfitOf(points).residual.rowwise().squaredNorm();
+  return MisfitOf(points, 1).residual.rowwise().squaredNorm();
 }
 
 Eigen::MatrixXd ExperimentModel::LeaveOneOut() const {

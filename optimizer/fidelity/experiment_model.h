@@ -67,11 +67,12 @@ class ExperimentModel {
   int num_outputs() const { return static_cast<int>(outputs_.size()); }
   ExperimentState state() const;
 
-  OutputMisfit MisfitOf(const Eigen::MatrixXd& points) const;
+  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution = kSurrogateCaution) const;
   OutputPredictions Predict(const Eigen::MatrixXd& points) const;
   // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
   double Misfit(const Eigen::VectorXd& x) const;
-  // Sum of the squared residuals of all outputs, one point a row.
+  // Sum of the squared residuals of all outputs, one point a row; without caution: a region may be
+  // too wide, but no disagreement may hide in that.
   Eigen::VectorXd SquaredMisfit(const Eigen::MatrixXd& points) const;
 
   // Of each evaluation, predicted from the others, in their sd: one evaluation a row.

@@ -52,7 +52,7 @@ class Posterior {
 
   // Misfit of an experiment over √T at x [standard deviations].
   double Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const;
-  // Σ r² of an experiment over T, one point a row.
+  // Σ r² of an experiment over T, one point a row, without the surrogate's caution.
   Eigen::VectorXd SquaredMisfit(std::size_t experiment, const Eigen::MatrixXd& points) const;
   // Of each experiment at x.
   std::vector<ExperimentStanding> StandingsAt(const Eigen::VectorXd& x) const;

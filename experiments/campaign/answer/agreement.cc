@@ -51,7 +51,7 @@ Agreement AgreementOf(const JointView& view) {
 }
 
 bool Disagree(double tension, double raw_coverage) {
-  constexpr double kTolerated = 3;  // standard deviations
+  constexpr double kTolerated = 2;  // standard deviations: by chance one in 44
   constexpr double kLeastCoverage = 0.5;
   return tension > kTolerated && raw_coverage >= kLeastCoverage;
 }
