@@ -104,6 +104,7 @@ Eigen::MatrixXd ExperimentModel::OutputValues(const ExperimentData& data) const 
 void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentState* frozen) {
   const Eigen::MatrixXd values = OutputValues(data);
   const Eigen::Index num_modes = modes_.basis.cols();
+  const double next_sd = modes_.next_sd / setup_.levels->NoiseAtTarget(0);
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -121,7 +122,6 @@ void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentSta
       one.growth[i] = setup_.levels->growth(data.level[row]);
     }
     constexpr double kNoiseOfScalar = 0.2;
-    const double next_sd = modes_.next_sd / setup_.levels->NoiseAtTarget(0);
     surrogate::FidelityFitOptions options{
         .noise_median = NoiseMedians(
             *setup_.levels, k < num_modes ? NoiseOfMode(next_sd, one.values) : kNoiseOfScalar)};

@@ -91,8 +91,7 @@ void AddUnsettled(const campaign::CampaignResult& result, Conclusion& conclusion
                             " more simulations would meet it";
     if (std::isfinite(conclusion.width_then)) {
       conclusion.unsettled += " and leave ranges about " +
-                              base::ShortNumber(std::round(100 * conclusion.width_then) / 100) +
-                              " times as wide";
+                              base::ShortNumber(conclusion.width_then, 2) + " times as wide";
     }
   }
   conclusion.unsettled += ".";

@@ -88,7 +88,7 @@ void AddPhotographing(const Evidence& evidence, std::vector<NextStep>& steps) {
                    .cost = several
                                ? "as many runs again of each test; no simulation"
                                : base::Counted(runs, "more run") + " of the test; no simulation",
-                   .leaves = "ranges at best " + Number(std::round(100 * factor) / 100) +
+                   .leaves = "ranges at best " + base::ShortNumber(factor, 2) +
                              " times as wide as now, where the measurements' scatter sets them",
                    .remaining = std::pow(factor, dimension)});
 }
@@ -129,8 +129,8 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
                 .leaves = "not more than what the measurements themselves leave open",
                 .remaining = 0.95};
   if (std::isfinite(conclusion.width_then)) {
-    step.leaves = "ranges about " + Number(std::round(100 * conclusion.width_then) / 100) +
-                  " times as wide as now";
+    step.leaves =
+        "ranges about " + base::ShortNumber(conclusion.width_then, 2) + " times as wide as now";
     step.remaining =
         std::pow(conclusion.width_then, static_cast<double>(evidence.parameters.size()));
   }
