@@ -295,6 +295,7 @@ Experiment MeasureExperiment(const ExperimentOptions& options, const PictureSink
     result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};
   }
   Summarise(options, result);
+  result.warnings = Gathered(result.warnings);
   return result;
 }
 

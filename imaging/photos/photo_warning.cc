@@ -70,11 +70,41 @@ std::string Reason(const PhotoWarning& warning) {
   return {};
 }
 
+bool IsOfSetUp(PhotoDoubt doubt) {
+  return doubt == PhotoDoubt::kNoPowder || doubt == PhotoDoubt::kTouchesFrame ||
+         doubt == PhotoDoubt::kBesidePlate || doubt == PhotoDoubt::kOverexposed;
+}
+
 }  // namespace
+
+std::vector<PhotoWarning> Gathered(const std::vector<PhotoWarning>& warnings) {
+  constexpr std::ptrdiff_t kMostSingle = 3;
+  std::vector<PhotoWarning> result;
+  for (const PhotoWarning& warning : warnings) {
+    const auto is_same = [&](const PhotoWarning& other) { return other.doubt == warning.doubt; };
+    const auto count = std::ranges::count_if(warnings, is_same);
+    if (!IsOfSetUp(warning.doubt) || count <= kMostSingle) {
+      result.push_back(warning);
+    } else if (const auto first = std::ranges::find_if(result, is_same); first == result.end()) {
+      result.push_back(warning);
+      result.back().num_photos = static_cast<int>(count);
+    } else if (warning.value > first->value) {
+      first->photo = warning.photo;
+      first->value = warning.value;
+    }
+  }
+  return result;
+}
 
 std::string WarningText(const PhotoWarning& warning) {
   const std::string reason = Reason(warning);
-  return warning.photo.empty() ? reason : warning.photo.string() + ": " + reason;
+  if (warning.photo.empty()) return reason;
+  std::string place = warning.photo.string();
+  if (warning.num_photos > 1) {
+    place += warning.value > 0 ? ", the worst of " : ", the first of ";
+    place += std::to_string(warning.num_photos) + " such photographs";
+  }
+  return place + ": " + reason;
 }
 
 bool TouchesFrame(const GrayImage& silhouette) {

@@ -30,7 +30,13 @@ struct PhotoWarning {
   std::filesystem::path photo{};  // empty where it is of all
   double value = 0;               // as the doubt says
   std::string reason{};           // of kLeftOut and kRunDisagrees
+  int num_photos = 1;             // that share the doubt; `photo` and `value` are of the worst
 };
+
+// The same doubt about more than three photographs is a fault of the set-up: one warning, at the
+// place of the first. Photographs left out and views that disagree stay single, each to be looked
+// at.
+std::vector<PhotoWarning> Gathered(const std::vector<PhotoWarning>& warnings);
 
 // One sentence with the photograph, the number and what to look at.
 std::string WarningText(const PhotoWarning& warning);

@@ -62,6 +62,26 @@ TEST(PhotoDoubt, DoubtfulPhotographsAreWarnedOf) {
                                                    std::pair(Name(1, 6), kOverexposed)));
 }
 
+// A lamp too bright is one fault, however many photographs it spoils; the worst of them is named.
+TEST(PhotoDoubt, AFaultOfTheSetUpIsSaidOnce) {
+  const fs::path folder = EmptyFolder("all_white");
+  for (int view = 0; view < 5; ++view) {
+    GrayImage white = Triangle(SmallScene());
+    for (std::size_t i = 0; i < white.pixels.size(); ++i) {
+      const bool spoilt = i % 10 < (view == 2 ? 9 : 6);
+      if (spoilt && white.pixels[i] > 130) white.pixels[i] = 255;
+    }
+    WritePng(folder / Name(1, view), white);
+  }
+  const std::vector<PhotoWarning> warnings = MeasureExperiment(Options(folder)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].doubt, PhotoDoubt::kOverexposed);
+  EXPECT_EQ(warnings[0].num_photos, 5);
+  EXPECT_EQ(warnings[0].photo.filename(), Name(1, 2));
+  EXPECT_THAT(WarningText(warnings[0]),
+              HasSubstr(Name(1, 2) + ", the worst of 5 such photographs: "));
+}
+
 // A table is a plate that ends nowhere.
 Scene TableScene() {
   Scene scene = SmallScene();

@@ -132,6 +132,7 @@ ordered_json ExperimentJson(const imaging::Experiment& experiment) {
   for (const imaging::PhotoWarning& warning : experiment.warnings) {
     json["warnings"].push_back({{"kind", base::NameOf(warning.doubt)},
                                 {"photo", warning.photo.string()},
+                                {"photographs", warning.num_photos},
                                 {"value", warning.value},
                                 {"text", imaging::WarningText(warning)}});
   }
