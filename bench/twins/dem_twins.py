@@ -1,13 +1,22 @@
 #!/usr/bin/python3
-"""dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--other-plate]: calibrates
-virtual powders whose true friction is known.
+"""dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--parameters 2|3] [--campaigns A,B,…]
+[--other-plate]: calibrates virtual powders whose true parameters are known.
 
-Each powder has sliding and rolling friction drawn at random in the searched ranges. Three heaps of it
-are simulated at true grain size with seeds of their own, and so are three on a plate of 30 mm; their
-mean images and the mass that falls are the experiments. Two campaigns with the same core time search
-for the friction: with the heap alone, and with both tests. One line a powder: the credible level of the
-truth (0.9 or less is inside the joint 90 % region), the region's share of the ranges, the distance of
-the recommended set in widths of the ranges, and the alarms of the second.
+Each powder has sliding and rolling friction, with --parameters 3 surface energy (JKR), too, drawn at random in the
+searched ranges. Three heaps of it are simulated at true grain size with seeds of their own, and so are three on a
+plate of 30 mm where a campaign wants them; their mean images and the mass that falls are the experiments. Campaigns
+of the same core time:
+
+  heap          the heap alone, at scale factors 1.4 and 1
+  both          both tests
+  former        the heap alone at scale factor 1, by the model of one grain size: the strategy `surrogate`, whose
+                ranges are minimisers of draws
+  extrapolated  the heap alone at 3, 2 and 1.5, what is wanted at 1
+  smallest      the heap alone at 1.5, which is the smallest of these and the target
+
+One line a powder and campaign: the credible level of the truth (0.9 or less is inside the joint 90 % region; former:
+0 where the truth is in all ranges, 1 where not), the region's share of what is searched (former: of the box of its
+ranges), the distance of the recommended set in widths of the ranges, and the alarms.
 
 --other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: those with
 both tests should raise an alarm, and only they run.
@@ -23,6 +32,9 @@ import numpy
 from PIL import Image
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
+SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
+LEVELS = {"heap": {"scale_factors": [1.4, 1]}, "both": {"scale_factors": [1.4, 1]}, "former": {"scale_factor": 1},
+          "extrapolated": {"scale_factors": [3, 2, 1.5], "target": 1}, "smallest": {"scale_factors": [1.5]}}
 RUNS = 3
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
             "rolling_damping": 0.3}
@@ -71,20 +83,29 @@ def measure(talus, folder, truth, plate_mm, seed, plate=None):
 
 
 def calibrate(talus, folder, name, experiments, core_time, seed, truth):
-    spec = {"experiments": experiments, "powder": POWDER, "device": device(10), "models": MODELS,
-            "coarse_graining": {"scale_factors": [1.4, 1]}, "seed": seed, "workers": 1,
+    tests = {"experiments": experiments}
+    if name == "former":
+        tests = {"experiment": {k: v for k, v in experiments[0].items() if k != "name"}}
+    spec = {**tests, "powder": POWDER, "device": device(10), "models": MODELS,
+            "coarse_graining": LEVELS[name], "seed": seed, "workers": 1,
             "parameters": {k: {"min": a, "max": b} for k, (a, b) in RANGES.items()},
             "budget": {"core_time": f"{core_time} s"}, "confirm": {"candidates": 0}}
     (folder / f"{name}.json").write_text(json.dumps(spec))
     run(talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")
     result = json.loads((folder / name / "result.json").read_text())
-    level = json.loads(run(talus, "consider", folder / name, "--json",
-                           *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
-    off = [(p["value"] - truth[p["name"]]) / (RANGES[p["name"]][1] - RANGES[p["name"]][0])
-           for p in result["parameters"]]
+    inside, volume, off = True, 1, []
+    for p in result["parameters"]:
+        low, high = RANGES[p["name"]]
+        inside &= p["credible_90_low"] <= truth[p["name"]] <= p["credible_90_high"]
+        volume *= (p["credible_90_high"] - p["credible_90_low"]) / (high - low)
+        off.append((p["value"] - truth[p["name"]]) / (high - low))
+    level = 1 - inside
+    if name != "former":
+        level = json.loads(run(talus, "consider", folder / name, "--json",
+                               *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
+        volume = result["posterior"]["region_90_volume_fraction"]
     alarms = [w["experiment"] for w in result["warnings"] if w["kind"] in ("implausible", "disagree")]
-    return {"level": level, "volume": result["posterior"]["region_90_volume_fraction"],
-            "distance": float(numpy.hypot(*off)), "alarms": alarms}
+    return {"level": level, "volume": volume, "distance": float(numpy.linalg.norm(off)), "alarms": alarms}
 
 
 def main():
@@ -94,8 +115,14 @@ def main():
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--last", type=int, default=20)
     parser.add_argument("--core-time", type=float, default=60)
+    parser.add_argument("--parameters", type=int, choices=[2, 3], default=2)
+    parser.add_argument("--campaigns", default="heap,both")
     parser.add_argument("--other-plate", action="store_true")
     options = parser.parse_args()
+    wanted = ["both"] if options.other_plate else options.campaigns.split(",")
+    if options.parameters == 3:
+        RANGES["surface_energy"] = SURFACE_ENERGY
+        MODELS["adhesion"] = "jkr"
     tallies = {}
     for twin in range(options.first, options.last + 1):
         draw = random.Random(twin)
@@ -103,14 +130,15 @@ def main():
         folder = options.folder / f"twin{twin:02}"
         plate = {"sliding_friction": 0.15, "rolling_friction": 0.02} if options.other_plate else None
         heap, _ = measure(options.talus, folder, truth, 10, 1000 * twin)
-        wide, fallen = measure(options.talus, folder, truth, 30, 1000 * twin + 500, plate)
-        heap = {"name": "heap", **heap}
-        wide = {"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen}
-        campaigns = {"both": [heap, wide]} if options.other_plate else {"heap": [heap], "both": [heap, wide]}
-        for name, experiments in campaigns.items():
-            done = calibrate(options.talus, folder, name, experiments, options.core_time, twin, truth)
+        experiments = [{"name": "heap", **heap}]
+        if "both" in wanted:
+            wide, fallen = measure(options.talus, folder, truth, 30, 1000 * twin + 500, plate)
+            experiments.append({"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen})
+        for name in wanted:
+            tests = experiments if name == "both" else experiments[:1]
+            done = calibrate(options.talus, folder, name, tests, options.core_time, twin, truth)
             tallies.setdefault(name, []).append(done)
-            print(f"twin {twin} truth " + " ".join(f"{v:.3f}" for v in truth.values()) +
+            print(f"twin {twin} truth " + " ".join(f"{v:.3g}" for v in truth.values()) +
                   f" {name}: level {done['level']:.3f}, volume {done['volume']:.4f}, "
                   f"distance {done['distance']:.3f}, alarms {done['alarms']}", flush=True)
     for name, all_of_them in tallies.items():
