@@ -23,8 +23,14 @@ GaussianProcessState ScaleOf(const Eigen::VectorXd& values) {
       .hyper = {}, .centre = centre, .scale = constant ? std::max(1e-12, std::abs(centre)) : sd};
 }
 
-// k(X, columns) → L⁻¹ k(X, columns), in blocks of columns that do not depend on the threads.
+// k(X, columns) → L⁻¹ k(X, columns), in blocks of columns that do not depend on the threads. One
+// column is solved as a vector: the routine for many first copies L, which takes longer than that.
 void SolveColumns(const Eigen::MatrixXd& lower, Eigen::MatrixXd& columns) {
+  if (columns.cols() == 1) {
+    auto column = columns.col(0);
+    lower.triangularView<Eigen::Lower>().solveInPlace(column);
+    return;
+  }
   constexpr Eigen::Index kBlock = 64;
   const auto size = static_cast<double>(lower.rows());
   base::ParallelFor(
