@@ -16,7 +16,7 @@
 namespace talus::bench {
 
 inline constexpr double kCaution = 1.5;  // of the surrogate's sd, as the tables were made; the
-                                         // program's is optimizer::kSurrogateCaution
+                                         // program's is optimizer::SurrogateCaution
 
 // One output at every set.
 class Output {

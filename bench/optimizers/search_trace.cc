@@ -1,7 +1,7 @@
 // Runs `gp` on the noisy problems and prints, as CSV, how good its recommendation is on the way and
 // what rules that end a search may look at. stop_rules.py scores such rules.
 //
-//   search_trace 601-612 [100] > trace.csv
+//   search_trace 601-612 [100 [NOISE LEVEL 1]] > trace.csv
 //
 // Every fourth evaluation from 24 on a row:
 //
@@ -51,7 +51,8 @@ Gains GainsOf(const optimizer::ModelView& view, const surrogate::GaussianProcess
   const Eigen::MatrixXd minimisers = optimizer::PossibleMinimisers(view, best);
   const Eigen::VectorXd mean = process.PredictAll(minimisers).mean;
   Eigen::MatrixXd places(minimisers.rows() + 1, minimisers.cols());
-  places << minimisers, optimizer::MostKnowledge(view, process, minimisers).point.transpose();
+  const auto of_one = optimizer::GainsOfValues(process, minimisers);
+  places << minimisers, optimizer::MostKnowledge(view, of_one, minimisers).point.transpose();
   const surrogate::Covariances at =
       process.PosteriorCovariances(process.Anchor(minimisers), places);
   Gains gains;
@@ -70,8 +71,10 @@ Gains GainsOf(const optimizer::ModelView& view, const surrogate::GaussianProcess
 
 class Trace {
  public:
-  Trace(const std::string& name, int instance)
-      : problem_(MakeProblem(name, instance)), seed_(static_cast<std::uint64_t>(instance)) {
+  Trace(const std::string& name, int instance, int noise)
+      : problem_(MakeProblem(name, instance)),
+        seed_(static_cast<std::uint64_t>(instance)),
+        noise_(noise) {
     Vec best;
     Optimum(*problem_, best, lowest_);
   }
@@ -84,7 +87,7 @@ class Trace {
       const Eigen::VectorXd point = strategy->Ask(1, {}).front().point;
       const auto run = 1000 * seed_ + static_cast<std::uint64_t>(told);
       told_.push_back({.point = point,
-                       .value = problem_->Noisy({point[0], point[1], point[2]}, run, 1),
+                       .value = problem_->Noisy({point[0], point[1], point[2]}, run, noise_),
                        .field = {}});
       strategy->Tell(told_.back());
       if (told >= kFirst && told % kStep == 0) Look(fitter);
@@ -127,6 +130,7 @@ class Trace {
 
   std::unique_ptr<Problem> problem_;
   std::uint64_t seed_;
+  int noise_;
   double lowest_ = 0;
   optimizer::Domain domain_{.num_parameters = D};
   std::vector<optimizer::Observation> told_;
@@ -139,6 +143,7 @@ class Trace {
 int main(int argc, char** argv) {
   const std::string instances = argc > 1 ? argv[1] : "1";
   const int budget = argc > 2 ? std::atoi(argv[2]) : 100;
+  const int noise = argc > 3 ? std::atoi(argv[3]) : 1;
   const auto dash = instances.find('-');
   const int first = std::atoi(instances.c_str());
   const int last = dash == std::string::npos ? first : std::atoi(instances.c_str() + dash + 1);
@@ -148,7 +153,7 @@ int main(int argc, char** argv) {
   std::printf("\n");
   for (int instance = first; instance <= last; ++instance) {
     for (const std::string& name : talus::bench::ProblemNames()) {
-      talus::bench::Trace(name, instance).Run(budget);
+      talus::bench::Trace(name, instance, noise).Run(budget);
       std::fflush(stdout);
     }
   }

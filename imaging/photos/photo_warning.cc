@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/median.h"
 #include "base/text/number_text.h"
 
 namespace talus::imaging {
@@ -12,12 +13,6 @@ namespace {
 constexpr double kRimMargin = 0.05;      // beyond the rim / plate radius [-]
 constexpr double kLeastDeviation = 0.2;  // of a view's NEBP from the median [-]
 constexpr double kManyScatters = 4;      // and so many standard deviations of the views
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::string Percent(double share) {
   constexpr double kWhole = 10;  // from here on
@@ -142,11 +137,11 @@ double ShareOverexposed(const GrayImage& photo) {
 std::vector<double> DisagreeingViews(const std::vector<double>& nebp) {
   std::vector<double> off(nebp.size(), 0.0);
   if (nebp.size() < 3) return off;
-  const double median = Median(nebp);
+  const double median = base::Median(nebp);
   if (!(median > 0)) return off;
   std::vector<double> deviations;
   for (const double value : nebp) deviations.push_back(std::abs(value / median - 1));
-  const double scatter = 1.48 * Median(deviations);
+  const double scatter = 1.48 * base::Median(deviations);
   for (std::size_t i = 0; i < nebp.size(); ++i) {
     const bool much = deviations[i] > kLeastDeviation && deviations[i] > kManyScatters * scatter;
     if (much) off[i] = nebp[i] / median;
@@ -162,7 +157,7 @@ std::vector<double> DisagreeingRuns(const std::vector<double>& differences) {
   for (std::size_t i = 0; i < differences.size(); ++i) {
     std::vector<double> others = differences;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const double usual = Median(others);
+    const double usual = base::Median(others);
     if (usual > 0 && differences[i] > kMuch * usual) off[i] = differences[i] / usual;
   }
   return off;

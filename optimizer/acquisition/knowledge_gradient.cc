@@ -15,10 +15,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr int kNumDraws = 64;
-constexpr int kNumEven = 200;  // candidates of the minimisers, over the cube
-constexpr int kNumNear = 200;  // and near the best points
-
 constexpr double kDropWork = 1e4;  // multiplications of one expected drop of the minimum
 
 // φ(z) - |z| Φ(-|z|): what a line that crosses another one at z adds to the expected maximum.
@@ -71,17 +67,17 @@ Eigen::MatrixXd PossibleMinimisers(const ModelView& view, const Eigen::VectorXd&
   const int dimension = view.domain.num_parameters;
   base::Random random(view.seed, base::Stream("possible minimisers"));
   const Eigen::MatrixXd centers = Stack(best.transpose(), BestEvaluated(view));
-  Eigen::MatrixXd near(kNumNear, dimension);
-  for (Eigen::Index i = 0; i < kNumNear; ++i) {
+  Eigen::MatrixXd near(view.searches.minimisers.num_near, dimension);
+  for (Eigen::Index i = 0; i < near.rows(); ++i) {
     const double radius = 0.3 * std::pow(10.0, -2 * random.Uniform());
     for (Eigen::Index k = 0; k < dimension; ++k) {
       near(i, k) = std::clamp(centers(i % centers.rows(), k) + radius * random.Normal(), 0.0, 1.0);
     }
   }
-  const Eigen::MatrixXd even = RSequence(kNumEven, dimension, view.seed);
+  const Eigen::MatrixXd even = RSequence(view.searches.minimisers.num_even, dimension, view.seed);
   const Eigen::MatrixXd candidates =
       Stack(best.transpose(), Inside(view.domain, Stack(even, near)));
-  Eigen::MatrixXd draws = view.model.Draw(candidates, kNumDraws, random);
+  Eigen::MatrixXd draws = view.model.Draw(candidates, view.searches.minimisers.num_draws, random);
   draws.rowwise() -= (view.failure_cost * view.feasibility.Penalty(candidates)).transpose();
   std::vector<Eigen::Index> chosen{0};
   for (Eigen::Index d = 0; d < draws.rows(); ++d) {
@@ -92,13 +88,12 @@ Eigen::MatrixXd PossibleMinimisers(const ModelView& view, const Eigen::VectorXd&
   return candidates(chosen, Eigen::all);
 }
 
-KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProcess& process,
-                            const Eigen::MatrixXd& minimisers) {
-  const Eigen::VectorXd mean = process.PredictAll(minimisers).mean;
-  const surrogate::AnchorPoints anchors = process.Anchor(minimisers);
-  const double noise2 = process.noise_variance();
-  const auto gains = [&](const Eigen::MatrixXd& points) {
+KnowledgeGains GainsOfValues(const surrogate::GaussianProcess& process,
+                             const Eigen::MatrixXd& minimisers) {
+  return [&process, mean = process.PredictAll(minimisers).mean,
+          anchors = process.Anchor(minimisers)](const Eigen::MatrixXd& points) {
     const surrogate::Covariances at = process.PosteriorCovariances(anchors, points);
+    const double noise2 = process.noise_variance();
     Eigen::VectorXd result(points.rows());
     base::ParallelFor({.num_items = points.rows(), .item_work = kDropWork}, [&](Eigen::Index i) {
       const double sd = std::sqrt(at.variance[i] + noise2);
@@ -106,6 +101,10 @@ KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProc
     });
     return result;
   };
+}
+
+KnowledgeStep MostKnowledge(const ModelView& view, const KnowledgeGains& gains,
+                            const Eigen::MatrixXd& minimisers) {
   const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
     const Eigen::ArrayXd gain = gains(points).array().max(std::numeric_limits<double>::min());
     return -gain.log().matrix() - view.feasibility.Penalty(points);
@@ -114,13 +113,9 @@ KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProc
     return values(x.transpose())[0];
   };
   const double work = kDropWork + view.model.PredictionWork();
-  const Found found = SearchCube({values, value, work}, view.domain, minimisers,
-                                 {.num_candidates = 400,
-                                  .num_local = 2,
-                                  .max_evaluations = 60,
-                                  .tolerance = 1e-4,
-                                  .kinked = true,
-                                  .seed = view.seed});
+  SearchOptions options = view.searches.knowledge;
+  options.seed = view.seed;
+  const Found found = SearchCube({values, value, work}, view.domain, minimisers, options);
   return {.point = found.point, .gain = gains(found.point.transpose())[0]};
 }
 

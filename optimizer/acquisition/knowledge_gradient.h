@@ -10,11 +10,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "optimizer/acquisition/model_step.h"
 #include "surrogate/process/gaussian_process.h"
 
 namespace talus::optimizer {
+
+// Evaluations from which on the posterior of the minimiser means something.
+inline constexpr int kFewestForKnowledge = 20;
 
 // min_i mean_i - E[min_i (mean_i + slope_i Z)] in closed form, >= 0. At least one line.
 double ExpectedDropOfMinimum(const Eigen::VectorXd& mean, const Eigen::VectorXd& slope);
@@ -23,13 +27,19 @@ double ExpectedDropOfMinimum(const Eigen::VectorXd& mean, const Eigen::VectorXd&
 // domain, with `best` first.
 Eigen::MatrixXd PossibleMinimisers(const ModelView& view, const Eigen::VectorXd& best);
 
+// KG of one more evaluation at each point, one a row; in units of the values, >= 0.
+using KnowledgeGains = std::function<Eigen::VectorXd(const Eigen::MatrixXd& points)>;
+
+// Of a process of the values. It must outlive the gains.
+KnowledgeGains GainsOfValues(const surrogate::GaussianProcess& process,
+                             const Eigen::MatrixXd& minimisers);
+
 // The point of the largest KG, weighted by the probability that the evaluation works, and its KG.
-// `process` is that of view.model.
 struct KnowledgeStep {
   Eigen::VectorXd point;
-  double gain = 0;  // KG there, in units of the values
+  double gain = 0;  // KG there
 };
-KnowledgeStep MostKnowledge(const ModelView& view, const surrogate::GaussianProcess& process,
+KnowledgeStep MostKnowledge(const ModelView& view, const KnowledgeGains& gains,
                             const Eigen::MatrixXd& minimisers);
 
 }  // namespace talus::optimizer

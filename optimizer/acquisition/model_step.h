@@ -15,11 +15,25 @@ namespace talus::optimizer {
 // Posterior standard deviations between a bound and the mean, in the rule that ends a search.
 inline constexpr double kBoundSds = 1.96;
 
+// Where the minima of posterior draws are looked for.
+struct MinimiserSearch {
+  int num_draws = 64;
+  int num_even = 200;  // candidates over the cube
+  int num_near = 200;  // and near the best points
+};
+
 // How thoroughly each of the searches looks; their seeds are the view's.
 struct StepSearches {
   SearchOptions improvement = {};
   SearchOptions mean = {.num_local = 6};
   SearchOptions bound = {};
+  // knowledge_gradient.h: its lines have kinks, whatever the model.
+  MinimiserSearch minimisers = {};
+  SearchOptions knowledge = {.num_candidates = 400,
+                             .num_local = 2,
+                             .max_evaluations = 60,
+                             .tolerance = 1e-4,
+                             .kinked = true};
 };
 
 struct ModelView {

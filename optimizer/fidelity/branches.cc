@@ -4,7 +4,7 @@
 #include <map>
 #include <numeric>
 
-#include "optimizer/models/median.h"
+#include "base/median.h"
 
 namespace talus::optimizer {
 namespace {
@@ -63,7 +63,7 @@ bool IsJoined(const Posterior& posterior, const Eigen::MatrixXd& draws, const Pa
 
 PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::VectorXd& density,
                          Eigen::Index num_draws) {
-  const double dense = Median(density);
+  const double dense = base::Median(density);
   Eigen::Index middle = 0;
   double least = -1;
   for (Eigen::Index i = 0; i < members.rows(); ++i) {

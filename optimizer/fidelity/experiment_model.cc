@@ -64,9 +64,17 @@ Eigen::MatrixXd MirroredNormals(Eigen::Index num_modes) {
 
 }  // namespace
 
+double SurrogateCaution(int num_finest) {
+  constexpr double kOfMany = 2;
+  constexpr double kFew = 15;  // evaluations of which the variance counts twice
+  return kOfMany * std::sqrt(1 + kFew / std::max(1, num_finest));
+}
+
 ExperimentModel::ExperimentModel(const Setup& setup, const ExperimentData& data,
                                  const ExperimentState* frozen)
     : setup_(setup), num_evaluations_(data.size()) {
+  const auto num_finest = std::ranges::count(data.level, setup_.levels->finest());
+  caution_ = SurrogateCaution(static_cast<int>(num_finest));
   if (has_image()) {
     if (frozen != nullptr) {
       modes_ = frozen->modes;
@@ -217,7 +225,7 @@ OutputPredictions ExperimentModel::Predict(const Eigen::MatrixXd& points) const 
     const auto output = static_cast<std::size_t>(k);
     const surrogate::Predictions all = outputs_[output].Predict(points, 0);
     predictions.mean.col(k) = all.mean;
-    predictions.variance.col(k) = kSurrogateCaution * kSurrogateCaution * all.variance;
+    predictions.variance.col(k) = caution_ * caution_ * all.variance;
     predictions.single[k] = TargetNoise(output);
   }
   return predictions;

@@ -17,9 +17,9 @@
 namespace talus::optimizer {
 
 // The surrogate's sd is taken for so many times as large in the misfit: point-estimated
-// hyper-parameters and constant noise make it overconfident where the posterior selects
-// (bench/optimizers/fidelity_twins).
-inline constexpr double kSurrogateCaution = 2.5;
+// hyper-parameters and constant noise make it overconfident where the posterior selects, the more
+// the fewer evaluations there are at the finest scale factor (bench/optimizers/README.md).
+double SurrogateCaution(int num_finest);
 
 // The evaluations of one experiment.
 struct ExperimentData {
@@ -67,7 +67,8 @@ class ExperimentModel {
   int num_outputs() const { return static_cast<int>(outputs_.size()); }
   ExperimentState state() const;
 
-  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution = kSurrogateCaution) const;
+  OutputMisfit MisfitOf(const Eigen::MatrixXd& points) const { return MisfitOf(points, caution_); }
+  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution) const;
   OutputPredictions Predict(const Eigen::MatrixXd& points) const;
   // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
   double Misfit(const Eigen::VectorXd& x) const;
@@ -114,6 +115,7 @@ class ExperimentModel {
   Eigen::VectorXd ObjectiveDraws(const Eigen::VectorXd& mean, const Eigen::VectorXd& sd) const;
 
   Setup setup_;
+  double caution_ = 1;  // SurrogateCaution
   surrogate::PrincipalModes modes_;
   std::vector<surrogate::FidelityProcess> outputs_;     // modes, then scalars
   std::vector<std::vector<Eigen::Index>> evaluations_;  // rows of the data that each has

@@ -161,15 +161,14 @@ surrogate::Predictions FieldModel::ReconstructionError(const Eigen::MatrixXd& po
           .variance = Eigen::VectorXd::Zero(points.rows())};
 }
 
-double FieldModel::Mean(const Eigen::VectorXd& x) const {
-  const surrogate::ModeMoments modes = modes_.Predict(x.transpose());
-  return Expected({modes.mean.row(0), modes.variance.row(0)}, {}) +
-         ReconstructionError(x.transpose()).mean[0];
-}
+double FieldModel::Mean(const Eigen::VectorXd& x) const { return Means(x.transpose())[0]; }
 
 Eigen::VectorXd FieldModel::Means(const Eigen::MatrixXd& points) const {
-  Eigen::VectorXd means(points.rows());
-  ForEachPoint(points.rows(), 6, [&](Eigen::Index i) { means[i] = Mean(points.row(i)); });
+  const surrogate::ModeMoments modes = modes_.Predict(points);
+  Eigen::VectorXd means = ReconstructionError(points).mean;
+  ForEachPoint(points.rows(), 6, [&](Eigen::Index i) {
+    means[i] += Expected({modes.mean.row(i), modes.variance.row(i)}, {});
+  });
   return means;
 }
 
@@ -184,6 +183,24 @@ Moments FieldModel::Predict(const Eigen::MatrixXd& points) const {
     moments.sd[i] = std::sqrt(sd_of_draws * sd_of_draws + error.variance[i]);
   });
   return moments;
+}
+
+Eigen::MatrixXd FieldModel::Sensitivities(const Eigen::MatrixXd& points) const {
+  const surrogate::ModeMoments modes = modes_.Predict(points);
+  Eigen::MatrixXd result(points.rows(), num_modes());
+  ForEachPoint(points.rows(), 2 * num_modes(), [&](Eigen::Index i) {
+    At at{modes.mean.row(i), modes.variance.row(i)};
+    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+      const double middle = at.mean[k];
+      const double step = std::sqrt(std::max(at.variance[k], std::numeric_limits<double>::min()));
+      at.mean[k] = middle + step;
+      const double above = Expected(at, {});
+      at.mean[k] = middle - step;
+      result(i, k) = (above - Expected(at, {})) / (2 * step);
+      at.mean[k] = middle;
+    }
+  });
+  return result;
 }
 
 double FieldModel::LogImprovementOfDraws(const Eigen::VectorXd& draws, double incumbent) const {

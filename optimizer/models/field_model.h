@@ -69,7 +69,16 @@ class FieldModel : public ObjectiveModel {
   // Adds the prediction at x as if it were an evaluation.
   void AddFantasy(const Eigen::VectorXd& x);
 
+  // d objective / d coefficient, one point a row, one mode a column: differences over one posterior
+  // standard deviation to either side.
+  Eigen::MatrixXd Sensitivities(const Eigen::MatrixXd& points) const;
+
   FieldState state() const;
+  const surrogate::ModeProcess& modes() const { return modes_; }
+  // Of the reconstruction error; none where errors are tiny.
+  const std::optional<surrogate::GaussianProcess>& reconstruction() const {
+    return reconstruction_;
+  }
   int num_modes() const { return static_cast<int>(modes_.modes().basis.cols()); }
 
  private:

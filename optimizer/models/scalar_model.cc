@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "optimizer/models/median.h"
+#include "base/median.h"
 
 namespace talus::optimizer {
 namespace {
@@ -19,7 +19,7 @@ int MilestoneBefore(int n) {
 
 ValueTransform TransformOf(const Eigen::VectorXd& values, double delta_share) {
   const double least = values.minCoeff();
-  return {.least = least, .delta = delta_share * (Median(values) - least)};
+  return {.least = least, .delta = delta_share * (base::Median(values) - least)};
 }
 
 surrogate::GaussianProcessOptions ProcessOptions(bool deterministic, std::uint64_t seed) {

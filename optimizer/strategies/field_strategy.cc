@@ -1,10 +1,13 @@
 #include "optimizer/strategies/field_strategy.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/random.h"
+#include "optimizer/acquisition/knowledge_gradient.h"
 #include "optimizer/answer/answer.h"
 #include "optimizer/designs/r_sequence.h"
+#include "optimizer/models/field_knowledge.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
@@ -15,7 +18,18 @@ namespace {
 constexpr StepSearches kImageSearches{
     .improvement = {.num_candidates = 300, .num_local = 3, .tolerance = 1e-6, .kinked = true},
     .mean = {.num_candidates = 200, .num_local = 3, .max_evaluations = 100, .kinked = true},
-    .bound = {.num_candidates = 300, .num_local = 1, .kinked = true}};
+    .bound = {.num_candidates = 300, .num_local = 1, .kinked = true},
+    .minimisers = {.num_draws = 24, .num_even = 60, .num_near = 60},
+    .knowledge = {.num_candidates = 200,
+                  .num_local = 1,
+                  .max_evaluations = 40,
+                  .tolerance = 1e-4,
+                  .kinked = true}};
+
+FieldModel WithFantasies(FieldModel model, std::span<const Eigen::VectorXd> asked) {
+  for (const Eigen::VectorXd& point : asked) model.AddFantasy(point);
+  return model;
+}
 
 }  // namespace
 
@@ -50,22 +64,42 @@ ModelView FieldStrategy::ViewOf(const FieldModel& model, const Domain& domain,
           .seed = seed};
 }
 
+std::uint64_t FieldStrategy::ImageSeed(const Points& asked) const {
+  return record().options().seed +
+         7919 * (static_cast<std::uint64_t>(fields_.size()) + asked.size());
+}
+
 Proposal FieldStrategy::ByModel(const Points& asked) {
   const std::optional<FieldModel>& model = Model();
   if (!model) return by_values_.Next(record(), asked);
   return record().ReplicateOrPerturb(Step(*model, asked), asked);
 }
 
-// An exact target has one answer, so every third noisy evaluation goes to what the answer would be
-// now. Of a target that is not exact the ranges are wanted too, so every other one explores. Rows
-// that are evaluated once want neither: the best of them is, next to others as good, a lucky one.
+// An exact target has one answer: every third noisy evaluation goes to what the answer would be
+// now, and from kFewestForKnowledge on every other one to what would change it most. Of a target
+// that is not exact the ranges are wanted too, so every other one explores. Rows that are evaluated
+// once want none of these: the best of them is, next to others as good, a lucky one.
 Eigen::VectorXd FieldStrategy::Step(const FieldModel& model, const Points& asked) const {
   const int turn = fields_.size() + static_cast<int>(asked.size());
-  if (!record().noise_free() && !record().wants_own_values()) {
-    if (has_exact_target_ && turn % 3 == 0) return Best(model, record().OpenDomain(asked));
-    if (!has_exact_target_ && turn % 2 == 0) return ByDraw(model, asked);
+  const bool is_even = turn % 2 == 0;
+  if (record().noise_free() || record().wants_own_values()) return ByImprovement(model, asked);
+  if (!has_exact_target_) return is_even ? ByDraw(model, asked) : ByImprovement(model, asked);
+  if (turn >= kFewestForKnowledge) {
+    return is_even ? ByKnowledge(model, asked) : ByImprovement(model, asked);
   }
-  return ByImprovement(model, asked);
+  return turn % 3 == 0 ? Best(model, record().OpenDomain(asked)) : ByImprovement(model, asked);
+}
+
+Eigen::VectorXd FieldStrategy::ByKnowledge(const FieldModel& model, const Points& asked) const {
+  const FieldModel with_fantasies = WithFantasies(model, asked);
+  const Domain open = record().OpenDomain(asked);
+  ModelView view = ViewOf(with_fantasies, open, ImageSeed(asked));
+  view.searches.mean.num_local = 1;  // the other valleys' minima are among the draws'
+  const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
+  const FieldKnowledge knowledge(with_fantasies, minimisers);
+  const KnowledgeStep step = MostKnowledge(
+      view, [&](const Eigen::MatrixXd& points) { return knowledge.Gains(points); }, minimisers);
+  return step.gain > 0 ? step.point : ByImprovement(model, asked);
 }
 
 // The minimiser of one posterior draw. Expected improvement crowds round one of several sets that
@@ -106,11 +140,9 @@ Eigen::VectorXd FieldStrategy::ByImprovement(const FieldModel& model, const Poin
     incumbent.noise = model.NoiseSd(centers.row(0));
   }
   incumbent.value = incumbent.is_own_value ? LowestOwnValue(model) : model.Mean(centers.row(0));
-  FieldModel with_fantasies = model;
-  for (const Eigen::VectorXd& point : asked) with_fantasies.AddFantasy(point);
-  const std::uint64_t index = static_cast<std::uint64_t>(fields_.size()) + asked.size();
+  const FieldModel with_fantasies = WithFantasies(model, asked);
   const Domain open = record().OpenDomain(asked);
-  const ModelView view = ViewOf(with_fantasies, open, record().options().seed + 7919 * index);
+  const ModelView view = ViewOf(with_fantasies, open, ImageSeed(asked));
   return MostExpectedImprovement(view, incumbent, centers);
 }
 

@@ -30,7 +30,10 @@ class FieldStrategy : public SurrogateStrategy {
 
   const std::optional<FieldModel>& Model();
   ModelView ViewOf(const FieldModel& model, const Domain& domain, std::uint64_t seed) const;
+  // A seed for the next search of the model, another one for each image.
+  std::uint64_t ImageSeed(const Points& asked) const;
   Eigen::VectorXd Step(const FieldModel& model, const Points& asked) const;
+  Eigen::VectorXd ByKnowledge(const FieldModel& model, const Points& asked) const;
   Eigen::VectorXd ByImprovement(const FieldModel& model, const Points& asked) const;
   double LowestOwnValue(const FieldModel& model) const;
   Eigen::VectorXd ByDraw(const FieldModel& model, const Points& asked) const;

@@ -75,12 +75,10 @@ std::optional<Eigen::VectorXd> NearBest(const SearchRecord& record,
   return step;
 }
 
-// Under noise every second step is by the knowledge gradient, once there are evaluations enough for
-// the posterior of the minimiser to mean something.
+// Under noise every second step is by the knowledge gradient, once there are evaluations enough.
 bool StepsByKnowledge(const SearchRecord& record, std::span<const Eigen::VectorXd> asked) {
-  constexpr int kFewest = 20;
   const int index = record.history().size() + static_cast<int>(asked.size());
-  return !record.noise_free() && index >= kFewest && index % 2 == 0;
+  return !record.noise_free() && index >= kFewestForKnowledge && index % 2 == 0;
 }
 
 }  // namespace
@@ -107,7 +105,8 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
   const ModelView view = ViewOf(model, record, open, record.StepSeed(asked));
   if (StepsByKnowledge(record, asked)) {
     const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
-    const KnowledgeStep step = MostKnowledge(view, model.process(), minimisers);
+    const KnowledgeStep step =
+        MostKnowledge(view, GainsOfValues(model.process(), minimisers), minimisers);
     if (step.gain > 0) return record.ReplicateOrPerturb(step.point, asked);
   }
   const Eigen::VectorXd point = MostExpectedImprovement(

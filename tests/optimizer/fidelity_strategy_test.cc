@@ -108,7 +108,7 @@ TEST(FidelityStrategy, AWeightIsThePowerOfTheLikelihood) {
 
 TEST(FidelityStrategy, OneNumberLeavesAValleyInOnePiece) {
   const Twin twin{.balance = false};
-  const Answer answer = twin.Search(20)->Recommend();
+  const Answer answer = twin.Search(40)->Recommend();
   const PosteriorBranch& branch = answer.posterior->branches.front();
   EXPECT_EQ(answer.posterior->branches.size(), 1U);
   // Of x + y = 0.75 all is left, from one edge of the box to the other.

@@ -70,7 +70,8 @@ class NoisyBowl : public ::testing::Test {
 TEST_F(NoisyBowl, GainIsTheMeanDropOfTheLowestPosteriorMean) {
   const Eigen::MatrixXd minimisers = PossibleMinimisers(view_, LowestMean(view_));
   ASSERT_GT(minimisers.rows(), 5);
-  const KnowledgeStep step = MostKnowledge(view_, model_.process(), minimisers);
+  const KnowledgeStep step =
+      MostKnowledge(view_, GainsOfValues(model_.process(), minimisers), minimisers);
   const double before = model_.Means(minimisers).minCoeff();
   const surrogate::Prediction at = model_.process().Predict(step.point);
   const double sd = std::sqrt(at.variance + model_.process().noise_variance());
@@ -94,7 +95,8 @@ TEST_F(NoisyBowl, GainIsTheMeanDropOfTheLowestPosteriorMean) {
 
 TEST_F(NoisyBowl, NoOtherPointTeachesMore) {
   const Eigen::MatrixXd minimisers = PossibleMinimisers(view_, LowestMean(view_));
-  const KnowledgeStep step = MostKnowledge(view_, model_.process(), minimisers);
+  const KnowledgeStep step =
+      MostKnowledge(view_, GainsOfValues(model_.process(), minimisers), minimisers);
   const surrogate::AnchorPoints anchors = model_.process().Anchor(minimisers);
   const Eigen::VectorXd mean = model_.Means(minimisers);
   const auto at = model_.process().PosteriorCovariances(anchors, RSequence(500, 2, 9));

@@ -75,16 +75,19 @@ bool AsksForSimulations(const campaign::CampaignResult& result) {
 
 // A range's width is the root of a variance: what the measurements leave open, and the surrogate's
 // share of it beside, which more simulations take away.
-double WidthWithoutSurrogate(double share) {
-  constexpr double kCaution = optimizer::kSurrogateCaution;
-  return 1 / std::sqrt(1 + kCaution * kCaution * share);
+double WidthWithoutSurrogate(double share, int num_finest) {
+  const double caution = optimizer::SurrogateCaution(num_finest);
+  return 1 / std::sqrt(1 + caution * caution * share);
 }
 
 // Whether the search came to its own end. The alarm says what is missing.
 void AddUnsettled(const campaign::CampaignResult& result, Conclusion& conclusion) {
   if (!result.unsettled) return;
   conclusion.more_simulations = result.unsettled->num_more;
-  conclusion.width_then = WidthWithoutSurrogate(result.unsettled->share);
+  if (result.posterior && result.posterior->fewest_at_finest > 0) {
+    conclusion.width_then =
+        WidthWithoutSurrogate(result.unsettled->share, result.posterior->fewest_at_finest);
+  }
   conclusion.unsettled = "The budget ended the search before its stopping rule did";
   if (std::isfinite(conclusion.more_simulations)) {
     conclusion.unsettled += ": about " + std::to_string(std::llround(conclusion.more_simulations)) +

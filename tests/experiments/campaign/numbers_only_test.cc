@@ -100,8 +100,8 @@ TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
 }
 
 // The number follows one parameter, so that it alone decides that one: within 3 kg/m³, the error of
-// the value, and the seeds' 4 kg/m³, over a slope of 350 kg/m³: 0.07 wide, and 2.5 times as much
-// for a surrogate of so few trials.
+// the value, and the seeds' 4 kg/m³, over a slope of 350 kg/m³: 0.07 wide, and three times as much
+// for a surrogate of so few trials (SurrogateCaution).
 TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
   const fs::path folder = BeginWith("run", std::string(kFallen) + "," + kTapped);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
@@ -109,7 +109,7 @@ TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
   ASSERT_EQ(result.parameters.size(), 2u);
   EXPECT_NEAR(result.parameters[0].value, kTrueSliding, 0.08);
   EXPECT_NEAR(result.parameters[1].value, kTrueRolling, 0.05);
-  EXPECT_LT(result.parameters[1].credible_high - result.parameters[1].credible_low, 0.2);
+  EXPECT_LT(result.parameters[1].credible_high - result.parameters[1].credible_low, 0.25);
   EXPECT_LE(result.parameters[1].credible_low, kTrueRolling);
   EXPECT_GE(result.parameters[1].credible_high, kTrueRolling);
   EXPECT_EQ(result.confirmed.at(0).num_trials, 2);

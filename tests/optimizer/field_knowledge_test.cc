@@ -1,0 +1,120 @@
+#include "optimizer/models/field_knowledge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "base/random.h"
+#include "optimizer/designs/r_sequence.h"
+#include "surrogate/images/column_edges.h"
+#include "surrogate/images/field_code.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr surrogate::FieldSize kSize{.width = 32, .height = 24};
+
+// A heap whose steepness and top are the two parameters, both disturbed.
+std::vector<float> HeapImage(const Eigen::VectorXd& u, double rough, base::Random& random) {
+  const double steep = (0.4 + 0.8 * u[0]) * (1 + rough * random.Normal());
+  const double top = (10 + 8 * u[1]) * (1 + rough * random.Normal());
+  surrogate::ColumnEdges edges{.height = Eigen::VectorXd(kSize.width),
+                               .width = Eigen::VectorXd::Constant(kSize.width, 1.2)};
+  for (int c = 0; c < kSize.width; ++c) {
+    edges.height[c] = std::max(0.0, top - steep * std::abs(c + 0.5 - 16));
+  }
+  return surrogate::Render(edges, kSize, surrogate::Vessel(kSize));
+}
+
+class NoisyHeaps : public ::testing::Test {
+ protected:
+  static FieldObjective Objective() {
+    base::Random exact(0, base::Stream("target"));
+    return {.width = kSize.width,
+            .height = kSize.height,
+            .target = HeapImage(Eigen::Vector2d(0.6, 0.4), 0, exact),
+            .sad_scale = 1,
+            .metric = {}};
+  }
+
+  CodedFields Told() const {
+    base::Random random(2, base::Stream("heaps"));
+    CodedFields data{.points = RSequence(30, 2, 1),
+                     .vectors = {},
+                     .values = Eigen::VectorXd(30),
+                     .reconstruction_errors = Eigen::VectorXd(30)};
+    for (Eigen::Index i = 0; i < 30; ++i) {
+      const std::vector<float> image = HeapImage(data.points.row(i).transpose(), 0.1, random);
+      const Eigen::VectorXd vector = code_->Encode(image);
+      if (i == 0) data.vectors.resize(30, vector.size());
+      data.vectors.row(i) = vector;
+      data.values[i] = objective_.Value(image);
+      data.reconstruction_errors[i] = data.values[i] - code_->Sad(vector);
+    }
+    return data;
+  }
+
+  // The model with one more evaluation, drawn as it predicts one at x.
+  FieldModel After(const Eigen::VectorXd& x, base::Random& random) const {
+    const surrogate::ModeMoments at = model_.modes().Predict(x.transpose());
+    const Eigen::VectorXd noise = model_.modes().ModeNoise();
+    Eigen::VectorXd coefficients = at.mean.row(0);
+    for (Eigen::Index k = 0; k < coefficients.size(); ++k) {
+      coefficients[k] += std::sqrt(at.variance(0, k) + noise[k]) * random.Normal();
+    }
+    const surrogate::PrincipalModes& modes = model_.modes().modes();
+    double error = 0;
+    if (model_.reconstruction()) {
+      const surrogate::Prediction one = model_.reconstruction()->Predict(x);
+      error = one.mean +
+              std::sqrt(one.variance + model_.reconstruction()->noise_variance()) * random.Normal();
+    }
+    CodedFields more = data_;
+    const Eigen::Index size = data_.values.size();
+    more.points.conservativeResize(size + 1, Eigen::NoChange);
+    more.points.row(size) = x;
+    more.vectors.conservativeResize(size + 1, Eigen::NoChange);
+    more.vectors.row(size) = modes.mean + modes.basis * coefficients;
+    more.values.conservativeResize(size + 1);
+    more.values[size] = data_.values.mean();  // only its scale is looked at
+    more.reconstruction_errors.conservativeResize(size + 1);
+    more.reconstruction_errors[size] = error;
+    const FieldState state = model_.state();
+    return {code_, objective_, more, {}, &state};
+  }
+
+  const FieldObjective objective_ = Objective();
+  const std::shared_ptr<const surrogate::FieldCode> code_ =
+      std::make_shared<surrogate::EdgeCode>(kSize, objective_.target);
+  const CodedFields data_ = Told();
+  const FieldModel model_{code_, objective_, data_, {}, nullptr};
+};
+
+// One more image at x, simulated many times, lowers the lowest mean by the gain on average. The
+// gain takes the objective for linear in the coefficients, which costs a few per cent; the mean of
+// 1500 images has a standard error of 4 %.
+TEST_F(NoisyHeaps, GainIsTheMeanDropOfTheLowestPosteriorMean) {
+  const Eigen::MatrixXd minimisers =
+      (0.3 * (RSequence(25, 2, 4).array() - 0.5)).matrix().rowwise() + Eigen::RowVector2d(0.6, 0.4);
+  const FieldKnowledge knowledge(model_, minimisers);
+  Eigen::MatrixXd points(3, 2);
+  points << 0.6, 0.4, 0.7, 0.5, 0.9, 0.9;
+  const Eigen::VectorXd gains = knowledge.Gains(points);
+  EXPECT_GT(gains.maxCoeff(), 10 * gains.minCoeff());  // far from the minimum little is learnt
+  const double before = model_.Means(minimisers).minCoeff();
+  base::Random random(5, base::Stream("images to come"));
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    constexpr int kNumImages = 1500;
+    double sum = 0;
+    for (int n = 0; n < kNumImages; ++n) {
+      const FieldModel after = After(points.row(i), random);
+      const Eigen::VectorXd means = after.Means(minimisers);
+      sum += before - means.minCoeff();
+    }
+    EXPECT_NEAR(sum / kNumImages, gains[i], 0.15 * gains.maxCoeff()) << points.row(i);
+  }
+}
+
+}  // namespace
+}  // namespace talus::optimizer
