@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -238,6 +240,34 @@ TEST(PosteriorDensity, TheRegionOfABentBandIsAsLargeAsTheBand) {
   const double band = 0.8 * kThick;
   // 0.005 of 0.04 beyond each edge; kernels of a cell of 1/60 made it 1.9 bands.
   EXPECT_NEAR(static_cast<double>(inside) / (120 * 120), 1.2 * band, 0.2 * band);
+}
+
+// The shadow of a ball: a disc without holes, however few of its draws are near its rim.
+TEST(PosteriorDensity, TheShadowOfABallHasNoHoles) {
+  constexpr int kCells = 120;
+  Eigen::MatrixXd draws(2000, 2);
+  Eigen::VectorXd level_of(draws.rows());
+  base::Random random(5, base::Stream("ball"));
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const Eigen::Vector3d z(random.Normal(), random.Normal(), random.Normal());
+    draws.row(i) = 0.5 + 0.1 * z.head(2).transpose().array();
+    level_of[i] = z.norm() < 1.538 ? 0.4 : 0.95;  // half of them: the median of chi with 3
+  }
+  const std::vector<double> levels = ProjectedLevels(draws, level_of, kCells);
+  double inside = 0;
+  double missing = 0;
+  for (int y = 0; y < kCells; ++y) {
+    for (int x = 0; x < kCells; ++x) {
+      const double off = std::hypot(x + 0.5 - 60, y + 0.5 - 60) / (0.1 * kCells);
+      const bool dark = levels[static_cast<std::size_t>(kCells * y + x)] < 0.5;
+      inside += dark ? 1 : 0;
+      missing += off < 1.2 && !dark ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(missing, 0);
+  // Of draws that reach half as far as their neighbours are, and gaps at the rim.
+  const double disc = std::numbers::pi * std::pow(1.538 * 0.1 * kCells, 2);
+  EXPECT_NEAR(inside / disc, 1, 0.15);
 }
 
 // A set that is said to fit equally must not lie where the figure says "ruled out".

@@ -50,6 +50,36 @@ Eigen::VectorXd Shares(double x, double width, int num_cells) {
   return shares / shares.sum();
 }
 
+// The least or the largest value within `radius` cells of each cell.
+template <class Better>
+Eigen::MatrixXd BestWithin(double radius, const Eigen::MatrixXd& map, const Better& better) {
+  const auto reach = static_cast<Eigen::Index>(radius);
+  Eigen::MatrixXd result = map;
+  for (Eigen::Index dy = -reach; dy <= reach; ++dy) {
+    for (Eigen::Index dx = -reach; dx <= reach; ++dx) {
+      if (std::hypot(dx, dy) > radius) continue;
+      const Eigen::Index rows = map.rows() - std::abs(dx);
+      const Eigen::Index cols = map.cols() - std::abs(dy);
+      auto here =
+          result.block(std::max<Eigen::Index>(0, -dx), std::max<Eigen::Index>(0, -dy), rows, cols);
+      here = here.binaryExpr(map.block(std::max<Eigen::Index>(0, dx), std::max<Eigen::Index>(0, dy),
+                                       rows, cols),
+                             better)
+                 .eval();
+    }
+  }
+  return result;
+}
+
+// Draws of a region in more dimensions leave gaps on a plane that the region's shadow does not
+// have: the regions of all levels are closed over gaps narrower than two radii.
+Eigen::MatrixXd WithoutGaps(const Eigen::MatrixXd& levels) {
+  constexpr double kRadius = 4;  // cells
+  const auto lower = [](double a, double b) { return std::min(a, b); };
+  const auto higher = [](double a, double b) { return std::max(a, b); };
+  return BestWithin(kRadius, BestWithin(kRadius, levels, lower), higher);
+}
+
 }  // namespace
 
 std::vector<double> MarginalDensity(const Eigen::VectorXd& draws, int num_cells) {
@@ -77,6 +107,7 @@ std::vector<double> ProjectedLevels(const Eigen::MatrixXd& draws, const Eigen::V
       }
     }
   }
+  least = WithoutGaps(least);
   return {least.data(), least.data() + least.size()};
 }
 
