@@ -19,12 +19,7 @@ constexpr StepSearches kImageSearches{
     .improvement = {.num_candidates = 300, .num_local = 3, .tolerance = 1e-6, .kinked = true},
     .mean = {.num_candidates = 200, .num_local = 3, .max_evaluations = 100, .kinked = true},
     .bound = {.num_candidates = 300, .num_local = 1, .kinked = true},
-    .minimisers = {.num_draws = 24, .num_even = 60, .num_near = 60},
-    .knowledge = {.num_candidates = 200,
-                  .num_local = 1,
-                  .max_evaluations = 40,
-                  .tolerance = 1e-4,
-                  .kinked = true}};
+    .minimisers = {.num_draws = 32, .num_even = 100, .num_near = 100}};
 
 FieldModel WithFantasies(FieldModel model, std::span<const Eigen::VectorXd> asked) {
   for (const Eigen::VectorXd& point : asked) model.AddFantasy(point);
@@ -93,8 +88,7 @@ Eigen::VectorXd FieldStrategy::Step(const FieldModel& model, const Points& asked
 Eigen::VectorXd FieldStrategy::ByKnowledge(const FieldModel& model, const Points& asked) const {
   const FieldModel with_fantasies = WithFantasies(model, asked);
   const Domain open = record().OpenDomain(asked);
-  ModelView view = ViewOf(with_fantasies, open, ImageSeed(asked));
-  view.searches.mean.num_local = 1;  // the other valleys' minima are among the draws'
+  const ModelView view = ViewOf(with_fantasies, open, ImageSeed(asked));
   const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
   const FieldKnowledge knowledge(with_fantasies, minimisers);
   const KnowledgeStep step = MostKnowledge(

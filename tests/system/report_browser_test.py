@@ -313,6 +313,31 @@ class ReportInABrowser(unittest.TestCase):
             self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
     # The first print of a page whose charts have not been seen yet has all pages that a second one has.
+    def test_a_screen_reader_finds_a_name_for_everything(self):
+        """What Chromium hands to a screen reader: charts are images with a name, and no heading skips a level."""
+        named = {"button", "checkbox", "combobox", "image", "link", "slider", "table", "textbox"}
+        for name, parameters, posterior in (("three", 3, False), ("posterior", 2, True)):
+            self.open_report(name, 60, parameters, "finished", posterior=posterior)
+            nodes = self.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+            seen = [n for n in nodes if not n["ignored"]]
+            kinds = {n["role"]["value"] for n in seen}
+            self.assertLessEqual({"button", "image", "table", "heading"}, kinds)
+            for node in seen:
+                if node["role"]["value"] in named:
+                    self.assertTrue(node["name"]["value"].strip(), node)
+            by_id = {n["nodeId"]: n for n in nodes}
+
+            def in_order(node):
+                yield node
+                for child in node.get("childIds", []):
+                    if child in by_id:
+                        yield from in_order(by_id[child])
+            levels = [p["value"]["value"] for n in in_order(nodes[0]) if not n["ignored"]
+                      for p in n.get("properties", []) if n["role"]["value"] == "heading" and p["name"] == "level"]
+            self.assertEqual(levels[0], 1)
+            for before, after in zip(levels, levels[1:]):
+                self.assertLessEqual(after, before + 1, levels)
+
     def test_nothing_is_cut_off_the_end_of_the_paper(self):
         self.open_report("posterior", 60, 2, "finished", posterior=True)
 

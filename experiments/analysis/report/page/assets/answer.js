@@ -96,7 +96,7 @@ function nextSteps(h) {
 function branches(h) {
   if (h.branches.length < 2) return null;
   return element("div", {class: "card", id: "branches"}, element("h3", {}, "The separate answers"),
-    table([{title: "", text: true}, ...h.branches.map((b, i) => ({title: "Answer " + (i + 1),
+    table("The separate answers", [{title: "", text: true}, ...h.branches.map((b, i) => ({title: "Answer " + (i + 1),
         unit: percent(b.share) + " of the region"}))],
       D.parameters.map((p, k) => [p.symbol + (p.unit ? " (" + p.unit + ")" : ""), ...h.branches.map((b) =>
         element("span", {}, format(b.values[k]), element("br"), element("small", {},
@@ -138,7 +138,8 @@ function toldApart(c) {
   return element("figure", {class: "card"}, element("h3", {}, c.name),
     c.uri ? element("img", {src: c.uri, alt: "Two simulated heaps that fit equally and that " + c.name + " tells apart",
       width: c.picture_width, height: c.picture_height}) : null,
-    c.apart_by.length ? table([{title: "", text: true}, {title: c.uri ? "left" : "first"}, {title: c.uri ? "right" : "second"}],
+    c.apart_by.length ? table("Numbers of " + c.name,
+      [{title: "", text: true}, {title: c.uri ? "left" : "first"}, {title: c.uri ? "right" : "second"}],
       c.apart_by.map((n) => [n.title, ...n.values.map((x) => formatUnit(x, n.unit))])) : null,
     element("figcaption", {}, "Both fit so far: " + (c.uri ? "left " : "first ") + setText(c.apart[0]) +
       (c.uri ? ", right " : ", second ") + setText(c.apart[1]) + ". This is how they come out of it."));
@@ -151,7 +152,7 @@ function nextTable() {
   const telling = D.next.candidates.filter((c) => c.apart.length && (c.uri || c.apart_by.length));
   return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
     D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus next again.") : null,
-    table([{title: "Candidate", text: true, wide: true}, {title: "Expected", unit: "bits"},
+    table("Next steps", [{title: "Candidate", text: true, wide: true}, {title: "Expected", unit: "bits"},
         ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
         {title: "Costs", text: true}],
       D.next.candidates.map((c) => [c.name + ": " + c.what, c.bits === null ? "?" : format(c.bits, 2),

@@ -52,12 +52,12 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-// A table; columns: {title, unit, text: left-aligned}.
-function table(columns, rows, attributes = {}) {
+// A table; name: what a screen reader calls it; columns: {title, unit, text: left-aligned}.
+function table(name, columns, rows) {
   const heads = columns.map((c) => element("th",
       {class: c.text ? "text" : c.profile ? "profile" : undefined, scope: "col"},
       c.title, ...(c.unit ? [element("br"), element("small", {}, c.unit)] : [])));
-  return element("div", {class: "scroll"}, element("table", attributes,
+  return element("div", {class: "scroll"}, element("table", {"aria-label": name},
       element("thead", {}, element("tr", {}, heads)),
       element("tbody", {}, rows.map((row) => element("tr", {}, row.map((cell, i) =>
           element("td", {class: columns[i].wide ? "text wide" : columns[i].text ? "text" : undefined},

@@ -54,7 +54,8 @@ function build() {
   section("methods", "For a methods section", "Written from this campaign's journal; check it before you use it.",
     [element("div", {class: "card"}, element("p", {id: "methods-text"}, D.methods))]);
   section("spec", "Spec and versions", "", [
-    element("div", {class: "card"}, table([{title: "What", text: true}, {title: "Version", text: true}],
+    element("div", {class: "card"}, table("Versions",
+      [{title: "What", text: true}, {title: "Version", text: true}],
       D.versions.map((v) => [v.name, v.version]))),
     element("div", {class: "card"}, element("h3", {}, "The spec as it was given"), element("pre", {}, D.spec))]);
   document.getElementById("footer").append(

@@ -15,7 +15,7 @@ function sensitivityTable() {
   const h = D.headline;
   if (!h || !h.sobol_total.length) return [];
   return [element("div", {class: "card"}, element("h3", {}, "What " + D.campaign.objective.title + " depends on"),
-    table([{title: "Parameter", text: true}, {title: "alone (first-order Sobol index)"},
+    table("Sensitivity", [{title: "Parameter", text: true}, {title: "alone (first-order Sobol index)"},
            {title: "with its interactions (total)"}],
       D.parameters.map((p, k) => [p.symbol, shareBar(h.sobol_first[k]), shareBar(h.sobol_total[k])])))];
 }
@@ -45,7 +45,7 @@ function comparisonSection() {
       "ties with it: sets whose objective is within the scatter of one simulation. The smaller " +
       "that volume, the more unique the answer. A dash: no set was simulated twice, so that the scatter is not " +
       "known."),
-    element("div", {class: "card"}, table(columns, first))];
+    element("div", {class: "card"}, table("Best sets", columns, first))];
   const silent = D.objectives.filter((o) => o.absent);
   if (silent.length) {
     parts.push(element("div", {class: "notice"}, element("ul", {}, silent.map((o) =>
@@ -53,7 +53,7 @@ function comparisonSection() {
   }
   parts.push(element("div", {class: "card"}, answered.map((o, k) => element("details", {open: k === 0},
     element("summary", {}, "The ten best by " + o.title),
-    table([{title: "Rank"}, {title: o.title, unit: o.unit},
+    table("The ten best by " + o.title, [{title: "Rank"}, {title: o.title, unit: o.unit},
            ...(o.is_distance ? [{title: "Off by", unit: o.unit}] : []),
            ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit})), {title: "Trials", text: true}],
       o.trials.best.map((b, rank) => [rank + 1, format(b.quantity, 4),
@@ -67,7 +67,7 @@ const comparing = new Set(["sad_px", "sad_mm2", "sad_relative", "rmse_gray", "rm
 function measuresTable() {
   const shown = D.metrics.map((_, k) => k).filter((k) => !D.metrics[k].name.endsWith("_px"));
   return element("div", {class: "card"},
-    table([{title: "Measure", text: true},
+    table("Measures", [{title: "Measure", text: true},
            ...D.measures.map((m) => ({title: m.title, unit: m.note, profile: true}))],
       shown.map((k) => [D.metrics[k].title +
         (D.metrics[k].unit ? " (" + D.metrics[k].unit + ")" : ""),
@@ -97,12 +97,12 @@ function failuresSection() {
   if (!groups.size) return [element("p", {class: "lead"}, "No trial failed.")];
   const rows = [...groups].sort((a, b) => b[1].length - a[1].length).map(([reason, ids]) =>
     [reason, ids.length, ids.slice(0, 20).join(", ") + (ids.length > 20 ? ", …" : "")]);
-  return [element("div", {class: "card"}, table([{title: "Reason", text: true, wide: true}, {title: "Trials"},
+  return [element("div", {class: "card"}, table("Failures", [{title: "Reason", text: true, wide: true}, {title: "Trials"},
     {title: "Which", text: true, wide: true}], rows))];
 }
 
 function stagesTable() {
   if (!D.stages.length) return [];
-  return [element("div", {class: "card"}, table([{title: "Stage", text: true}, {title: "Time"}],
+  return [element("div", {class: "card"}, table("Time", [{title: "Stage", text: true}, {title: "Time"}],
     D.stages.map((s) => [s.name, duration(s.seconds)])))];
 }

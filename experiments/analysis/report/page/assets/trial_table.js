@@ -82,7 +82,7 @@ function trialTable() {
     back.disabled = page === 0;
     next.disabled = from + rowsPerPage >= rows.length;
   }
-  const grid = element("table", {id: "trials"}, element("thead", {}, element("tr", {}, heads)), body);
+  const grid = element("table", {id: "trials", "aria-label": "Trials"}, element("thead", {}, element("tr", {}, heads)), body);
   arrange();
   return element("div", {}, element("div", {class: "row"}, filter, count, back, next,
       element("label", {}, element("input", {type: "checkbox",
