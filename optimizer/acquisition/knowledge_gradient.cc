@@ -113,9 +113,13 @@ KnowledgeStep MostKnowledge(const ModelView& view, const KnowledgeGains& gains,
     return values(x.transpose())[0];
   };
   const double work = kDropWork + view.model.PredictionWork();
-  SearchOptions options = view.searches.knowledge;
-  options.seed = view.seed;
-  const Found found = SearchCube({values, value, work}, view.domain, minimisers, options);
+  const Found found = SearchCube({values, value, work}, view.domain, minimisers,
+                                 {.num_candidates = 400,
+                                  .num_local = 2,
+                                  .max_evaluations = 60,
+                                  .tolerance = 1e-4,
+                                  .kinked = true,
+                                  .seed = view.seed});
   return {.point = found.point, .gain = gains(found.point.transpose())[0]};
 }
 

@@ -27,13 +27,7 @@ struct StepSearches {
   SearchOptions improvement = {};
   SearchOptions mean = {.num_local = 6};
   SearchOptions bound = {};
-  // knowledge_gradient.h: its lines have kinks, whatever the model.
-  MinimiserSearch minimisers = {};
-  SearchOptions knowledge = {.num_candidates = 400,
-                             .num_local = 2,
-                             .max_evaluations = 60,
-                             .tolerance = 1e-4,
-                             .kinked = true};
+  MinimiserSearch minimisers = {};  // knowledge_gradient.h
 };
 
 struct ModelView {

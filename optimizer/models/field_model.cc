@@ -188,7 +188,7 @@ Moments FieldModel::Predict(const Eigen::MatrixXd& points) const {
 Eigen::MatrixXd FieldModel::Sensitivities(const Eigen::MatrixXd& points) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
   Eigen::MatrixXd result(points.rows(), num_modes());
-  ForEachPoint(points.rows(), 2 * num_modes(), [&](Eigen::Index i) {
+  ForEachPoint(points.rows(), 12.0 * num_modes(), [&](Eigen::Index i) {
     At at{modes.mean.row(i), modes.variance.row(i)};
     for (Eigen::Index k = 0; k < result.cols(); ++k) {
       const double middle = at.mean[k];

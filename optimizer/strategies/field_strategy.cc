@@ -88,7 +88,13 @@ Eigen::VectorXd FieldStrategy::Step(const FieldModel& model, const Points& asked
 Eigen::VectorXd FieldStrategy::ByKnowledge(const FieldModel& model, const Points& asked) const {
   const FieldModel with_fantasies = WithFantasies(model, asked);
   const Domain open = record().OpenDomain(asked);
-  const ModelView view = ViewOf(with_fantasies, open, ImageSeed(asked));
+  ModelView view = ViewOf(with_fantasies, open, ImageSeed(asked));
+  // Predictions of many images take long, and the draws have the other valleys' minima anyway.
+  constexpr int kMany = 300;
+  if (fields_.size() > kMany) {
+    view.searches.mean.num_local = 1;
+    view.searches.minimisers = {.num_draws = 24, .num_even = 60, .num_near = 60};
+  }
   const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
   const FieldKnowledge knowledge(with_fantasies, minimisers);
   const KnowledgeStep step = MostKnowledge(

@@ -51,9 +51,8 @@ std::string TextOf(const ResultWarning& w) {
              ResumeCommand(kMoreSimulations) + ")";
     case WarningKind::kFewSimulations:
       return "an experiment has only " + value +
-             " simulations at the smallest scale factor: from so few the joint 90 % region of "
-             "several experiments held the truth in 8 of 10 virtual powders, not 9; more would "
-             "settle it (" +
+             " simulations at the smallest scale factor: so few are trusted less, and the joint "
+             "region is wider for it; more would narrow it (" +
              ResumeCommand(kMoreSimulations) + ")";
     case WarningKind::kNotModelsChoice:
       return "the set that the model recommends was confirmed worse than another candidate, which "
