@@ -45,10 +45,9 @@ struct Gains {
   std::array<double, kAhead.size()> ahead = {};
 };
 
-Gains GainsOf(const optimizer::ModelView& view, const surrogate::GaussianProcess& process,
-              const Eigen::VectorXd& best) {
+Gains GainsOf(const optimizer::ModelView& view, const surrogate::GaussianProcess& process) {
   constexpr int kNumDraws = 256;
-  const Eigen::MatrixXd minimisers = optimizer::PossibleMinimisers(view, best);
+  const Eigen::MatrixXd minimisers = optimizer::PossibleMinimisers(view);
   const Eigen::VectorXd mean = process.PredictAll(minimisers).mean;
   Eigen::MatrixXd places(minimisers.rows() + 1, minimisers.cols());
   const auto of_one = optimizer::GainsOfValues(process, minimisers);
@@ -110,7 +109,7 @@ class Trace {
     const double noise = model.NoiseSd(best);
     const double bounds = at.mean[0] + optimizer::kBoundSds * at.sd[0] -
                           optimizer::LowestBound(view, optimizer::BestEvaluated(view));
-    const Gains gains = GainsOf(view, model.process(), best);
+    const Gains gains = GainsOf(view, model.process());
     const double regret =
         (problem_->Value({best[0], best[1], best[2]}) - lowest_) / (problem_->Median() - lowest_);
     std::printf("%s,%d,%d,%.6g,%.6g,%.6g", problem_->name.c_str(), problem_->instance,

@@ -63,10 +63,12 @@ double ExpectedDropOfMinimum(const Eigen::VectorXd& mean, const Eigen::VectorXd&
   return sum;
 }
 
-Eigen::MatrixXd PossibleMinimisers(const ModelView& view, const Eigen::VectorXd& best) {
+Eigen::MatrixXd PossibleMinimisers(const ModelView& view) {
   const int dimension = view.domain.num_parameters;
   base::Random random(view.seed, base::Stream("possible minimisers"));
-  const Eigen::MatrixXd centers = Stack(best.transpose(), BestEvaluated(view));
+  const Eigen::MatrixXd evaluated = BestEvaluated(view);
+  const Eigen::VectorXd best = LowestMean(view, evaluated);
+  const Eigen::MatrixXd centers = Stack(best.transpose(), evaluated);
   Eigen::MatrixXd near(view.searches.minimisers.num_near, dimension);
   for (Eigen::Index i = 0; i < near.rows(); ++i) {
     const double radius = 0.3 * std::pow(10.0, -2 * random.Uniform());

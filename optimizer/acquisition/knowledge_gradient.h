@@ -24,8 +24,8 @@ inline constexpr int kFewestForKnowledge = 20;
 double ExpectedDropOfMinimum(const Eigen::VectorXd& mean, const Eigen::VectorXd& slope);
 
 // Points where the minimum may be, one a row: minimisers of posterior draws over candidates of the
-// domain, with `best` first.
-Eigen::MatrixXd PossibleMinimisers(const ModelView& view, const Eigen::VectorXd& best);
+// domain, with that of the posterior mean first.
+Eigen::MatrixXd PossibleMinimisers(const ModelView& view);
 
 // KG of one more evaluation at each point, one a row; in units of the values, >= 0.
 using KnowledgeGains = std::function<Eigen::VectorXd(const Eigen::MatrixXd& points)>;

@@ -97,9 +97,10 @@ Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& 
   return Search(view, Negative(view, score, 1), centers, view.searches.improvement);
 }
 
+Eigen::VectorXd LowestMean(const ModelView& view) { return LowestMean(view, BestEvaluated(view)); }
+
 // The mean has a unit, the logarithm of a probability has none: a failure costs `failure_cost`.
-Eigen::VectorXd LowestMean(const ModelView& view) {
-  const Eigen::MatrixXd centers = BestEvaluated(view);
+Eigen::VectorXd LowestMean(const ModelView& view, const Eigen::MatrixXd& centers) {
   if (view.searches.mean.kinked) {
     const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
       return view.model.Means(points) - view.failure_cost * view.feasibility.Penalty(points);

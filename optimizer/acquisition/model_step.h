@@ -59,8 +59,10 @@ Eigen::MatrixXd BestEvaluated(const ModelView& view);
 Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& incumbent,
                                         const Eigen::MatrixXd& centers);
 
-// The minimiser of the posterior mean over the domain.
+// The minimiser of the posterior mean over the domain. The search starts near `centers`, one a row;
+// by default the best evaluated points.
 Eigen::VectorXd LowestMean(const ModelView& view);
+Eigen::VectorXd LowestMean(const ModelView& view, const Eigen::MatrixXd& centers);
 
 // The lowest posterior mean - kBoundSds posterior standard deviations over the domain. The search
 // starts near `centers`, one a row.

@@ -95,7 +95,7 @@ Eigen::VectorXd FieldStrategy::ByKnowledge(const FieldModel& model, const Points
     view.searches.mean.num_local = 1;
     view.searches.minimisers = {.num_draws = 24, .num_even = 60, .num_near = 60};
   }
-  const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
+  const Eigen::MatrixXd minimisers = PossibleMinimisers(view);
   const FieldKnowledge knowledge(with_fantasies, minimisers);
   const KnowledgeStep step = MostKnowledge(
       view, [&](const Eigen::MatrixXd& points) { return knowledge.Gains(points); }, minimisers);

@@ -104,7 +104,7 @@ Proposal ScalarSearch::Next(const SearchRecord& record, std::span<const Eigen::V
   const Domain open = elsewhere ? elsewhere->domain : record.OpenDomain(asked);
   const ModelView view = ViewOf(model, record, open, record.StepSeed(asked));
   if (StepsByKnowledge(record, asked)) {
-    const Eigen::MatrixXd minimisers = PossibleMinimisers(view, LowestMean(view));
+    const Eigen::MatrixXd minimisers = PossibleMinimisers(view);
     const KnowledgeStep step =
         MostKnowledge(view, GainsOfValues(model.process(), minimisers), minimisers);
     if (step.gain > 0) return record.ReplicateOrPerturb(step.point, asked);

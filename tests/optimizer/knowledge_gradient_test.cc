@@ -68,7 +68,7 @@ class NoisyBowl : public ::testing::Test {
 // The gain found is that of evaluating there: simulated by adding many possible values, the lowest
 // mean drops by it on average.
 TEST_F(NoisyBowl, GainIsTheMeanDropOfTheLowestPosteriorMean) {
-  const Eigen::MatrixXd minimisers = PossibleMinimisers(view_, LowestMean(view_));
+  const Eigen::MatrixXd minimisers = PossibleMinimisers(view_);
   ASSERT_GT(minimisers.rows(), 5);
   const KnowledgeStep step =
       MostKnowledge(view_, GainsOfValues(model_.process(), minimisers), minimisers);
@@ -94,7 +94,7 @@ TEST_F(NoisyBowl, GainIsTheMeanDropOfTheLowestPosteriorMean) {
 }
 
 TEST_F(NoisyBowl, NoOtherPointTeachesMore) {
-  const Eigen::MatrixXd minimisers = PossibleMinimisers(view_, LowestMean(view_));
+  const Eigen::MatrixXd minimisers = PossibleMinimisers(view_);
   const KnowledgeStep step =
       MostKnowledge(view_, GainsOfValues(model_.process(), minimisers), minimisers);
   const surrogate::AnchorPoints anchors = model_.process().Anchor(minimisers);
