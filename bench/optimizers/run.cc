@@ -2,11 +2,14 @@
 //
 //   optimizer_bench [--strategy surrogate] [--noise 0|1|2|3] [--instances 1-8] [--problems a,b]
 //                   [--budgets 30,60,100] [--batch 1] [--csv FILE] [--stop 0.75] [--seeds 20]
+//                   [--oracle 0.1]
 //
 // --stop lets the strategy end a run when less than this times the scatter is left to gain; its
 // last recommendation then counts for the larger budgets, and the median end is printed.
 // --seeds runs one instance from so many seeds instead, and prints the worst, the median, and the
 // median of random search after each of the budgets.
+// --oracle replaces every proposal after the tenth by a normal draw of that standard deviation
+// about the optimum: what the model makes of evaluations that lie where they should.
 //
 // r = (f(recommended) - f*) / R is judged noise-free; the score is the share of (problem, instance,
 // target) with r <= target over the targets 10^-0.5, 10^-1, …, 10^-4.
@@ -38,6 +41,7 @@ struct Options {
   int batch = 1;
   double stop_multiple = 0;  // 0: the whole budget is spent, whatever is left to gain
   int num_seeds = 0;         // > 0: compare seeds, not instances
+  double oracle = 0;         // > 0: proposals are drawn round the optimum with this sd
   std::string csv;
 };
 
@@ -58,6 +62,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--batch") options.batch = std::stoi(value);
     if (key == "--csv") options.csv = value;
     if (key == "--stop") options.stop_multiple = std::stod(value);
+    if (key == "--oracle") options.oracle = std::stod(value);
     if (key == "--seeds") options.num_seeds = std::stoi(value);
     if (key == "--problems") options.problems = Split(value);
     if (key == "--instances") {
@@ -108,19 +113,30 @@ std::unique_ptr<optimizer::Strategy> MakeFor(const Options& options, const Probl
 class Judge {
  public:
   explicit Judge(const Problem& problem) : problem_(problem) {
-    Vec best;
-    Optimum(problem, best, lowest_);
+    Optimum(problem, optimum_, lowest_);
     scale_ = problem.Median() - lowest_;
   }
   double Regret(const Vec& point) const {
     return std::max(0.0, (problem_.Value(point) - lowest_) / scale_);
   }
+  const Vec& optimum() const { return optimum_; }
 
  private:
   const Problem& problem_;
+  Vec optimum_{};
   double lowest_ = 0;
   double scale_ = 1;
 };
+
+Eigen::VectorXd NearOptimum(const Judge& judge, double sd, std::uint64_t run) {
+  base::Random random(run, base::Stream("oracle"));
+  Eigen::VectorXd point(D);
+  for (int k = 0; k < D; ++k) {
+    const double drawn = judge.optimum()[static_cast<std::size_t>(k)] + sd * random.Normal();
+    point[k] = std::clamp(drawn, 0.0, 1.0);
+  }
+  return point;
+}
 
 std::vector<Result> RunOne(const Options& options, const Problem& problem, const Judge& judge,
                            std::uint64_t seed) {
@@ -129,9 +145,12 @@ std::vector<Result> RunOne(const Options& options, const Problem& problem, const
   int told = 0;
   for (const int budget : options.budgets) {
     while (told < budget && !strategy->StopReason()) {
-      for (const auto& proposal : strategy->Ask(std::min(options.batch, budget - told), {})) {
+      for (auto& proposal : strategy->Ask(std::min(options.batch, budget - told), {})) {
         ++told;
         const std::uint64_t run = 1000 * seed + static_cast<std::uint64_t>(told);
+        if (options.oracle > 0 && told > 10) {
+          proposal.point = NearOptimum(judge, options.oracle, run);
+        }
         const Vec point = ToVec(proposal.point);
         strategy->Tell({.point = proposal.point,
                         .value = problem.Noisy(point, run, options.noise),

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "optimizer/models/mirrored_normals.h"
 #include "surrogate/standard_deviation.h"
 
 namespace talus::optimizer {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostModes = 8;
-constexpr int kNumDraws = 16;  // of an objective, half of them mirror images of the others
+constexpr int kNumDraws = 16;  // of an objective
 
 // Values far above the target are compressed, so that a mass that spans decades stays smooth where
 // it matters. Linear up to the target.
@@ -50,16 +51,6 @@ Eigen::VectorXd NoiseMedians(const Levels& levels, double coarsest) {
 double NoiseOfMode(double next_sd, const Eigen::VectorXd& coefficients) {
   const double spread = surrogate::StandardDeviation(coefficients);
   return spread > 0 ? std::clamp(1.5 * next_sd / spread, 0.1, 0.8) : 0.8;
-}
-
-Eigen::MatrixXd MirroredNormals(Eigen::Index num_modes) {
-  base::Random random(1, base::Stream("objective draws"));
-  Eigen::MatrixXd normals(kNumDraws, num_modes);
-  for (Eigen::Index i = 0; i < kNumDraws / 2; ++i) {
-    for (double& z : normals.row(i)) z = random.Normal();
-  }
-  normals.bottomRows(kNumDraws / 2) = -normals.topRows(kNumDraws / 2);
-  return normals;
 }
 
 }  // namespace
@@ -310,7 +301,8 @@ double ExperimentModel::ObjectiveOf(const Eigen::VectorXd& coefficients,
 
 Eigen::VectorXd ExperimentModel::ObjectiveDraws(const Eigen::VectorXd& mean,
                                                 const Eigen::VectorXd& sd) const {
-  const Eigen::MatrixXd normals = MirroredNormals(mean.size());
+  const Eigen::MatrixXd normals =
+      MirroredNormals(kNumDraws, mean.size(), base::Random(1, base::Stream("objective draws")));
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(mean.size());
   Eigen::VectorXd draws(kNumDraws);
   for (Eigen::Index i = 0; i < kNumDraws; ++i) {

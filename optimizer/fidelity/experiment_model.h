@@ -68,7 +68,6 @@ class ExperimentModel {
   ExperimentState state() const;
 
   OutputMisfit MisfitOf(const Eigen::MatrixXd& points) const { return MisfitOf(points, caution_); }
-  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution) const;
   OutputPredictions Predict(const Eigen::MatrixXd& points) const;
   // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
   double Misfit(const Eigen::VectorXd& x) const;
@@ -105,6 +104,7 @@ class ExperimentModel {
   std::vector<float> MeanImage(const Eigen::VectorXd& x) const;
 
  private:
+  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution) const;
   // The coefficients of the images and the scalars, one evaluation a row; NaN where undefined.
   Eigen::MatrixXd OutputValues(const ExperimentData& data) const;
   void FitOutputs(const ExperimentData& data, const ExperimentState* frozen);

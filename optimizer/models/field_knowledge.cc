@@ -1,21 +1,20 @@
 #include "optimizer/models/field_knowledge.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/parallel_for.h"
 #include "base/random.h"
+#include "optimizer/models/mirrored_normals.h"
 
 namespace talus::optimizer {
 namespace {
 
-constexpr int kNumDraws = 64;  // half of them the mirror images of the others
+constexpr int kNumDraws = 512;
 
-Eigen::MatrixXd MirroredNormals(Eigen::Index num_sources) {
-  base::Random random(1, base::Stream("field knowledge"));
-  Eigen::MatrixXd normals(kNumDraws, num_sources);
-  for (double& z : normals.topRows(kNumDraws / 2).reshaped()) z = random.Normal();
-  normals.bottomRows(kNumDraws / 2) = -normals.topRows(kNumDraws / 2);
+// Draws whose squares have mean 1, so that no minimiser's mean moves on average.
+Eigen::MatrixXd Standardised(Eigen::MatrixXd normals) {
+  const auto num_draws = static_cast<double>(normals.rows());
+  normals.array().rowwise() /= (normals.colwise().squaredNorm() / num_draws).array().sqrt();
   return normals;
 }
 
@@ -23,40 +22,51 @@ Eigen::MatrixXd MirroredNormals(Eigen::Index num_sources) {
 
 FieldKnowledge::FieldKnowledge(const FieldModel& model, const Eigen::MatrixXd& minimisers)
     : means_(model.Means(minimisers)) {
-  const Eigen::MatrixXd sensitivities = model.Sensitivities(minimisers);
+  const Sensitivities sensitivities = model.SensitivitiesAt(minimisers);
   const std::vector<surrogate::GaussianProcess>& modes = model.modes().processes();
   for (std::size_t k = 0; k < modes.size(); ++k) {
-    sources_.push_back(
-        {modes[k], modes[k].Anchor(minimisers), sensitivities.col(static_cast<Eigen::Index>(k))});
+    const auto column = static_cast<Eigen::Index>(k);
+    sources_.push_back({modes[k], modes[k].Anchor(minimisers), sensitivities.slope.col(column),
+                        sensitivities.curvature.col(column)});
   }
   if (model.reconstruction()) {
     sources_.push_back({*model.reconstruction(), model.reconstruction()->Anchor(minimisers),
-                        Eigen::VectorXd::Ones(minimisers.rows())});
+                        Eigen::VectorXd::Ones(minimisers.rows()),
+                        Eigen::VectorXd::Zero(minimisers.rows())});
   }
-  normals_ = MirroredNormals(static_cast<Eigen::Index>(sources_.size()));
+  const auto num_sources = static_cast<Eigen::Index>(sources_.size());
+  const Eigen::MatrixXd normals = Standardised(
+      MirroredNormals(kNumDraws, num_sources, base::Random(1, base::Stream("field knowledge"))));
+  draws_.resize(2 * num_sources, kNumDraws);
+  draws_.topRows(num_sources) = normals.transpose();
+  draws_.bottomRows(num_sources) = (normals.array().square() - 1).matrix().transpose();
 }
 
 Eigen::VectorXd FieldKnowledge::Gains(const Eigen::MatrixXd& points) const {
   const auto num_sources = static_cast<Eigen::Index>(sources_.size());
-  // One source a column, for each point a block of one minimiser a row.
-  Eigen::MatrixXd steps(means_.size() * points.rows(), num_sources);
+  // What multiplies each row of the draws, for each point a block of one minimiser a row.
+  Eigen::MatrixXd steps(means_.size() * points.rows(), 2 * num_sources);
   for (Eigen::Index k = 0; k < num_sources; ++k) {
     const Source& source = sources_[static_cast<std::size_t>(k)];
     const surrogate::Covariances at = source.process.PosteriorCovariances(source.anchors, points);
     const double noise2 = source.process.noise_variance();
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      steps.col(k).segment(i * means_.size(), means_.size()) =
-          source.sensitivity.cwiseProduct(at.between.col(i)) / std::sqrt(at.variance[i] + noise2);
+      const Eigen::VectorXd moved = at.between.col(i) / std::sqrt(at.variance[i] + noise2);
+      const auto block = Eigen::seqN(i * means_.size(), means_.size());
+      steps(block, k) = source.slope.cwiseProduct(moved);
+      steps(block, num_sources + k) = 0.5 * source.curvature.cwiseProduct(moved.cwiseAbs2());
     }
   }
   const double lowest = means_.minCoeff();
+  const double rounding = 1e-12 * means_.cwiseAbs().maxCoeff();
   Eigen::VectorXd gains(points.rows());
-  const auto work = static_cast<double>(means_.size() * num_sources * kNumDraws);
+  const auto work = static_cast<double>(means_.size() * draws_.size());
   base::ParallelFor({.num_items = points.rows(), .item_work = work}, [&](Eigen::Index i) {
     const auto of_point = steps.middleRows(i * means_.size(), means_.size());
-    const Eigen::MatrixXd moved = (of_point * normals_.transpose()).colwise() + means_;
-    // Mirrored draws make it 0 or more but for rounding.
-    gains[i] = std::max(0.0, lowest - moved.colwise().minCoeff().mean());
+    const Eigen::MatrixXd moved = (of_point * draws_).colwise() + means_;
+    // The draws are standardised, so it is 0 or more but for rounding, which must not be a gain.
+    const double gain = lowest - moved.colwise().minCoeff().mean();
+    gains[i] = gain > rounding ? gain : 0;
   });
   return gains;
 }

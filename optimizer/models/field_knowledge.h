@@ -1,11 +1,13 @@
 // The knowledge gradient (acquisition/knowledge_gradient.h) where an evaluation brings an image.
 //
-//   KG(x) = min_a μ(a) - E[min_a (μ(a) + Σₖ gₖ(a) sₖ(a, x) Zₖ)],
+//   KG(x) = min_a μ(a) - E[min_a (μ(a) + Σₖ (gₖ(a) sₖ(a, x) Zₖ + ½ hₖ(a) sₖ²(a, x) (Zₖ² - 1)))],
 //   sₖ(a, x) = Covₖ(a, x) / √(Varₖ(x) + nₖ²)
 //
-// k over the modes and the reconstruction error, gₖ the objective's derivative by the coefficient.
-// The minimum of lines in several Z has no closed form: the expectation is over fixed draws of Z,
-// the same at each x.
+// k over the modes and the reconstruction error, gₖ and hₖ the objective's first and second
+// derivative by the coefficient. A sum of absolute differences is flat in the coefficients where it
+// is lowest, and what is to be learnt there is in the curvature: the terms of hₖ. The -1 is the
+// variance that the evaluation takes away. The minimum has no closed form: the expectation is over
+// fixed draws of Z, the same at each x.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,15 +27,17 @@ class FieldKnowledge {
   Eigen::VectorXd Gains(const Eigen::MatrixXd& points) const;
 
  private:
-  // One of the processes that an evaluation teaches.
+  // One of the processes that an evaluation teaches, with the objective's derivatives by its value
+  // at each minimiser.
   struct Source {
     const surrogate::GaussianProcess& process;
     surrogate::AnchorPoints anchors;
-    Eigen::VectorXd sensitivity;  // at each minimiser
+    Eigen::VectorXd slope;
+    Eigen::VectorXd curvature;
   };
   std::vector<Source> sources_;
-  Eigen::VectorXd means_;    // of the objective at the minimisers
-  Eigen::MatrixXd normals_;  // one draw a row, one source a column
+  Eigen::VectorXd means_;  // of the objective at the minimisers
+  Eigen::MatrixXd draws_;  // one draw a column: Z of each source, then Z² - 1 of each
 };
 
 }  // namespace talus::optimizer

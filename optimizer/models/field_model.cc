@@ -7,6 +7,7 @@
 #include "base/parallel_for.h"
 #include "base/random.h"
 #include "optimizer/acquisition/acquisition.h"
+#include "optimizer/models/mirrored_normals.h"
 #include "surrogate/standard_deviation.h"
 
 namespace talus::optimizer {
@@ -14,7 +15,7 @@ namespace {
 
 using surrogate::StandardDeviation;
 
-constexpr int kNumDraws = 16;  // half of them the mirror images of the others
+constexpr int kNumDraws = 16;
 // Without noise every mode that is more than rounding is signal.
 constexpr int kModesIfDeterministic = 12;
 // Reconstruction errors below this share of the objective's standard deviation need no process.
@@ -66,16 +67,6 @@ std::optional<surrogate::GaussianProcess> FitReconstruction(const CodedFields& d
   return surrogate::GaussianProcess::Fit(data.points, data.reconstruction_errors, process);
 }
 
-Eigen::MatrixXd MirroredNormals(Eigen::Index num_modes, std::uint64_t seed) {
-  base::Random random(seed, base::Stream("field draws"));
-  Eigen::MatrixXd normals(kNumDraws, num_modes);
-  for (Eigen::Index i = 0; i < kNumDraws / 2; ++i) {
-    for (Eigen::Index k = 0; k < num_modes; ++k) normals(i, k) = random.Normal();
-  }
-  normals.bottomRows(kNumDraws / 2) = -normals.topRows(kNumDraws / 2);
-  return normals;
-}
-
 }  // namespace
 
 FieldModel::FieldModel(std::shared_ptr<const surrogate::FieldCode> code,
@@ -87,7 +78,8 @@ FieldModel::FieldModel(std::shared_ptr<const surrogate::FieldCode> code,
           surrogate::ModeProcess::Fit(data.points, data.vectors, OptionsOf(data, options, frozen))),
       reconstruction_(FitReconstruction(data, options, frozen)),
       residuals_(data.vectors.rowwise() - modes_.modes().mean.transpose()),
-      normals_(MirroredNormals(modes_.modes().basis.cols(), options.seed)) {
+      normals_(MirroredNormals(kNumDraws, modes_.modes().basis.cols(),
+                               base::Random(options.seed, base::Stream("field draws")))) {
   const Eigen::MatrixXd& basis = modes_.modes().basis;
   residuals_ -= (residuals_ * basis) * basis.transpose();
   if (objective_.num_target_heaps > 1) {
@@ -185,18 +177,22 @@ Moments FieldModel::Predict(const Eigen::MatrixXd& points) const {
   return moments;
 }
 
-Eigen::MatrixXd FieldModel::Sensitivities(const Eigen::MatrixXd& points) const {
+Sensitivities FieldModel::SensitivitiesAt(const Eigen::MatrixXd& points) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
-  Eigen::MatrixXd result(points.rows(), num_modes());
-  ForEachPoint(points.rows(), 12.0 * num_modes(), [&](Eigen::Index i) {
+  Sensitivities result{.slope = Eigen::MatrixXd(points.rows(), num_modes()),
+                       .curvature = Eigen::MatrixXd(points.rows(), num_modes())};
+  ForEachPoint(points.rows(), 1 + 12.0 * num_modes(), [&](Eigen::Index i) {
     At at{modes.mean.row(i), modes.variance.row(i)};
-    for (Eigen::Index k = 0; k < result.cols(); ++k) {
+    const double here = Expected(at, {});
+    for (Eigen::Index k = 0; k < num_modes(); ++k) {
       const double middle = at.mean[k];
       const double step = std::sqrt(std::max(at.variance[k], std::numeric_limits<double>::min()));
       at.mean[k] = middle + step;
       const double above = Expected(at, {});
       at.mean[k] = middle - step;
-      result(i, k) = (above - Expected(at, {})) / (2 * step);
+      const double below = Expected(at, {});
+      result.slope(i, k) = (above - below) / (2 * step);
+      result.curvature(i, k) = (above - 2 * here + below) / (step * step);
       at.mean[k] = middle;
     }
   });

@@ -38,6 +38,13 @@ struct FieldModelOptions {
   std::uint64_t seed = 1;
 };
 
+// First and second derivatives of the predicted objective by the coefficients, one point a row, one
+// mode a column: differences over one posterior standard deviation to either side.
+struct Sensitivities {
+  Eigen::MatrixXd slope;
+  Eigen::MatrixXd curvature;
+};
+
 class FieldModel : public ObjectiveModel {
  public:
   // `frozen`, where not null, is taken instead of fitting.
@@ -69,9 +76,7 @@ class FieldModel : public ObjectiveModel {
   // Adds the prediction at x as if it were an evaluation.
   void AddFantasy(const Eigen::VectorXd& x);
 
-  // d objective / d coefficient, one point a row, one mode a column: differences over one posterior
-  // standard deviation to either side.
-  Eigen::MatrixXd Sensitivities(const Eigen::MatrixXd& points) const;
+  Sensitivities SensitivitiesAt(const Eigen::MatrixXd& points) const;
 
   FieldState state() const;
   const surrogate::ModeProcess& modes() const { return modes_; }

@@ -7,45 +7,33 @@
 
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
-#include "surrogate/images/column_edges.h"
 #include "surrogate/images/field_code.h"
+#include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
 namespace {
 
-constexpr surrogate::FieldSize kSize{.width = 32, .height = 24};
-
-// A heap whose steepness and top are the two parameters, both disturbed.
-std::vector<float> HeapImage(const Eigen::VectorXd& u, double rough, base::Random& random) {
-  const double steep = (0.4 + 0.8 * u[0]) * (1 + rough * random.Normal());
-  const double top = (10 + 8 * u[1]) * (1 + rough * random.Normal());
-  surrogate::ColumnEdges edges{.height = Eigen::VectorXd(kSize.width),
-                               .width = Eigen::VectorXd::Constant(kSize.width, 1.2)};
-  for (int c = 0; c < kSize.width; ++c) {
-    edges.height[c] = std::max(0.0, top - steep * std::abs(c + 0.5 - 16));
-  }
-  return surrogate::Render(edges, kSize, surrogate::Vessel(kSize));
-}
+constexpr double kRough = 0.1;
+const Eigen::Vector2d kTruth(0.6, 0.4);
 
 class NoisyHeaps : public ::testing::Test {
  protected:
   static FieldObjective Objective() {
-    base::Random exact(0, base::Stream("target"));
-    return {.width = kSize.width,
-            .height = kSize.height,
-            .target = HeapImage(Eigen::Vector2d(0.6, 0.4), 0, exact),
+    return {.width = kHeapSize.width,
+            .height = kHeapSize.height,
+            .target = HeapImage(kTruth, 0, 0),
             .sad_scale = 1,
             .metric = {}};
   }
 
   CodedFields Told() const {
-    base::Random random(2, base::Stream("heaps"));
     CodedFields data{.points = RSequence(30, 2, 1),
                      .vectors = {},
                      .values = Eigen::VectorXd(30),
                      .reconstruction_errors = Eigen::VectorXd(30)};
     for (Eigen::Index i = 0; i < 30; ++i) {
-      const std::vector<float> image = HeapImage(data.points.row(i).transpose(), 0.1, random);
+      const std::vector<float> image =
+          HeapImage(data.points.row(i).transpose(), kRough, static_cast<std::uint64_t>(i) + 1);
       const Eigen::VectorXd vector = code_->Encode(image);
       if (i == 0) data.vectors.resize(30, vector.size());
       data.vectors.row(i) = vector;
@@ -86,17 +74,17 @@ class NoisyHeaps : public ::testing::Test {
 
   const FieldObjective objective_ = Objective();
   const std::shared_ptr<const surrogate::FieldCode> code_ =
-      std::make_shared<surrogate::EdgeCode>(kSize, objective_.target);
+      std::make_shared<surrogate::EdgeCode>(kHeapSize, objective_.target);
   const CodedFields data_ = Told();
   const FieldModel model_{code_, objective_, data_, {}, nullptr};
 };
 
 // One more image at x, simulated many times, lowers the lowest mean by the gain on average. The
-// gain takes the objective for linear in the coefficients, which costs a few per cent; the mean of
-// 1500 images has a standard error of 4 %.
+// gain knows the objective to second order without mixed derivatives, which costs 15 % here (to
+// first order 21 %); the mean of 1500 images has a standard error of 4 %.
 TEST_F(NoisyHeaps, GainIsTheMeanDropOfTheLowestPosteriorMean) {
   const Eigen::MatrixXd minimisers =
-      (0.3 * (RSequence(25, 2, 4).array() - 0.5)).matrix().rowwise() + Eigen::RowVector2d(0.6, 0.4);
+      (0.3 * (RSequence(25, 2, 4).array() - 0.5)).matrix().rowwise() + kTruth.transpose();
   const FieldKnowledge knowledge(model_, minimisers);
   Eigen::MatrixXd points(3, 2);
   points << 0.6, 0.4, 0.7, 0.5, 0.9, 0.9;
@@ -112,7 +100,7 @@ TEST_F(NoisyHeaps, GainIsTheMeanDropOfTheLowestPosteriorMean) {
       const Eigen::VectorXd means = after.Means(minimisers);
       sum += before - means.minCoeff();
     }
-    EXPECT_NEAR(sum / kNumImages, gains[i], 0.15 * gains.maxCoeff()) << points.row(i);
+    EXPECT_NEAR(sum / kNumImages, gains[i], 0.2 * gains.maxCoeff()) << points.row(i);
   }
 }
 

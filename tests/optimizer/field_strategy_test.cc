@@ -10,36 +10,20 @@
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/strategies/make_strategy.h"
 #include "surrogate/images/column_edges.h"
+#include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr surrogate::FieldSize kSize{.width = 32, .height = 24};
 const Eigen::Vector2d kTruth(0.62, 0.35);
 
-// A heap whose steepness and rounding are the two parameters; `rough` disturbs both and the place.
-std::vector<float> HeapImage(const Eigen::VectorXd& u, double rough, std::uint64_t seed) {
-  base::Random random(seed, base::Stream("heap image"));
-  const double steep = (0.4 + 0.8 * u[0]) * (1 + rough * random.Normal());
-  const double round = (1 + 6 * u[1]) * (1 + rough * random.Normal());
-  const double shift = 5 * rough * random.Normal();
-  surrogate::ColumnEdges edges{.height = Eigen::VectorXd(kSize.width),
-                               .width = Eigen::VectorXd::Constant(kSize.width, 1.2)};
-  for (int c = 0; c < kSize.width; ++c) {
-    const double x = c + 0.5 - 16 - shift;
-    edges.height[c] =
-        std::max(0.0, 16 - 2 * u[1] - steep * (std::sqrt(x * x + round * round) - round));
-  }
-  return surrogate::Render(edges, kSize, surrogate::Vessel(kSize));
-}
-
 FieldObjective SadTo(std::vector<float> target) {
-  return {.width = kSize.width,
-          .height = kSize.height,
+  return {.width = kHeapSize.width,
+          .height = kHeapSize.height,
           .target = std::move(target),
-          .sad_scale = 100.0 / kSize.num_pixels(),
+          .sad_scale = 100.0 / kHeapSize.num_pixels(),
           .metric = {}};
 }
 
@@ -183,11 +167,11 @@ TEST(FieldStrategy, BatchesHoldDifferentPointsAndGetThereToo) {
 
 // A disc that floats: its underside overhangs, so columns have two edges.
 std::vector<float> Disc(const Eigen::VectorXd& u, std::uint64_t) {
-  std::vector<float> field(static_cast<std::size_t>(kSize.num_pixels()));
-  for (int y = 0; y < kSize.height; ++y) {
-    for (int x = 0; x < kSize.width; ++x) {
+  std::vector<float> field(static_cast<std::size_t>(kHeapSize.num_pixels()));
+  for (int y = 0; y < kHeapSize.height; ++y) {
+    for (int x = 0; x < kHeapSize.width; ++x) {
       const double distance = std::hypot(x - 10 - 12 * u[0], y - 12);
-      field[static_cast<std::size_t>(y * kSize.width + x)] =
+      field[static_cast<std::size_t>(y * kHeapSize.width + x)] =
           static_cast<float>(0.5 * std::erfc((distance - 3 - 4 * u[1]) / 3));
     }
   }
@@ -222,10 +206,10 @@ TEST(FieldStrategy, MinimisesAnyMetricOfThePredictedImage) {
   const auto share = [](std::span<const float> field) {
     double sum = 0;
     for (const float pixel : field) sum += pixel;
-    return sum / kSize.num_pixels();
+    return sum / kHeapSize.num_pixels();
   };
   const double wanted = share(HeapImage(kTruth, 0, 0));
-  FieldObjective objective{.width = kSize.width, .height = kSize.height};
+  FieldObjective objective{.width = kHeapSize.width, .height = kHeapSize.height};
   objective.metric = [=](std::span<const float> f) { return std::abs(share(f) - wanted); };
   const auto strategy = Make(StrategyKind::kField, objective);
   RunFor(*strategy, objective, Smooth, 12);
