@@ -1,7 +1,8 @@
 // Prints the processor time of one proposal, and of one answer, after many noisy evaluations; after
 // slashes that of the calling thread, and the time that passed.
 //
-//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp or field]
+//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp, surrogate or
+//   field]
 //
 // The evaluations are those of the problem `heap`, its images enlarged to 400 x 200 px; half of the
 // points are spread over the cube, half lie near the optimum, as those of a search do.
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "base/random.h"
 #include "bench/optimizers/fidelity_heaps.h"
@@ -56,7 +58,7 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
   const Stopwatch watch;
   strategy->Recommend();
   // The first proposal fits everything, the next ones start from what it found.
-  std::printf("%-6s after %d trials: proposals %s, %s, %s s, answer %s s\n", name, num_trials,
+  std::printf("%-9s after %d trials: proposals %s, %s, %s s, answer %s s\n", name, num_trials,
               proposals[0].c_str(), proposals[1].c_str(), proposals[2].c_str(),
               watch.Read().c_str());
 }
@@ -68,6 +70,9 @@ int main(int argc, char** argv) {
   const int num_trials = argc > 1 ? std::atoi(argv[1]) : 200;
   const std::string only = argc > 2 ? argv[2] : "";
   using Kind = talus::optimizer::StrategyKind;
-  if (only != "field") talus::bench::Time(Kind::kGp, "gp", num_trials);
-  if (only != "gp") talus::bench::Time(Kind::kField, "field", num_trials);
+  const std::pair<const char*, Kind> kinds[] = {
+      {"gp", Kind::kGp}, {"surrogate", Kind::kSurrogate}, {"field", Kind::kField}};
+  for (const auto& [name, kind] : kinds) {
+    if (only.empty() || only == name) talus::bench::Time(kind, name, num_trials);
+  }
 }

@@ -1,22 +1,22 @@
 #!/usr/bin/python3
-"""dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--parameters 2|3] [--campaigns A,B,…]
-[--other-plate]: calibrates virtual powders whose true parameters are known.
+"""dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--parameters 2|3] [--runs N]
+[--diameter MM] [--mass G] [--campaigns A,B,…] [--other-plate]: calibrates virtual powders whose true parameters are known.
 
 Each powder has sliding and rolling friction, with --parameters 3 surface energy (JKR), too, drawn at random in the
-searched ranges. Three heaps of it are simulated at true grain size with seeds of their own, and so are three on a
-plate of 30 mm where a campaign wants them; their mean images and the mass that falls are the experiments. Campaigns
-of the same core time:
+searched ranges. Three heaps of it, or --runs, are simulated at true grain size with seeds of their own, and so are as
+many on a plate of 30 mm where a campaign wants them; their mean images and the mass that falls are the experiments.
+Campaigns of the same core time:
 
   heap          the heap alone, at scale factors 1.4 and 1
   both          both tests
   former        the heap alone at scale factor 1, by the model of one grain size: the strategy `surrogate`, whose
                 ranges are minimisers of draws
-  extrapolated  the heap alone at 3, 2 and 1.5, what is wanted at 1
-  smallest      the heap alone at 1.5, which is the smallest of these and the target
+  extrapolated  the heap alone at 3, 2 and 1.5, what is wanted at 1 (--diameter 0.33: ten grains across at 3)
+  smallest      the heap alone at 1.5, the smallest of these, by the model of one grain size
 
-One line a powder and campaign: the credible level of the truth (0.9 or less is inside the joint 90 % region; former:
-0 where the truth is in all ranges, 1 where not), the region's share of what is searched (former: of the box of its
-ranges), the distance of the recommended set in widths of the ranges, and the alarms.
+One line a powder and campaign: the credible level of the truth (0.9 or less is inside the joint 90 % region; former
+and smallest: 0 where the truth is in all ranges, 1 where not), the region's share of what is searched (of these two: of
+the box of the ranges), the distance of the recommended set in widths of the ranges, and the alarms.
 
 --other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: those with
 both tests should raise an alarm, and only they run.
@@ -35,10 +35,9 @@ RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
 LEVELS = {"heap": {"scale_factors": [1.4, 1]}, "both": {"scale_factors": [1.4, 1]}, "former": {"scale_factor": 1},
           "extrapolated": {"scale_factors": [3, 2, 1.5], "target": 1}, "smallest": {"scale_factors": [1.5]}}
-RUNS = 3
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
             "rolling_damping": 0.3}
-POWDER = {"material": MATERIAL, "sizes": {"kind": "mono", "diameter": "0.7 mm"}, "mass": "1.6 g"}
+POWDER = {"material": MATERIAL, "sizes": {"kind": "mono"}}
 MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
 
 
@@ -60,10 +59,10 @@ def run(*command):
     return done.stdout
 
 
-def measure(talus, folder, truth, plate_mm, seed, plate=None):
-    """The mean image of three heaps, and the mass that falls with its standard error [kg]."""
+def measure(talus, folder, truth, plate_mm, seed, runs, plate=None):
+    """The mean image of so many heaps, and the mass that falls with its standard error [kg]."""
     images, masses = [], []
-    for i in range(RUNS):
+    for i in range(runs):
         case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "device": device(plate_mm),
                 "models": MODELS, "frame": frame(plate_mm), "seed": seed + i}
         if plate:
@@ -76,9 +75,9 @@ def measure(talus, folder, truth, plate_mm, seed, plate=None):
         masses.append(json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"])
     name = f"plate{plate_mm}.png"
     Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
-    grain = 4386 * numpy.pi / 6 * 0.7e-3**3
-    error = max(numpy.std(masses, ddof=1), grain) / RUNS**0.5
-    entry = {"map": name, "map_heaps": RUNS, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
+    grain = MATERIAL["density"] * numpy.pi / 6 * (1e-3 * float(POWDER["sizes"]["diameter"].split()[0])) ** 3
+    error = max(numpy.std(masses, ddof=1), grain) / runs**0.5
+    entry = {"map": name, "map_heaps": runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
     return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
 
 
@@ -100,7 +99,7 @@ def calibrate(talus, folder, name, experiments, core_time, seed, truth):
         volume *= (p["credible_90_high"] - p["credible_90_low"]) / (high - low)
         off.append((p["value"] - truth[p["name"]]) / (high - low))
     level = 1 - inside
-    if name != "former":
+    if "posterior" in result:
         level = json.loads(run(talus, "consider", folder / name, "--json",
                                *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
         volume = result["posterior"]["region_90_volume_fraction"]
@@ -116,6 +115,9 @@ def main():
     parser.add_argument("--last", type=int, default=20)
     parser.add_argument("--core-time", type=float, default=60)
     parser.add_argument("--parameters", type=int, choices=[2, 3], default=2)
+    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--diameter", type=float, default=0.7, metavar="MM")
+    parser.add_argument("--mass", type=float, default=1.6, metavar="G")
     parser.add_argument("--campaigns", default="heap,both")
     parser.add_argument("--other-plate", action="store_true")
     options = parser.parse_args()
@@ -123,16 +125,19 @@ def main():
     if options.parameters == 3:
         RANGES["surface_energy"] = SURFACE_ENERGY
         MODELS["adhesion"] = "jkr"
+    POWDER["sizes"]["diameter"] = f"{options.diameter} mm"
+    POWDER["mass"] = f"{options.mass} g"
     tallies = {}
     for twin in range(options.first, options.last + 1):
         draw = random.Random(twin)
         truth = {k: draw.uniform(a, b) for k, (a, b) in RANGES.items()}
         folder = options.folder / f"twin{twin:02}"
         plate = {"sliding_friction": 0.15, "rolling_friction": 0.02} if options.other_plate else None
-        heap, _ = measure(options.talus, folder, truth, 10, 1000 * twin)
+        heap, _ = measure(options.talus, folder, truth, 10, 1000 * twin, options.runs)
         experiments = [{"name": "heap", **heap}]
         if "both" in wanted:
-            wide, fallen = measure(options.talus, folder, truth, 30, 1000 * twin + 500, plate)
+            wide, fallen = measure(options.talus, folder, truth, 30, 1000 * twin + 500, options.runs,
+                                   plate)
             experiments.append({"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen})
         for name in wanted:
             tests = experiments if name == "both" else experiments[:1]

@@ -19,8 +19,8 @@ constexpr double kLargestBend = 5;  // e^5: one end is stretched 150 times as mu
 constexpr Eigen::Index kManyPoints = 100;
 constexpr int kShortSearch = 40;
 // And so many decide the hyper-parameters, of which there are ten at most: all of 1000 would cost
-// 37 times as much.
-constexpr Eigen::Index kMostPoints = 300;
+// 125 times as much.
+constexpr Eigen::Index kMostPoints = 200;
 
 struct Start {
   Eigen::VectorXd theta;
