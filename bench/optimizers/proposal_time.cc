@@ -1,8 +1,7 @@
 // Prints the processor time of one proposal, and of one answer, after many noisy evaluations; after
 // slashes that of the calling thread, and the time that passed.
 //
-//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp, surrogate or
-//   field]
+//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp|surrogate|field]
 //
 // The evaluations are those of the problem `heap`, its images enlarged to 400 x 200 px; half of the
 // points are spread over the cube, half lie near the optimum, as those of a search do.

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--parameters 2|3] [--runs N]
-[--diameter MM] [--mass G] [--campaigns A,B,…] [--other-plate]: calibrates virtual powders whose true parameters are known.
+[--diameter MM] [--mass G] [--model-error E] [--campaigns A,B,…] [--other-plate]: calibrates virtual powders whose
+true parameters are known.
 
 Each powder has sliding and rolling friction, with --parameters 3 surface energy (JKR), too, drawn at random in the
 searched ranges. Three heaps of it, or --runs, are simulated at true grain size with seeds of their own, and so are as
@@ -17,6 +18,8 @@ Campaigns of the same core time:
 One line a powder and campaign: the credible level of the truth (0.9 or less is inside the joint 90 % region; former
 and smallest: 0 where the truth is in all ranges, 1 where not), the region's share of what is searched (of these two: of
 the box of the ranges), the distance of the recommended set in widths of the ranges, and the alarms.
+
+--model-error is the campaigns' posterior.model_error (1); 0 is true of these powders, as one engine made all heaps.
 
 --other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: those with
 both tests should raise an alarm, and only they run.
@@ -75,22 +78,25 @@ def measure(talus, folder, truth, plate_mm, seed, runs, plate=None):
         masses.append(json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"])
     name = f"plate{plate_mm}.png"
     Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
-    grain = MATERIAL["density"] * numpy.pi / 6 * (1e-3 * float(POWDER["sizes"]["diameter"].split()[0])) ** 3
+    diameter = 1e-3 * float(POWDER["sizes"]["diameter"].split()[0])
+    grain = MATERIAL["density"] * numpy.pi / 6 * diameter**3
     error = max(numpy.std(masses, ddof=1), grain) / runs**0.5
     entry = {"map": name, "map_heaps": runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
     return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
 
 
-def calibrate(talus, folder, name, experiments, core_time, seed, truth):
+def calibrate(options, folder, name, experiments, seed, truth):
     tests = {"experiments": experiments}
     if name == "former":
         tests = {"experiment": {k: v for k, v in experiments[0].items() if k != "name"}}
     spec = {**tests, "powder": POWDER, "device": device(10), "models": MODELS,
             "coarse_graining": LEVELS[name], "seed": seed, "workers": 1,
             "parameters": {k: {"min": a, "max": b} for k, (a, b) in RANGES.items()},
-            "budget": {"core_time": f"{core_time} s"}, "confirm": {"candidates": 0}}
+            "budget": {"core_time": f"{options.core_time} s"}, "confirm": {"candidates": 0}}
+    if len(LEVELS[name].get("scale_factors", [])) > 1:
+        spec["posterior"] = {"model_error": options.model_error}
     (folder / f"{name}.json").write_text(json.dumps(spec))
-    run(talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")
+    run(options.talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")
     result = json.loads((folder / name / "result.json").read_text())
     inside, volume, off = True, 1, []
     for p in result["parameters"]:
@@ -100,7 +106,7 @@ def calibrate(talus, folder, name, experiments, core_time, seed, truth):
         off.append((p["value"] - truth[p["name"]]) / (high - low))
     level = 1 - inside
     if "posterior" in result:
-        level = json.loads(run(talus, "consider", folder / name, "--json",
+        level = json.loads(run(options.talus, "consider", folder / name, "--json",
                                *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
         volume = result["posterior"]["region_90_volume_fraction"]
     alarms = [w["experiment"] for w in result["warnings"] if w["kind"] in ("implausible", "disagree")]
@@ -118,6 +124,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--diameter", type=float, default=0.7, metavar="MM")
     parser.add_argument("--mass", type=float, default=1.6, metavar="G")
+    parser.add_argument("--model-error", type=float, default=1, metavar="E")
     parser.add_argument("--campaigns", default="heap,both")
     parser.add_argument("--other-plate", action="store_true")
     options = parser.parse_args()
@@ -141,7 +148,7 @@ def main():
             experiments.append({"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen})
         for name in wanted:
             tests = experiments if name == "both" else experiments[:1]
-            done = calibrate(options.talus, folder, name, tests, options.core_time, twin, truth)
+            done = calibrate(options, folder, name, tests, twin, truth)
             tallies.setdefault(name, []).append(done)
             print(f"twin {twin} truth " + " ".join(f"{v:.3g}" for v in truth.values()) +
                   f" {name}: level {done['level']:.3f}, volume {done['volume']:.4f}, "

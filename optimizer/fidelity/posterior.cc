@@ -203,7 +203,7 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
 }
 
 double PosteriorSample::CredibleLevel(double at) const {
-  return (log_density.array() > at).select(weight, 0).sum();
+  return std::min(1.0, (log_density.array() > at).select(weight, 0).sum());
 }
 
 double PosteriorSample::RegionVolume() const {

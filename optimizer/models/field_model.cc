@@ -181,7 +181,7 @@ Sensitivities FieldModel::SensitivitiesAt(const Eigen::MatrixXd& points) const {
   const surrogate::ModeMoments modes = modes_.Predict(points);
   Sensitivities result{.slope = Eigen::MatrixXd(points.rows(), num_modes()),
                        .curvature = Eigen::MatrixXd(points.rows(), num_modes())};
-  ForEachPoint(points.rows(), 1 + 12.0 * num_modes(), [&](Eigen::Index i) {
+  ForEachPoint(points.rows(), 6 + 12.0 * num_modes(), [&](Eigen::Index i) {
     At at{modes.mean.row(i), modes.variance.row(i)};
     const double here = Expected(at, {});
     for (Eigen::Index k = 0; k < num_modes(); ++k) {
