@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <utility>
 
+#include "base/field.h"
 #include "base/random.h"
 #include "bench/optimizers/fidelity_heaps.h"
 #include "bench/optimizers/problems.h"
@@ -23,7 +23,7 @@ namespace {
 constexpr int kWidth = 400;
 constexpr int kHeight = 200;
 
-void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
+void Time(optimizer::StrategyKind kind, int num_trials) {
   const auto problem = MakeProblem("heap", 1);
   const optimizer::FieldObjective field{.width = kWidth,
                                         .height = kHeight,
@@ -57,8 +57,9 @@ void Time(optimizer::StrategyKind kind, const char* name, int num_trials) {
   const Stopwatch watch;
   strategy->Recommend();
   // The first proposal fits everything, the next ones start from what it found.
-  std::printf("%-9s after %d trials: proposals %s, %s, %s s, answer %s s\n", name, num_trials,
-              proposals[0].c_str(), proposals[1].c_str(), proposals[2].c_str(),
+  const std::string name(base::NameOf(kind));
+  std::printf("%-9s after %d trials: proposals %s, %s, %s s, answer %s s\n", name.c_str(),
+              num_trials, proposals[0].c_str(), proposals[1].c_str(), proposals[2].c_str(),
               watch.Read().c_str());
 }
 
@@ -69,9 +70,7 @@ int main(int argc, char** argv) {
   const int num_trials = argc > 1 ? std::atoi(argv[1]) : 200;
   const std::string only = argc > 2 ? argv[2] : "";
   using Kind = talus::optimizer::StrategyKind;
-  const std::pair<const char*, Kind> kinds[] = {
-      {"gp", Kind::kGp}, {"surrogate", Kind::kSurrogate}, {"field", Kind::kField}};
-  for (const auto& [name, kind] : kinds) {
-    if (only.empty() || only == name) talus::bench::Time(kind, name, num_trials);
+  for (const Kind kind : {Kind::kGp, Kind::kSurrogate, Kind::kField}) {
+    if (only.empty() || only == talus::base::NameOf(kind)) talus::bench::Time(kind, num_trials);
   }
 }

@@ -62,10 +62,10 @@ def run(*command):
     return done.stdout
 
 
-def measure(talus, folder, truth, plate_mm, seed, runs, plate=None):
+def measure(options, folder, truth, plate_mm, seed, plate=None):
     """The mean image of so many heaps, and the mass that falls with its standard error [kg]."""
     images, masses = [], []
-    for i in range(runs):
+    for i in range(options.runs):
         case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "device": device(plate_mm),
                 "models": MODELS, "frame": frame(plate_mm), "seed": seed + i}
         if plate:
@@ -73,15 +73,14 @@ def measure(talus, folder, truth, plate_mm, seed, runs, plate=None):
         place = folder / f"plate{plate_mm}_run{i + 1}"
         place.mkdir(parents=True, exist_ok=True)
         (folder / f"{place.name}.json").write_text(json.dumps(case))
-        run(talus, "simulate", folder / f"{place.name}.json", "--out", place)
+        run(options.talus, "simulate", folder / f"{place.name}.json", "--out", place)
         images.append(numpy.asarray(Image.open(place / "profile.png"), dtype=float))
         masses.append(json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"])
     name = f"plate{plate_mm}.png"
     Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
-    diameter = 1e-3 * float(POWDER["sizes"]["diameter"].split()[0])
-    grain = MATERIAL["density"] * numpy.pi / 6 * diameter**3
-    error = max(numpy.std(masses, ddof=1), grain) / runs**0.5
-    entry = {"map": name, "map_heaps": runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
+    grain = MATERIAL["density"] * numpy.pi / 6 * (1e-3 * options.diameter) ** 3
+    error = max(numpy.std(masses, ddof=1), grain) / options.runs**0.5
+    entry = {"map": name, "map_heaps": options.runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
     return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
 
 
@@ -140,11 +139,10 @@ def main():
         truth = {k: draw.uniform(a, b) for k, (a, b) in RANGES.items()}
         folder = options.folder / f"twin{twin:02}"
         plate = {"sliding_friction": 0.15, "rolling_friction": 0.02} if options.other_plate else None
-        heap, _ = measure(options.talus, folder, truth, 10, 1000 * twin, options.runs)
+        heap, _ = measure(options, folder, truth, 10, 1000 * twin)
         experiments = [{"name": "heap", **heap}]
         if "both" in wanted:
-            wide, fallen = measure(options.talus, folder, truth, 30, 1000 * twin + 500, options.runs,
-                                   plate)
+            wide, fallen = measure(options, folder, truth, 30, 1000 * twin + 500, plate)
             experiments.append({"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen})
         for name in wanted:
             tests = experiments if name == "both" else experiments[:1]

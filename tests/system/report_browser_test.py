@@ -312,7 +312,6 @@ class ReportInABrowser(unittest.TestCase):
         finally:
             self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
-    # The first print of a page whose charts have not been seen yet has all pages that a second one has.
     def test_a_screen_reader_finds_a_name_for_everything(self):
         """What Chromium hands to a screen reader: charts are images with a name, and no heading skips a level."""
         named = {"button", "checkbox", "combobox", "image", "link", "slider", "table", "textbox"}
@@ -338,6 +337,7 @@ class ReportInABrowser(unittest.TestCase):
             for before, after in zip(levels, levels[1:]):
                 self.assertLessEqual(after, before + 1, levels)
 
+    # The first print of a page whose charts have not been seen yet has all pages that a second one has.
     def test_nothing_is_cut_off_the_end_of_the_paper(self):
         self.open_report("posterior", 60, 2, "finished", posterior=True)
 
