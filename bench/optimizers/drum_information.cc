@@ -11,7 +11,9 @@
 //
 // Rows as the program tempers: misfits are divided by what makes the regions of the outputs right.
 // Rows below, "to coverage": the whole likelihood instead is raised to the power with which the 95
-// % sets of cells hold the truth in 95 % of cases, each half of the truths by the other half.
+// % sets of cells hold the truth in 95 % of cases, each half of the truths by the other half. "A
+// Student-t" has the tails of the reference's likelihood in place of the program's
+// (robust_misfit.h).
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -97,15 +99,15 @@ struct Told {
 };
 
 Told ToldOf(const Table& table, const Likelihood& likelihood, Eigen::Index truth,
-            std::optional<double> power) {
-  const Eigen::VectorXd p = CellsOf(table, Probability(likelihood.At(truth, power)));
+            const Reading& reading) {
+  const Eigen::VectorXd p = CellsOf(table, Probability(likelihood.At(truth, reading)));
   const auto [count, holds] = Tied(p, table.cell[static_cast<std::size_t>(truth)]);
   return {.bits = Bits(p), .tied = static_cast<double>(count), .holds = holds};
 }
 
 // The largest power with which the sets of 95 % hold the truth in 95 % of every other case, from
 // `first`.
-double PowerOf(const Table& table, const Likelihood& likelihood, Eigen::Index first) {
+double PowerOf(const Table& table, const Likelihood& likelihood, bool student, Eigen::Index first) {
   double low = 0.05;
   double high = 1;
   for (int step = 0; step < 8; ++step) {
@@ -113,7 +115,7 @@ double PowerOf(const Table& table, const Likelihood& likelihood, Eigen::Index fi
     int covered = 0;
     int count = 0;
     for (Eigen::Index truth = first; truth < table.sets.cols(); truth += 2, ++count) {
-      covered += ToldOf(table, likelihood, truth, middle).holds ? 1 : 0;
+      covered += ToldOf(table, likelihood, truth, {middle, student}).holds ? 1 : 0;
     }
     (covered >= kRegion * count ? low : high) = middle;
   }
@@ -121,27 +123,29 @@ double PowerOf(const Table& table, const Likelihood& likelihood, Eigen::Index fi
 }
 
 // Of even and odd truths, each from the others.
-using Powers = std::array<std::optional<double>, 2>;
+using Readings = std::array<Reading, 2>;
 
-Powers PowersOf(const Table& table, const Likelihood& likelihood) {
-  return {PowerOf(table, likelihood, 1), PowerOf(table, likelihood, 0)};
+Readings Covering(const Table& table, const Likelihood& likelihood, bool student = false) {
+  return {Reading{PowerOf(table, likelihood, student, 1), student},
+          Reading{PowerOf(table, likelihood, student, 0), student}};
 }
 
 void PrintRow(const Table& table, const std::string& name, const Likelihood& likelihood,
-              const Powers& powers) {
+              const Readings& readings) {
   std::vector<double> bits;
   std::vector<double> tied;
   double covered = 0;
   for (Eigen::Index truth = 0; truth < table.sets.cols(); ++truth) {
-    const Told told = ToldOf(table, likelihood, truth, powers[static_cast<std::size_t>(truth % 2)]);
+    const Told told =
+        ToldOf(table, likelihood, truth, readings[static_cast<std::size_t>(truth % 2)]);
     bits.push_back(told.bits);
     tied.push_back(told.tied);
     covered += told.holds ? 1 : 0;
   }
   std::printf("%-32s %.2f bits, tied %3.0f, %3.0f, coverage %.3f, ", name.c_str(), Mean(bits),
               Quantile(tied, 0.5), Quantile(tied, 0.9), covered / static_cast<double>(tied.size()));
-  if (powers[0]) {
-    std::printf("powers %.2f, %.2f\n", *powers[0], *powers[1]);
+  if (readings[0].power) {
+    std::printf("powers %.2f, %.2f\n", *readings[0].power, *readings[1].power);
   } else {
     std::printf("temper %.2f\n", likelihood.temper());
   }
@@ -152,7 +156,8 @@ void PrintRows(const Table& table, const std::string& name,
                const std::vector<const Measurement*>& parts, bool joint) {
   const Likelihood likelihood(parts, joint);
   PrintRow(table, name, likelihood, {});
-  PrintRow(table, "  to coverage", likelihood, PowersOf(table, likelihood));
+  PrintRow(table, "  to coverage", likelihood, Covering(table, likelihood));
+  PrintRow(table, "  a Student-t, to coverage", likelihood, Covering(table, likelihood, true));
 }
 
 // Sets in proportion to their probability, evenly through the sum.
@@ -183,14 +188,16 @@ double Expected(const Table& table, const Measurement& m, const std::vector<Eige
   return optimizer::Learn(table.sets(Eigen::all, draws).transpose(), predicted, 1).bits;
 }
 
-// A likelihood that covers.
-struct Covering {
+// A likelihood whose sets cover.
+struct CoveringLikelihood {
   Likelihood likelihood;
-  Powers powers{};
+  Readings readings;
 
-  Covering(const Table& table, const std::vector<const Measurement*>& parts)
-      : likelihood(parts, true), powers(PowersOf(table, likelihood)) {}
-  double Of(Eigen::Index truth) const { return *powers[static_cast<std::size_t>(truth % 2)]; }
+  CoveringLikelihood(const Table& table, const std::vector<const Measurement*>& parts)
+      : likelihood(parts, true), readings(Covering(table, likelihood)) {}
+  const Reading& Of(Eigen::Index truth) const {
+    return readings[static_cast<std::size_t>(truth % 2)];
+  }
   Eigen::VectorXd At(Eigen::Index truth) const {
     return Probability(likelihood.At(truth, Of(truth)));
   }
@@ -200,9 +207,9 @@ struct Covering {
 void PrintChoice(const Table& table, const std::vector<Measurement>& all, std::size_t first,
                  int every) {
   constexpr int kDraws = 300;
-  const Covering before(table, {&all[first]});
+  const CoveringLikelihood before(table, {&all[first]});
   std::vector<const Measurement*> next;
-  std::vector<Covering> after;
+  std::vector<CoveringLikelihood> after;
   for (const Measurement& m : all) {
     if (&m == &all[first]) continue;
     next.push_back(&m);
@@ -214,7 +221,7 @@ void PrintChoice(const Table& table, const std::vector<Measurement>& all, std::s
   for (Eigen::Index truth = 0; truth < table.sets.cols(); truth += every) {
     const Eigen::VectorXd p = before.At(truth);
     const std::vector<Eigen::Index> rows = DrawSets(p, kDraws);
-    const double temper = 1 / before.Of(truth);
+    const double temper = 1 / *before.Of(truth).power;
     const double known = Bits(CellsOf(table, p));
     std::vector<double> expected;
     std::vector<double> gains;

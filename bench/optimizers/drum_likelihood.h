@@ -91,6 +91,12 @@ inline Measurement Learnt(const std::string& name, const Table& table,
   return m;
 }
 
+// How a likelihood is read: as the program tempers it, or untempered and to a power.
+struct Reading {
+  std::optional<double> power;
+  bool student = false;  // a Student-t of 5 degrees of freedom all through, as the reference's
+};
+
 // The likelihood of some measurements together, of every set with every set for the truth.
 class Likelihood {
  public:
@@ -102,16 +108,22 @@ class Likelihood {
     for (const Measurement* m : parts) groups_.push_back(GroupOf({m}));
   }
 
-  // ln p of every set when the images of set `truth` were measured: as the program tempers it, or
-  // the untempered likelihood to a power.
-  Eigen::VectorXd At(Eigen::Index truth, std::optional<double> power) const {
+  // ln p of every set when the images of set `truth` were measured.
+  Eigen::VectorXd At(Eigen::Index truth, const Reading& reading) const {
     Eigen::VectorXd density = Eigen::VectorXd::Zero(groups_.front().squared.rows());
     for (const Group& g : groups_) {
-      const double softness = power ? 1 / g.misfit.temper() : 1;  // which takes the temper back
-      density += power.value_or(1) *
-                 g.misfit.LogDensity(g.squared.col(truth), g.log_sd.col(truth), softness);
+      const Eigen::ArrayXd squared = g.squared.col(truth);
+      const Eigen::ArrayXd log_sd = g.log_sd.col(truth);
+      if (reading.student) {
+        const double freedom = 5;
+        const auto outputs = static_cast<double>(g.misfit.num_outputs());
+        density.array() -= log_sd + 0.5 * (freedom + outputs) * (squared / freedom).log1p();
+      } else {
+        const double softness = reading.power ? 1 / g.misfit.temper() : 1;  // takes the temper back
+        density += g.misfit.LogDensity(squared, log_sd, softness);
+      }
     }
-    return density;
+    return reading.power.value_or(1) * density;
   }
   double temper() const { return groups_.front().misfit.temper(); }
 

@@ -1,0 +1,75 @@
+#include "optimizer/fidelity/experiment_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+
+#include "tests/optimizer/heap_image.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kRough = 0.25;  // [px], of the strongest wave on a heap's surface
+
+// A heap whose surface moves in waves, longer ones more: as heaps of many grains do.
+std::vector<float> RoughHeap(const Eigen::VectorXd& u, std::uint64_t seed) {
+  base::Random random(seed, base::Stream("rough heap"));
+  surrogate::ColumnEdges edges = SmoothHeap(u);
+  for (int wave = 1; wave <= 20; ++wave) {
+    const double height = kRough / std::sqrt(wave) * random.Normal();
+    const double place = kHeapSize.width * random.Uniform();
+    for (int c = 0; c < kHeapSize.width; ++c) {
+      const double phase = std::numbers::pi * wave * (c - place) / kHeapSize.width;
+      edges.height[c] += height * std::sin(phase);
+    }
+  }
+  return surrogate::Render(edges, kHeapSize, surrogate::Vessel(kHeapSize));
+}
+
+// Noise that is taken for too small makes a region too small; the strongest mode, which moves most
+// with the parameters, is where a process finds that hardest to see.
+TEST(ExperimentModel, KnowsTheNoiseOfEveryMode) {
+  const Levels levels({1}, 0);
+  ExperimentTarget target{.name = "heap",
+                          .image = {.width = kHeapSize.width,
+                                    .height = kHeapSize.height,
+                                    .target = RoughHeap(Eigen::Vector2d(0.5, 0.5), 1),
+                                    .sad_scale = 1}};
+  const auto code = std::make_shared<surrogate::EdgeCode>(kHeapSize, target.image.target);
+  constexpr int kSearches = 6;
+  Eigen::VectorXd log_ratio = Eigen::VectorXd::Zero(8);
+  for (std::uint64_t search = 1; search <= kSearches; ++search) {
+    base::Random random(search, base::Stream("points"));
+    ExperimentData data;
+    for (int i = 0; i < 24; ++i) {
+      const Eigen::Vector2d x(random.Uniform(), random.Uniform());
+      data.points.push_back(x);
+      data.level.push_back(0);
+      data.vectors.push_back(
+          code->Encode(RoughHeap(x, 1000 * search + static_cast<std::uint64_t>(i))));
+      data.scalars.emplace_back();
+    }
+    const ExperimentModel model({.target = &target, .code = code, .levels = &levels}, data,
+                                nullptr);
+    constexpr int kFresh = 100;
+    Eigen::MatrixXd fresh(kFresh, model.num_outputs());
+    for (int i = 0; i < kFresh; ++i) {
+      fresh.row(i) = model.state().modes.Coefficients(code->Encode(
+          RoughHeap(Eigen::Vector2d(0.5, 0.5), 500'000 + static_cast<std::uint64_t>(i))));
+    }
+    const Eigen::RowVectorXd mean = fresh.colwise().mean();
+    const Eigen::VectorXd variance =
+        (fresh.rowwise() - mean).colwise().squaredNorm().transpose() / (kFresh - 1);
+    const Eigen::VectorXd single = model.Predict(Eigen::RowVector2d(0.5, 0.5)).single;
+    log_ratio += 0.5 * (single.array() / variance.array()).log().matrix() / kSearches;
+  }
+  // 24 heaps leave a single search within a factor of 1.5; a prior that is off by a factor of two
+  // moves the mean over searches of some mode by 0.5 or more.
+  for (const double mode : log_ratio) EXPECT_NEAR(mode, 0, 0.35);
+}
+
+}  // namespace
+}  // namespace talus::optimizer
