@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "optimizer/fidelity/output_noise.h"
 #include "optimizer/models/mirrored_normals.h"
 #include "surrogate/standard_deviation.h"
 
@@ -34,37 +35,6 @@ Eigen::VectorXd ImageWeights(const Levels& levels, const ExperimentData& data) {
     weights[i] = std::pow(levels.NoiseAtTarget(data.level[static_cast<std::size_t>(i)]), 2);
   }
   return weights;
-}
-
-// Prior of an output's noise sd over its own spread, at the coarsest scale factor.
-struct NoisePrior {
-  double median = 0.2;
-  double log_sd = 0.7;
-};
-
-// The strongest mode left out is nearly all noise, and noise falls as 1/√k along the modes. From
-// fresh heaps of 27 virtual powders, at 11 to 180 evaluations, the factor is 2.4 on a plate of the
-// tube's diameter and 1.5 on a wide one. The prior is on their large side and narrow: a free noise
-// ends too small, and with it the region (docs/validation.md).
-NoisePrior NoiseOfMode(Eigen::Index k, double next_sd, const Eigen::VectorXd& coefficients) {
-  constexpr double kFactor = 2.2;
-  constexpr double kLogSd = 0.2;
-  constexpr double kLeast = 0.01;  // below, nothing that tells of noise was left out
-  constexpr double kMost = 0.8;
-  const double expected = kFactor * next_sd / std::sqrt(static_cast<double>(k + 1)) /
-                          surrogate::StandardDeviation(coefficients);
-  if (!(expected > kLeast)) return {.median = 0.1};
-  return {.median = std::min(expected, kMost), .log_sd = kLogSd};
-}
-
-// At each scale factor: less noise at finer ones.
-surrogate::FidelityFitOptions FitOptions(const Levels& levels, const NoisePrior& coarsest) {
-  surrogate::FidelityFitOptions options{.noise_median = Eigen::VectorXd(levels.size()),
-                                        .noise_log_sd = coarsest.log_sd};
-  for (int l = 0; l < levels.size(); ++l) {
-    options.noise_median[l] = coarsest.median * levels.NoiseAtTarget(0) / levels.NoiseAtTarget(l);
-  }
-  return options;
 }
 
 }  // namespace
@@ -134,8 +104,10 @@ void ExperimentModel::FitOutputs(const ExperimentData& data, const ExperimentSta
       one.level[i] = data.level[row];
       one.growth[i] = setup_.levels->growth(data.level[row]);
     }
-    surrogate::FidelityFitOptions options = FitOptions(
-        *setup_.levels, k < num_modes ? NoiseOfMode(k, next_sd, one.values) : NoisePrior{});
+    surrogate::FidelityFitOptions options =
+        k < num_modes ? NoiseOfMode(*setup_.levels, static_cast<int>(k), next_sd,
+                                    surrogate::StandardDeviation(one.values))
+                      : NoiseOfScalar(*setup_.levels);
     if (frozen != nullptr) options.frozen = frozen->outputs[static_cast<std::size_t>(k)];
     outputs_.push_back(surrogate::FidelityProcess::Fit(std::move(one), options));
     evaluations_.push_back(std::move(rows));
