@@ -79,7 +79,8 @@ inline Measurement Learnt(const std::string& name, const Table& table,
   Measurement m{.name = name};
   std::vector<Eigen::Index> some;
   for (Eigen::Index i = 0; i < subset; ++i) some.push_back((i * 617) % n);  // prime to n
-  const surrogate::FidelityFitOptions options{.noise_median = Eigen::VectorXd::Constant(1, 0.2)};
+  const surrogate::FidelityFitOptions options{.noise_median = Eigen::VectorXd::Constant(1, 0.2),
+                                              .noise_log_sd = Eigen::VectorXd::Constant(1, 0.7)};
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
     const surrogate::FidelityData data{.points = table.sets(Eigen::all, some),
                                        .growth = Eigen::VectorXd::Zero(subset),

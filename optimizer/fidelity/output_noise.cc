@@ -8,13 +8,16 @@ namespace {
 
 constexpr double kVague = 0.7;  // log sd where nothing is known of this output
 
-// `share` of the output's spread at the coarsest scale factor, less at finer ones.
+// `share` of the output's spread at the coarsest scale factor, less at finer ones; `log_sd` holds
+// at the finest. Coarse heaps that tell nothing of true ones have to pass for noise.
 surrogate::FidelityFitOptions Noise(const Levels& levels, double share, double log_sd) {
-  surrogate::FidelityFitOptions options{.noise_median = Eigen::VectorXd(levels.size()),
-                                        .noise_log_sd = log_sd};
+  surrogate::FidelityFitOptions options{
+      .noise_median = Eigen::VectorXd(levels.size()),
+      .noise_log_sd = Eigen::VectorXd::Constant(levels.size(), kVague)};
   for (int l = 0; l < levels.size(); ++l) {
     options.noise_median[l] = share * levels.NoiseAtTarget(0) / levels.NoiseAtTarget(l);
   }
+  options.noise_log_sd[levels.finest()] = log_sd;
   return options;
 }
 

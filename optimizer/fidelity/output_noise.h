@@ -12,8 +12,8 @@ namespace talus::optimizer {
 // What is left out is nearly all noise, and noise falls as 1/√k along the modes k = 1, 2, …: fresh
 // heaps of 27 virtual powders scatter along mode k by 2.4/√k times next_sd on a plate of the tube's
 // diameter and by 1.5/√k on a wide one, whether 11 or 180 heaps made the modes. The prior is on
-// their large side and narrow, since a process with a free noise takes it for too small, and the
-// region with it (docs/validation.md).
+// their large side, and narrow at the finest scale factor, since a process with a free noise takes
+// it for too small, and the region with it (docs/validation.md).
 surrogate::FidelityFitOptions NoiseOfMode(const Levels& levels, int mode, double next_sd,
                                           double spread);
 

@@ -29,7 +29,7 @@ Prior PriorOf(const FidelityLayout& layout, const FidelityFitOptions& options) {
   prior.sd[layout.signal()] = 0.7;
   prior.sd[layout.trend()] = 1.0;
   prior.sd[layout.discrepancy()] = 0.7;
-  prior.sd.segment(layout.noise(), layout.num_levels).setConstant(options.noise_log_sd);
+  prior.sd.segment(layout.noise(), layout.num_levels) = options.noise_log_sd;
   prior.sd.segment(layout.warp(), d).setConstant(2.0);
   prior.sd[layout.decay()] = 1;
   prior.sd[layout.length_ratio()] = 0.7;

@@ -19,8 +19,9 @@ struct FidelityState {
 };
 
 struct FidelityFitOptions {
-  Eigen::VectorXd noise_median;  // prior median of n_l / sd of the values, one a scale factor
-  double noise_log_sd = 0.7;
+  // Prior of n_l / sd of the values, one a scale factor.
+  Eigen::VectorXd noise_median;
+  Eigen::VectorXd noise_log_sd;
   std::optional<FidelityState> frozen = {};  // take this, fit nothing
 };
 

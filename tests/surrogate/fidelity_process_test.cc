@@ -33,7 +33,8 @@ FidelityData TwoLevels(int num_coarse, int num_fine) {
   return data;
 }
 
-const FidelityFitOptions kOptions{.noise_median = Eigen::Vector2d(0.1, 0.1)};
+const FidelityFitOptions kOptions{.noise_median = Eigen::Vector2d(0.1, 0.1),
+                                  .noise_log_sd = Eigen::Vector2d(0.7, 0.7)};
 
 double RmsError(const FidelityProcess& process) {
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(50, 0.02, 0.98);
