@@ -116,9 +116,9 @@ class Likelihood {
       const Eigen::ArrayXd squared = g.squared.col(truth);
       const Eigen::ArrayXd log_sd = g.log_sd.col(truth);
       if (reading.student) {
-        const double freedom = 5;
+        constexpr double kFreedom = 5;
         const auto outputs = static_cast<double>(g.misfit.num_outputs());
-        density.array() -= log_sd + 0.5 * (freedom + outputs) * (squared / freedom).log1p();
+        density.array() -= log_sd + 0.5 * (kFreedom + outputs) * (squared / kFreedom).log1p();
       } else {
         const double softness = reading.power ? 1 / g.misfit.temper() : 1;  // takes the temper back
         density += g.misfit.LogDensity(squared, log_sd, softness);

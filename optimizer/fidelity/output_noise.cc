@@ -36,7 +36,8 @@ surrogate::FidelityFitOptions NoiseOfMode(const Levels& levels, int mode, double
 }
 
 surrogate::FidelityFitOptions NoiseOfScalar(const Levels& levels) {
-  return Noise(levels, 0.2, kVague);
+  constexpr double kUsual = 0.2;
+  return Noise(levels, kUsual, kVague);
 }
 
 }  // namespace talus::optimizer
