@@ -33,11 +33,12 @@ std::vector<float> RoughHeap(const Eigen::VectorXd& u, std::uint64_t seed) {
 // with the parameters, is where a process finds that hardest to see.
 TEST(ExperimentModel, KnowsTheNoiseOfEveryMode) {
   const Levels levels({1}, 0);
-  ExperimentTarget target{.name = "heap",
-                          .image = {.width = kHeapSize.width,
-                                    .height = kHeapSize.height,
-                                    .target = RoughHeap(Eigen::Vector2d(0.5, 0.5), 1),
-                                    .sad_scale = 1}};
+  const Eigen::Vector2d middle(0.5, 0.5);
+  const ExperimentTarget target{.name = "heap",
+                                .image = {.width = kHeapSize.width,
+                                          .height = kHeapSize.height,
+                                          .target = RoughHeap(middle, 1),
+                                          .sad_scale = 1}};
   const auto code = std::make_shared<surrogate::EdgeCode>(kHeapSize, target.image.target);
   constexpr int kSearches = 6;
   Eigen::VectorXd log_ratio = Eigen::VectorXd::Zero(8);
@@ -54,16 +55,17 @@ TEST(ExperimentModel, KnowsTheNoiseOfEveryMode) {
     }
     const ExperimentModel model({.target = &target, .code = code, .levels = &levels}, data,
                                 nullptr);
+    const surrogate::PrincipalModes modes = model.state().modes;
     constexpr int kFresh = 100;
     Eigen::MatrixXd fresh(kFresh, model.num_outputs());
     for (int i = 0; i < kFresh; ++i) {
-      fresh.row(i) = model.state().modes.Coefficients(code->Encode(
-          RoughHeap(Eigen::Vector2d(0.5, 0.5), 500'000 + static_cast<std::uint64_t>(i))));
+      fresh.row(i) = modes.Coefficients(
+          code->Encode(RoughHeap(middle, 500'000 + static_cast<std::uint64_t>(i))));
     }
     const Eigen::RowVectorXd mean = fresh.colwise().mean();
     const Eigen::VectorXd variance =
         (fresh.rowwise() - mean).colwise().squaredNorm().transpose() / (kFresh - 1);
-    const Eigen::VectorXd single = model.Predict(Eigen::RowVector2d(0.5, 0.5)).single;
+    const Eigen::VectorXd single = model.Predict(middle.transpose()).single;
     log_ratio += 0.5 * (single.array() / variance.array()).log().matrix() / kSearches;
   }
   // 24 heaps leave a single search within a factor of 1.5; a prior that is off by a factor of two
