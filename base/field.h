@@ -29,6 +29,7 @@ struct FieldInfo {
 //   template <> struct base::Names<Rolling> {
 //     static constexpr std::array kList{std::pair{"none", Rolling::kNone}, …};
 //   };
+// kRetired, where there is one, holds names that were once in the list, with their remedies.
 template <class Enum>
 struct Names;
 

@@ -17,7 +17,7 @@ struct LoopSize {
 };
 
 // Calls body(i) of each item i once, in any order. Inside the body of another loop, on its thread.
-// Of several bodies that throw, the exception of the smallest i leaves the loop.
+// Where several bodies throw, the exception of the smallest i leaves the loop.
 void ParallelFor(const LoopSize& size, const std::function<void(std::int64_t)>& body);
 
 // The most threads of a loop that this thread starts; at first OMP_NUM_THREADS, else all the cores

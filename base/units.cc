@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "base/error.h"
 
@@ -18,25 +19,24 @@ struct Unit {
 constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr Unit kNoUnits[] = {{"%", 0.01}};
-constexpr Unit kLengths[] = {{"m", 1},     {"dm", 1e-1}, {"cm", 1e-2}, {"mm", 1e-3},
-                             {"um", 1e-6}, {"µm", 1e-6}, {"μm", 1e-6}, {"nm", 1e-9}};
-constexpr Unit kMasses[] = {{"kg", 1},    {"g", 1e-3},  {"mg", 1e-6}, {"ug", 1e-9},
-                            {"µg", 1e-9}, {"μg", 1e-9}, {"t", 1e3}};
-constexpr Unit kTimes[] = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}, {"μs", 1e-6},
-                           {"ns", 1e-9}, {"min", 60},  {"h", 3600},  {"d", 86400}};
+// In Canonical spelling.
+constexpr Unit kLengths[] = {{"m", 1},     {"dm", 1e-1}, {"cm", 1e-2},     {"mm", 1e-3},
+                             {"um", 1e-6}, {"nm", 1e-9}, {"micron", 1e-6}, {"microns", 1e-6}};
+constexpr Unit kMasses[] = {{"kg", 1}, {"g", 1e-3}, {"mg", 1e-6}, {"ug", 1e-9}, {"t", 1e3}};
+constexpr Unit kTimes[] = {{"s", 1},    {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9},
+                           {"min", 60}, {"h", 3600},  {"d", 86400}};
 constexpr Unit kVelocities[] = {{"m/s", 1},     {"cm/s", 1e-2},        {"mm/s", 1e-3},
                                 {"um/s", 1e-6}, {"mm/min", 1e-3 / 60}, {"m/min", 1.0 / 60}};
-constexpr Unit kAccelerations[] = {{"m/s^2", 1}, {"m/s²", 1}, {"cm/s^2", 1e-2}, {"g0", 9.80665}};
+constexpr Unit kAccelerations[] = {{"m/s^2", 1}, {"cm/s^2", 1e-2}, {"g0", 9.80665}};
 constexpr Unit kAngularVelocities[] = {
     {"rad/s", 1}, {"deg/s", kDegree}, {"°/s", kDegree}, {"rpm", 2 * std::numbers::pi / 60}};
 constexpr Unit kAngles[] = {{"rad", 1}, {"deg", kDegree}, {"°", kDegree}};
-constexpr Unit kDensities[] = {{"kg/m^3", 1},  {"kg/m³", 1},  {"g/cm^3", 1e3},
-                               {"g/cm³", 1e3}, {"g/cc", 1e3}, {"g/mL", 1e3}};
+constexpr Unit kDensities[] = {{"kg/m^3", 1}, {"g/cm^3", 1e3}, {"g/cc", 1e3}, {"g/mL", 1e3},
+                               {"g/ml", 1e3}, {"kg/L", 1e3},   {"kg/l", 1e3}};
 constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3}, {"MPa", 1e6},
                                {"GPa", 1e9}, {"N/m^2", 1}, {"bar", 1e5}};
-constexpr Unit kSurfaceEnergies[] = {{"J/m^2", 1},    {"J/m²", 1},      {"mJ/m^2", 1e-3},
-                                     {"mJ/m²", 1e-3}, {"uJ/m^2", 1e-6}, {"µJ/m²", 1e-6},
-                                     {"N/m", 1},      {"mN/m", 1e-3}};
+constexpr Unit kSurfaceEnergies[] = {
+    {"J/m^2", 1}, {"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}, {"N/m", 1}, {"mN/m", 1e-3}};
 constexpr Unit kMassRates[] = {{"kg/s", 1}, {"g/s", 1e-3}, {"mg/s", 1e-6}, {"g/min", 1e-3 / 60}};
 constexpr Unit kEnergies[] = {{"J", 1}, {"mJ", 1e-3}, {"uJ", 1e-6}, {"nJ", 1e-9}, {"zJ", 1e-21}};
 
@@ -79,6 +79,25 @@ std::string_view Trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+void Replace(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+// "µm" → "um", "kg/m³" and "kg/m3" → "kg/m^3": as people type them.
+std::string Canonical(std::string_view unit) {
+  std::string name(unit);
+  for (const char* micro : {"µ", "μ"}) Replace(name, micro, "u");
+  for (const auto& [from, to] : {std::pair{"²", "^2"}, {"³", "^3"}}) Replace(name, from, to);
+  for (const char* letter : {"m", "s"}) {
+    for (const char* power : {"2", "3"}) {
+      Replace(name, std::string(letter) + power, std::string(letter) + "^" + power);
+    }
+  }
+  return name;
+}
+
 [[noreturn]] void Refuse(std::string_view text, Dimension dimension, std::string_view why) {
   std::string message = "\"" + std::string(text) + "\" " + std::string(why) + "; write a number";
   if (dimension != Dimension::kNone) message += " in " + std::string(SiUnit(dimension));
@@ -109,8 +128,9 @@ double ParseQuantity(std::string_view text, Dimension dimension) {
   const std::string_view name =
       Trim(trimmed.substr(static_cast<std::size_t>(end - trimmed.data())));
   if (name.empty()) return value;
+  const std::string canonical = Canonical(name);
   for (const Unit& unit : UnitsOf(dimension)) {
-    if (unit.name == name) return value * unit.si;
+    if (unit.name == canonical) return value * unit.si;
   }
   Refuse(text, dimension, "has the unit \"" + std::string(name) + "\", which does not fit here");
 }

@@ -8,7 +8,7 @@ namespace talus::base {
 // "0.1.0"
 std::string Version();
 
-// Of the source that was built, "a1b2c3d4e5" or "a1b2c3d4e5-dirty"; "unknown" outside Git.
+// The commit that was built: "a1b2c3d4e5" or "a1b2c3d4e5-dirty"; "unknown" outside Git.
 std::string Commit();
 
 // "GCC 12.2.0"

@@ -1,7 +1,6 @@
 // engine_full_scale [STEPS [THREADS [GRAINS]]]
 // The bed of examples/ti6al4v at scale factor 1 in its tube of 10 mm: grains of the mean size on a
-// lattice in which each touches its six neighbours. Prints what a step and a grain cost, and what
-// more cores would gain.
+// lattice in which each touches its six neighbours. Prints what a step and a grain cost.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -81,12 +80,5 @@ int main(int argc, char** argv) {
       static_cast<double>(list.num_contacts) / static_cast<double>(count),
       static_cast<double>(list.num_pairs) / static_cast<double>(count),
       static_cast<long long>(list.num_rebuilds));
-  const engine::ScalingEstimate scaling = simulation.Scaling();
-  std::printf("%lld chunks share %.4f of the work; the longest is %.2f times the mean\n",
-              static_cast<long long>(scaling.num_chunks), scaling.parallel_share,
-              scaling.imbalance);
-  for (const auto& [cores, factor] : scaling.speed_ups) {
-    std::printf("%3d cores could reach %.1f times one\n", cores, factor);
-  }
   return 0;
 }

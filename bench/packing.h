@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "engine/scene/scene.h"
+#include "engine/scene.h"
 
 namespace talus::bench {
 

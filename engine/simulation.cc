@@ -6,9 +6,9 @@
 #include <unordered_set>
 
 #include "base/error.h"
-#include "engine/run/blow_up.h"
+#include "engine/blow_up.h"
+#include "engine/bodies/wall_motion.h"
 #include "engine/simulation_state.h"
-#include "engine/wall_motion.h"
 
 namespace talus::engine {
 
@@ -42,6 +42,7 @@ std::unique_ptr<SimulationState> Start(const Scene& scene) {
   auto state = std::make_unique<SimulationState>();
   state->SetThreads(scene.num_threads);
   state->materials = scene.materials;
+  state->pairs = scene.pairs;
   state->models = scene.models;
   state->gravity = scene.gravity;
   state->gravity_turns = scene.gravity_turns;
@@ -123,10 +124,6 @@ ListStatistics Simulation::Statistics() const {
           .num_contacts = counts.touching,
           .num_chunks = static_cast<std::int64_t>(state_->list.chunks().size()),
           .kernels = state_->kernels->name};
-}
-
-ScalingEstimate Simulation::Scaling() const {
-  return state_->scaling.Estimate(state_->step - state_->first_step);
 }
 
 void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {

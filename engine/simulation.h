@@ -9,8 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/scaling.h"
-#include "engine/scene/scene.h"
+#include "engine/scene.h"
 
 namespace talus::engine {
 
@@ -73,9 +72,6 @@ class Simulation {
   const std::vector<Wall>& Walls()
       const;  // shapes as they stand now; removed ones keep their place
   ListStatistics Statistics() const;
-
-  // What more cores would gain, from times taken since this object was made.
-  ScalingEstimate Scaling() const;
 
   Vec3 Gravity() const;  // now [m/s²]
 

@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/bodies/particle_store.h"
+#include "engine/bodies/wall_set.h"
 #include "engine/kernel/dispatch.h"
 #include "engine/neighbor/contact_list.h"
 #include "engine/neighbor/skin_tuner.h"
-#include "engine/particle_store.h"
-#include "engine/scaling.h"
 #include "engine/simulation.h"
-#include "engine/team.h"
-#include "engine/wall_set.h"
+#include "engine/threads/team.h"
 
 namespace talus::engine {
 
@@ -29,6 +28,7 @@ struct SimulationState {
   std::unique_ptr<Team> team;
 
   std::vector<Material> materials;
+  std::vector<MaterialPair> pairs;
   ContactModels models;
   Vec3 gravity;  // now [m/s²]
   std::vector<TurnStep> gravity_turns;
@@ -43,11 +43,7 @@ struct SimulationState {
   ContactList list;
   SkinTuner tuner;
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
-  ScalingProbe scaling;                     // of this process; not part of a checkpoint
-  double list_seconds = 0;                  // CPU time of making lists, in this thread [s]
-  std::vector<ChunkTimes> chunk_times;
-  std::int64_t first_step = 0;  // of this process
-  double wall_moved = 0;        // farthest way of any wall since the rebuild [m]
+  double wall_moved = 0;                    // farthest way of any wall since the rebuild [m]
 
   std::vector<PairConstants> constants;           // of materials a, b at a · materials.size() + b
   std::vector<KernelConstants> kernel_constants;  // the same
@@ -60,7 +56,7 @@ struct SimulationState {
   // Makes the team; more threads than chunks would have nothing to do.
   void SetThreads(int num_threads);
 
-  // After a change of materials.
+  // After a change of materials or pairs.
   void SetConstants();
 
   // After a change of motions that is not the step's own.
@@ -72,9 +68,6 @@ struct SimulationState {
 
   void Advance();       // one step
   MotionCheck Sweep();  // forces and motion of all chunks
-  std::span<const ChunkTimes> Times();
-  void TakeTimes(double after_sweep);  // of a sampled step
-  void AddListTimes(double seconds);   // of making a list
   void Move(const StepView& view, Chunk& chunk, const PanelView& panel);
   void TurnGravity();            // as prescribed for the step that has been made
   void Watch(double max_speed);  // rebuilds the list when something may have moved too far

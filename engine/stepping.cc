@@ -5,10 +5,9 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "engine/run/blow_up.h"
+#include "engine/blow_up.h"
+#include "engine/bodies/wall_motion.h"
 #include "engine/simulation_state.h"
-#include "engine/thread_seconds.h"
-#include "engine/wall_motion.h"
 
 namespace talus::engine {
 
@@ -23,15 +22,6 @@ void Add(const Displacements& part, Displacements& all) {
   all.second_squared = std::max({std::min(part.largest_squared, all.largest_squared),
                                  part.second_squared, all.second_squared});
   all.largest_squared = std::max(part.largest_squared, all.largest_squared);
-}
-
-// Calls `work`, and adds its time if asked to.
-template <class Work>
-void Timed(bool timed, double& seconds, const Work& work) {
-  if (!timed) return work();
-  const double start = ThreadSeconds();
-  work();
-  seconds += ThreadSeconds() - start;
 }
 
 Scales ScalesOf(const Units& units, double time_step) {
@@ -77,9 +67,12 @@ void SimulationState::SetConstants() {
   constants.clear();
   kernel_constants.clear();
   adhesion_gap = 0;
-  for (const Material& a : materials) {
-    for (const Material& b : materials) {
-      constants.push_back(MakePairConstants(a, b, models));
+  const int num_materials = static_cast<int>(materials.size());
+  for (int a = 0; a < num_materials; ++a) {
+    for (int b = 0; b < num_materials; ++b) {
+      const PairProperties stated = StatedOf(pairs, a, b);
+      constants.push_back(
+          MakePairConstants(With(materials[a], stated), With(materials[b], stated), models));
       const PairConstants& pair = constants.back();
       kernel_constants.push_back({ToUnits(pair, units), pair.adhesion_gap});
       adhesion_gap = std::max(adhesion_gap, pair.adhesion_gap);
@@ -102,7 +95,6 @@ void SimulationState::RebuildAll() {
 }
 
 void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
-  const double start = ThreadSeconds();
   tuner.Retune();
   speed_limit = SpeedLimit(*this);
   try {
@@ -120,25 +112,6 @@ void SimulationState::Rebuild(std::span<const std::int32_t> alive) {
   const ListCounts counts = list.counts();
   tuner.Rebuilt(particles.num, counts.pairs, counts.touching);
   wall_moved = 0;
-  list_seconds += ThreadSeconds() - start;
-  AddListTimes(ThreadSeconds() - start);
-}
-
-std::span<const ChunkTimes> SimulationState::Times() {
-  chunk_times.clear();
-  for (const Chunk& chunk : list.chunks()) chunk_times.push_back(chunk.times);
-  return chunk_times;
-}
-
-// Of the time of this thread, which made the list, its own chunks' search was shared, and its part
-// of what the team shared evenly.
-void SimulationState::AddListTimes(double seconds) {
-  const std::span<const ChunkTimes> times = Times();
-  const auto own = team->ShareOf(0, static_cast<std::int64_t>(times.size()));
-  for (std::int64_t c = own.begin; c < own.end; ++c) seconds -= times[c].search;
-  const double even = team->TakeEvenSeconds();
-  seconds -= even / team->size();
-  scaling.AddList(times, std::max(seconds, 0.0), even);
 }
 
 void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& panel) {
@@ -152,7 +125,6 @@ void SimulationState::Move(const StepView& view, Chunk& chunk, const PanelView& 
 MotionCheck SimulationState::Sweep() {
   const StepView view = View();
   const ForcesFunction forces = Forces();
-  const bool timed = ScalingProbe::Samples(step);
   std::vector<Chunk>& chunks = list.chunks();
   team->Run([&](int member) {
     const auto [begin, end] = team->ShareOf(member, static_cast<std::int64_t>(chunks.size()));
@@ -160,22 +132,17 @@ MotionCheck SimulationState::Sweep() {
     const Panel* last = begin < end ? &chunks[end - 1].panels.back() : nullptr;
     for (std::int64_t c = begin; c < end; ++c) {
       chunks[c].check = {0, true};
-      if (timed) chunks[c].times.forces = chunks[c].times.motion = 0;
       for (const Panel& part : chunks[c].panels) {
         const PanelView panel = chunks[c].View(part);
-        Timed(timed, chunks[c].times.forces, [&] { forces(view, panel); });
+        forces(view, panel);
         if (&part == last) team->FinishFirstPart(member);
-        if (c >= moves_from) {
-          Timed(timed, chunks[c].times.motion, [&] { Move(view, chunks[c], panel); });
-        }
+        if (c >= moves_from) Move(view, chunks[c], panel);
       }
     }
     if (last == nullptr) team->FinishFirstPart(member);
     team->AwaitFirstPartsBefore(member);
     for (std::int64_t c = begin; c < moves_from; ++c) {
-      for (const Panel& part : chunks[c].panels) {
-        Timed(timed, chunks[c].times.motion, [&] { Move(view, chunks[c], chunks[c].View(part)); });
-      }
+      for (const Panel& part : chunks[c].panels) Move(view, chunks[c], chunks[c].View(part));
     }
   });
   MotionCheck all{0, true};
@@ -189,7 +156,6 @@ void SimulationState::Watch(double max_speed) {
   if (!tuner.Step(distance)) return;
   const CloudView cloud{particles.old_x.data(), particles.old_y.data(), particles.old_z.data(),
                         particles.radius.data()};
-  const double start = ThreadSeconds();
   Displacements moved{0, 0};
   std::mutex mutex;
   const auto count = static_cast<std::int64_t>(particles.motion.size()) / 8;
@@ -198,8 +164,6 @@ void SimulationState::Watch(double max_speed) {
     const std::lock_guard lock(mutex);
     Add(part, moved);
   });
-  scaling.AddEven(team->TakeEvenSeconds());
-  list_seconds += ThreadSeconds() - start;
   const double largest = std::sqrt(moved.largest_squared);
   const double used = largest + std::max(std::sqrt(moved.second_squared), wall_moved);
   if (tuner.CheckDisplacement(used, distance)) RebuildAll();
@@ -213,17 +177,8 @@ void SimulationState::TurnGravity() {
   gravity *= strength / base::Norm(gravity);
 }
 
-// What this thread did after the sweep nobody shared; lists count by themselves.
-void SimulationState::TakeTimes(double after_sweep) {
-  const double alone = ThreadSeconds() - after_sweep - list_seconds;
-  scaling.AddStep(Times(), list.reach(), alone);
-}
-
 void SimulationState::Advance() {
-  const bool timed = ScalingProbe::Samples(step);
   const MotionCheck check = Sweep();
-  const double after_sweep = timed ? ThreadSeconds() : 0;
-  list_seconds = 0;
   walls.Move(dt);
   TurnGravity();
   ++step;
@@ -231,7 +186,6 @@ void SimulationState::Advance() {
   Watch(std::sqrt(check.max_speed_squared));
   if (walls.RemoveDue(time(), dt)) RebuildAll();
   walls.SetTime(time(), dt);
-  if (timed) TakeTimes(after_sweep);
 }
 
 }  // namespace talus::engine

@@ -1,6 +1,8 @@
 #include "python/arrays.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -10,6 +12,7 @@ namespace talus::python {
 imaging::GrayImage ImageOf(const GrayArray& array) {
   if (array.ndim() != 2)
     throw base::ConfigError("image: must have two dimensions, rows and columns");
+  if (array.size() == 0) throw base::ConfigError("image: is empty");
   imaging::GrayImage image{.width = static_cast<int>(array.shape(1)),
                            .height = static_cast<int>(array.shape(0)),
                            .pixels = {}};
@@ -30,8 +33,13 @@ std::vector<base::Sphere> SpheresOf(const SphereArray& array) {
   std::vector<base::Sphere> spheres;
   const auto rows = array.unchecked<2>();
   for (pybind11::ssize_t i = 0; i < rows.shape(0); ++i) {
-    spheres.push_back(
-        {.position = {rows(i, 0), rows(i, 1), rows(i, 2)}, .radius = 0.5 * rows(i, 3)});
+    const double x = rows(i, 0), y = rows(i, 1), z = rows(i, 2), diameter = rows(i, 3);
+    if (!std::isfinite(x + y + z) || !(diameter > 0 && std::isfinite(diameter))) {
+      throw base::ConfigError("spheres: row " + std::to_string(i) +
+                              " has a position that is no number, or a diameter that is not "
+                              "positive");
+    }
+    spheres.push_back({.position = {x, y, z}, .radius = 0.5 * diameter});
   }
   return spheres;
 }

@@ -30,11 +30,18 @@ GrayArray Project(const SphereArray& spheres, const py::dict& frame, int num_vie
 
 py::dict Compare(const GrayArray& heap, const GrayArray& reference, const py::dict& frame) {
   const imaging::Frame known = FrameOf(frame);
-  const auto images = [&](const GrayArray& array) {
-    return imaging::HeapImages{.profile = {.image = ImageOf(array), .frame = known}, .parts = {}};
+  const auto images = [&](const char* name, const GrayArray& array) {
+    const imaging::GrayImage image = ImageOf(array);
+    if (image.width != known.width || image.height != known.height) {
+      throw base::ConfigError(std::string(name) + ": has " + std::to_string(image.width) + " x " +
+                              std::to_string(image.height) + " px, its frame " +
+                              std::to_string(known.width) + " x " + std::to_string(known.height));
+    }
+    return imaging::HeapImages{.profile = {.image = image, .frame = known}, .parts = {}};
   };
   py::dict metrics;
-  for (const imaging::Metric& metric : imaging::CompareProfiles(images(heap), images(reference))) {
+  for (const imaging::Metric& metric :
+       imaging::CompareProfiles(images("heap", heap), images("reference", reference))) {
     if (metric.value.defined()) {
       metrics[py::str(metric.name)] = metric.value.value;
     } else {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "base/text/number_text.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::python {
@@ -18,6 +19,20 @@ std::vector<float> FieldOf(const GrayArray& image) {
     field.push_back(static_cast<float>(255 - image.data()[i]) / 255.0F);
   }
   return field;
+}
+
+// The bounds, but for what decimals lose on their way through Python.
+void RequireInside(const optimizer::Parameter& parameter, double native, double unit) {
+  if (unit >= -1e-9 && unit <= 1 + 1e-9) return;  // false for NaN, too
+  throw base::ConfigError(parameter.name + ": " + base::ShortNumber(native) +
+                          " is outside the searched range");
+}
+
+void RequireWorkable(double value) {
+  constexpr double kLargest = 1e100;  // squares of it are summed up
+  if (std::isfinite(value) && std::abs(value) > kLargest) {
+    throw base::ConfigError("value: is beyond 1e100, which no search can work with");
+  }
 }
 
 }  // namespace
@@ -57,7 +72,13 @@ Eigen::VectorXd Strategy::PointOf(const py::dict& values) const {
     }
     native.push_back(values[parameter.name.c_str()].cast<double>());
   }
-  return space_.ToUnit(native);
+  const Eigen::VectorXd unit = space_.ToUnit(native);
+  const std::vector<int> free = space_.Free();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const auto k = static_cast<std::size_t>(free[i]);
+    RequireInside(space_.parameters[k], native[k], unit(static_cast<Eigen::Index>(i)));
+  }
+  return unit;
 }
 
 py::list Strategy::Ask(int count) {
@@ -77,6 +98,7 @@ void Strategy::Tell(const py::dict& values, std::optional<double> value,
         "tell: needs a value, an image of a strategy with a target, or "
         "failed=True");
   }
+  if (!failed && value) RequireWorkable(*value);
   optimizer::Observation observation{.point = PointOf(values), .failed = failed};
   // What was asked for is told as it was asked, not as its decimals came back.
   const auto found =

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "optimizer/space/parameter_space.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 #include "python/arrays.h"
 
 namespace talus::python {

@@ -19,24 +19,12 @@ nlopt_algorithm NloptName(SearchAlgorithm algorithm) {
   switch (algorithm) {
     case SearchAlgorithm::kLbfgs:
       return NLOPT_LD_LBFGS;
-    case SearchAlgorithm::kSlsqp:
-      return NLOPT_LD_SLSQP;
     case SearchAlgorithm::kBobyqa:
       return NLOPT_LN_BOBYQA;
-    case SearchAlgorithm::kCobyla:
-      return NLOPT_LN_COBYLA;
     case SearchAlgorithm::kNelderMead:
       return NLOPT_LN_NELDERMEAD;
-    case SearchAlgorithm::kSubplex:
-      return NLOPT_LN_SBPLX;
     case SearchAlgorithm::kDirectL:
       return NLOPT_GN_DIRECT_L;
-    case SearchAlgorithm::kCrs2:
-      return NLOPT_GN_CRS2_LM;
-    case SearchAlgorithm::kIsres:
-      return NLOPT_GN_ISRES;
-    case SearchAlgorithm::kEsch:
-      return NLOPT_GN_ESCH;
   }
   throw base::Error("unknown search algorithm");
 }

@@ -13,15 +13,9 @@ namespace talus::surrogate {
 
 enum class SearchAlgorithm {
   kLbfgs,       // quasi-Newton, wants the gradient
-  kSlsqp,       // sequential quadratic programming, wants the gradient
   kBobyqa,      // quadratic model in a trust region
-  kCobyla,      // linear model in a trust region
   kNelderMead,  // simplex
-  kSubplex,     // simplex in subspaces
   kDirectL,     // dividing rectangles, locally biased
-  kCrs2,        // controlled random search
-  kIsres,       // evolution strategy
-  kEsch,        // evolution strategy
 };
 
 struct SearchTask {

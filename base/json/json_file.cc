@@ -84,7 +84,7 @@ class Builder : public JsonEvents {
     return true;
   }
 
-  // Of the key that has been read last.
+  // The path of the key that has been read last.
   std::string Path() const {
     std::string path;
     for (const Level& level : levels_) {

@@ -128,7 +128,19 @@ class JsonReader {
       }
       all += (all.empty() ? "\"" : ", \"") + std::string(name) + "\"";
     }
-    context_.problems.Add("", "must be one of " + all);
+    context_.problems.Add("", RemedyOf<T>(value).value_or("must be one of " + all));
+  }
+  // What to write in place of a name that is no longer one.
+  template <NamedEnum T>
+  static std::optional<std::string> RemedyOf(const json& value) {
+    if constexpr (requires { Names<T>::kRetired; }) {
+      for (const auto& [name, remedy] : Names<T>::kRetired) {
+        if (value.is_string() && value.get_ref<const std::string&>() == name) {
+          return "\"" + std::string(name) + "\" " + remedy;
+        }
+      }
+    }
+    return std::nullopt;
   }
   template <class T>
   void Read(const json& value, std::optional<T>& field, const FieldInfo& info) {

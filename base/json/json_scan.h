@@ -29,7 +29,7 @@ struct JsonPosition {
     ++line;
   }
 
-  // Of an offset in the line that is being read, or in the one before.
+  // Line and column of an offset in the line that is being read, or in the one before.
   Location At(std::size_t offset) const;
 
   // Where the token starts whose last character has just been read.

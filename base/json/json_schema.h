@@ -75,16 +75,14 @@ nlohmann::ordered_json SchemaOf(const FieldInfo& info) {
   using json = nlohmann::ordered_json;
   json schema;
   if constexpr (HasAlternatives<T>) {
-    // The first is meant where a file has no `kind`.
     json all = json::array();
     for (const T& alternative : T::Alternatives()) {
       SchemaWriter writer;
       T::Visit(alternative, writer);
       json one = writer.Take();
-      const std::string kind = one["properties"]["kind"]["default"];
+      const std::string kind(NameOf(alternative.kind));
       one["title"] = kind;
       one["properties"]["kind"] = {{"const", kind}};
-      if (!all.empty()) one["required"].push_back("kind");
       all.push_back(std::move(one));
     }
     schema["oneOf"] = std::move(all);

@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "bench/optimizers/drum_likelihood.h"
-#include "optimizer/information/expected_learning.h"
+#include "optimizer/posterior/expected_learning.h"
 #include "surrogate/images/principal_modes.h"
 
 namespace talus::bench {

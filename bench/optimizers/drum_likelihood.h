@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bench/optimizers/drum_sets.h"
-#include "optimizer/fidelity/joint_misfit.h"
-#include "surrogate/fidelity/fidelity_process.h"
+#include "optimizer/posterior/joint_misfit.h"
+#include "surrogate/process/gaussian_process.h"
 #include "surrogate/process/warp.h"
 
 namespace talus::bench {
@@ -21,22 +21,15 @@ inline constexpr double kCaution = 1.5;  // of the surrogate's sd, as the tables
 // One output at every set.
 class Output {
  public:
-  Output(const surrogate::FidelityState& state, const Eigen::MatrixXd& sets,
+  Output(const surrogate::GaussianProcessState& state, const Eigen::MatrixXd& sets,
          const Eigen::VectorXd& values)
       : values_(values) {
-    const surrogate::FidelityHyper& hyper = state.hyper;
-    const Eigen::MatrixXd warped = surrogate::WarpAll(sets, hyper.warp);
+    const surrogate::Covariance covariance(surrogate::Kernel::kMatern52, state.hyper);
+    const auto sites = surrogate::Sites::At(surrogate::WarpAll(sets, state.hyper.warp), 0);
     const double units = state.scale * state.scale;
-    noise_ = units * (hyper.noise[0] * hyper.noise[0] + 1e-10);
-    Eigen::MatrixXd k(sets.cols(), sets.cols());
-    for (Eigen::Index j = 0; j < k.cols(); ++j) {
-      for (Eigen::Index i = 0; i < k.rows(); ++i) {
-        const auto pair =
-            surrogate::FidelityPair::Of(hyper, warped.col(i).data(), warped.col(j).data());
-        k(i, j) = units * surrogate::FidelityCovarianceOf(hyper, pair, 0, 0);
-      }
-      k(j, j) += noise_;
-    }
+    noise_ = units * (state.hyper.noise[0] * state.hyper.noise[0] + 1e-10);
+    Eigen::MatrixXd k = units * covariance.Between(sites, sites);
+    k.diagonal().array() += noise_;
     precision_ = k.llt().solve(Eigen::MatrixXd::Identity(k.rows(), k.cols()));
     alpha_ = precision_ * (values.array() - state.centre).matrix();
   }
@@ -79,14 +72,14 @@ inline Measurement Learnt(const std::string& name, const Table& table,
   Measurement m{.name = name};
   std::vector<Eigen::Index> some;
   for (Eigen::Index i = 0; i < subset; ++i) some.push_back((i * 617) % n);  // prime to n
-  const surrogate::FidelityFitOptions options{.noise_median = Eigen::VectorXd::Constant(1, 0.2),
-                                              .noise_log_sd = Eigen::VectorXd::Constant(1, 0.7)};
+  const surrogate::GaussianProcessOptions options{
+      .trend = surrogate::Trend::kQuadratic,
+      .warp_inputs = true,
+      .priors = surrogate::PriorsOfOutputs({{.median = 0.2, .log_sd = 0.7}})};
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
-    const surrogate::FidelityData data{.points = table.sets(Eigen::all, some),
-                                       .growth = Eigen::VectorXd::Zero(subset),
-                                       .level = Eigen::VectorXi::Zero(subset),
-                                       .values = values.col(k)(some)};
-    m.outputs.emplace_back(surrogate::FidelityProcess::Fit(data, options).state(), table.sets,
+    const surrogate::Evaluations some_sets{.points = table.sets(Eigen::all, some).transpose(),
+                                           .values = values.col(k)(some)};
+    m.outputs.emplace_back(surrogate::GaussianProcess::Fit(some_sets, options).state(), table.sets,
                            values.col(k));
   }
   return m;

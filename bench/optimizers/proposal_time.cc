@@ -1,7 +1,7 @@
 // Prints the processor time of one proposal, and of one answer, after many noisy evaluations; after
 // slashes that of the calling thread, and the time that passed.
 //
-//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp|surrogate|field]
+//   OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1 optimizer_proposal_time [200] [gp|auto]
 //
 // The evaluations are those of the problem `heap`, its images enlarged to 400 x 200 px; half of the
 // points are spread over the cube, half lie near the optimum, as those of a search do.
@@ -12,10 +12,10 @@
 
 #include "base/field.h"
 #include "base/random.h"
-#include "bench/optimizers/fidelity_heaps.h"
 #include "bench/optimizers/problems.h"
+#include "bench/optimizers/scale_factor_heaps.h"
 #include "bench/optimizers/stopwatch.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::bench {
 namespace {
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   const int num_trials = argc > 1 ? std::atoi(argv[1]) : 200;
   const std::string only = argc > 2 ? argv[2] : "";
   using Kind = talus::optimizer::StrategyKind;
-  for (const Kind kind : {Kind::kGp, Kind::kSurrogate, Kind::kField}) {
+  for (const Kind kind : {Kind::kGp, Kind::kAuto}) {
     if (only.empty() || only == talus::base::NameOf(kind)) talus::bench::Time(kind, num_trials);
   }
 }

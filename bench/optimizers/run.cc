@@ -26,13 +26,13 @@
 
 #include "base/random.h"
 #include "bench/optimizers/problems.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::bench {
 namespace {
 
 struct Options {
-  std::string strategy = "surrogate";  // a kind of strategy
+  std::string strategy = "auto";  // a kind of strategy
   int noise = 1;
   int first_instance = 1;
   int last_instance = 8;

@@ -24,12 +24,12 @@
 
 #include "base/random.h"
 #include "bench/optimizers/problems.h"
-#include "optimizer/acquisition/knowledge_gradient.h"
-#include "optimizer/acquisition/model_step.h"
-#include "optimizer/models/feasibility.h"
-#include "optimizer/models/history.h"
-#include "optimizer/models/scalar_model.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/search/feasibility.h"
+#include "optimizer/search/history.h"
+#include "optimizer/search/knowledge_gradient.h"
+#include "optimizer/search/model_step.h"
+#include "optimizer/search/scalar_model.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::bench {
 namespace {

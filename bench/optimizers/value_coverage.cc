@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bench/optimizers/problems.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::bench {
 namespace {

@@ -44,7 +44,7 @@ class Batch {
     }
   }
 
-  // As of Part.
+  // The same as a Part gives.
   TALUS_INLINE const std::int32_t* first() const { return first_; }
   TALUS_INLINE const std::int32_t* second() const { return second_; }
   TALUS_INLINE void Load(History<Floats>& h) const {

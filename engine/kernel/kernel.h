@@ -42,7 +42,7 @@ enum class ShapeKind : std::int32_t {
   kCone
 };
 
-// A wall now. `point` and `axis` are point and normal, or base and axis of engine/wall.h.
+// A wall now. `point` and `axis` are point and normal, or base and axis of engine/bodies/wall.h.
 struct WallView {
   ShapeKind kind;
   double point[3];     // [m]
@@ -66,7 +66,7 @@ struct PairRun {
   std::int32_t wall;       // index into StepView::walls, -1 between spheres
 };
 
-// Of two materials.
+// What the kernels need of two materials.
 struct KernelConstants {
   SingleConstants law;
   double adhesion_gap;  // as in `law`, but in [m]

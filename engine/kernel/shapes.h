@@ -34,7 +34,8 @@ TALUS_INLINE NearestPoint<V> FromOffset(const Vector<V>& offset, const Vector<V>
   return {Select(apart, inverse * offset, -axis), square * inverse};
 }
 
-// Of a rectangle, an annulus, a cone. Not inlined: the other shapes must not pay for them.
+// The nearest point of a rectangle, an annulus, a cone. Not inlined: the other shapes must not pay
+// for them.
 template <class V>
 [[gnu::noinline]] NearestPoint<V> NearestOfMore(const WallView& wall, const Vector<V>& from_base) {
   const Vector<V> axis = Broadcast<V>(wall.axis);
@@ -67,7 +68,7 @@ template <class V>
   return FromOffset((nearest_h - h) * axis + outwards * radial, axis);
 }
 
-// Of a plane, a disc, a cylinder.
+// The nearest point of a plane, a disc, a cylinder.
 template <class V>
 TALUS_INLINE NearestPoint<V> NearestOfFew(const WallView& wall, const Vector<V>& x) {
   const Vector<V> axis = Broadcast<V>(wall.axis);

@@ -229,7 +229,7 @@ TALUS_INLINE void StoreRounded(const Quads& v, const Quads& w, float* to) {
   };
   const FourFloats rows =
       TransposeSquares({both(v.x, w.x), both(v.y, w.y), both(v.z, w.z), both(v.w, w.w)});
-  // Of row k: v of rows 0 and 4 stand in the parts 0 and 1, w in 2 and 3.
+  // Where row k is: v of rows 0 and 4 stands in the parts 0 and 1, w in 2 and 3.
   const auto store = [&](int k, __m512 pair) __attribute__((always_inline)) {
     const __m512 sorted = _mm512_shuffle_f32x4(pair, pair, 0xd8);
     _mm256_storeu_ps(to + 8 * k, _mm512_castps512_ps256(sorted));

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
+#include "engine/laws/material.h"
 #include "engine/laws/response.h"
-#include "engine/scene/material.h"
 
 namespace talus::engine {
 
@@ -16,7 +16,7 @@ struct LawList {
 
 // In the order of enum Adhesion and enum Rolling.
 using NormalLaws = LawList<NoAdhesion, DmtAdhesion, JkrAdhesion>;
-using RollingLaws = LawList<NoRolling, ConstantRolling, ViscousRolling, EpsdRolling>;
+using RollingLaws = LawList<NoRolling, ConstantRolling, ViscousRolling, EpsdRolling, Epsd2Rolling>;
 
 inline constexpr int kNumNormalLaws = NormalLaws::kSize;
 inline constexpr int kNumRollingLaws = RollingLaws::kSize;

@@ -3,7 +3,7 @@
 // precision and in units of their own (engine/laws/units.h).
 #pragma once
 
-#include "engine/scene/material.h"
+#include "engine/laws/material.h"
 
 namespace talus::engine {
 

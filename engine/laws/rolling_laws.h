@@ -1,5 +1,6 @@
-// Rolling resistance: R1–R4; the opposite torque on the other sphere, R5, is the caller's. Twist
-// about the normal is never resisted. A new law is one struct here and one line in laws/law_list.h.
+// Rolling resistance: R1–R4, R6; the opposite torque on the other sphere, R5, is the caller's.
+// Twist about the normal is never resisted. A new law is one struct here and one line in
+// laws/law_list.h.
 #pragma once
 
 #include "engine/laws/hertz_mindlin.h"
@@ -58,10 +59,24 @@ struct ViscousRolling {
   }
 };
 
-// A spring and a dashpot in rolling with a limit on the spring [ai2011, model C].
+// Winds the spring up by ω_p Δt (R2), and takes it back to its limit (R4); whether it met that.
 //
-// The spring is kept perpendicular to the normal (R2). When the normal turns, a part of M would
-// come to lie along it and drive twist, which nothing resists: energy from nowhere.
+// The spring is kept perpendicular to the normal. When the normal turns, a part of M would come to
+// lie along it and drive twist, which nothing resists: energy from nowhere.
+template <class V, class T>
+TALUS_INLINE auto WindUp(const PairConstantsOf<T>& p, const RollingState<V>& s, const V& stiffness,
+                         const Vector<V>& omega, Vector<V>& moment) {
+  const Contact<V>& c = s.contact;
+  moment = moment - (stiffness * s.dt) * omega;
+  moment = moment - Dot(moment, c.normal) * c.normal;
+  const V square = Dot(moment, moment);
+  const V limit = V(p.rolling_friction) * c.r_star * Abs(s.limiting);
+  const auto mobilised = square > limit * limit;
+  moment = Select(mobilised, limit * Rsqrt(square), V(1.0)) * moment;
+  return mobilised;
+}
+
+// A spring and a dashpot in rolling with a limit on the spring [ai2011, model C].
 struct EpsdRolling {
   static constexpr bool kHasMoment = true;
   template <class V, class T>
@@ -71,13 +86,25 @@ struct EpsdRolling {
     const Vector<V> omega = RollingSpin(c);
     const V stiffness = V(p.rolling_stiffness) * s.area.s * c.r_star * c.r_star;        // R1
     const V damping = V(p.rolling_damping) * c.r_star * s.area.root_s * c.root_i_star;  // R3
-    moment = moment - (stiffness * s.dt) * omega;                                       // R2
-    moment = moment - Dot(moment, c.normal) * c.normal;
-    const V square = Dot(moment, moment);
-    const V limit = V(p.rolling_friction) * c.r_star * Abs(s.limiting);  // R4
-    const auto mobilised = square > limit * limit;
-    moment = Select(mobilised, limit * Rsqrt(square), V(1.0)) * moment;
+    const auto mobilised = WindUp(p, s, stiffness, omega, moment);
     return moment - (Select(mobilised, V(p.mobilised_damping), V(1.0)) * damping) * omega;
+  }
+};
+
+// EPSD with the tangential spring's stiffness and no dashpot: `epsd2` of LIGGGHTS.
+//
+//   k_r = k_t R*²      T_r = M                                          docs/physics.md, R6
+//
+// Only the tangential dashpot damps a swing below the limit: with e = 1 a grain rocks for ever.
+struct Epsd2Rolling {
+  static constexpr bool kHasMoment = true;
+  template <class V, class T>
+  static TALUS_INLINE Vector<V> Torque(const PairConstantsOf<T>& p, const RollingState<V>& s,
+                                       Vector<V>& moment) {
+    const Contact<V>& c = s.contact;
+    const V stiffness = V(p.shear_stiffness) * s.area.s * c.r_star * c.r_star;
+    WindUp(p, s, stiffness, RollingSpin(c), moment);
+    return moment;
   }
 };
 

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "engine/neighbor/skin_tuner.h"
-#include "engine/thread_seconds.h"
 
 namespace talus::engine {
 
@@ -314,10 +313,8 @@ void ContactList::FindAll(const RebuildInput& input) {
   input.team.Run([&](int member) {
     const auto [begin, end] = input.team.ShareOf(member, num_chunks);
     for (std::int64_t c = begin; c < end; ++c) {
-      const double start = ThreadSeconds();
       try {
         Find(input, chunks_[c], scratch_[member]);
-        chunks_[c].times.search = ThreadSeconds() - start;
       } catch (const base::Error&) {
         errors_[c] = std::current_exception();
       }

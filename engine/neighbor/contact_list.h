@@ -12,13 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/aligned.h"
+#include "engine/bodies/aligned.h"
+#include "engine/bodies/particle_store.h"
+#include "engine/bodies/wall_set.h"
 #include "engine/kernel/kernel.h"
 #include "engine/neighbor/pair_search.h"
-#include "engine/particle_store.h"
-#include "engine/scaling.h"
-#include "engine/team.h"
-#include "engine/wall_set.h"
+#include "engine/threads/team.h"
 
 namespace talus::engine {
 
@@ -45,7 +44,6 @@ struct Chunk {
   std::vector<Overhang> overhangs;  // of the chunks before
   ListCounts counts;
   MotionCheck check{0, true};  // of the last step
-  ChunkTimes times;            // when last taken
 
   PanelView View(const Panel& panel);
 };

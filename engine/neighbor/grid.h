@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/team.h"
+#include "engine/threads/team.h"
 
 namespace talus::engine {
 

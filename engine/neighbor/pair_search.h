@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/bodies/particle_store.h"
 #include "engine/kernel/kernel.h"
 #include "engine/neighbor/grid.h"
-#include "engine/particle_store.h"
 
 namespace talus::engine {
 

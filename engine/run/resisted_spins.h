@@ -20,9 +20,9 @@ class PlaceOfId {
   std::vector<std::uint32_t> places_;
 };
 
-// Of each particle, the spin that friction or rolling resistance act on. One with a single contact
-// may twist about its normal for ever, which no law resists: that part is left out. `particles` and
-// `contacts` as Simulation gives them.
+// Each particle's spin, as far as friction or rolling resistance act on it. One with a single
+// contact may twist about its normal for ever, which no law resists: that part is left out.
+// `particles` and `contacts` as Simulation gives them.
 std::vector<Vec3> ResistedSpins(std::span<const Particle> particles,
                                 std::span<const ContactInfo> contacts);
 

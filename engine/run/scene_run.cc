@@ -11,7 +11,6 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "engine/run/resisted_spins.h"
-#include "engine/run/scaling_json.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/scene_json.h"
 #include "engine/scene/scene_warnings.h"
@@ -223,8 +222,7 @@ void SceneRun::WriteResults(const RunTiming& timing) const {
   result["timing"] = {{"wall_time_s", timing.wall_time},
                       {"cpu_time_s", timing.cpu_time},
                       {"particle_steps", state_.particle_steps},
-                      {"threads", spec_.threads},
-                      {"scaling", ScalingJson(simulation_.Scaling())}};
+                      {"threads", spec_.threads}};
   base::WriteFileAtomically(folder_ / "result.json",
                             base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "engine/scene/scene.h"
+#include "engine/scene.h"
 
 namespace talus::engine {
 

@@ -7,8 +7,8 @@
 #include <unordered_map>
 
 #include "base/random.h"
+#include "engine/bodies/wall_set.h"
 #include "engine/kernel/shapes.h"
-#include "engine/wall_set.h"
 
 namespace talus::engine {
 namespace {

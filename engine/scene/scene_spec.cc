@@ -6,7 +6,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "engine/wall_motion.h"
+#include "engine/bodies/wall_motion.h"
+#include "engine/scene/scene_pairs.h"
 
 namespace talus::engine {
 namespace {
@@ -17,15 +18,6 @@ void RequirePositive(base::Problems& problems, const std::string& key, double va
 
 constexpr double kUsualRayleighFraction = 0.15;
 constexpr double kDensest = 0.64;  // solid fraction of a random packing of equal spheres
-
-// Index of the material called `name`, or the first for no name; -1 if there is none.
-int MaterialIndex(const SceneSpec& spec, const std::string& name) {
-  if (name.empty()) return 0;
-  for (std::size_t i = 0; i < spec.materials.size(); ++i) {
-    if (spec.materials[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
-}
 
 template <class T>
 void RequireMaterials(const SceneSpec& spec, const std::vector<T>& list, const std::string& key,
@@ -130,6 +122,14 @@ void SetTimeStep(const SceneSpec& spec, Scene& scene) {
 
 }  // namespace
 
+int MaterialIndex(const SceneSpec& spec, const std::string& name) {
+  if (name.empty()) return 0;
+  for (std::size_t i = 0; i < spec.materials.size(); ++i) {
+    if (spec.materials[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
 void SphereSpec::Validate(base::Problems& problems) const {
   RequirePositive(problems, "diameter", diameter);
   problems.Require(base::IsFinite(position), "position", "must be finite");
@@ -189,6 +189,7 @@ void SceneSpec::Validate(base::Problems& problems) const {
     problems.Require(first == static_cast<int>(i) && !materials[i].name.empty(),
                      "materials[" + std::to_string(i) + "].name", "must be given once, not empty");
   }
+  ValidatePairs(*this, problems);
   RequireMaterials(*this, spheres, "spheres", problems);
   RequireMaterials(*this, fills, "fills", problems);
   RequireMaterials(*this, pours, "pours", problems);
@@ -222,6 +223,10 @@ void SceneSpec::Validate(base::Problems& problems) const {
 Scene BuildScene(const SceneSpec& spec) {
   Scene scene;
   for (const NamedMaterial& material : spec.materials) scene.materials.push_back(material.material);
+  for (const PairSpec& pair : spec.pairs) {
+    scene.pairs.push_back(
+        {MaterialIndex(spec, pair.between[0]), MaterialIndex(spec, pair.between[1]), pair.stated});
+  }
   scene.models = spec.models;
   for (const SphereSpec& sphere : spec.spheres) {
     scene.particles.push_back({.id = static_cast<std::int64_t>(scene.particles.size()),

@@ -8,10 +8,11 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "engine/laws/material.h"
+#include "engine/scene.h"
 #include "engine/scene/filling.h"
-#include "engine/scene/material.h"
+#include "engine/scene/pair_spec.h"
 #include "engine/scene/pour.h"
-#include "engine/scene/scene.h"
 #include "engine/scene/size_distribution.h"
 #include "engine/scene/wall_spec.h"
 
@@ -165,6 +166,7 @@ struct DomainSpec {
 
 struct SceneSpec {
   std::vector<NamedMaterial> materials{};
+  std::vector<PairSpec> pairs{};
   ContactModels models;
   std::vector<SphereSpec> spheres{};
   std::vector<FillSpec> fills{};
@@ -185,6 +187,8 @@ struct SceneSpec {
   static void Visit(Self& self, Visitor&& visit) {
     using base::Dimension;
     visit("materials", self.materials, {.required = true, .doc = "one at least"});
+    visit("pairs", self.pairs,
+          {.doc = "what pairs of materials state themselves; else it follows from the two"});
     visit("models", self.models, {.doc = "contact laws between all bodies"});
     visit("spheres", self.spheres, {.doc = "one by one"});
     visit("fills", self.fills, {.doc = "drawn from a size distribution"});
@@ -208,6 +212,9 @@ struct SceneSpec {
   }
   void Validate(base::Problems& problems) const;
 };
+
+// Index of the material called `name`, or the first for no name; -1 if there is none.
+int MaterialIndex(const SceneSpec& spec, const std::string& name);
 
 // The scene of a valid spec. Throws ConfigError when a fill finds no room, or the time step is too
 // long for what is poured.

@@ -20,7 +20,11 @@ std::vector<std::string> AdhesionWarnings(const ContactModels& models,
 }
 
 std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene) {
-  std::vector<std::string> warnings = AdhesionWarnings(scene.models, scene.materials);
+  std::vector<Material> surfaces = scene.materials;
+  for (const MaterialPair& pair : scene.pairs) {
+    surfaces.push_back(With(scene.materials[pair.first], pair.stated));
+  }
+  std::vector<std::string> warnings = AdhesionWarnings(scene.models, surfaces);
   const double dt = TimeStep(scene);
   const double share = dt / SmallestRayleighTime(scene);
   if (share > kWarnRayleighFraction * (1 + 1e-9)) {

@@ -1,4 +1,5 @@
-// What of a valid scene is likely not what its author means. A run says it at its start.
+// Warnings: parts of a valid scene that are likely not what its author means. A run says it at its
+// start.
 #pragma once
 
 #include <string>

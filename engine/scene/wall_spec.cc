@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/wall_motion.h"
+#include "engine/bodies/wall_motion.h"
 
 namespace talus::engine {
 namespace {

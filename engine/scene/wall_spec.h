@@ -9,7 +9,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "base/vec3.h"
-#include "engine/wall.h"
+#include "engine/bodies/wall.h"
 
 namespace talus::engine {
 

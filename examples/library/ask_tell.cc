@@ -1,6 +1,6 @@
 // Drives a strategy by ask and tell: minimises a noisy function of two parameters.
 #include <talus/base/error.h>
-#include <talus/optimizer/strategies/make_strategy.h>
+#include <talus/optimizer/strategy/make_strategy.h>
 
 #include <iostream>
 #include <random>

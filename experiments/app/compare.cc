@@ -10,52 +10,27 @@
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
-#include "experiments/analysis/compare/strategy_runs.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
 
 namespace talus::app {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string campaign;
   std::filesystem::path out;
   std::string objective;
   std::string experiment;
   int add_simulations = 20;
-  std::vector<std::string> with;
 };
 
-void SearchOn(const Arguments& arguments) {
+void SearchOn(const CompareArguments& arguments) {
   for (const auto& [name, objective] : base::Names<journal::Objective>::kList) {
     if (name != arguments.objective) continue;
     GoOn(arguments.campaign, {.add_simulations = arguments.add_simulations, .objective = objective},
          {});
     return;
   }
-}
-
-// Empty without other campaigns.
-std::vector<analysis::StrategyRun> StrategyRuns(const Arguments& arguments,
-                                                const analysis::Evidence& evidence) {
-  if (arguments.with.empty()) return {};
-  std::vector<std::string> names{arguments.campaign};
-  names.insert(names.end(), arguments.with.begin(), arguments.with.end());
-  std::vector<analysis::Evidence> all{evidence};
-  for (const std::string& name : arguments.with)
-    all.push_back(analysis::GatherEvidence(name, arguments.experiment));
-  return analysis::CompareStrategies(names, all);
-}
-
-std::string StrategyComparison(const Arguments& arguments,
-                               const analysis::ComparedCampaign& compared,
-                               const std::vector<analysis::StrategyRun>& runs) {
-  double margin = 0;
-  for (const analysis::ObjectiveFinding& f : compared.findings) {
-    if (f.info.key == compared.evidence.objective) margin = f.margin();
-  }
-  base::WriteFileAtomically(arguments.out / "strategies.csv", analysis::StrategiesCsv(runs));
-  return analysis::StrategiesText(runs, margin) + "\n";
 }
 
 void WriteComparison(const analysis::ComparedCampaign& compared, const std::filesystem::path& out) {
@@ -71,18 +46,16 @@ void WriteComparison(const analysis::ComparedCampaign& compared, const std::file
   base::WriteFileAtomically(out / "compare.json", analysis::ComparisonJson(compared));
 }
 
-void RunCompare(Arguments arguments) {
+void RunCompare(CompareArguments arguments) {
   if (!arguments.objective.empty()) SearchOn(arguments);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
   const analysis::Evidence evidence =
       analysis::GatherEvidence(arguments.campaign, arguments.experiment);
   const std::vector<analysis::ObjectiveFinding> findings = analysis::CompareObjectives(evidence);
   const analysis::ComparedCampaign compared{evidence, findings};
-  const auto runs = StrategyRuns(arguments, evidence);  // all is read before anything is written
   base::ClaimOutputFolder(arguments.out, "compare");
   WriteComparison(compared, arguments.out);
-  std::string text = analysis::ComparisonText(compared) + "\n";
-  if (!runs.empty()) text += StrategyComparison(arguments, compared, runs);
+  const std::string text = analysis::ComparisonText(compared) + "\n";
   base::WriteFileAtomically(arguments.out / "compare.txt", text);
   std::cout << text << "  Tables and pictures are in " << arguments.out.string() << '\n';
 }
@@ -90,7 +63,7 @@ void RunCompare(Arguments arguments) {
 }  // namespace
 
 void AddCompareCommand(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
       "compare", "Which set each objective prefers, and how unique its answer is");
   command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
@@ -111,8 +84,6 @@ void AddCompareCommand(CLI::App& app) {
       ->needs(objective);
   command->add_option("--experiment", arguments->experiment,
                       "whose trials are compared, in a campaign with several; default: the first");
-  command->add_option("--with", arguments->with,
-                      "other campaigns on the same experiment, to compare their strategies");
   command->callback([arguments] { RunCompare(*arguments); });
 }
 

@@ -14,7 +14,7 @@
 namespace talus::app {
 namespace {
 
-struct Arguments {
+struct ConsiderArguments {
   std::string folder;
   std::vector<std::string> set;
   std::string hold_out;
@@ -36,7 +36,7 @@ std::map<std::string, std::string> ReadSet(const std::vector<std::string>& texts
   return set;
 }
 
-std::string Considered(const Arguments& arguments) {
+std::string Considered(const ConsiderArguments& arguments) {
   if (!arguments.hold_out.empty()) {
     const campaign::JointView view = campaign::ReadJointView(arguments.folder);
     const campaign::HeldOut held_out = campaign::HoldOut(view, arguments.hold_out);
@@ -62,7 +62,7 @@ std::string Considered(const Arguments& arguments) {
 }  // namespace
 
 void AddConsiderCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ConsiderArguments>();
   CLI::App* command = app.add_subcommand(
       "consider", "Where a given parameter set stands in what a campaign's trials say");
   command->add_option("DIR", arguments->folder, "the campaign's folder; it may be running")

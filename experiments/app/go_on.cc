@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/text/shell_text.h"
+#include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -25,12 +26,12 @@ void PrintEnd(const campaign::Campaign& campaign, const Ended& ended) {
     case campaign::CampaignEnd::kFinished:
       if (tell.quiet) return;
       if (tell.json) {
-        const auto result = nlohmann::ordered_json::parse(campaign::ResultText(*campaign.result()));
+        const auto result = nlohmann::ordered_json::parse(campaign::AnswerJson(*campaign.result()));
         std::cout << base::JsonText(nlohmann::ordered_json{{"event", "result"}, {"result", result}})
                   << std::endl;
         return;
       }
-      std::cout << campaign::ResultSummary(*campaign.result(), folder) << "  written to        "
+      std::cout << campaign::AnswerSummary(*campaign.result(), folder) << "  written to        "
                 << (folder / "result.json").string() << "\n  report            talus report "
                 << base::ShellWord(folder.string()) << std::endl;
       return;

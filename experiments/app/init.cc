@@ -21,7 +21,7 @@
 namespace talus::app {
 namespace {
 
-struct Arguments {
+struct InitArguments {
   std::vector<std::string> photos;
   std::filesystem::path out = "campaign.json";
   campaign::SpecAnswers answers;
@@ -82,32 +82,68 @@ void Complete(campaign::SpecAnswers& answers) {
 }
 
 // Names in the spec are as seen from the spec's own folder.
-std::filesystem::path SeenFrom(const std::filesystem::path& spec, const std::string& photo) {
+std::filesystem::path SeenFrom(const std::filesystem::path& spec,
+                               const std::filesystem::path& photo) {
   const auto folder = std::filesystem::absolute(spec).parent_path();
   return std::filesystem::absolute(photo).lexically_normal().lexically_proximate(
       folder.lexically_normal());
 }
 
-void FindPhotographs(const Arguments& arguments, campaign::SpecAnswers& answers) {
-  if (arguments.photos.size() == 1 && std::filesystem::is_directory(arguments.photos.front())) {
-    const imaging::PhotoSet set = imaging::FindPhotos(arguments.photos.front(), answers.pattern);
-    std::size_t views = 0;
-    for (const imaging::PhotoFiles& run : set.runs) views += run.views.size();
-    std::cout << arguments.photos.front() << ": " << set.runs.size() << " runs, " << views
-              << " photographs\n";
-    answers.folder = SeenFrom(arguments.out, arguments.photos.front());
-    return;
+void Say(const std::vector<std::string>& photos, const std::string& pattern,
+         const imaging::PhotoSet& set) {
+  std::size_t views = 0;
+  std::string names;
+  for (const imaging::PhotoFiles& run : set.runs) {
+    views += run.views.size();
+    names += (names.empty() ? " (" : ", ") + run.run;
   }
+  std::cout << (photos.size() == 1 ? photos.front() + ": " : "") << set.runs.size() << " heaps"
+            << names << "), " << views << " photographs, read by the pattern \"" << pattern
+            << "\"; name another with --pattern\n";
+}
+
+// Photographs one by one: what their names say of runs, or else views of one heap.
+void AddRuns(const InitArguments& arguments, campaign::SpecAnswers& answers) {
   base::Problems problems;
   for (const std::string& photo : arguments.photos) {
     problems.Require(std::filesystem::is_regular_file(photo), photo,
-                     "is not there; give a folder of photographs, or photographs of one heap");
-    answers.photos.push_back(SeenFrom(arguments.out, photo));
+                     "is not there; give a folder of photographs, or photographs one by one");
   }
   problems.ThrowIfAny();
+  const std::vector<std::filesystem::path> files(arguments.photos.begin(), arguments.photos.end());
+  const std::string pattern =
+      answers.pattern.empty() ? imaging::RecognisePattern(files) : answers.pattern;
+  const imaging::PhotoSet set = imaging::SortPhotos(files, pattern);
+  std::size_t matched = 0;
+  for (const imaging::PhotoFiles& run : set.runs) {
+    imaging::PhotoRun named{.name = run.run, .photos = {}};
+    for (const imaging::PhotoFile& view : run.views) {
+      named.photos.push_back(SeenFrom(arguments.out, view.path));
+    }
+    matched += named.photos.size();
+    answers.runs.push_back(std::move(named));
+  }
+  if (matched != files.size()) {
+    throw base::ConfigError("the pattern \"" + pattern + "\" fits " + std::to_string(matched) +
+                            " of " + std::to_string(files.size()) +
+                            " photographs; give one that fits all with --pattern");
+  }
+  Say(arguments.photos, pattern, set);
 }
 
-void Init(const Arguments& arguments) {
+void FindPhotographs(const InitArguments& arguments, campaign::SpecAnswers& answers) {
+  const std::string& first = arguments.photos.front();
+  if (arguments.photos.size() > 1 || !std::filesystem::is_directory(first)) {
+    AddRuns(arguments, answers);
+    return;
+  }
+  if (answers.pattern.empty())
+    answers.pattern = imaging::RecognisePattern(std::filesystem::path(first));
+  Say(arguments.photos, answers.pattern, imaging::FindPhotos(first, answers.pattern));
+  answers.folder = SeenFrom(arguments.out, first);
+}
+
+void Init(const InitArguments& arguments) {
   if (std::filesystem::exists(arguments.out)) {
     throw base::ConfigError(arguments.out.string() +
                             ": is there already; name another file with --out");
@@ -125,17 +161,18 @@ void Init(const Arguments& arguments) {
 }  // namespace
 
 void AddInitCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InitArguments>();
   CLI::App* verb =
       app.add_subcommand("init", "Write a commented spec for photographs of a heap, to start from");
   verb->add_option("PHOTOS", arguments->photos,
-                   "a folder of photographs, or the photographs of one heap one by one")
+                   "a folder of photographs, or photographs one by one")
       ->required();
   verb->add_option("--out", arguments->out, "file to write")->capture_default_str();
   verb->add_option("--name", arguments->answers.name, "of the powder; default: that of the folder");
-  verb->add_option("--pattern", arguments->answers.pattern,
-                   "of the file names in a folder: {run}, {view}, *")
-      ->capture_default_str();
+  verb->add_option(
+      "--pattern", arguments->answers.pattern,
+      "of the photographs' names: {run}, {view}, *, such as {run}/{view}.jpg; default: "
+      "what fits");
   for (const Question& question : kQuestions) {
     verb->add_option(
         question.flag, arguments->answers.*question.answer,

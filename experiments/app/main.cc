@@ -1,6 +1,7 @@
 // The program `talus`.
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -20,14 +21,26 @@
 namespace {
 
 // A reader that goes away (`talus status DIR | head`, Ctrl-C on `talus calibrate … | tee log`) must
-// not end the program without a word. A handler instead of SIG_IGN: the programs we start begin
-// with the default again.
-void LetReadersGo() {
+// not end the program without a word, nor a file that grows past what `ulimit -f` allows: the write
+// fails, and is told of. A handler instead of SIG_IGN: the programs we start begin with the default
+// again.
+void LetWritesFail() {
   struct sigaction action {};
   action.sa_handler = [](int) {};
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
-  sigaction(SIGPIPE, &action, nullptr);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) sigaction(signal, &action, nullptr);
+}
+
+// Standard output holds the answer; where it cannot be written, a full disk say, there is none. A
+// reader that has gone away wants no more.
+void RequireAnswerWritten() {
+  struct stat output {};
+  if (std::cout.flush() || fstat(STDOUT_FILENO, &output) != 0 || S_ISFIFO(output.st_mode) ||
+      S_ISSOCK(output.st_mode)) {
+    return;
+  }
+  throw talus::base::Error("standard output cannot be written; is its disk full?");
 }
 
 // Between two loops OpenMP's threads (base/parallel_for.h) spin beside trials that need the cores,
@@ -84,12 +97,14 @@ std::string InWords(const std::exception& error) {
 
 int main(int argc, char** argv) {
   WaitAsleep(argv);
-  LetReadersGo();
+  LetWritesFail();
   // Names, logs and messages of others are shown, never obeyed.
   const talus::base::PrintableStream output(std::cout);
   const talus::base::PrintableStream errors(std::cerr);
   try {
-    return Run(argc, argv);
+    const int status = Run(argc, argv);
+    RequireAnswerWritten();
+    return status;
   } catch (const talus::base::ConfigError& error) {
     std::cerr << error.what() << '\n';
     return talus::base::kExitBadInput;

@@ -28,10 +28,31 @@ struct MeasureFlags {
   std::string powder = "auto";
   std::optional<double> threshold{};
   int views = 16;
+  std::string diameter;  // of a drum
+  std::string turning;
+  bool drum = false;
   bool map = false;
   bool allow_missing_views = false;
   bool choose_mass = false;
 };
+
+// What only one kind of test has stands with it alone.
+std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
+  if (!flags.drum) {
+    if (flags.diameter.empty() && flags.turning.empty()) return std::nullopt;
+    throw base::ConfigError("--diameter and --turning are of a drum; add --drum");
+  }
+  if (flags.diameter.empty()) {
+    throw base::ConfigError("--diameter is missing; give the drum's inside with its unit: 84mm");
+  }
+  imaging::DrumPhotos options{
+      .photos = {},
+      .diameter = FlagQuantity("--diameter", flags.diameter, base::Dimension::kLength)};
+  for (const auto& [name, turning] : base::Names<imaging::Turning>::kList) {
+    if (name == flags.turning) options.turning = turning;
+  }
+  return options;
+}
 
 imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
   using base::Dimension;
@@ -40,7 +61,7 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
     options.plate_diameter =
         FlagQuantity("--plate-diameter", flags.plate_diameter, Dimension::kLength);
   }
-  if (!flags.pattern.empty()) options.pattern = flags.pattern;
+  options.pattern = flags.pattern;
   if (!flags.frame.empty()) {
     options.frame = imaging::ReadFrame(flags.frame);
     if (flags.plate_diameter.empty()) options.plate_diameter = options.frame->plate_diameter;
@@ -55,7 +76,7 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
   }
   options.allow_missing_views = flags.allow_missing_views;
   options.scale = flags.scale;
-  if (options.plate_diameter == 0 && flags.like.empty() && flags.scale.empty()) {
+  if (options.plate_diameter == 0 && flags.like.empty() && flags.scale.empty() && !flags.drum) {
     throw base::ConfigError(
         "--plate-diameter is missing; give it with its unit: 10mm; or, of a heap on a table "
         "without a "
@@ -69,6 +90,7 @@ void Measure(const MeasureFlags& flags) {
   trials::MeasureRequest request{.inputs = {flags.inputs.begin(), flags.inputs.end()},
                                  .out = flags.out,
                                  .experiment = Experiment(flags),
+                                 .drum = Drum(flags),
                                  .is_map = flags.map,
                                  .like = flags.like,
                                  .num_views = flags.views,
@@ -79,11 +101,20 @@ void Measure(const MeasureFlags& flags) {
   }
   if (!flags.like.empty()) {
     trials::MeasureSpheres(request, std::cout);
+  } else if (request.drum) {
+    trials::MeasureDrums(request, std::cout);
   } else if (flags.choose_mass) {
     trials::MeasureMasses(request, std::cout);
   } else {
     trials::MeasurePhotos(request, std::cout);
   }
+}
+
+template <class Enum>
+std::vector<std::string> NamesOf() {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : base::Names<Enum>::kList) names.emplace_back(name);
+  return names;
 }
 
 void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
@@ -93,8 +124,9 @@ void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
       "--scale", flags.scale,
       "of a heap on a table without a plate: two points in pixels and the length between "
       "them, such as \"104,310-884,312=30mm\"");
-  verb.add_option("--pattern", flags.pattern,
-                  "file names in a folder: {run}, {view}, * (default: run{run}_view{view}.*)");
+  verb.add_option(
+      "--pattern", flags.pattern,
+      "file names in a folder: {run}, {view}, *, such as {run}/{view}.jpg; default: what fits");
   verb.add_flag("--map", flags.map, "the input is a grey average map, black = powder");
   verb.add_option("--frame", flags.frame,
                   "JSON file with the plate's place, instead of finding it (see docs/imaging.md)");
@@ -102,14 +134,21 @@ void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_option("--pixel-size", flags.pixel_size, "of the profiles, such as 50um");
   verb.add_option("--threshold", flags.threshold,
                   "darker than this share of the background is powder, in (0, 1)");
-  std::vector<std::string> looks;
-  for (const auto& [name, look] : base::Names<imaging::PowderLook>::kList) looks.emplace_back(name);
   verb.add_option("--powder", flags.powder,
                   "before its background: dark (lit from behind), bright (lit from the front)")
-      ->check(CLI::IsMember(looks))
+      ->check(CLI::IsMember(NamesOf<imaging::PowderLook>()))
       ->capture_default_str();
   verb.add_flag("--allow-missing-views", flags.allow_missing_views,
                 "go on without views that are missing or unusable, and say which");
+}
+
+void AddDrumFlags(CLI::App& verb, MeasureFlags& flags) {
+  verb.add_flag("--drum", flags.drum,
+                "photographs of a turning drum, a series or its average: angle, fill, map");
+  verb.add_option("--diameter", flags.diameter, "with --drum: its inside, such as 84mm");
+  verb.add_option("--turning", flags.turning,
+                  "with --drum: as the camera sees it; default: read from the picture")
+      ->check(CLI::IsMember(NamesOf<imaging::Turning>()));
 }
 
 }  // namespace
@@ -124,6 +163,7 @@ void AddMeasureCommand(CLI::App& app) {
       ->required();
   verb->add_option("--out", flags->out, "folder for images, tables and overlays");
   AddPhotoFlags(*verb, *flags);
+  AddDrumFlags(*verb, *flags);
   verb->add_flag("--choose-mass", flags->choose_mass,
                  "folders named by mass and day (1.5g_day1): NEBP table, plot and choice");
   verb->add_option("--like", flags->like,

@@ -16,14 +16,14 @@
 namespace talus::app {
 namespace {
 
-struct Arguments {
+struct NextArguments {
   std::string folder;
   std::string candidates;
   bool simulate = false;
   bool json = false;
 };
 
-void Next(const Arguments& arguments) {
+void Next(const NextArguments& arguments) {
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
   analysis::NextOptions options{
@@ -43,7 +43,7 @@ void Next(const Arguments& arguments) {
 }  // namespace
 
 void AddNextCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<NextArguments>();
   CLI::App* command = app.add_subcommand(
       "next", "Which test, photographs or simulations would teach most about the parameters");
   command->add_option("DIR", arguments->folder, "the campaign's folder")->required();

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kWatchPeriod = 5;  // between two looks at the campaign [s]
 
-struct Arguments {
+struct ReportArguments {
   std::filesystem::path campaign;
   std::filesystem::path out;
   std::string experiment;
@@ -38,7 +38,7 @@ std::string StateOf(const analysis::Evidence& evidence) {
 }
 
 // Keeps the page current until the campaign stands still or the user ends it.
-void Watch(const Arguments& arguments) {
+void Watch(const ReportArguments& arguments) {
   const base::InterruptGuard interrupt;
   std::string shown;
   std::vector<analysis::RegionPoint> history;
@@ -65,7 +65,7 @@ void Watch(const Arguments& arguments) {
   }
 }
 
-void ReportSearch(const Arguments& arguments) {
+void ReportSearch(const ReportArguments& arguments) {
   if (arguments.watch || !arguments.experiment.empty()) {
     throw base::ConfigError(arguments.campaign.string() +
                             ": is the folder of a search by `talus optimize`; --watch and "
@@ -79,7 +79,7 @@ void ReportSearch(const Arguments& arguments) {
 }  // namespace
 
 void AddReportCommand(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report",
                                          "Write the report of a campaign or a search: one HTML "
                                          "page, with its figures and tables beside it");

@@ -1,5 +1,5 @@
 // talus status
-#include "experiments/campaign/folder/status.h"
+#include "experiments/campaign/status.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>

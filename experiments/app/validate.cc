@@ -12,7 +12,8 @@
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/plan/estimate.h"
 #include "experiments/campaign/start.h"
-#include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 
@@ -31,10 +32,8 @@ void PrintExperiment(const journal::ExperimentRecord& e, const journal::Campaign
   std::cout << '\n';
 }
 
-// Where a warning holds, in campaigns with several of such places.
-std::string At(const campaign::CampaignSpec& spec, const std::string& experiment,
-               double scale_factor) {
-  if (!spec.IsJoint()) return "";
+// Where a warning holds.
+std::string At(const std::string& experiment, double scale_factor) {
   return experiment + " at scale factor " + base::ShortNumber(scale_factor) + ": ";
 }
 
@@ -78,24 +77,24 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   const double finest = std::ranges::min(spec.coarse_graining.Levels());
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
-      const rigs::HeapCase heap_case = campaign::TypicalCase(spec, static_cast<int>(e), factor);
+      const rigs::Case rig_case = campaign::TypicalCase(spec, static_cast<int>(e), factor);
       for (const std::string& warning :
-           factor == finest ? rigs::HeapWarnings(heap_case) : rigs::SetUpWarnings(heap_case)) {
-        std::cout << "  warning: " << At(spec, experiments[e].name, factor) << warning << '\n';
+           factor == finest ? rigs::CaseWarnings(rig_case) : rigs::SetUpWarnings(rig_case)) {
+        std::cout << "  warning: " << At(experiments[e].name, factor) << warning << '\n';
       }
     }
   }
 }
 
 void ValidateHeap(const base::JsonFile& file, bool) {
-  const rigs::HeapCase heap_case = rigs::LoadHeapCase(file.path);
-  const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
+  const rigs::Case rig_case = rigs::LoadCase(file.path);
+  const rigs::CaseSize size = rigs::EstimateCase(rig_case);
   std::cout << file.path.string() << ": is a heap case in order\n  grains            "
             << size.num_grains << " of " << base::ShortNumber(1e3 * size.mean_diameter)
             << " mm (D50)\n  steps             about "
             << base::ShortNumber(size.simulated_time / size.time_step) << " of "
             << base::ShortNumber(size.time_step) << " s\n";
-  for (const std::string& warning : rigs::HeapWarnings(heap_case)) {
+  for (const std::string& warning : rigs::CaseWarnings(rig_case)) {
     std::cout << "  warning: " << warning << '\n';
   }
 }

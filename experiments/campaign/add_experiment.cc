@@ -5,6 +5,7 @@
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/start.h"
 #include "experiments/campaign/take_over.h"
 

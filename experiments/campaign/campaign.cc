@@ -44,7 +44,7 @@ Campaign::Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal jo
       spec_(spec),
       record_(journal_.Campaign()),
       references_(ReferencesOf(record_, spec_)),
-      planner_(spec_, references_, MakeCampaignStrategy(spec_, record_, references_)),
+      planner_(spec_, record_, references_),
       parts_(std::move(parts)),
       console_(console),
       start_(Clock::now()),
@@ -103,8 +103,7 @@ void Campaign::TakeUpRunning() {
 
 bool Campaign::StartTrials() {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
-    planner_.StopSearch("the time budget of " + trials::DurationText(*spec_.budget.wall_clock) +
-                        " is used");
+    planner_.StopSearch({.kind = StopKind::kWallClock, .value = *spec_.budget.wall_clock});
   }
   const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
   if (room <= 0) return false;
@@ -170,7 +169,7 @@ runners::Job Campaign::JobOf(const journal::TrialRecord& trial) const {
           .time_cap = spec_.trial_time_cap};
 }
 
-rigs::HeapCase Campaign::CaseOfTrial(const journal::TrialRecord& trial) const {
+rigs::Case Campaign::CaseOfTrial(const journal::TrialRecord& trial) const {
   const std::vector<double> values = planner_.space().ToNative(PointOf(trial));
   return CaseOf(spec_,
                 {.values = values,
@@ -284,7 +283,7 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
   journal::ProgressRecord progress{
       .state = finished ? "finished" : "interrupted",
-      .stop_reason = finished ? planner_.stop_reason() : "it was interrupted",
+      .stop_reason = finished ? planner_.stop()->Text() : "it was interrupted",
       .elapsed_s = Elapsed(),
       .result_json = {}};
   if (finished) {
@@ -301,12 +300,12 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
   journal_.AddEvent("stop", 0, progress.stop_reason);
   if (!finished) return CampaignEnd::kInterrupted;
   if (result_) return CampaignEnd::kFinished;
-  console_.Line("no result: " + planner_.stop_reason());
+  console_.Line("no result: " + progress.stop_reason);
   return CampaignEnd::kFailed;
 }
 
 void Campaign::WriteResult(journal::ProgressRecord& progress) {
-  progress.result_json = ResultText(*result_);
+  progress.result_json = AnswerJson(*result_);
   base::WriteFileAtomically(folder_.result(), progress.result_json);
   const auto answer = planner_.Recommend();
   if (!answer || !answer->posterior) return;
@@ -323,20 +322,18 @@ void Campaign::NoteBest(const journal::TrialRecord& trial) {
 }
 
 void Campaign::Report(const journal::TrialRecord& trial) {
-  TrialProgress progress{.trial = trial.id,
-                         .kind = trial.kind,
-                         .status = trial.status,
-                         .values = trial.native,
-                         .objective = ReferenceOf(trial).Value(trial),
-                         .unit = std::string(references_.front().info().unit),
-                         .best = best_ && best_->second == trial.id,
-                         .reason = trial.reason,
-                         .duration = trial.duration_s};
-  if (spec_.IsJoint()) {
-    progress.experiment = record_.experiments[static_cast<std::size_t>(trial.experiment)].name;
-    progress.scale_factor = trial.scale_factor;
-  }
-  console_.Trial(progress);
+  console_.Trial(
+      {.trial = trial.id,
+       .kind = trial.kind,
+       .status = trial.status,
+       .values = trial.native,
+       .scale_factor = trial.scale_factor,
+       .experiment = record_.experiments[static_cast<std::size_t>(trial.experiment)].name,
+       .objective = ReferenceOf(trial).Value(trial),
+       .unit = std::string(journal::InfoOf(spec_.objective).unit),
+       .best = best_ && best_->second == trial.id,
+       .reason = trial.reason,
+       .duration = trial.duration_s});
 }
 
 void Campaign::ShowStatus() {
@@ -344,7 +341,7 @@ void Campaign::ShowStatus() {
   int num_finished = 0;
   CampaignProgress progress{.budget = spec_.budget.simulations,
                             .num_running = static_cast<int>(running_.size()),
-                            .unit = std::string(references_.front().info().unit)};
+                            .unit = std::string(journal::InfoOf(spec_.objective).unit)};
   for (const journal::TrialRecord& trial : planner_.trials()) {
     if (trial.kind != journal::TrialKind::kConfirm) ++progress.num_search;
     if (trial.status == journal::TrialStatus::kRunning || !(trial.duration_s > 0)) continue;

@@ -13,11 +13,11 @@
 #include <string>
 
 #include "base/interrupt.h"
-#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/plan/planner.h"
-#include "experiments/campaign/reference.h"
+#include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
 #include "experiments/runners/runner.h"
@@ -45,7 +45,7 @@ class Campaign {
   // next process.
   CampaignEnd Run(const base::InterruptGuard& interrupt);
 
-  const std::optional<CampaignResult>& result() const { return result_; }
+  const std::optional<Answer>& result() const { return result_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -55,7 +55,7 @@ class Campaign {
   bool StartTrials();
   void Submit(const std::vector<journal::TrialRecord>& trials);
   runners::Job JobOf(const journal::TrialRecord& trial) const;
-  rigs::HeapCase CaseOfTrial(const journal::TrialRecord& trial) const;
+  rigs::Case CaseOfTrial(const journal::TrialRecord& trial) const;
   void HandleEnd(const runners::FinishedJob& job);
   bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
   void Collect(journal::TrialRecord& trial, const runners::FinishedJob& job);
@@ -87,7 +87,7 @@ class Campaign {
   std::deque<journal::TrialRecord> waiting_;             // to be run again, when there is room
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
-  std::optional<CampaignResult> result_;
+  std::optional<Answer> result_;
   Clock::time_point start_;
   Clock::time_point noted_;    // when the time worked on it was last written
   double elapsed_before_ = 0;  // [s]

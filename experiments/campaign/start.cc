@@ -230,46 +230,4 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
           .spec = std::move(spec)};
 }
 
-std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
-                                    const CampaignSpec& spec) {
-  const std::vector<ExperimentSpec> specs = ExperimentsOf(spec);
-  std::vector<Reference> references;
-  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
-    const journal::ExperimentRecord& experiment = record.experiments[e];
-    std::optional<imaging::Profile> aehp;
-    if (!experiment.aehp_png.empty()) {
-      aehp = {.image = imaging::DecodeGrayImage(experiment.aehp_png, "the journal's AEHP"),
-              .frame = journal::ParseRecord<imaging::Frame>(experiment.frame_json,
-                                                            "the journal's frame")};
-    }
-    references.emplace_back(std::move(aehp), ReferenceOptions{.metrics = specs.at(e).images.metrics,
-                                                              .objective = spec.objective,
-                                                              .num_heaps = experiment.num_heaps,
-                                                              .scalars = experiment.scalars});
-  }
-  return references;
-}
-
-std::vector<float> StoredField(journal::Journal& journal, const CampaignFolder& folder,
-                               const std::vector<Reference>& references,
-                               const journal::TrialRecord& trial) {
-  if (trial.status != journal::TrialStatus::kOk || !IsOfSearch(trial)) return {};
-  const Reference& reference = references[static_cast<std::size_t>(trial.experiment)];
-  if (!reference.has_image()) return {};
-  const auto profile = StoredProfile(journal, folder, trial.id);
-  if (!profile) return {};
-  return reference.Field(*profile);
-}
-
-std::optional<imaging::GrayImage> StoredProfile(journal::Journal& journal,
-                                                const CampaignFolder& folder, std::int64_t trial) {
-  const std::string png = journal.ProfilePng(trial);
-  try {
-    if (!png.empty()) return imaging::DecodeGrayImage(png, "a profile of the journal");
-    return imaging::ReadGrayImage(folder.trial(trial) / "profile.png");
-  } catch (const base::ConfigError&) {
-    return std::nullopt;  // the trial then counts by its number alone
-  }
-}
-
 }  // namespace talus::campaign

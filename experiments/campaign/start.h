@@ -48,17 +48,4 @@ struct OpenedCampaign {
 OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
                             Console& console);
 
-// The experiments as the journal keeps them.
-std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
-                                    const CampaignSpec& spec);
-
-// What a strategy is told of a trial's image: empty when it failed, confirms, or its image is lost.
-std::vector<float> StoredField(journal::Journal& journal, const CampaignFolder& folder,
-                               const std::vector<Reference>& references,
-                               const journal::TrialRecord& trial);
-
-// A trial's profile: from the journal, or from its folder if the journal's copy is damaged.
-std::optional<imaging::GrayImage> StoredProfile(journal::Journal& journal,
-                                                const CampaignFolder& folder, std::int64_t trial);
-
 }  // namespace talus::campaign

@@ -30,7 +30,7 @@ Numbers NextOf(const std::vector<journal::TrialRecord>& trials) {
   return next;
 }
 
-rigs::HeapCase CaseOfTrial(const NewExperiment& experiment, const journal::TrialRecord& trial) {
+rigs::Case CaseOfTrial(const NewExperiment& experiment, const journal::TrialRecord& trial) {
   const optimizer::ParameterSpace space = SpaceOf(experiment.spec);
   const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(
       trial.unit.data(), static_cast<Eigen::Index>(trial.unit.size()));
@@ -68,10 +68,10 @@ std::optional<double> TakeOver(const NewExperiment& experiment, const journal::T
                                const std::filesystem::path& from, const std::filesystem::path& to,
                                trials::TrialEngine& engine) {
   if (!engine.IsComplete(from)) return std::nullopt;
-  const rigs::HeapCase heap_case = CaseOfTrial(experiment, trial);
+  const rigs::Case rig_case = CaseOfTrial(experiment, trial);
   try {
-    if (!engine.TakeOver(heap_case, from, to)) return std::nullopt;
-    return engine.Collect(heap_case, to).cpu_time;
+    if (!engine.TakeOver(rig_case, from, to)) return std::nullopt;
+    return engine.Collect(rig_case, to).cpu_time;
   } catch (const base::Error&) {
     std::filesystem::remove_all(to);
     return std::nullopt;

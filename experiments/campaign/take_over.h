@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/campaign/folder/campaign_folder.h"
-#include "experiments/campaign/reference.h"
+#include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
 #include "experiments/trials/engines/trial_engine.h"

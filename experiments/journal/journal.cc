@@ -35,23 +35,11 @@ void CheckThatItIsAJournal(Database& database, const std::filesystem::path& path
   if (Pragma(database, "application_id") != kJournalApplicationId) {
     throw base::Error(path.string() + ": is not a journal of talus, or is damaged");
   }
-  if (version > static_cast<std::int64_t>(kSchemaSteps.size())) {
-    throw base::Error(path.string() + ": was written by a newer talus (schema " +
-                      std::to_string(version) + "); use that version");
+  if (version != kSchemaVersion) {
+    throw base::ConfigError(path.string() + ": is of schema " + std::to_string(version) +
+                            ", and this talus reads schema " + std::to_string(kSchemaVersion) +
+                            " only; use the version that wrote it");
   }
-}
-
-void Migrate(Database& database) {
-  const auto version = static_cast<std::size_t>(Pragma(database, "user_version"));
-  if (version == kSchemaSteps.size()) return;
-  Transaction transaction(database);
-  for (std::size_t step = version; step < kSchemaSteps.size(); ++step) {
-    database.Execute(kSchemaSteps[step]);
-  }
-  database.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
-                   "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
-  SealAll(database);
-  transaction.Commit();
 }
 
 std::uint32_t BigEndian(std::string_view bytes) {
@@ -140,11 +128,11 @@ Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord&
   }
   Journal journal{Database(path, Database::Mode::kCreate)};
   Transaction transaction(journal.database_);
-  for (const char* step : kSchemaSteps) journal.database_.Execute(step);
+  journal.database_.Execute(kSchema);
   journal.InsertCampaign(campaign);
   journal.CreateView(campaign);
   journal.database_.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
-                            "; PRAGMA user_version = " + std::to_string(kSchemaSteps.size()));
+                            "; PRAGMA user_version = " + std::to_string(kSchemaVersion));
   SealCampaign(journal.database_);
   transaction.Commit();
   return journal;
@@ -160,7 +148,6 @@ Journal Journal::Open(const std::filesystem::path& path) {
   if (const std::string broken = BrokenSeal(database); !broken.empty()) {
     throw base::Error(path.string() + ": is damaged: " + broken);
   }
-  Migrate(database);
   return Journal(std::move(database));
 }
 
@@ -172,9 +159,6 @@ Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
   }
   Database database(path, Database::Mode::kReadOnly);
   CheckThatItIsAJournal(database, path);
-  if (Pragma(database, "user_version") < static_cast<std::int64_t>(kSchemaSteps.size())) {
-    throw base::Error(path.string() + ": was written by an older talus; `talus resume` updates it");
-  }
   database.Execute("BEGIN");  // another process may be writing
   const std::string broken = BrokenSeal(database);
   database.Execute("COMMIT");

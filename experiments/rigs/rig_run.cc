@@ -5,7 +5,7 @@
 #include "base/files/file.h"
 #include "base/sphere.h"
 #include "engine/run/state_file.h"
-#include "experiments/rigs/lifted_tube/heap_result.h"
+#include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/spheres/projection.h"
@@ -21,18 +21,18 @@ std::vector<base::Sphere> Spheres(const std::vector<engine::Particle>& particles
 
 }  // namespace
 
-RigRun::RigRun(const HeapCase& heap_case, std::filesystem::path folder)
-    : case_(heap_case),
+RigRun::RigRun(const Case& rig_case, std::filesystem::path folder)
+    : case_(rig_case),
       folder_(std::move(folder)),
-      rig_(MakeRig(heap_case)),
+      rig_(MakeRig(rig_case)),
       states_(folder_, case_.outputs.times) {}
 
-RigRun::RigRun(const HeapCase& heap_case, std::filesystem::path folder,
+RigRun::RigRun(const Case& rig_case, std::filesystem::path folder,
                const engine::RunCheckpoint& checkpoint)
-    : case_(heap_case),
+    : case_(rig_case),
       folder_(std::move(folder)),
-      rig_(RestoreRig(heap_case, checkpoint.state,
-                      engine::Simulation::Restore(checkpoint.simulation, heap_case.threads))),
+      rig_(RestoreRig(rig_case, checkpoint.state,
+                      engine::Simulation::Restore(checkpoint.simulation, rig_case.threads))),
       states_(folder_, case_.outputs.times) {
   states_.SkipUntil(rig_->simulation().time());
 }
@@ -45,7 +45,7 @@ bool RigRun::Advance() {
 }
 
 std::string RigRun::Checkpoint(const engine::RunTiming& timing) const {
-  return engine::Pack({.input_hash = HeapCaseHash(case_),
+  return engine::Pack({.input_hash = CaseHash(case_),
                        .timing = timing,
                        .state = rig_->StateLine(),
                        .simulation = rig_->simulation().Checkpoint()});

@@ -11,17 +11,17 @@
 
 #include "engine/run/run.h"
 #include "engine/run/state_writer.h"
-#include "experiments/rigs/lifted_tube/heap_case.h"
-#include "experiments/rigs/rig.h"
+#include "experiments/rigs/case/case.h"
+#include "experiments/rigs/phased/rig.h"
 
 namespace talus::rigs {
 
 class RigRun : public engine::Run {
  public:
-  RigRun(const HeapCase& heap_case, std::filesystem::path folder);
+  RigRun(const Case& rig_case, std::filesystem::path folder);
 
   // Goes on from a checkpoint of the same case.
-  RigRun(const HeapCase& heap_case, std::filesystem::path folder,
+  RigRun(const Case& rig_case, std::filesystem::path folder,
          const engine::RunCheckpoint& checkpoint);
 
   bool Advance() override;
@@ -31,7 +31,7 @@ class RigRun : public engine::Run {
   void WriteResults(const engine::RunTiming& timing) const override;
 
  private:
-  HeapCase case_;
+  Case case_;
   std::filesystem::path folder_;
   std::unique_ptr<Rig> rig_;
   engine::StateWriter states_;

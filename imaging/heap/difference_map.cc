@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "imaging/drawing/canvas.h"
 #include "imaging/heap/metrics.h"
-#include "imaging/photos/canvas.h"
 
 namespace talus::imaging {
 namespace {

@@ -4,7 +4,7 @@
 //                        < 0, red: it has too much;  0, white
 #pragma once
 
-#include "imaging/formats/images/image_file.h"
+#include "imaging/color_image.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::imaging {

@@ -146,4 +146,10 @@ Overhang FindOverhang(const Outline& outline) {
   return overhang;
 }
 
+Overhang WorstOverhang(const Outline& one, const Outline& other) {
+  const Overhang a = FindOverhang(one);
+  const Overhang b = FindOverhang(other);
+  return {.left = std::max(a.left, b.left), .right = std::max(a.right, b.right)};
+}
+
 }  // namespace talus::imaging

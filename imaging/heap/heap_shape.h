@@ -36,4 +36,7 @@ struct Overhang {
 };
 Overhang FindOverhang(const Outline& outline);
 
+// The larger one of two outlines of a heap, side by side.
+Overhang WorstOverhang(const Outline& one, const Outline& other);
+
 }  // namespace talus::imaging

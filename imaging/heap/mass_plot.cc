@@ -2,8 +2,8 @@
 #include <array>
 #include <map>
 
+#include "imaging/drawing/canvas.h"
 #include "imaging/heap/mass_study.h"
-#include "imaging/photos/canvas.h"
 
 namespace talus::imaging {
 namespace {

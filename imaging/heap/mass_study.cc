@@ -71,8 +71,9 @@ void JudgeRepeatability(MassRow& row, const MassRule& rule) {
     Remark(row, text);
   };
   if (row.num_runs < 2) fail("one run says nothing of repeatability");
-  const double scatter = row.sd_mm2 / row.mean_mm2;
-  if (!(scatter <= rule.largest_scatter)) fail("scatters by " + Percent(scatter));
+  const double relative_sd = row.sd_mm2 / row.mean_mm2;
+  if (!(relative_sd <= rule.largest_sd))
+    fail("has a standard deviation of " + Percent(relative_sd));
   const double change = DayChange(row);
   if (!(change <= rule.largest_day_change)) fail("changes by " + Percent(change) + " between days");
 }
@@ -100,9 +101,8 @@ std::string RuleText(const MassRule& rule) {
   return "the smallest mass whose heap is formed (base at least " + Percent(rule.least_base) +
          " of the plate wide in every run, and no larger mass has more than " +
          Percent(rule.largest_gain) +
-         " more NEBP) and repeatable (two runs or more, NEBP scatters by "
-         "at most " +
-         Percent(rule.largest_scatter) + " and its means by day differ by at most " +
+         " more NEBP) and repeatable (two runs or more, standard deviation of NEBP at most " +
+         Percent(rule.largest_sd) + " and its means by day differ by at most " +
          Percent(rule.largest_day_change) + ")";
 }
 

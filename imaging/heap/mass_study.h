@@ -1,10 +1,10 @@
 // How much powder the heap test needs: NEBP over mass and day.
 //
 // The rule: the smallest mass whose heap is
-//   formed      it covers the plate (its base is at least 97 % of the plate wide in every run), and
-//   no
-//               larger mass has a mean NEBP more than 3 % higher: more powder only falls off;
-//   repeatable  at least two runs, their NEBP scatters by at most 5 % (standard deviation / mean),
+//   formed      it covers the plate (its base is at least 97 % of the plate wide in every run),
+//               and no larger mass has a mean NEBP more than 3 % higher: more powder only falls
+//               off;
+//   repeatable  at least two runs, the standard deviation of their NEBP at most 5 % of its mean,
 //               and the means of its days differ by at most 5 %.
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/formats/images/image_file.h"
+#include "imaging/color_image.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::imaging {
@@ -21,7 +21,7 @@ namespace talus::imaging {
 struct MassRule {
   double least_base = 0.97;          // base width / plate diameter [-], in (0, 1]
   double largest_gain = 0.03;        // of NEBP by a larger mass [-], >= 0
-  double largest_scatter = 0.05;     // standard deviation / mean of NEBP over runs [-], >= 0
+  double largest_sd = 0.05;          // standard deviation / mean of NEBP over runs [-], >= 0
   double largest_day_change = 0.05;  // range of the days' means / mean [-], >= 0
 };
 

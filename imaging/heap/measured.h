@@ -2,28 +2,20 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
-#include <utility>
 
 namespace talus::imaging {
 
 struct Measured {
   double value = std::numeric_limits<double>::quiet_NaN();           // unit as the owner says
   double standard_error = std::numeric_limits<double>::quiet_NaN();  // NaN when nothing tells it
-  std::string not_defined;  // "the heap is empty": completes "not defined, because …"
+  std::string not_defined{};  // "the heap is empty": completes "not defined, because …"
 
   bool defined() const { return not_defined.empty(); }
 };
 
-inline Measured Defined(double value) {
-  Measured measured;
-  measured.value = value;
-  return measured;
-}
-inline Measured NotDefined(std::string because) {
-  Measured measured;
-  measured.not_defined = std::move(because);
-  return measured;
-}
+// s / √n of the values; NaN for fewer than two.
+double StandardError(std::span<const double> values);
 
 }  // namespace talus::imaging

@@ -30,7 +30,7 @@ Measured Rmse(const GrayImage& a, const GrayImage& b, const std::optional<Region
   const Region where =
       region.value_or(Region{.left = 0, .top = 0, .width = a.width, .height = a.height});
   if (where.left + where.width > a.width || where.top + where.height > a.height) {
-    return NotDefined("the region is not within the image");
+    return {.not_defined = "the region is not within the image"};
   }
   double squares = 0;
   for (int y = where.top; y < where.top + where.height; ++y) {
@@ -39,7 +39,7 @@ Measured Rmse(const GrayImage& a, const GrayImage& b, const std::optional<Region
       squares += difference * difference;
     }
   }
-  return Defined(std::sqrt(squares / where.width / where.height));
+  return {.value = std::sqrt(squares / where.width / where.height)};
 }
 
 Measured Iou(const GrayImage& a, const GrayImage& b) {
@@ -49,7 +49,8 @@ Measured Iou(const GrayImage& a, const GrayImage& b) {
     both += 255 - std::max(a.pixels[i], b.pixels[i]);
     either += 255 - std::min(a.pixels[i], b.pixels[i]);
   }
-  return either > 0 ? Defined(both / either) : NotDefined("both heaps are empty");
+  return either > 0 ? Measured{.value = both / either}
+                    : Measured{.not_defined = "both heaps are empty"};
 }
 
 // Plate diameter [px].
@@ -57,14 +58,14 @@ double BaseWidth(const Frame& frame) { return frame.plate_diameter / frame.pixel
 
 Measured TriangleAngle(const Profile& profile) {
   const double area = Nebp(profile.image);
-  if (!(area > 0)) return NotDefined("the heap is empty");
+  if (!(area > 0)) return {.not_defined = "the heap is empty"};
   const double base = BaseWidth(profile.frame);
-  return Defined(std::atan(4 * area / (base * base)));
+  return {.value = std::atan(4 * area / (base * base))};
 }
 
 Measured CohesiveIndex(const Profile& profile) {
   const Outline outline = FindOutline(profile.image, profile.frame);
-  if (outline.empty()) return NotDefined("the heap is empty");
+  if (outline.empty()) return {.not_defined = "the heap is empty"};
   double area = 0;
   for (const double height : outline.height) area += height;
   const double half_base = BaseWidth(profile.frame) / 2;
@@ -75,7 +76,7 @@ Measured CohesiveIndex(const Profile& profile) {
     const double triangle = top * std::max(1 - across / half_base, 0.0);
     deviation += std::abs(outline.height[i] - triangle);
   }
-  return Defined(deviation / area);
+  return {.value = deviation / area};
 }
 
 struct Named {
@@ -88,8 +89,9 @@ struct Named {
 std::vector<Named> Describe(const HeapImages& heap, const MetricOptions& options) {
   const Profile& profile = heap.profile;
   const double nebp = Nebp(profile.image);
-  std::vector<Named> list{{"nebp_px", "px", Defined(nebp)},
-                          {"nebp_mm2", "mm2", Defined(SquareMillimetres(nebp, profile.frame))}};
+  std::vector<Named> list{
+      {"nebp_px", "px", Measured{.value = nebp}},
+      {"nebp_mm2", "mm2", Measured{.value = SquareMillimetres(nebp, profile.frame)}}};
   const ReposeAngles angles = MeasureRepose(profile, heap.parts, options.repose);
   for (std::size_t method = 0; method < angles.size(); ++method) {
     const std::string name = "repose_angle_" + std::to_string(method + 1) + "_";
@@ -107,13 +109,15 @@ std::vector<Metric> Differences(const Profile& heap, const Profile& reference,
                                 const MetricOptions& options) {
   const double sad = Sad(heap.image, reference.image);
   const double nebp = Nebp(reference.image);
-  const Measured relative =
-      nebp > 0 ? Defined(sad / nebp) : NotDefined("the reference heap is empty");
-  return {{"sad_mm2", "mm2", Defined(SquareMillimetres(sad, heap.frame)), Defined(0)},
-          {"sad_relative", "-", relative, Defined(0)},
-          {"sad_px", "px", Defined(sad), Defined(0)},
-          {"rmse_gray", "gray", Rmse(heap.image, reference.image, options.rmse_region), Defined(0)},
-          {"iou", "-", Iou(heap.image, reference.image), Defined(1)}};
+  const Measured relative = nebp > 0 ? Measured{.value = sad / nebp}
+                                     : Measured{.not_defined = "the reference heap is empty"};
+  return {{"sad_mm2", "mm2", Measured{.value = SquareMillimetres(sad, heap.frame)},
+           Measured{.value = 0}},
+          {"sad_relative", "-", relative, Measured{.value = 0}},
+          {"sad_px", "px", Measured{.value = sad}, Measured{.value = 0}},
+          {"rmse_gray", "gray", Rmse(heap.image, reference.image, options.rmse_region),
+           Measured{.value = 0}},
+          {"iou", "-", Iou(heap.image, reference.image), Measured{.value = 1}}};
 }
 
 std::string Text(const Frame& frame) {
@@ -162,7 +166,7 @@ std::vector<Metric> DescribeProfile(const HeapImages& heap, const MetricOptions&
   std::vector<Metric> metrics;
   for (Named& own : Describe(heap, options)) {
     metrics.push_back({std::move(own.name), std::move(own.unit), std::move(own.value),
-                       NotDefined("there is no reference")});
+                       Measured{.not_defined = "there is no reference"}});
   }
   return metrics;
 }

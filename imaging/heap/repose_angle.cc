@@ -10,9 +10,11 @@
 namespace talus::imaging {
 namespace {
 
-constexpr double kLowest = 3.0;               // a lower heap has no slope one could measure [px]
-constexpr std::size_t kFewestPoints = 5;      // of a regression
-constexpr double kOverhangLevel = 0.9 * 255;  // powder in a tenth of the views
+constexpr double kLowest = 3.0;           // a lower heap has no slope one could measure [px]
+constexpr std::size_t kFewestPoints = 5;  // of a regression
+// Half the views decide where the outline is, but a tenth of them that overhang is enough to make
+// an angle meaningless.
+constexpr double kOverhangLevel = 0.9 * 255;
 
 std::string Pixels(double length) {
   std::ostringstream text;
@@ -30,62 +32,41 @@ Measured Regression(const Slope& slope, double from) {
     sum_x += point.across;
     sum_h += point.height;
   }
-  if (n < kFewestPoints) return NotDefined("the slope is too short");
+  if (n < kFewestPoints) return {.not_defined = "the slope is too short"};
   double sxx = 0, sxh = 0;
   for (const SlopePoint& point : slope.points) {
     if (point.across < from) continue;
     sxx += (point.across - sum_x / n) * (point.across - sum_x / n);
     sxh += (point.across - sum_x / n) * (point.height - sum_h / n);
   }
-  if (!(sxh < 0)) return NotDefined("the outline does not fall outwards");
-  return Defined(std::atan(-sxh / sxx));
+  if (!(sxh < 0)) return {.not_defined = "the outline does not fall outwards"};
+  return {.value = std::atan(-sxh / sxx)};
 }
 
-// Of one side by one method (0, 1, 2).
+// The angle of one side by one method (0, 1, 2).
 Measured SideAngle(const HeapShape& shape, const Slope& slope, std::size_t method,
                    const ReposeOptions& options) {
-  if (!(shape.height >= kLowest)) {
-    return NotDefined("the heap is only " + Pixels(shape.height) + " high");
-  }
-  if (!(slope.foot - slope.shoulder > 0)) return NotDefined("there is no slope on this side");
-  if (method == 0) return Defined(std::atan(shape.height / slope.foot));
+  if (!(slope.foot - slope.shoulder > 0)) return {.not_defined = "there is no slope on this side"};
+  if (method == 0) return {.value = std::atan(shape.height / slope.foot)};
   const double share = method == 1 ? 1.0 : options.base_fraction;
   return Regression(slope, slope.foot - share * (slope.foot - slope.shoulder));
 }
 
 Measured MeanOf(const Measured& left, const Measured& right) {
-  if (!left.defined()) return NotDefined("left: " + left.not_defined);
-  if (!right.defined()) return NotDefined("right: " + right.not_defined);
-  return Defined((left.value + right.value) / 2);
-}
-
-// Half the views decide where the outline is, but a tenth of them that overhang is enough to make
-// an angle meaningless.
-Overhang WorstOverhang(const GrayImage& image, const Frame& frame, const Outline& outline) {
-  const Overhang half = FindOverhang(outline);
-  const Overhang few = FindOverhang(FindOutline(image, frame, kOverhangLevel));
-  return {.left = std::max(half.left, few.left), .right = std::max(half.right, few.right)};
+  if (!left.defined()) return {.not_defined = "left: " + left.not_defined};
+  if (!right.defined()) return {.not_defined = "right: " + right.not_defined};
+  return {.value = (left.value + right.value) / 2};
 }
 
 ReposeAngles NoAngles(const std::string& because) {
-  SideAngles none{
-      .left = NotDefined(because), .right = NotDefined(because), .mean = NotDefined(because)};
+  SideAngles none{.left = Measured{.not_defined = because},
+                  .right = Measured{.not_defined = because},
+                  .mean = Measured{.not_defined = because}};
   return {none, none, none};
 }
 
 Measured* Part(SideAngles& angles, int part) {
   return part == 0 ? &angles.left : part == 1 ? &angles.right : &angles.mean;
-}
-
-// s / √n of the values; NaN for fewer than two.
-double StandardError(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  double mean = 0;
-  for (const double value : values) mean += value / n;
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / (n - 1) / n);
 }
 
 }  // namespace
@@ -101,11 +82,15 @@ ReposeAngles MeasureRepose(const GrayImage& image, const Frame& frame,
                            const ReposeOptions& options) {
   const Outline outline = FindOutline(image, frame);
   if (outline.empty()) return NoAngles("the heap is empty");
-  const Overhang overhang = WorstOverhang(image, frame, outline);
+  const Outline few = FindOutline(image, frame, kOverhangLevel);
+  const Overhang overhang = WorstOverhang(outline, few);
   const double tolerance = options.overhang_tolerance * frame.plate_diameter / frame.pixel_size;
   const HeapShape shape = FindHeapShape(outline);
+  if (!(shape.height >= kLowest)) {
+    return NoAngles("the heap is only " + Pixels(shape.height) + " high");
+  }
   const auto side = [&](const Slope& slope, double step, std::size_t method) {
-    if (step > tolerance) return NotDefined("the heap overhangs by " + Pixels(step));
+    if (step > tolerance) return Measured{.not_defined = "the heap overhangs by " + Pixels(step)};
     return SideAngle(shape, slope, method, options);
   };
   ReposeAngles angles;

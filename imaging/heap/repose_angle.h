@@ -47,8 +47,8 @@ using ReposeAngles = std::array<SideAngles, 3>;  // by method, 1 first
 ReposeAngles MeasureRepose(const GrayImage& image, const Frame& frame,
                            const ReposeOptions& options = {});
 
-// The same with standard errors: the scatter of the angles over `parts` (the views of the average,
-// or its runs) divided by √n. None where fewer than two parts have an angle.
+// The same with standard errors: the standard deviation of the angles over `parts` (the views of
+// the average, or its runs) divided by √n. None where fewer than two parts have an angle.
 ReposeAngles MeasureRepose(const Profile& profile, std::span<const GrayImage> parts,
                            const ReposeOptions& options = {});
 

@@ -152,11 +152,11 @@ RelativeImage Divide(const GrayImage& photo, const Background& background) {
 
 // The upper border, which heap and plate leave free: the top row, and the sides' upper half.
 std::vector<float> UpperBorder(const RelativeImage& image) {
-  std::vector<float> border;
-  for (int x = 0; x < image.width; ++x) border.push_back(image.at(x, 0));
+  std::vector<float> border(image.pixels.begin(), image.pixels.begin() + image.width);
   for (int y = 1; y < image.height / 2; ++y) {
-    border.push_back(image.at(0, y));
-    border.push_back(image.at(image.width - 1, y));
+    const auto row = image.pixels.begin() + y * image.width;
+    border.push_back(row[0]);
+    border.push_back(row[image.width - 1]);
   }
   return border;
 }
@@ -171,10 +171,67 @@ bool LooksFrontLit(const GrayImage& photo) {
   return static_cast<double>(dark) > kDarkBorder * static_cast<double>(border.size());
 }
 
+// The share of the pixels lighter than mid-grey that are at full white [-].
+double ShareOverexposed(const GrayImage& photo) {
+  const auto light = std::count_if(photo.pixels.begin(), photo.pixels.end(),
+                                   [](std::uint8_t level) { return level >= 128; });
+  const auto white = std::count(photo.pixels.begin(), photo.pixels.end(), 255);
+  return light > 0 ? static_cast<double>(white) / static_cast<double>(light) : 0;
+}
+
 GrayImage Negative(const GrayImage& photo) {
   GrayImage negative = photo;
   for (std::uint8_t& level : negative.pixels) level = static_cast<std::uint8_t>(255 - level);
   return negative;
+}
+
+// Where the table reaches across the whole picture, with a margin; the height where it does not.
+int FirstTableRow(const GrayImage& photo, PowderLook look) {
+  constexpr int kMargin = 4;  // [px]
+  const std::vector<float> levels(photo.pixels.begin(), photo.pixels.end());
+  const double middle = SplitByOtsu(levels).middle();
+  const auto num_dark = [&](int y) {
+    int count = 0;
+    for (int x = 0; x < photo.width; ++x) count += photo.at(x, y) < middle;
+    return count;
+  };
+  const bool bright = look == PowderLook::kBright ||
+                      (look == PowderLook::kAuto && num_dark(photo.height - 1) * 2 < photo.width);
+  const auto all = [&](int y) { return num_dark(y) == (bright ? 0 : photo.width); };
+  int row = photo.height;
+  while (row > 0 && all(row - 1)) --row;
+  return std::min(row + kMargin, photo.height);
+}
+
+GrayImage UpperRows(const GrayImage& photo, int num_rows) {
+  GrayImage upper = photo;
+  upper.height = num_rows;
+  upper.pixels.resize(static_cast<std::size_t>(upper.width) * static_cast<std::size_t>(num_rows));
+  return upper;
+}
+
+BacklitPhoto FlattenBackground(const GrayImage& photo, const LightOptions& light,
+                               const std::string& name) {
+  const auto brightest = *std::max_element(photo.pixels.begin(), photo.pixels.end());
+  if (brightest < kBlackest) {
+    throw base::ConfigError(name +
+                            ": is black everywhere; take the photograph again with the "
+                            "light behind the heap switched on");
+  }
+  BacklitPhoto flat;
+  flat.negative = light.powder == PowderLook::kBright ||
+                  (light.powder == PowderLook::kAuto && LooksFrontLit(photo));
+  const GrayImage seen = flat.negative ? Negative(photo) : photo;
+  flat.image = Divide(seen, FitBackground(Thin(seen).image));
+  const TwoClasses classes = SplitByOtsu(flat.image.pixels);
+  if (classes.light - classes.dark < kLeastContrast) {
+    throw base::ConfigError(name +
+                            ": shows nothing darker than its background (nothing brighter, "
+                            "if it is lit from the front); check that heap "
+                            "and plate are in the picture, with the light behind them");
+  }
+  flat.threshold = light.threshold.value_or(classes.middle());
+  return flat;
 }
 
 }  // namespace
@@ -215,25 +272,11 @@ TwoClasses SplitByOtsu(const std::vector<float>& values) {
 
 BacklitPhoto FlattenPhoto(const GrayImage& photo, const LightOptions& light,
                           const std::string& name) {
-  const auto brightest = *std::max_element(photo.pixels.begin(), photo.pixels.end());
-  if (brightest < kBlackest) {
-    throw base::ConfigError(name +
-                            ": is black everywhere; take the photograph again with the "
-                            "light behind the heap switched on");
-  }
-  BacklitPhoto flat;
-  flat.negative = light.powder == PowderLook::kBright ||
-                  (light.powder == PowderLook::kAuto && LooksFrontLit(photo));
-  const GrayImage seen = flat.negative ? Negative(photo) : photo;
-  flat.image = Divide(seen, FitBackground(Thin(seen).image));
-  const TwoClasses classes = SplitByOtsu(flat.image.pixels);
-  if (classes.light - classes.dark < kLeastContrast) {
-    throw base::ConfigError(name +
-                            ": shows nothing darker than its background (nothing brighter, "
-                            "if it is lit from the front); check that heap "
-                            "and plate are in the picture, with the light behind them");
-  }
-  flat.threshold = light.threshold.value_or(classes.middle());
+  const int num_rows = light.table ? FirstTableRow(photo, light.powder) : photo.height;
+  BacklitPhoto flat = FlattenBackground(UpperRows(photo, num_rows), light, name);
+  flat.image.height = photo.height;
+  flat.image.pixels.resize(photo.pixels.size(), 0.0F);
+  flat.overexposed = flat.negative ? 0 : ShareOverexposed(photo);
   return flat;
 }
 

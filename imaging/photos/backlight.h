@@ -41,12 +41,16 @@ enum class PowderLook {
 struct LightOptions {
   std::optional<double> threshold{};
   PowderLook powder = PowderLook::kAuto;
+  // Whether a dark table reaches across the lower border. Nothing tells how bright the background
+  // would be behind it: the polynomial is fitted above it, and the table is 0 in the result.
+  bool table = false;
 };
 
 struct BacklitPhoto {
   RelativeImage image;
-  double threshold = 0;   // darker is powder or plate [-]
-  bool negative = false;  // it was front-lit
+  double threshold = 0;    // darker is powder or plate [-]
+  bool negative = false;   // it was front-lit
+  double overexposed = 0;  // share of the background at full white [-]; 0 if it is front-lit
 };
 
 // `threshold` fixes the threshold; else it is half-way between the means of the two classes that

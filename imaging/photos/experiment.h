@@ -2,14 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "base/field.h"
 #include "base/problems.h"
-#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/heap/profile.h"
 #include "imaging/photos/backlight.h"
@@ -87,7 +87,16 @@ struct ExperimentOptions {
   void Validate(base::Problems& problems) const;
   // Whether it names images at all.
   bool HasImages() const { return !photos.empty() || !runs.empty() || !map.empty(); }
-  LightOptions light() const { return {.threshold = threshold, .powder = powder}; }
+  LightOptions light() const {
+    return {.threshold = threshold, .powder = powder, .table = !scale.empty()};
+  }
+};
+
+// A photograph that cannot be used, and what was found of its plate.
+struct UnusablePhoto {
+  std::filesystem::path photo;
+  PlateEdges edges;
+  std::string fault;  // names the file
 };
 
 struct MeasuredView {
@@ -103,7 +112,7 @@ struct MeasuredRun {
   std::vector<MeasuredView> views;
 };
 
-// What the heap's own scatter from run to run leaves as difference.
+// The difference between one heap and the mean of the others: noise from run to run.
 struct NoiseFloor {
   std::vector<double> sad_px;  // a run: SAD of its profile and the mean of the others
   double mean_sad_px = 0;
@@ -119,16 +128,25 @@ struct Experiment {
   std::optional<NoiseFloor> noise_floor;  // for two runs or more
   std::vector<Metric> metrics;            // DescribeProfile of the AEHP; errors from run to run
   std::vector<PhotoWarning> warnings;     // what was left out or is doubtful
+  std::vector<UnusablePhoto> left_out;    // with `allow_missing_views`
 
   // The AEHP with its runs as parts: what CompareProfiles takes as reference.
   HeapImages Images() const;
 };
 
-// Keeps the picture of a photograph that cannot be used, and returns where.
-using PictureSink = std::function<std::filesystem::path(const std::filesystem::path& photo,
-                                                        const ColorImage& picture)>;
+// Some photographs cannot be used; what() lists the faults and what to do.
+class UnusablePhotosError : public base::ConfigError {
+ public:
+  UnusablePhotosError(const std::string& text, std::vector<UnusablePhoto> photos)
+      : ConfigError(text), photos_(std::move(photos)) {}
+  const std::vector<UnusablePhoto>& photos() const { return photos_; }
 
-// Throws ConfigError that names the file, what to do, and with `keep` the picture to look at.
-Experiment MeasureExperiment(const ExperimentOptions& options, const PictureSink& keep = {});
+ private:
+  std::vector<UnusablePhoto> photos_;
+};
+
+// Throws ConfigError that names the file and what to do; UnusablePhotosError for faults of
+// photographs that could be left out.
+Experiment MeasureExperiment(const ExperimentOptions& options);
 
 }  // namespace talus::imaging

@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "imaging/drawing/canvas.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/photos/backlight.h"
-#include "imaging/photos/canvas.h"
-#include "imaging/photos/photo_collection.h"
 #include "imaging/photos/silhouette.h"
 
 namespace talus::imaging {
@@ -45,13 +45,29 @@ std::vector<std::vector<cv::Point>> Outlines(const GrayImage& silhouette) {
   return outlines;
 }
 
+ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat, const PlateEdges& edges) {
+  const int zoom = std::max(1, kWidest / photo.width);
+  ColorImage canvas = Enlarged(photo, zoom);
+  GrayImage dark{.width = photo.width, .height = photo.height, .pixels = {}};
+  for (const float level : flat.image.pixels)
+    dark.pixels.push_back(level < flat.threshold ? 0 : 255);
+  for (const auto& outline : Outlines(dark)) {
+    std::vector<CanvasPoint> points;
+    for (const cv::Point& p : outline) points.push_back({zoom * (p.x + 0.5), zoom * (p.y + 0.5)});
+    DrawPolygon(canvas, points, {.color = kRed});
+  }
+  for (const auto* side : {&edges.left, &edges.right}) {
+    for (const EdgePoint& p : *side) DrawDisc(canvas, {zoom * p.x, zoom * p.y}, 1.5, kBlue);
+  }
+  return canvas;
+}
+
 }  // namespace
 
 ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const GrayImage& silhouette,
                        const Frame& frame) {
   const int zoom = std::max(1, kWidest / photo.width);
-  ColorImage canvas = MakeCanvas(zoom * photo.width, zoom * photo.height);
-  Paste(ToColor(photo), zoom, 0, 0, canvas);
+  ColorImage canvas = Enlarged(photo, zoom);
   const OnPhoto on(plate, zoom);
   const double scale = plate.width * frame.pixel_size / frame.plate_diameter;  // photo / frame px
   for (const auto& outline : Outlines(silhouette)) {
@@ -71,30 +87,16 @@ ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const Gra
   return canvas;
 }
 
-ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat,
-                     const std::optional<PlateEdges>& edges) {
-  const int zoom = std::max(1, kWidest / photo.width);
-  ColorImage canvas = MakeCanvas(zoom * photo.width, zoom * photo.height);
-  Paste(ToColor(photo), zoom, 0, 0, canvas);
-  GrayImage dark{.width = photo.width, .height = photo.height, .pixels = {}};
-  for (const float level : flat.image.pixels)
-    dark.pixels.push_back(level < flat.threshold ? 0 : 255);
-  for (const auto& outline : Outlines(dark)) {
-    std::vector<CanvasPoint> points;
-    for (const cv::Point& p : outline) points.push_back({zoom * (p.x + 0.5), zoom * (p.y + 0.5)});
-    DrawPolygon(canvas, points, {.color = kRed});
-  }
-  if (!edges) return canvas;
-  for (const auto* side : {&edges->left, &edges->right}) {
-    for (const EdgePoint& p : *side) DrawDisc(canvas, {zoom * p.x, zoom * p.y}, 1.5, kBlue);
-  }
-  return canvas;
+ColorImage FaultOf(const UnusablePhoto& unusable, const ExperimentOptions& options) {
+  const GrayImage photo = ReadGrayImage(unusable.photo);
+  const BacklitPhoto flat = FlattenPhoto(photo, options.light(), unusable.photo.string());
+  return DrawFault(photo, flat, unusable.edges);
 }
 
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
                      double photo_pixel) {
   const GrayImage photo = ReadGrayImage(view.photo);
-  const BacklitPhoto flat = Flatten(options, photo, view.photo);
+  const BacklitPhoto flat = FlattenPhoto(photo, options.light(), view.photo.string());
   return DrawOverlay(photo, view.plate, MakeSilhouette(flat, view.plate, photo_pixel, frame),
                      frame);
 }

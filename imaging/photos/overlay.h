@@ -1,12 +1,9 @@
 // What was found in a photograph, drawn over it: the powder's outline, the plate, the baseline.
 #pragma once
 
-#include <optional>
-
-#include "imaging/formats/images/image_file.h"
+#include "imaging/color_image.h"
 #include "imaging/photos/backlight.h"
 #include "imaging/photos/experiment.h"
-#include "imaging/photos/plate/plate_edges.h"
 
 namespace talus::imaging {
 
@@ -15,10 +12,9 @@ namespace talus::imaging {
 ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const GrayImage& silhouette,
                        const Frame& frame);
 
-// Of a photograph that cannot be used: the outline of all that is dark enough (red), and the
-// plate's sides where some were found (blue).
-ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat,
-                     const std::optional<PlateEdges>& edges);
+// A photograph that cannot be used, which is read again: the outline of all that is dark enough
+// (red), and the plate's sides where some were found (blue).
+ColorImage FaultOf(const UnusablePhoto& unusable, const ExperimentOptions& options);
 
 // The overlay of one measured photograph, which is read again.
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,

@@ -5,14 +5,17 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/text/printable.h"
+#include "imaging/photos/photo_pattern.h"
 
 namespace talus::imaging {
 namespace {
 
-constexpr std::size_t kLongestPattern = 255;  // as long as a file's name can be
+constexpr const char* kFolders = "{run}/*";  // a folder a heap
 
 // Numbers by value, before words.
 struct ByNumber {
@@ -33,101 +36,48 @@ struct ByNumber {
 
 using Views = std::map<std::string, std::filesystem::path, ByNumber>;
 
-// A pattern of file names. Not a regular expression: those take time that doubles with each `*`.
-class Pattern {
- public:
-  explicit Pattern(const std::string& text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      const std::string_view rest = std::string_view(text).substr(i);
-      if (rest.starts_with("{run}") && !has_run_) {
-        has_run_ = true;
-        parts_.push_back({.kind = kRun});
-        i += 4;
-      } else if (rest.starts_with("{view}") && !has_view_) {
-        has_view_ = true;
-        parts_.push_back({.kind = kView});
-        i += 5;
-      } else if (text[i] != '*') {
-        parts_.push_back({.kind = kLetter, .letter = Lower(text[i])});
-      } else if (parts_.empty() || parts_.back().kind != kAny) {
-        parts_.push_back({.kind = kAny});
-      }
-    }
-  }
+bool IsImage(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::string_view kEndings[] = {".png",  ".jpg", ".jpeg", ".tif",
+                                           ".tiff", ".bmp", ".pgm"};
+  return std::ranges::find(kEndings, ending) != std::end(kEndings);
+}
 
-  bool has_run() const { return has_run_; }
-  bool has_view() const { return has_view_; }
-
-  struct Match {
-    std::string run;
-    std::string view;
-  };
-  std::optional<Match> Fit(const std::string& name) const {
-    Attempt attempt{.name = name, .failed = {}, .match = {}};
-    attempt.failed.assign((name.size() + 1) * (parts_.size() + 1), false);
-    if (!Fit(attempt, 0, 0)) return std::nullopt;
-    return attempt.match;
-  }
-
- private:
-  enum Kind { kLetter, kAny, kRun, kView };
-  struct Part {
-    Kind kind = kLetter;
-    char letter = 0;
-  };
-  struct Attempt {
-    const std::string& name;
-    std::vector<bool> failed;  // by part and place: each is tried once
-    Match match;
-  };
-
-  static char Lower(char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-
-  // Whether the name from `at` on fits the parts from `part` on. `*` takes as much as it can,
-  // {run} and {view} as little.
-  bool Fit(Attempt& attempt, std::size_t part, std::size_t at) const {
-    const std::size_t left = attempt.name.size() - at;
-    if (part == parts_.size()) return left == 0;
-    const std::size_t place = part * (attempt.name.size() + 1) + at;
-    if (attempt.failed[place]) return false;
-    const Part& p = parts_[part];
-    bool fits = false;
-    if (p.kind == kLetter) {
-      fits = left > 0 && Lower(attempt.name[at]) == p.letter && Fit(attempt, part + 1, at + 1);
-    } else if (p.kind == kAny) {  // one more letter, or no more
-      fits = (left > 0 && Fit(attempt, part, at + 1)) || Fit(attempt, part + 1, at);
-    } else {
-      for (std::size_t n = 1; n <= left && !fits; ++n) {
-        fits = Fit(attempt, part + 1, at + n);
-        if (fits)
-          (p.kind == kRun ? attempt.match.run : attempt.match.view) = attempt.name.substr(at, n);
-      }
-    }
-    attempt.failed[place] = !fits;
-    return fits;
-  }
-
-  std::vector<Part> parts_;
-  bool has_run_ = false;
-  bool has_view_ = false;
-};
-
-std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& folder) {
+// Files so many folders below, in order of name.
+void AddFiles(const std::filesystem::path& folder, int num_folders,
+              std::vector<std::filesystem::path>& files) {
   std::error_code error;
-  std::vector<std::filesystem::path> files;
   std::filesystem::directory_iterator entry(folder, error);
   if (error) {
     throw base::ConfigError(folder.string() + ": cannot be read as a folder of photographs (" +
                             error.message() + ")");
   }
+  std::vector<std::filesystem::path> here;
   for (const auto& file : entry) {
     // Pipes and dangling links are no photographs; a pipe that was opened would be waited for.
-    if (file.is_regular_file(error)) files.push_back(file.path());
+    const bool wanted = num_folders > 0 ? file.is_directory(error) : file.is_regular_file(error);
+    if (wanted) here.push_back(file.path());
   }
-  std::sort(files.begin(), files.end());
-  return files;
+  std::sort(here.begin(), here.end());
+  for (const std::filesystem::path& path : here) {
+    if (num_folders == 0) {
+      files.push_back(path);
+    } else {
+      AddFiles(path, num_folders - 1, files);
+    }
+  }
+}
+
+// The file's name with so many folders before it.
+std::string NameOf(const std::filesystem::path& file, int num_folders) {
+  std::filesystem::path name = file.filename();
+  std::filesystem::path folder = file.parent_path();
+  for (int i = 0; i < num_folders; ++i) {
+    name = folder.filename() / name;
+    folder = folder.parent_path();
+  }
+  return name.generic_string();
 }
 
 // Every view that some run has, and those that a numbering in steps of one leaves out.
@@ -154,60 +104,148 @@ std::set<std::string, ByNumber> ExpectedViews(const std::map<std::string, Views,
 }
 
 std::map<std::string, Views, ByNumber> Group(const std::vector<std::filesystem::path>& files,
-                                             const std::string& pattern) {
-  if (pattern.size() > kLongestPattern) {
-    throw base::ConfigError("the pattern of the photographs' names has " +
-                            std::to_string(pattern.size()) + " characters; give one of at most " +
-                            std::to_string(kLongestPattern));
-  }
-  const Pattern compiled(pattern);
+                                             const PhotoPattern& pattern) {
   std::map<std::string, Views, ByNumber> runs;
   std::map<std::string, int> counted;  // files of a run so far, for a pattern without {view}
   for (const std::filesystem::path& file : files) {
-    const auto match = compiled.Fit(file.filename().string());
+    const std::string name = NameOf(file, pattern.num_folders());
+    const auto match = pattern.Fit(name);
     if (!match) continue;
-    const std::string run = compiled.has_run() ? match->run : "1";
-    const std::string view = compiled.has_view() ? match->view : std::to_string(++counted[run]);
+    const std::string run = pattern.has_run() ? match->run : "1";
+    const std::string view = pattern.has_view() ? match->view : std::to_string(++counted[run]);
     const auto [entry, added] = runs[run].emplace(view, file);
     if (added) continue;
     throw base::ConfigError(file.string() + ": is view " + view + " of run " + run +
                             ", and so is " + entry->second.filename().string() +
-                            "; make the pattern \"" + pattern + "\" tell them apart");
+                            "; make the pattern \"" + pattern.text() + "\" tell them apart");
   }
   return runs;
 }
 
-}  // namespace
-
-PhotoSet SortPhotos(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
-  const std::map<std::string, Views, ByNumber> runs = Group(files, pattern);
+PhotoSet SetOf(const std::map<std::string, Views, ByNumber>& runs, const std::string& pattern) {
   PhotoSet set;
   const std::set<std::string, ByNumber> expected = ExpectedViews(runs);
   for (const auto& [run, views] : runs) {
-    PhotoFiles of_run{.run = run, .views = {}};
+    PhotoFiles& files = set.runs.emplace_back(PhotoFiles{.run = run, .views = {}});
     for (const std::string& view : expected) {
       const auto found = views.find(view);
       if (found != views.end()) {
-        of_run.views.push_back({.view = view, .path = found->second});
+        files.views.push_back({.view = view, .path = found->second});
       } else {
         set.missing.push_back("run " + run + " has no view " + view + " (pattern \"" + pattern +
                               "\")");
       }
     }
-    set.runs.push_back(std::move(of_run));
   }
   return set;
 }
 
-PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {
-  PhotoSet set = SortPhotos(FilesOf(folder), pattern);
+// Views of runs that are given one by one have no names.
+PhotoSet GivenPhotos(const std::vector<PhotoRun>& runs) {
+  PhotoSet set;
+  std::size_t most = 0;
+  for (const PhotoRun& run : runs) most = std::max(most, run.photos.size());
+  for (const PhotoRun& run : runs) {
+    PhotoFiles& files = set.runs.emplace_back(PhotoFiles{.run = run.name, .views = {}});
+    for (const auto& path : run.photos) files.views.push_back({.view = {}, .path = path});
+    if (run.photos.size() == most) continue;
+    set.missing.push_back("run " + run.name + " has " + std::to_string(run.photos.size()) +
+                          " views, others have " + std::to_string(most));
+  }
+  return set;
+}
+
+// Whether names fall into runs of equally many views by the pattern, and none is left over.
+bool Splits(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
+  try {
+    const std::map<std::string, Views, ByNumber> runs = Group(files, PhotoPattern(pattern));
+    std::size_t count = 0;
+    for (const auto& [run, views] : runs) count += views.size();
+    return count == files.size() && runs.size() > 1 &&
+           count == runs.size() * runs.begin()->second.size();
+  } catch (const base::ConfigError&) {
+    return false;  // two photographs would be one view of one run
+  }
+}
+
+// The images so many folders below.
+std::vector<std::filesystem::path> ImagesBelow(const std::filesystem::path& folder,
+                                               int num_folders) {
+  std::vector<std::filesystem::path> files;
+  AddFiles(folder, num_folders, files);
+  std::erase_if(files, [](const std::filesystem::path& file) { return !IsImage(file); });
+  return files;
+}
+
+// What is in a folder, for a message: the first names.
+std::string Listed(const std::filesystem::path& folder) {
+  constexpr std::size_t kMostNames = 3;
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    names.push_back(entry.path().filename().string() + (entry.is_directory(error) ? "/" : ""));
+  }
+  if (names.empty()) return "it is empty";
+  std::ranges::sort(names);
+  std::string text = "there are ";
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) {
+    text += (i == 0 ? "" : ", ") + base::Printable(names[i]);
+  }
+  return text + (names.size() > kMostNames ? ", … (" + std::to_string(names.size()) + ")" : "");
+}
+
+// The set with its folder in all that it says; throws where it is empty.
+PhotoSet OfFolder(PhotoSet set, const std::filesystem::path& folder, const std::string& pattern) {
   if (set.runs.empty()) {
     throw base::ConfigError(folder.string() + ": no file matches the pattern \"" + pattern +
-                            "\"; give the pattern of the photographs' names, such as "
-                            "run{run}_view{view}.jpg");
+                            "\" of the photographs' names; " + Listed(folder) +
+                            "; a pattern that may fit is \"" + RecognisePattern(folder) + "\"");
   }
   for (std::string& missing : set.missing) missing = folder.string() + ": " + missing;
   return set;
+}
+
+}  // namespace
+
+PhotoSet SortPhotos(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
+  return SetOf(Group(files, PhotoPattern(pattern)), pattern);
+}
+
+std::vector<std::filesystem::path> ImagesIn(const std::filesystem::path& folder) {
+  return ImagesBelow(folder, 0);
+}
+
+std::string RecognisePattern(const std::filesystem::path& folder) {
+  const std::vector<std::filesystem::path> files = ImagesIn(folder);
+  return files.empty() && !ImagesBelow(folder, 1).empty() ? kFolders : RecognisePattern(files);
+}
+
+std::string RecognisePattern(const std::vector<std::filesystem::path>& files) {
+  const auto elsewhere = [&](const auto& file) {
+    return file.parent_path() != files.front().parent_path();
+  };
+  if (std::ranges::any_of(files, elsewhere)) return kFolders;
+  if (!SortPhotos(files, kUsualPattern).runs.empty()) return kUsualPattern;
+  for (const char* pattern : {"{run}_{view}.*", "{run}-{view}.*"}) {
+    if (Splits(files, pattern)) return pattern;
+  }
+  return "*";
+}
+
+PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {
+  const auto num_folders = static_cast<int>(std::ranges::count(pattern, '/'));
+  std::vector<std::filesystem::path> files;
+  if (pattern.ends_with('*') || pattern.ends_with('}')) {
+    files = ImagesBelow(folder, num_folders);
+  } else {
+    AddFiles(folder, num_folders, files);
+  }
+  return OfFolder(SortPhotos(files, pattern), folder, pattern);
+}
+
+PhotoSet NamePhotos(const ExperimentOptions& options) {
+  return options.runs.empty() ? FindPhotos(options.photos, options.pattern)
+                              : GivenPhotos(options.runs);
 }
 
 }  // namespace talus::imaging

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "imaging/photos/experiment.h"
+
 namespace talus::imaging {
 
 struct PhotoFile {
@@ -23,9 +25,23 @@ struct PhotoSet {
                                      // that a numbering without gaps would have
 };
 
-// {run} and {view} stand for one or more characters each (a pattern without {view} numbers the
-// files in order of name), * for any. Throws ConfigError when the folder cannot be read or holds no
-// match.
+// The photographs that the options name: a folder with a pattern, or runs one by one.
+PhotoSet NamePhotos(const ExperimentOptions& options);
+
+// What the photographs are called where nothing else is said.
+inline constexpr const char* kUsualPattern = "run{run}_view{view}.*";
+
+// The images in a folder, in order of name.
+std::vector<std::filesystem::path> ImagesIn(const std::filesystem::path& folder);
+
+// The pattern that fits the images of a folder, or the files: the usual one, {run}/* for a folder a
+// heap, or one that makes runs of equally many views; "*" where none does: they are views of one
+// heap, as a phone names them.
+std::string RecognisePattern(const std::filesystem::path& folder);
+std::string RecognisePattern(const std::vector<std::filesystem::path>& files);
+
+// A pattern (photo_pattern.h) without {view} numbers the files of a run in order of name. Throws
+// ConfigError when the folder cannot be read or holds no match, and says what is there.
 PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern);
 
 // The same for files one by one; those that do not match are left out, and there may be no run.

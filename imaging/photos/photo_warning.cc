@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRimMargin = 0.05;      // beyond the rim / plate radius [-]
 constexpr double kLeastDeviation = 0.2;  // of a view's NEBP from the median [-]
-constexpr double kManyScatters = 4;      // and so many standard deviations of the views
+constexpr double kManyUsual = 4;         // and so many standard deviations of the views
 
 std::string Percent(double share) {
   constexpr double kWhole = 10;  // from here on
@@ -40,7 +40,7 @@ std::string Reason(const PhotoWarning& warning) {
       return "powder is brighter than its background and is taken to be lit from the front; say "
              "\"powder\": \"bright\" (--powder bright) if so, \"dark\" if not";
     case PhotoDoubt::kMixedLight:
-      return std::to_string(static_cast<int>(warning.value)) +
+      return "lit otherwise than most: " + std::to_string(static_cast<int>(warning.value)) +
              " photographs look lit from the front, the others from behind; say which with "
              "\"powder\" (--powder)";
     case PhotoDoubt::kHiddenTop:
@@ -127,13 +127,6 @@ double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame) {
   return all > 0 ? beside / all : 0;
 }
 
-double ShareOverexposed(const GrayImage& photo) {
-  const auto light = std::count_if(photo.pixels.begin(), photo.pixels.end(),
-                                   [](std::uint8_t level) { return level >= 128; });
-  const auto white = std::count(photo.pixels.begin(), photo.pixels.end(), 255);
-  return light > 0 ? static_cast<double>(white) / static_cast<double>(light) : 0;
-}
-
 std::vector<double> DisagreeingViews(const std::vector<double>& nebp) {
   std::vector<double> off(nebp.size(), 0.0);
   if (nebp.size() < 3) return off;
@@ -141,9 +134,9 @@ std::vector<double> DisagreeingViews(const std::vector<double>& nebp) {
   if (!(median > 0)) return off;
   std::vector<double> deviations;
   for (const double value : nebp) deviations.push_back(std::abs(value / median - 1));
-  const double scatter = 1.48 * base::Median(deviations);
+  const double usual = 1.48 * base::Median(deviations);
   for (std::size_t i = 0; i < nebp.size(); ++i) {
-    const bool much = deviations[i] > kLeastDeviation && deviations[i] > kManyScatters * scatter;
+    const bool much = deviations[i] > kLeastDeviation && deviations[i] > kManyUsual * usual;
     if (much) off[i] = nebp[i] / median;
   }
   return off;
@@ -161,6 +154,19 @@ std::vector<double> DisagreeingRuns(const std::vector<double>& differences) {
     if (usual > 0 && differences[i] > kMuch * usual) off[i] = differences[i] / usual;
   }
   return off;
+}
+
+std::vector<PhotoWarning> WarningsOf(const SeenView& view) {
+  std::vector<PhotoWarning> warnings;
+  const auto warn = [&](bool is_so, PhotoDoubt doubt, double value = 0) {
+    if (is_so) warnings.push_back({.doubt = doubt, .photo = view.photo, .value = value});
+  };
+  const double beside = ShareBesidePlate(view.silhouette, view.frame);
+  warn(view.nebp == 0, PhotoDoubt::kNoPowder);
+  warn(TouchesFrame(view.silhouette), PhotoDoubt::kTouchesFrame);
+  warn(beside > kMuchBesidePlate, PhotoDoubt::kBesidePlate, beside);
+  warn(view.overexposed > kMuchOverexposed, PhotoDoubt::kOverexposed, view.overexposed);
+  return warnings;
 }
 
 }  // namespace talus::imaging

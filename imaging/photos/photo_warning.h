@@ -16,7 +16,7 @@ enum class PhotoDoubt {
   kLeftOut,        // not usable; `reason` says why
   kRunDisagrees,   // `reason`: the run; value: its difference from the others / the usual one [-]
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
-  kMixedLight,     // it is in some photographs only; value: number of such photographs
+  kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
   kHiddenTop,      // powder hides the plate's top in every photograph
   kNoPowder,       // nothing stands on the plate
   kTouchesFrame,   // powder at the picture's edge
@@ -41,20 +41,27 @@ std::vector<PhotoWarning> Gathered(const std::vector<PhotoWarning>& warnings);
 // One sentence with the photograph, the number and what to look at.
 std::string WarningText(const PhotoWarning& warning);
 
+// One silhouette and what its photograph is known to be.
+struct SeenView {
+  const std::filesystem::path& photo;
+  const GrayImage& silhouette;
+  double nebp = 0;  // [px]
+  const Frame& frame;
+  double overexposed = 0;  // as in BacklitPhoto [-]
+};
+std::vector<PhotoWarning> WarningsOf(const SeenView& view);
+
 // Whether the powder reaches the left, right or upper edge of the frame.
 bool TouchesFrame(const GrayImage& silhouette);
 
 // Share of the powder that lies farther from the axis than the plate's rim and a margin [-].
 double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame);
 
-// Share of the pixels lighter than mid-grey that are at full white [-].
-double ShareOverexposed(const GrayImage& photo);
-
 inline constexpr double kMuchBesidePlate = 0.01;  // [-]
 inline constexpr double kMuchOverexposed = 0.5;   // [-]
 
 // NEBP of each view over the median of all, for those that are off by more than 20 % and by more
-// than four times the usual scatter (1.48 × median absolute deviation); 0 for the others.
+// than four standard deviations (1.48 × median absolute deviation); 0 for the others.
 std::vector<double> DisagreeingViews(const std::vector<double>& nebp);
 
 // The leave-one-out difference of each run over the median of the others', for those that differ

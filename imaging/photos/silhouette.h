@@ -13,8 +13,8 @@ namespace talus::imaging {
 GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, double photo_pixel,
                          const Frame& frame);
 
-// Of an image that is already 0 or 255: fills holes (light that is shut in by powder and plate) and
-// keeps what stands on the plate.
+// The heap in an image that is already 0 or 255: holes (light that is shut in by powder and plate)
+// are filled, and what does not stand on the plate is dropped.
 GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame);
 
 }  // namespace talus::imaging

@@ -22,12 +22,13 @@ std::vector<double> OutlineOf(const BacklitPhoto& photo) {
   std::vector<double> outline(static_cast<std::size_t>(image.width), std::nan(""));
   for (int x = 0; x < image.width; ++x) {
     int y = image.height - 1;
-    if (image.at(x, y) >= photo.threshold) continue;
-    while (y > 0 && image.at(x, y - 1) < photo.threshold) --y;
+    const auto level = [&](int row) { return image.at(x, row); };
+    if (level(y) >= photo.threshold) continue;
+    while (y > 0 && level(y - 1) < photo.threshold) --y;
     double top = y;
     if (y > 0) {
-      const double dark = image.at(x, y);
-      const double light = image.at(x, y - 1);
+      const double dark = level(y);
+      const double light = level(y - 1);
       top = y + 0.5 - (photo.threshold - dark) / (light - dark);
     }
     outline[static_cast<std::size_t>(x)] = top;
@@ -65,7 +66,7 @@ Line Refit(const Line& line, const std::vector<double>& outline) {
   return {.at_zero = (sy - slope * sx) / n, .slope = slope};
 }
 
-// Of the lines through two columns the one that holds most others.
+// The line through two columns that holds most of the others.
 Line BestLine(const std::vector<double>& outline) {
   constexpr int kTried = 48;  // columns
   Line best;
@@ -112,24 +113,6 @@ Heap LargestAbove(const std::vector<double>& above) {
   return largest;
 }
 
-// Where the table reaches across the whole picture, with a margin; the height where it does not.
-int FirstTableRow(const GrayImage& photo, PowderLook look) {
-  constexpr int kMargin = 4;  // [px]
-  const std::vector<float> levels(photo.pixels.begin(), photo.pixels.end());
-  const double middle = SplitByOtsu(levels).middle();
-  const auto num_dark = [&](int y) {
-    int count = 0;
-    for (int x = 0; x < photo.width; ++x) count += photo.at(x, y) < middle;
-    return count;
-  };
-  const bool bright = look == PowderLook::kBright ||
-                      (look == PowderLook::kAuto && num_dark(photo.height - 1) * 2 < photo.width);
-  const auto all = [&](int y) { return num_dark(y) == (bright ? 0 : photo.width); };
-  int row = photo.height;
-  while (row > 0 && all(row - 1)) --row;
-  return std::min(row + kMargin, photo.height);
-}
-
 [[noreturn]] void ThrowNoTable(const std::string& name, const std::string& what) {
   throw base::ConfigError(
       name + ": " + what +
@@ -138,22 +121,7 @@ int FirstTableRow(const GrayImage& photo, PowderLook look) {
       "its place with \"frame\"");
 }
 
-}  // namespace
-
-BacklitPhoto FlattenAboveTable(const GrayImage& photo, const LightOptions& light,
-                               const std::string& name) {
-  GrayImage above = photo;
-  above.height = FirstTableRow(photo, light.powder);
-  above.pixels.resize(static_cast<std::size_t>(above.width) *
-                      static_cast<std::size_t>(above.height));
-  BacklitPhoto flat = FlattenPhoto(above, light, name);
-  flat.image.height = photo.height;
-  flat.image.pixels.resize(photo.pixels.size(), 0.0F);
-  return flat;
-}
-
-TableLine FindTable(const BacklitPhoto& photo, const std::string& name) {
-  const std::vector<double> outline = OutlineOf(photo);
+TableLine TableUnder(const std::vector<double>& outline, const std::string& name) {
   const auto dark =
       std::count_if(outline.begin(), outline.end(), [](double top) { return std::isfinite(top); });
   if (static_cast<double>(dark) < kFewestDark * static_cast<double>(outline.size())) {
@@ -183,6 +151,12 @@ TableLine FindTable(const BacklitPhoto& photo, const std::string& name) {
           .baseline = line.At(center),
           .tilt = tilt,
           .reach = std::max(center - heap.from, heap.to - center)};
+}
+
+}  // namespace
+
+TableLine FindTable(const BacklitPhoto& photo, const std::string& name) {
+  return TableUnder(OutlineOf(photo), name);
 }
 
 }  // namespace talus::imaging

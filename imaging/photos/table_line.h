@@ -18,11 +18,6 @@ struct TableLine {
   double reach = 0;     // farthest foot of the heap from its centre [px]
 };
 
-// As FlattenPhoto, of which the background's polynomial is fitted above the table only: nothing
-// tells how bright it would be behind the table, which is 0 in the result.
-BacklitPhoto FlattenAboveTable(const GrayImage& photo, const LightOptions& light,
-                               const std::string& name);
-
 // Throws ConfigError that starts with `name` and says what to do when there is no such line or
 // nothing stands on it.
 TableLine FindTable(const BacklitPhoto& photo, const std::string& name);

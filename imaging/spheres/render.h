@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/sphere.h"
-#include "imaging/formats/images/image_file.h"
+#include "imaging/color_image.h"
 
 namespace talus::imaging {
 

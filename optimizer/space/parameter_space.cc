@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/random.h"
+#include "base/text/name.h"
 #include "optimizer/space/candidate_table.h"
 #include "optimizer/space/point_rows.h"
 
@@ -82,7 +83,7 @@ Eigen::MatrixXd Combinations(const std::vector<std::vector<double>>& levels) {
 }  // namespace
 
 void Parameter::Validate(base::Problems& problems) const {
-  problems.Require(!name.empty(), "name", "must not be empty");
+  base::RequireName(problems, "name", name);
   if (fixed) {
     problems.Require(std::isfinite(*fixed), "fixed", *fixed, "must be finite");
     problems.Require(!guess, "guess", "has no meaning beside \"fixed\"");

@@ -1,5 +1,6 @@
 #include "surrogate/process/covariance.h"
 
+#include <cmath>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -7,51 +8,76 @@
 namespace talus::surrogate {
 
 Covariance::Covariance(Kernel kernel, Hyperparameters hyper)
-    : kernel_(kernel), hyper_(std::move(hyper)), inverse_length_(hyper_.length.cwiseInverse()) {}
+    : kernel_(kernel), hyper_(std::move(hyper)) {}
 
-double Covariance::At(const double* a, const double* b) const {
-  double q = 0;
-  double p = 0;
-  for (Eigen::Index k = 0; k < inverse_length_.size(); ++k) {
-    const double step = (a[k] - b[k]) * inverse_length_[k];
-    q += step * step;
-    p += (2 * a[k] - 1) * (2 * b[k] - 1);
+PairTerms Covariance::Terms(const double* a, const double* b, double growth_a,
+                            double growth_b) const {
+  PairTerms terms;
+  for (Eigen::Index k = 0; k < hyper_.length.size(); ++k) {
+    const double step = (a[k] - b[k]) / hyper_.length[k];
+    terms.q += step * step;
+    terms.p += (2 * a[k] - 1) * (2 * b[k] - 1);
   }
-  return kConstantSd * kConstantSd + hyper_.trend * hyper_.trend * (p + p * p) +
-         hyper_.signal * hyper_.signal * CorrelationAt(kernel_, q).value;
+  terms.rho = CorrelationAt(kernel_, terms.q);
+  if (!hyper_.scale || growth_a + growth_b == 0) return terms;
+  const ScaleTerm& scale = *hyper_.scale;
+  terms.target_share = std::exp(-scale.decay * (growth_a + growth_b));
+  terms.shared_growth =
+      growth_a * growth_b + (growth_a * growth_a - growth_a) * (growth_b * growth_b - growth_b);
+  if (terms.shared_growth != 0) {
+    terms.discrepancy_rho =
+        CorrelationAt(kernel_, terms.q / (scale.length_ratio * scale.length_ratio));
+  }
+  return terms;
 }
 
-Eigen::MatrixXd Covariance::Between(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) const {
-  Eigen::MatrixXd result(a.cols(), b.cols());
+double Covariance::TargetValue(const PairTerms& terms) const {
+  return hyper_.trend * hyper_.trend * (terms.p + terms.p * terms.p) +
+         hyper_.signal * hyper_.signal * terms.rho.value;
+}
+
+double Covariance::Value(const PairTerms& terms) const {
+  const double target = kConstantSd * kConstantSd + terms.target_share * TargetValue(terms);
+  if (terms.shared_growth == 0) return target;
+  const double u = hyper_.scale->discrepancy;
+  return target + terms.shared_growth * u * u * (1 + terms.p / 2 + terms.discrepancy_rho.value);
+}
+
+Eigen::MatrixXd Covariance::Between(const Sites& a, const Sites& b) const {
+  Eigen::MatrixXd result(a.columns.cols(), b.columns.cols());
   constexpr double kPairWork = 40;
-  base::ParallelFor({.num_items = b.cols(), .item_work = kPairWork * static_cast<double>(a.cols())},
-                    [&](Eigen::Index j) {
-                      for (Eigen::Index i = 0; i < a.cols(); ++i) {
-                        result(i, j) = At(a.col(i).data(), b.col(j).data());
-                      }
-                    });
+  base::ParallelFor(
+      {.num_items = b.columns.cols(), .item_work = kPairWork * static_cast<double>(result.rows())},
+      [&](Eigen::Index j) {
+        for (Eigen::Index i = 0; i < result.rows(); ++i) {
+          result(i, j) =
+              At(a.columns.col(i).data(), b.columns.col(j).data(), a.growth[i], b.growth[j]);
+        }
+      });
   return result;
 }
 
-Eigen::VectorXd Covariance::Diagonal(const Eigen::MatrixXd& points) const {
-  Eigen::VectorXd result(points.cols());
-  for (Eigen::Index j = 0; j < points.cols(); ++j) {
-    result[j] = At(points.col(j).data(), points.col(j).data());
+Eigen::VectorXd Covariance::Diagonal(const Sites& sites) const {
+  Eigen::VectorXd result(sites.columns.cols());
+  for (Eigen::Index j = 0; j < result.size(); ++j) {
+    const double* x = sites.columns.col(j).data();
+    result[j] = At(x, x, sites.growth[j], sites.growth[j]);
   }
   return result;
 }
 
-Eigen::MatrixXd Covariance::Gradient(const Eigen::VectorXd& x, const Eigen::MatrixXd& b) const {
+Eigen::MatrixXd Covariance::Gradient(const Eigen::VectorXd& x, const Sites& b) const {
   const double signal2 = hyper_.signal * hyper_.signal;
   const double trend2 = hyper_.trend * hyper_.trend;
   const Eigen::VectorXd z = 2 * x.array() - 1;
-  Eigen::MatrixXd result(x.size(), b.cols());
-  for (Eigen::Index j = 0; j < b.cols(); ++j) {
-    const Eigen::VectorXd step = (x - b.col(j)).cwiseProduct(inverse_length_);
-    const Eigen::VectorXd other = 2 * b.col(j).array() - 1;
-    const double slope = CorrelationAt(kernel_, step.squaredNorm()).slope;
-    result.col(j) = 2 * signal2 * slope * step.cwiseProduct(inverse_length_) +
-                    2 * trend2 * (1 + 2 * z.dot(other)) * other;
+  Eigen::MatrixXd result(x.size(), b.columns.cols());
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const Eigen::VectorXd step = (x - b.columns.col(j)).cwiseQuotient(hyper_.length);
+    const Eigen::VectorXd other = 2 * b.columns.col(j).array() - 1;
+    const PairTerms terms = Terms(x.data(), b.columns.col(j).data(), 0, b.growth[j]);
+    result.col(j) =
+        terms.target_share * (2 * signal2 * terms.rho.slope * step.cwiseQuotient(hyper_.length) +
+                              2 * trend2 * (1 + 2 * z.dot(other)) * other);
   }
   return result;
 }

@@ -44,19 +44,25 @@ void SolveColumns(const Eigen::MatrixXd& lower, Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-GaussianProcess GaussianProcess::Fit(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
+GaussianProcess GaussianProcess::Fit(const Evaluations& evaluations,
                                      const GaussianProcessOptions& options) {
-  if (points.rows() == 0 || points.rows() != values.size() || !points.allFinite() ||
-      !values.allFinite()) {
+  const Eigen::VectorXd& values = evaluations.values;
+  if (values.size() == 0 || evaluations.points.rows() != values.size() ||
+      !evaluations.points.allFinite() || !values.allFinite()) {
     throw base::Error("a Gaussian process needs at least one point and finite values");
   }
   GaussianProcessState state = options.frozen ? *options.frozen : ScaleOf(values);
-  PooledData data = Pool(points, (values.array() - state.centre) / state.scale);
-  const HyperLayout layout{.dimension = points.cols(),
+  const auto num_levels = static_cast<Eigen::Index>(options.priors.noise.size());
+  Evaluations scaled = evaluations;
+  scaled.values = (values.array() - state.centre) / state.scale;
+  PooledData data = Pool(scaled, static_cast<int>(num_levels));
+  const HyperLayout layout{.dimension = evaluations.points.cols(),
+                           .num_levels = num_levels,
                            .free_trend = options.trend == Trend::kQuadratic,
                            .free_noise = !options.deterministic,
                            .fixed_noise = std::sqrt(options.noise_floor),
-                           .free_warp = options.warp_inputs};
+                           .free_warp = options.warp_inputs,
+                           .has_scale = num_levels > 1 || (data.sites.growth.array() > 0).any()};
   double log_prior = 0;
   if (!options.frozen) {
     const MapFit fit = FitHyperparameters(data, layout, options);
@@ -73,59 +79,58 @@ GaussianProcess::GaussianProcess(PooledData data, GaussianProcessState state, Ke
   Factorise();
 }
 
-Eigen::MatrixXd GaussianProcess::Columns(const Eigen::MatrixXd& points) const {
-  return WarpAll(points.transpose(), state_.hyper.warp);
+Sites GaussianProcess::Warp(const Eigen::MatrixXd& points, double growth) const {
+  return Sites::At(WarpAll(points.transpose(), state_.hyper.warp), growth);
 }
 
 void GaussianProcess::Factorise() {
-  warped_ = WarpAll(data_.points, state_.hyper.warp);
+  constexpr double kJitter = 1e-10;  // of values scaled to 1: far below any noise
+  warped_ = {WarpAll(data_.sites.columns, state_.hyper.warp), data_.sites.growth};
   PooledData seen = data_;
-  seen.points = warped_;
-  Eigen::MatrixXd k = NoisyCovariance(covariance_, seen);
-  Eigen::LLT<Eigen::MatrixXd> factor(k);
-  const double largest = k.diagonal().maxCoeff();
-  jitter_ = 0;
+  seen.sites = warped_;
+  jitter_ = kJitter;
+  Eigen::LLT<Eigen::MatrixXd> factor(NoisyCovariance(covariance_, seen, jitter_));
   while (factor.info() != Eigen::Success) {
-    jitter_ = jitter_ == 0 ? 1e-14 * largest : 10 * jitter_;
-    Eigen::MatrixXd shifted = k;
-    shifted.diagonal().array() += jitter_;
-    factor.compute(shifted);
+    jitter_ *= 10;
+    factor.compute(NoisyCovariance(covariance_, seen, jitter_));
   }
   lower_ = factor.matrixL();
   alpha_ = factor.solve(data_.values);
 }
 
-void GaussianProcess::Add(const Eigen::VectorXd& x, double value) {
-  const Eigen::Index before = data_.values.size();
-  const Eigen::Index place = AddTo(data_, x, (value - state_.centre) / state_.scale);
+void GaussianProcess::Add(const Site& site, double value) {
+  const Eigen::Index before = data_.size();
+  const Eigen::Index place = AddTo(data_, site, (value - state_.centre) / state_.scale);
   if (place < before) {
     Factorise();  // a replicate changes the noise of a point in the middle of the factor
   } else {
-    AppendRow(x);
+    AppendRow(site);
   }
 }
 
-double GaussianProcess::AddFantasy(const Eigen::VectorXd& x) {
-  const double mean = Predict(x).mean;
-  Add(x, mean);
+double GaussianProcess::AddFantasy(const Site& site) {
+  const double mean = PredictAll(site.x.transpose(), site.growth).mean[0];
+  Add(site, mean);
   return mean;
 }
 
 // Rank one: the new last row of L is (L⁻¹ k, √(k(x, x) + n² - |L⁻¹ k|²)).
-void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
+void GaussianProcess::AppendRow(const Site& site) {
   const Eigen::Index size = lower_.rows();
-  const Eigen::VectorXd warped = Columns(x.transpose());
-  const Eigen::MatrixXd k = covariance_.Between(warped_, warped);
+  const Sites added = Warp(site.x.transpose(), site.growth);
+  const Eigen::MatrixXd k = covariance_.Between(warped_, added);
   const Eigen::VectorXd row = lower_.triangularView<Eigen::Lower>().solve(k.col(0));
-  const double noise2 = state_.hyper.noise * state_.hyper.noise;
-  const double prior = covariance_.At(warped.data(), warped.data());
-  const double pivot = prior + noise2 + jitter_ - row.squaredNorm();
+  const double noise = state_.hyper.noise[site.level];
+  const double prior = covariance_.Diagonal(added)[0];
+  const double pivot = prior + noise * noise + jitter_ - row.squaredNorm();
   if (!(pivot > 0)) {
     Factorise();
     return;
   }
-  warped_.conservativeResize(Eigen::NoChange, size + 1);
-  warped_.col(size) = warped;
+  warped_.columns.conservativeResize(Eigen::NoChange, size + 1);
+  warped_.columns.col(size) = added.columns.col(0);
+  warped_.growth.conservativeResize(size + 1);
+  warped_.growth[size] = site.growth;
   lower_.conservativeResize(size + 1, size + 1);
   lower_.col(size).setZero();
   lower_.row(size).head(size) = row;
@@ -135,53 +140,56 @@ void GaussianProcess::AppendRow(const Eigen::VectorXd& x) {
 }
 
 Prediction GaussianProcess::Predict(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd warped = Columns(x.transpose());
-  const Eigen::VectorXd k = covariance_.Between(warped_, warped).col(0);
+  const Sites at = Warp(x.transpose(), 0);
+  const Eigen::VectorXd k = covariance_.Between(warped_, at).col(0);
   const Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
-  const double variance = covariance_.At(warped.data(), warped.data()) - v.squaredNorm();
+  const double variance = covariance_.Diagonal(at)[0] - v.squaredNorm();
   return {.mean = state_.centre + state_.scale * k.dot(alpha_),
           .variance = state_.scale * state_.scale * std::max(0.0, variance)};
 }
 
-Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points) const {
-  const Eigen::MatrixXd columns = Columns(points);
-  Eigen::MatrixXd k = covariance_.Between(warped_, columns);
+Predictions GaussianProcess::PredictAll(const Eigen::MatrixXd& points, double growth) const {
+  const Sites sites = Warp(points, growth);
+  Eigen::MatrixXd k = covariance_.Between(warped_, sites);
   Predictions result;
   result.mean = state_.centre + state_.scale * (k.transpose() * alpha_).array();
   SolveColumns(lower_, k);
-  result.variance = state_.scale * state_.scale *
-                    (covariance_.Diagonal(columns).transpose() - k.colwise().squaredNorm())
-                        .transpose()
-                        .cwiseMax(0.0);
+  const Eigen::VectorXd known = k.colwise().squaredNorm();
+  result.variance =
+      state_.scale * state_.scale * (covariance_.Diagonal(sites) - known).cwiseMax(0.0);
   return result;
 }
 
 AnchorPoints GaussianProcess::Anchor(const Eigen::MatrixXd& points) const {
-  AnchorPoints anchors{.columns = Columns(points), .whitened = {}};
+  AnchorPoints anchors{.sites = Warp(points, 0), .whitened = {}, .variance = {}};
   anchors.whitened =
-      lower_.triangularView<Eigen::Lower>().solve(covariance_.Between(warped_, anchors.columns));
+      lower_.triangularView<Eigen::Lower>().solve(covariance_.Between(warped_, anchors.sites));
+  const Eigen::VectorXd known = anchors.whitened.colwise().squaredNorm();
+  anchors.variance =
+      state_.scale * state_.scale * (covariance_.Diagonal(anchors.sites) - known).cwiseMax(0.0);
   return anchors;
 }
 
 Covariances GaussianProcess::PosteriorCovariances(const AnchorPoints& anchors,
-                                                  const Eigen::MatrixXd& points) const {
-  const Eigen::MatrixXd columns = Columns(points);
-  Eigen::MatrixXd v = covariance_.Between(warped_, columns);
+                                                  const Eigen::MatrixXd& points,
+                                                  double growth) const {
+  const Sites sites = Warp(points, growth);
+  Eigen::MatrixXd v = covariance_.Between(warped_, sites);
   SolveColumns(lower_, v);
   const double scale2 = state_.scale * state_.scale;
-  const Eigen::VectorXd prior = covariance_.Diagonal(columns);
   const Eigen::VectorXd known = v.colwise().squaredNorm();
-  return {.between = scale2 * (covariance_.Between(anchors.columns, columns) -
-                               anchors.whitened.transpose() * v),
-          .variance = scale2 * (prior - known).cwiseMax(0.0)};
+  return {.between = scale2 *
+                     (covariance_.Between(anchors.sites, sites) - anchors.whitened.transpose() * v),
+          .variance = scale2 * (covariance_.Diagonal(sites) - known).cwiseMax(0.0)};
 }
 
 PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd warped = Columns(x.transpose());
-  const Eigen::VectorXd k = covariance_.Between(warped_, warped).col(0);
+  const Sites at = Warp(x.transpose(), 0);
+  const Eigen::VectorXd warped = at.columns.col(0);
+  const Eigen::VectorXd k = covariance_.Between(warped_, at).col(0);
   const Eigen::MatrixXd slope = covariance_.Gradient(warped, warped_);  // d × u
   Eigen::VectorXd v = lower_.triangularView<Eigen::Lower>().solve(k);
-  const double variance = covariance_.At(warped.data(), warped.data()) - v.squaredNorm();
+  const double variance = covariance_.Diagonal(at)[0] - v.squaredNorm();
   lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(v);  // now K⁻¹ k
   PredictionGradient result;
   const double scale2 = state_.scale * state_.scale;
@@ -199,11 +207,11 @@ PredictionGradient GaussianProcess::PredictWithGradient(const Eigen::VectorXd& x
 
 Eigen::MatrixXd GaussianProcess::Draw(const Eigen::MatrixXd& points, int num_draws,
                                       base::Random random) const {
-  const Eigen::MatrixXd columns = Columns(points);
-  Eigen::MatrixXd v = covariance_.Between(warped_, columns);
+  const Sites sites = Warp(points, 0);
+  Eigen::MatrixXd v = covariance_.Between(warped_, sites);
   const Eigen::VectorXd mean = v.transpose() * alpha_;
   SolveColumns(lower_, v);
-  Eigen::MatrixXd posterior = covariance_.Between(columns, columns) - v.transpose() * v;
+  Eigen::MatrixXd posterior = covariance_.Between(sites, sites) - v.transpose() * v;
   // Robust Cholesky: the posterior is singular at and between close points.
   const Eigen::LDLT<Eigen::MatrixXd> factor(posterior);
   const Eigen::VectorXd root = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
@@ -231,17 +239,16 @@ Predictions GaussianProcess::LeaveOneOut() const {
 }
 
 double GaussianProcess::LogLikelihood() const {
-  const auto size = static_cast<double>(data_.values.size());
-  return -0.5 * data_.values.dot(alpha_) - lower_.diagonal().array().log().sum() -
-         0.5 * size * std::log(2 * std::numbers::pi) +
-         PoolingTerm(data_, state_.hyper.noise * state_.hyper.noise) -
-         static_cast<double>(data_.num_values) * std::log(state_.scale);
+  return -0.5 * data_.values.dot(alpha_) - lower_.diagonal().array().log().sum() +
+         PoolingTerm(data_, state_.hyper.noise) -
+         data_.num_values() * (0.5 * std::log(2 * std::numbers::pi) + std::log(state_.scale));
 }
 
 double GaussianProcess::LogPosterior() const { return LogLikelihood() + log_prior_; }
 
-double GaussianProcess::noise_variance() const {
-  return state_.scale * state_.scale * state_.hyper.noise * state_.hyper.noise;
+double GaussianProcess::noise_variance(int level) const {
+  const double noise = state_.scale * state_.hyper.noise[level];
+  return noise * noise;
 }
 
 Eigen::VectorXd GaussianProcess::values() const {

@@ -1,9 +1,11 @@
-// Gaussian process regression on the unit cube: the predictor behind the scalar and field models.
+// Gaussian process regression on the unit cube and, where there are several, over scale factors:
+// the one predictor behind every model.
 //
 //   mean(x) = b + a kᵀ K⁻¹ y,   variance(x) = a² (k(x, x) - kᵀ K⁻¹ k),   y = (values - b) / a
 //
 // b, a: mean and standard deviation of the values; k, K: covariance.h, likelihood.h. The variance
-// is that of the mean function; one evaluation has noise_variance() on top of it.
+// is that of the mean function; one evaluation has noise_variance() on top of it. Predictions are
+// for the target scale factor unless a growth (covariance.h) is given.
 // Replicates are pooled exactly. Hyper-parameters by maximum a posteriori from several starts,
 // unless frozen. Points have one point a row, as everywhere outside this folder.
 #pragma once
@@ -26,18 +28,26 @@ struct GaussianProcessState {
   double scale = 1;            // a
 };
 
+// How hard the search for the hyper-parameters tries.
+struct FitEffort {
+  int num_starts = 8;        // prior median, `start`, and draws from the prior; with several scale
+                             // factors one more, that they tell nothing of each other
+  int num_searches = 2;      // local searches, from the best of the starts
+  int max_evaluations = 60;  // of the likelihood, a local search
+  double relative_tolerance = 1e-7;
+  bool may_thin = true;  // of many points a part decides (map_fit.cc)
+};
+
 struct GaussianProcessOptions {
   Kernel kernel = Kernel::kMatern52;
   Trend trend = Trend::kConstant;
   bool warp_inputs = false;    // infer an input warping of each coordinate (warp.h)
   bool deterministic = false;  // the same point always gives the same value: noise = floor
-  double noise_floor = 1e-8;   // least noise variance / variance of the values, > 0
-  HyperPriors priors = {};
-  int num_starts = 2;                         // local searches, from the best of the trial starts
-  int num_trial_starts = 8;                   // prior median, `start`, and draws from the prior
-  int max_evaluations = 60;                   // of the likelihood, a local search
-  std::uint64_t seed = 1;                     // of the draws from the prior
-  std::optional<Hyperparameters> start = {};  // one more trial start
+  double noise_floor = 1e-8;   // noise variance / variance of the values then, > 0
+  HyperPriors priors = {};     // noise: as many as there are scale factors
+  FitEffort effort = {};
+  std::uint64_t seed = 1;                           // of the draws from the prior
+  std::optional<Hyperparameters> start = {};        // one more trial start
   std::optional<GaussianProcessState> frozen = {};  // take these, fit nothing
 };
 
@@ -59,8 +69,9 @@ struct PredictionGradient {
 
 // A fixed set of points, prepared for covariances with many others. Valid until Add.
 struct AnchorPoints {
-  Eigen::MatrixXd columns;   // as the covariance sees them
+  Sites sites;               // as the covariance sees them, at the target
   Eigen::MatrixXd whitened;  // L⁻¹ k(X, points)
+  Eigen::VectorXd variance;  // posterior variance of the output there
 };
 
 struct Covariances {
@@ -70,17 +81,18 @@ struct Covariances {
 
 class GaussianProcess {
  public:
-  // `points` n × d with n >= 1, `values` n.
-  static GaussianProcess Fit(const Eigen::MatrixXd& points, const Eigen::VectorXd& values,
-                             const GaussianProcessOptions& options);
+  // At least one evaluation, all values finite.
+  static GaussianProcess Fit(const Evaluations& evaluations, const GaussianProcessOptions& options);
 
   Prediction Predict(const Eigen::VectorXd& x) const;
-  Predictions PredictAll(const Eigen::MatrixXd& points) const;
+  Predictions PredictAll(const Eigen::MatrixXd& points, double growth = 0) const;
   PredictionGradient PredictWithGradient(const Eigen::VectorXd& x) const;
 
   AnchorPoints Anchor(const Eigen::MatrixXd& points) const;
-  Covariances PosteriorCovariances(const AnchorPoints& anchors,
-                                   const Eigen::MatrixXd& points) const;
+  // With outputs at `points` whose discrepancy has grown by `growth`. An evaluation there takes
+  // between²/(variance + noise) from the variance of an anchor.
+  Covariances PosteriorCovariances(const AnchorPoints& anchors, const Eigen::MatrixXd& points,
+                                   double growth = 0) const;
 
   // Joint draws of the mean function: one draw a row, one point a column.
   Eigen::MatrixXd Draw(const Eigen::MatrixXd& points, int num_draws, base::Random random) const;
@@ -90,32 +102,33 @@ class GaussianProcess {
   Predictions LeaveOneOut() const;
 
   // Adds one evaluation in O(n²); hyper-parameters, centre and scale stay.
-  void Add(const Eigen::VectorXd& x, double value);
-  // Adds the prediction at x as if it were an evaluation, and returns it (the kriging believer).
-  double AddFantasy(const Eigen::VectorXd& x);
+  void Add(const Site& site, double value);
+  // Adds the prediction there as if it were an evaluation, and returns it (the kriging believer).
+  double AddFantasy(const Site& site);
 
-  double noise_variance() const;  // of one evaluation
-  double LogLikelihood() const;   // of the values, in their own units
-  double LogPosterior() const;    // with the prior of the hyper-parameters, where they were fitted
+  double noise_variance(int level = 0) const;  // of one evaluation
+  double LogLikelihood() const;                // of the values, in their own units
+  double LogPosterior() const;  // with the prior of the hyper-parameters, where they were fitted
   const GaussianProcessState& state() const { return state_; }
-  Eigen::Index dimension() const { return data_.points.rows(); }
-  Eigen::Index num_points() const { return data_.values.size(); }  // distinct
-  Eigen::MatrixXd points() const { return data_.points.transpose(); }
-  Eigen::VectorXd values() const;  // means over replicates
+  Eigen::Index dimension() const { return data_.sites.columns.rows(); }
+  Eigen::Index num_points() const { return data_.size(); }  // distinct
+  Eigen::MatrixXd points() const { return data_.sites.columns.transpose(); }
+  const Eigen::VectorXi& first() const { return data_.first; }  // evaluation of each, from 0
+  Eigen::VectorXd values() const;                               // means over replicates
 
  private:
   GaussianProcess(PooledData data, GaussianProcessState state, Kernel kernel);
-  Eigen::MatrixXd Columns(const Eigen::MatrixXd& points) const;  // warped, one a column
+  Sites Warp(const Eigen::MatrixXd& points, double growth) const;
   void Factorise();
-  void AppendRow(const Eigen::VectorXd& x);
+  void AppendRow(const Site& site);
 
-  PooledData data_;         // values scaled
-  Eigen::MatrixXd warped_;  // points as the covariance sees them, d × u
+  PooledData data_;  // values scaled
+  Sites warped_;     // points as the covariance sees them
   GaussianProcessState state_;
   Covariance covariance_;
   Eigen::MatrixXd lower_;  // L, K = L Lᵀ; only the lower triangle is meant
   Eigen::VectorXd alpha_;  // K⁻¹ y
-  double jitter_ = 0;      // added to the diagonal where rounding made K indefinite
+  double jitter_ = 0;      // added to the diagonal, so that rounding does not make K indefinite
   double log_prior_ = 0;
 };
 

@@ -10,8 +10,6 @@
 namespace talus::surrogate {
 namespace {
 
-const double kLog2Pi = std::log(2 * std::numbers::pi);
-
 // dw/dc of every coordinate of every point.
 Eigen::MatrixXd WarpSlopes(const Eigen::MatrixXd& points, const Eigen::VectorXd& strengths) {
   Eigen::MatrixXd slopes(points.rows(), points.cols());
@@ -26,82 +24,85 @@ Eigen::MatrixXd WarpSlopes(const Eigen::MatrixXd& points, const Eigen::VectorXd&
 // ½ Σᵢⱼ Wᵢⱼ ∂Kᵢⱼ/∂θ for symmetric W, over the pairs i < j twice and the diagonal once.
 class TraceSum {
  public:
-  // `data` with warped points; `warp_slopes` of the points before, empty without input warping.
-  TraceSum(const PooledData& data, Eigen::MatrixXd warp_slopes, Kernel kernel,
-           const Hyperparameters& hyper, const HyperLayout& layout)
+  // `data` with warped points; `warp_slopes` at the points before, empty without input warping.
+  TraceSum(const PooledData& data, Eigen::MatrixXd warp_slopes, const Covariance& covariance,
+           const HyperLayout& layout)
       : data_(data),
         warp_slopes_(std::move(warp_slopes)),
-        kernel_(kernel),
-        hyper_(hyper),
-        layout_(layout) {
-    inverse_length_ = hyper.length.cwiseInverse();
-    squared_.resize(hyper.length.size());
-  }
+        covariance_(covariance),
+        hyper_(covariance.hyper()),
+        layout_(layout) {}
 
-  Eigen::VectorXd Of(const Eigen::MatrixXd& w) {
+  Eigen::VectorXd Over(const Eigen::MatrixXd& w) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(layout_.size());
     for (Eigen::Index j = 0; j < w.cols(); ++j) {
       for (Eigen::Index i = 0; i < j; ++i) AddPair(i, j, 2 * w(i, j), sum);
       AddPair(j, j, w(j, j), sum);
-    }
-    if (layout_.free_noise) {
-      sum[layout_.noise_index()] =
-          2 * hyper_.noise * hyper_.noise * w.diagonal().cwiseQuotient(data_.counts).sum();
+      if (!layout_.free_noise) continue;
+      const double noise = hyper_.noise[data_.level[j]];
+      sum[layout_.noise() + data_.level[j]] += 2 * noise * noise * w(j, j) / data_.counts[j];
     }
     return 0.5 * sum;
   }
 
  private:
-  void AddPair(Eigen::Index i, Eigen::Index j, double weight, Eigen::VectorXd& sum) {
-    const double* a = data_.points.col(i).data();
-    const double* b = data_.points.col(j).data();
-    double q = 0;
-    double p = 0;
-    for (Eigen::Index k = 0; k < layout_.dimension; ++k) {
-      const double step = (a[k] - b[k]) * inverse_length_[k];
-      squared_[k] = step * step;
-      q += squared_[k];
-      p += (2 * a[k] - 1) * (2 * b[k] - 1);
-    }
-    const Correlation rho = CorrelationAt(kernel_, q);
-    const double signal2 = weight * hyper_.signal * hyper_.signal;
-    for (Eigen::Index k = 0; k < layout_.dimension; ++k) {
-      sum[k] -= 2 * signal2 * rho.slope * squared_[k];
-    }
-    sum[layout_.dimension] += 2 * signal2 * rho.value;
-    if (layout_.free_trend) {
-      sum[layout_.trend_index()] += 2 * weight * hyper_.trend * hyper_.trend * (p + p * p);
-    }
-    if (layout_.free_warp) {
-      AddBends(i, j, {signal2 * rho.slope, weight * hyper_.trend * hyper_.trend * (1 + 2 * p)},
-               sum);
-    }
-  }
-
   struct PairSlopes {
     double q = 0;  // dk/dq, weighted
     double p = 0;  // dk/dp, weighted
   };
 
-  void AddBends(Eigen::Index i, Eigen::Index j, const PairSlopes& slope, Eigen::VectorXd& sum) {
+  void AddPair(Eigen::Index i, Eigen::Index j, double weight, Eigen::VectorXd& sum) const {
+    const double g1 = data_.sites.growth[i];
+    const double g2 = data_.sites.growth[j];
+    const double* a = data_.sites.columns.col(i).data();
+    const double* b = data_.sites.columns.col(j).data();
+    const PairTerms terms = covariance_.Terms(a, b, g1, g2);
+    const double share = weight * terms.target_share;
+    const double signal2 = share * hyper_.signal * hyper_.signal;
+    const double trend2 = share * hyper_.trend * hyper_.trend;
+    PairSlopes slopes{.q = signal2 * terms.rho.slope, .p = trend2 * (1 + 2 * terms.p)};
+    sum[layout_.signal()] += 2 * signal2 * terms.rho.value;
+    if (layout_.free_trend) {
+      sum[layout_.trend()] += 2 * trend2 * (terms.p + terms.p * terms.p);
+    }
+    if (layout_.has_scale) AddScale(terms, weight, g1 + g2, slopes, sum);
+    AddCoordinates(i, j, slopes, sum);
+  }
+
+  void AddScale(const PairTerms& terms, double weight, double growth, PairSlopes& slopes,
+                Eigen::VectorXd& sum) const {
+    const ScaleTerm& scale = *hyper_.scale;
+    const double shared = weight * scale.discrepancy * scale.discrepancy * terms.shared_growth;
+    const double by_ratio =
+        shared * terms.discrepancy_rho.slope / (scale.length_ratio * scale.length_ratio);
+    slopes.q += by_ratio;
+    slopes.p += shared / 2;
+    sum[layout_.discrepancy()] += 2 * shared * (1 + terms.p / 2 + terms.discrepancy_rho.value);
+    sum[layout_.decay()] -= growth * (weight * terms.target_share) * covariance_.TargetValue(terms);
+    sum[layout_.length_ratio()] -= 2 * by_ratio * terms.q;
+  }
+
+  void AddCoordinates(Eigen::Index i, Eigen::Index j, const PairSlopes& slopes,
+                      Eigen::VectorXd& sum) const {
     for (Eigen::Index k = 0; k < layout_.dimension; ++k) {
-      const double a = data_.points(k, i);
-      const double b = data_.points(k, j);
+      const double a = data_.sites.columns(k, i);
+      const double b = data_.sites.columns(k, j);
+      const double inverse = 1 / hyper_.length[k];
+      const double step = (a - b) * inverse;
+      sum[k] -= 2 * slopes.q * step * step;
+      if (!layout_.free_warp) continue;
       const double da = warp_slopes_(k, i);
       const double db = warp_slopes_(k, j);
-      const double dq = 2 * (a - b) * (da - db) * inverse_length_[k] * inverse_length_[k];
-      const double dp = 2 * da * (2 * b - 1) + 2 * db * (2 * a - 1);
-      sum[layout_.warp_index() + k] += slope.q * dq + slope.p * dp;
+      sum[layout_.warp() + k] += slopes.q * 2 * step * (da - db) * inverse +
+                                 slopes.p * 2 * (da * (2 * b - 1) + db * (2 * a - 1));
     }
   }
 
   const PooledData& data_;
   Eigen::MatrixXd warp_slopes_;
-  Kernel kernel_;
+  const Covariance& covariance_;
   const Hyperparameters& hyper_;
   const HyperLayout& layout_;
-  Eigen::VectorXd inverse_length_;
-  Eigen::VectorXd squared_;
 };
 
 }  // namespace
@@ -109,95 +110,117 @@ class TraceSum {
 Hyperparameters HyperLayout::Unpack(const Eigen::VectorXd& theta) const {
   Hyperparameters hyper;
   hyper.length = theta.head(dimension).array().exp();
-  hyper.signal = std::exp(theta[dimension]);
-  hyper.trend = free_trend ? std::exp(theta[trend_index()]) : 0;
-  hyper.noise = free_noise ? std::exp(theta[noise_index()]) : fixed_noise;
-  if (free_warp) hyper.warp = theta.tail(dimension);
+  hyper.signal = std::exp(theta[signal()]);
+  hyper.trend = free_trend ? std::exp(theta[trend()]) : 0;
+  hyper.noise = Eigen::VectorXd::Constant(num_levels, fixed_noise);
+  if (free_noise) hyper.noise = theta.segment(noise(), num_levels).array().exp();
+  if (free_warp) hyper.warp = theta.segment(warp(), dimension);
+  if (has_scale) {
+    hyper.scale = ScaleTerm{.discrepancy = std::exp(theta[discrepancy()]),
+                            .decay = theta[decay()],
+                            .length_ratio = std::exp(theta[length_ratio()])};
+  }
   return hyper;
 }
 
 Eigen::VectorXd HyperLayout::Pack(const Hyperparameters& hyper) const {
   Eigen::VectorXd theta(size());
   theta.head(dimension) = hyper.length.array().log();
-  theta[dimension] = std::log(hyper.signal);
-  if (free_trend) theta[trend_index()] = std::log(hyper.trend);
-  if (free_noise) theta[noise_index()] = std::log(hyper.noise);
-  if (free_warp) theta.tail(dimension) = hyper.warp;
+  theta[signal()] = std::log(hyper.signal);
+  if (free_trend) theta[trend()] = std::log(hyper.trend);
+  if (free_noise) theta.segment(noise(), num_levels) = hyper.noise.array().log();
+  if (free_warp) theta.segment(warp(), dimension) = hyper.warp;
+  if (has_scale) {
+    theta[discrepancy()] = std::log(hyper.scale->discrepancy);
+    theta[decay()] = hyper.scale->decay;
+    theta[length_ratio()] = std::log(hyper.scale->length_ratio);
+  }
   return theta;
 }
 
-Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& data) {
-  const Eigen::Index size = data.values.size();
-  const double noise2 = covariance.hyper().noise * covariance.hyper().noise;
+Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& data,
+                                double nugget) {
+  const Eigen::Index size = data.size();
   Eigen::MatrixXd k(size, size);
   for (Eigen::Index j = 0; j < size; ++j) {
     for (Eigen::Index i = j; i < size; ++i) {
-      k(i, j) = covariance.At(data.points.col(i).data(), data.points.col(j).data());
+      k(i, j) = covariance.At(data.sites.columns.col(i).data(), data.sites.columns.col(j).data(),
+                              data.sites.growth[i], data.sites.growth[j]);
     }
-    k(j, j) += noise2 / data.counts[j];
+    const double noise = covariance.hyper().noise[data.level[j]];
+    k(j, j) += noise * noise / data.counts[j] + nugget;
   }
   return k.selfadjointView<Eigen::Lower>();
 }
 
-double PoolingTerm(const PooledData& data, double noise_variance) {
-  const auto num_extra = static_cast<double>(data.num_values - data.values.size());
-  if (num_extra == 0) return 0;
-  return -0.5 * (num_extra * (kLog2Pi + std::log(noise_variance)) +
-                 data.sum_of_squares / noise_variance + data.counts.array().log().sum());
+double PoolingTerm(const PooledData& data, const Eigen::VectorXd& noise) {
+  if (data.num_extra.sum() == 0) return 0;
+  const Eigen::ArrayXd noise2 = noise.array().square();
+  return -0.5 *
+         ((data.num_extra.array() * noise2.log() + data.sum_of_squares.array() / noise2).sum() +
+          data.counts.array().log().sum());
 }
 
 double LogLikelihood(const PooledData& raw, Kernel kernel, const HyperLayout& layout,
                      const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
   const Covariance covariance(kernel, layout.Unpack(theta));
-  const Eigen::VectorXd& strengths = covariance.hyper().warp;
+  const Hyperparameters& hyper = covariance.hyper();
   PooledData data = raw;
-  data.points = WarpAll(raw.points, strengths);
+  data.sites.columns = WarpAll(raw.sites.columns, hyper.warp);
   const Eigen::LLT<Eigen::MatrixXd> factor(NoisyCovariance(covariance, data));
   if (factor.info() != Eigen::Success) return -std::numeric_limits<double>::infinity();
   const Eigen::VectorXd alpha = factor.solve(data.values);
   const double log_root = factor.matrixLLT().diagonal().array().log().sum();  // ½ ln|K|
-  const double noise2 = covariance.hyper().noise * covariance.hyper().noise;
-  const auto size = data.values.size();
+  const auto size = data.size();
   if (gradient != nullptr) {
     Eigen::MatrixXd w = -factor.solve(Eigen::MatrixXd::Identity(size, size));
     w.noalias() += alpha * alpha.transpose();
     const Eigen::MatrixXd slopes =
-        layout.free_warp ? WarpSlopes(raw.points, strengths) : Eigen::MatrixXd();
-    *gradient = TraceSum(data, slopes, kernel, covariance.hyper(), layout).Of(w);
+        layout.free_warp ? WarpSlopes(raw.sites.columns, hyper.warp) : Eigen::MatrixXd();
+    *gradient = TraceSum(data, slopes, covariance, layout).Over(w);
     if (layout.free_noise) {
-      const auto num_extra = static_cast<double>(data.num_values - size);
-      (*gradient)[layout.noise_index()] += data.sum_of_squares / noise2 - num_extra;
+      gradient->segment(layout.noise(), layout.num_levels) +=
+          data.sum_of_squares.cwiseQuotient(hyper.noise.cwiseAbs2()) - data.num_extra;
     }
   }
-  return -0.5 * data.values.dot(alpha) - log_root - 0.5 * static_cast<double>(size) * kLog2Pi +
-         PoolingTerm(data, noise2);
+  return -0.5 * data.values.dot(alpha) - log_root + PoolingTerm(data, hyper.noise);
 }
 
-Eigen::VectorXd PriorMedian(const HyperPriors& priors, const HyperLayout& layout) {
-  return layout.Pack({.length = Eigen::VectorXd::Constant(layout.dimension, priors.length.median),
-                      .signal = priors.signal.median,
-                      .trend = priors.trend.median,
-                      .noise = priors.noise.median,
-                      .warp = Eigen::VectorXd::Zero(layout.dimension)});
-}
-
-Eigen::VectorXd PriorSd(const HyperPriors& priors, const HyperLayout& layout) {
-  Eigen::VectorXd sd(layout.size());
+ThetaPrior::ThetaPrior(const HyperPriors& priors, const HyperLayout& layout) : sd(layout.size()) {
+  Hyperparameters hyper{.length = Eigen::VectorXd::Constant(layout.dimension, priors.length.median),
+                        .signal = priors.signal.median,
+                        .trend = priors.trend.median,
+                        .noise = Eigen::VectorXd(layout.num_levels),
+                        .warp = Eigen::VectorXd::Zero(layout.dimension),
+                        .scale = ScaleTerm{.discrepancy = priors.discrepancy.median,
+                                           .decay = 0,
+                                           .length_ratio = priors.length_ratio.median}};
+  for (Eigen::Index l = 0; l < layout.num_levels; ++l) {
+    const LogNormal& noise = priors.noise.at(static_cast<std::size_t>(l));
+    hyper.noise[l] = noise.median;
+    if (layout.free_noise) sd[layout.noise() + l] = noise.log_sd;
+  }
+  median = layout.Pack(hyper);
   sd.head(layout.dimension).setConstant(priors.length.log_sd);
-  sd[layout.dimension] = priors.signal.log_sd;
-  if (layout.free_trend) sd[layout.trend_index()] = priors.trend.log_sd;
-  if (layout.free_noise) sd[layout.noise_index()] = priors.noise.log_sd;
-  if (layout.free_warp) sd.tail(layout.dimension).setConstant(priors.warp_sd);
-  return sd;
+  sd[layout.signal()] = priors.signal.log_sd;
+  if (layout.free_trend) sd[layout.trend()] = priors.trend.log_sd;
+  if (layout.free_warp) sd.segment(layout.warp(), layout.dimension).setConstant(priors.warp_sd);
+  if (layout.has_scale) {
+    sd[layout.discrepancy()] = priors.discrepancy.log_sd;
+    sd[layout.decay()] = priors.decay_sd;
+    sd[layout.length_ratio()] = priors.length_ratio.log_sd;
+  }
 }
 
-double LogPrior(const HyperPriors& priors, const HyperLayout& layout, const Eigen::VectorXd& theta,
-                Eigen::VectorXd* gradient) {
-  const Eigen::VectorXd sd = PriorSd(priors, layout);
-  const Eigen::VectorXd z = (theta - PriorMedian(priors, layout)).cwiseQuotient(sd);
+double ThetaPrior::LogDensity(const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) const {
+  const Eigen::VectorXd z = (theta - median).cwiseQuotient(sd);
   if (gradient != nullptr) *gradient -= z.cwiseQuotient(sd);
-  return -0.5 * z.squaredNorm() - sd.array().log().sum() -
-         0.5 * static_cast<double>(layout.size()) * kLog2Pi;
+  return -0.5 * z.squaredNorm();
+}
+
+double ThetaPrior::LogConstant() const {
+  return -sd.array().log().sum() -
+         0.5 * static_cast<double>(sd.size()) * std::log(2 * std::numbers::pi);
 }
 
 }  // namespace talus::surrogate

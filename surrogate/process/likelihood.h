@@ -1,12 +1,12 @@
 // How probable the values are under a Gaussian process, as a function of its hyper-parameters, with
 // the analytic gradient.
 //
-//   L = -½ yᵀ K⁻¹ y - ½ ln|K| - (u/2) ln 2π - ½ [(N - u) ln(2π n²) + S/n² + Σ ln mᵢ]
-//   dL/dθ = ½ tr((α αᵀ - K⁻¹) dK/dθ) + …,   α = K⁻¹ y,   K = k(X, X) + n² diag(1/mᵢ)
+//   L = -½ yᵀ K⁻¹ y - ½ ln|K| - ½ Σ_l [(N_l - u_l) ln n_l² + S_l/n_l²] - ½ Σ ln mᵢ - (N/2) ln 2π
+//   dL/dθ = ½ tr((α αᵀ - K⁻¹) dK/dθ) + …,   α = K⁻¹ y,   K = k(X, X) + diag(n_l²/mᵢ)
 //
-// The bracket is what pooling N values into u points leaves; S is PooledData::sum_of_squares
-// (replicates.h). θ are logarithms of the hyper-parameters, but warp strengths themselves; the
-// prior is normal in θ.
+// The brackets are what pooling N_l values of scale factor l into u_l points leaves (replicates.h).
+// θ are logarithms of the hyper-parameters, but warp strengths and the decay themselves; the prior
+// is normal in θ.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,53 +16,53 @@
 
 namespace talus::surrogate {
 
-struct LogNormal {
-  double median = 1;
-  double log_sd = 1;  // standard deviation of the logarithm
-};
-
-// Values are scaled to standard deviation 1, points to the unit cube, so these mean the same for
-// every problem.
-struct HyperPriors {
-  LogNormal length{.median = 0.7, .log_sd = 0.7};
-  LogNormal signal{.median = 1.0, .log_sd = 0.7};
-  LogNormal trend{.median = 0.5, .log_sd = 1.0};
-  LogNormal noise{.median = 0.1, .log_sd = 1.0};
-  double warp_sd = 1.0;  // warp strengths are normal about 0
-};
-
-// Which hyper-parameters are free, and how they map to θ = (ln ℓ…, ln s, [ln t], [ln n], [warp]).
+// Which hyper-parameters are free, and how they map to
+// θ = (ln ℓ…, ln s, [ln t], [ln u], [ln n…], [warp…], [a, ln λ]).
 struct HyperLayout {
   Eigen::Index dimension = 0;
-  bool free_trend = false;  // else t = 0
-  bool free_noise = false;  // else n = fixed_noise
+  Eigen::Index num_levels = 1;  // scale factors
+  bool free_trend = false;      // else t = 0
+  bool free_noise = false;      // else n = fixed_noise
   double fixed_noise = 0;
   bool free_warp = false;  // else none
+  bool has_scale = false;  // else no discrepancy
 
-  Eigen::Index size() const { return warp_index() + (free_warp ? dimension : 0); }
-  Eigen::Index trend_index() const { return dimension + 1; }
-  Eigen::Index noise_index() const { return dimension + 1 + (free_trend ? 1 : 0); }
-  Eigen::Index warp_index() const { return noise_index() + (free_noise ? 1 : 0); }
+  Eigen::Index signal() const { return dimension; }
+  Eigen::Index trend() const { return dimension + 1; }
+  Eigen::Index discrepancy() const { return trend() + (free_trend ? 1 : 0); }
+  Eigen::Index noise() const { return discrepancy() + (has_scale ? 1 : 0); }
+  Eigen::Index warp() const { return noise() + (free_noise ? num_levels : 0); }
+  Eigen::Index decay() const { return warp() + (free_warp ? dimension : 0); }
+  Eigen::Index length_ratio() const { return decay() + 1; }
+  Eigen::Index size() const { return decay() + (has_scale ? 2 : 0); }
+
   Hyperparameters Unpack(const Eigen::VectorXd& theta) const;
   Eigen::VectorXd Pack(const Hyperparameters& hyper) const;
 };
 
-// K = k(X, X) + n² diag(1/m), of points warped already.
-Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& data);
+// K of sites that are warped already. `nugget` is added to each element of the diagonal.
+Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& data,
+                                double nugget = 0);
 
-// What pooling leaves of the likelihood, the bracket above: a function of the noise alone.
-double PoolingTerm(const PooledData& data, double noise_variance);
+// What pooling leaves of the likelihood, the brackets above: a function of the noise alone.
+double PoolingTerm(const PooledData& data, const Eigen::VectorXd& noise);
 
-// L alone; `gradient`, where not null, gets dL/dθ. Minus infinity where K is not positive definite.
+// L but for its last term, which is a constant; `gradient`, where not null, gets dL/dθ. Minus
+// infinity where K is not positive definite.
 double LogLikelihood(const PooledData& raw, Kernel kernel, const HyperLayout& layout,
                      const Eigen::VectorXd& theta, Eigen::VectorXd* gradient);
 
-// The logarithm of the prior's density of θ; the gradient is added to `gradient` where not null.
-double LogPrior(const HyperPriors& priors, const HyperLayout& layout, const Eigen::VectorXd& theta,
-                Eigen::VectorXd* gradient);
+// The normal prior of θ.
+struct ThetaPrior {
+  Eigen::VectorXd median;
+  Eigen::VectorXd sd;
 
-// θ at the medians of the prior, and its standard deviations.
-Eigen::VectorXd PriorMedian(const HyperPriors& priors, const HyperLayout& layout);
-Eigen::VectorXd PriorSd(const HyperPriors& priors, const HyperLayout& layout);
+  ThetaPrior(const HyperPriors& priors, const HyperLayout& layout);
+
+  // The logarithm of its density but for a constant; the gradient is added to `gradient` where not
+  // null.
+  double LogDensity(const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) const;
+  double LogConstant() const;  // that constant
+};
 
 }  // namespace talus::surrogate

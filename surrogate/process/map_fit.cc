@@ -12,7 +12,10 @@
 namespace talus::surrogate {
 namespace {
 
-constexpr double kLargestBend = 5;  // e^5: one end is stretched 150 times as much as the other
+// The box of the search, in standard deviations of the prior: wide, but where exp(θ) and the
+// factorisation stay sound.
+constexpr double kMostSds = 4;
+constexpr double kLargestWarp = 5;  // e^5: one end is stretched 150 times as much as the other
 
 // So many points leave the posterior one maximum worth finding, and each step of a search costs the
 // cube of their number: one search, and a shorter one.
@@ -27,37 +30,45 @@ struct Start {
   double cost = 0;  // minus the log posterior
 };
 
-// The box of the search: wide, but where exp(θ) and the factorisation stay sound.
-void SetBounds(const HyperLayout& layout, double noise_floor, SearchTask& task) {
-  task.lower = Eigen::VectorXd::Constant(layout.size(), std::log(1e-3));
-  task.upper = Eigen::VectorXd::Constant(layout.size(), std::log(1e2));
-  task.lower.head(layout.dimension).setConstant(std::log(0.02));
-  task.upper.head(layout.dimension).setConstant(std::log(50.0));
-  if (layout.free_noise) {
-    task.lower[layout.noise_index()] = 0.5 * std::log(noise_floor);
-    task.upper[layout.noise_index()] = std::log(3.0);
-  }
+SearchTask BoxOf(const HyperLayout& layout, const ThetaPrior& prior) {
+  SearchTask task{.algorithm = SearchAlgorithm::kLbfgs,
+                  .lower = prior.median - kMostSds * prior.sd,
+                  .upper = prior.median + kMostSds * prior.sd};
   if (layout.free_warp) {
-    task.lower.tail(layout.dimension).setConstant(-kLargestBend);
-    task.upper.tail(layout.dimension).setConstant(kLargestBend);
+    task.lower.segment(layout.warp(), layout.dimension).setConstant(-kLargestWarp);
+    task.upper.segment(layout.warp(), layout.dimension).setConstant(kLargestWarp);
   }
+  return task;
 }
 
-std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& task,
-                               const HyperLayout& layout, const GaussianProcessOptions& options,
-                               double work) {
-  const Eigen::VectorXd median = PriorMedian(options.priors, layout);
+// Where evaluations at coarse scale factors tell nothing of the target. A search that starts from
+// the prior's median ends in another maximum then: it takes them for a rough output without noise.
+Eigen::VectorXd UselessLevels(const HyperLayout& layout, const ThetaPrior& prior) {
+  Hyperparameters hyper = layout.Unpack(prior.median);
+  hyper.scale = ScaleTerm{.discrepancy = 0.5, .decay = 3, .length_ratio = 0.4};
+  hyper.noise.head(layout.num_levels - 1).setConstant(0.7);
+  return layout.Pack(hyper);
+}
+
+std::vector<Eigen::VectorXd> StartPoints(const HyperLayout& layout, const ThetaPrior& prior,
+                                         const GaussianProcessOptions& options) {
   std::vector<Eigen::VectorXd> thetas;
   if (options.start) thetas.push_back(layout.Pack(*options.start));
-  if (thetas.empty() || options.num_trial_starts > 1) thetas.push_back(median);
-  const Eigen::VectorXd sd = PriorSd(options.priors, layout);
-  for (int i = 0; static_cast<int>(thetas.size()) < options.num_trial_starts; ++i) {
+  if (thetas.empty() || options.effort.num_starts > 1) thetas.push_back(prior.median);
+  for (int i = 0; static_cast<int>(thetas.size()) < options.effort.num_starts; ++i) {
     base::Random random(options.seed, base::Stream("hyper-parameter starts"),
                         static_cast<std::uint64_t>(i));
-    Eigen::VectorXd theta = median;
-    for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += sd[k] * random.Normal();
+    Eigen::VectorXd theta = prior.median;
+    for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += prior.sd[k] * random.Normal();
     thetas.push_back(theta);
   }
+  if (layout.has_scale && layout.num_levels > 1) thetas.push_back(UselessLevels(layout, prior));
+  return thetas;
+}
+
+// Best first.
+std::vector<Start> Rated(const std::vector<Eigen::VectorXd>& thetas, const SearchFunction& cost,
+                         const SearchTask& task, double work) {
   std::vector<Start> starts(thetas.size());
   base::ParallelFor({.num_items = static_cast<std::int64_t>(thetas.size()), .item_work = work},
                     [&](std::int64_t i) {
@@ -72,45 +83,44 @@ std::vector<Start> TrialStarts(const SearchFunction& cost, const SearchTask& tas
 
 // At most kMostPoints, evenly through the order in which they were evaluated. What all replicates
 // say of the noise is kept.
-PooledData FewOf(const PooledData& all) {
-  const Eigen::Index size = all.values.size();
+PooledData Thinned(const PooledData& all) {
+  const Eigen::Index size = all.size();
   if (size <= kMostPoints) return all;
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < kMostPoints; ++i) kept.push_back(i * size / kMostPoints);
-  return {.points = all.points(Eigen::all, kept),
-          .values = all.values(kept),
-          .counts = all.counts(kept),
-          .sum_of_squares = all.sum_of_squares,
-          .num_values = all.num_values - static_cast<int>(size - kMostPoints)};
+  PooledData few = all;
+  few.sites = {all.sites.columns(Eigen::all, kept), all.sites.growth(kept)};
+  few.level = all.level(kept);
+  few.values = all.values(kept);
+  few.counts = all.counts(kept);
+  few.first = all.first(kept);
+  return few;
 }
 
 }  // namespace
 
 MapFit FitHyperparameters(const PooledData& all, const HyperLayout& layout,
                           const GaussianProcessOptions& options) {
-  const PooledData data = FewOf(all);
+  const FitEffort& effort = options.effort;
+  const PooledData data = effort.may_thin ? Thinned(all) : all;
+  const ThetaPrior prior(options.priors, layout);
   const SearchFunction cost = [&](const Eigen::VectorXd& theta, Eigen::VectorXd* gradient) {
     double posterior = LogLikelihood(data, options.kernel, layout, theta, gradient);
     if (!std::isfinite(posterior)) return -posterior;
-    posterior += LogPrior(options.priors, layout, theta, gradient);
+    posterior += prior.LogDensity(theta, gradient);
     if (gradient != nullptr) *gradient *= -1;
     return -posterior;
   };
-  SearchTask task{.algorithm = SearchAlgorithm::kLbfgs,
-                  .lower = {},
-                  .upper = {},
-                  .start = {},
-                  .max_evaluations = options.max_evaluations,
-                  .relative_tolerance = 1e-7};
-  SetBounds(layout, options.noise_floor, task);
-  const auto size = static_cast<double>(data.values.size());
+  SearchTask task = BoxOf(layout, prior);
+  const bool many = effort.may_thin && data.size() > kManyPoints;
+  task.max_evaluations =
+      many ? std::min(effort.max_evaluations, kShortSearch) : effort.max_evaluations;
+  task.relative_tolerance = effort.relative_tolerance;
+  const auto size = static_cast<double>(data.size());
   const double work = size * size * (size / 3 + 20);  // of one likelihood
-  const std::vector<Start> starts = TrialStarts(cost, task, layout, options, work);
-  Start best = starts.front();
-  const bool many = data.values.size() > kManyPoints;
-  if (many) task.max_evaluations = std::min(task.max_evaluations, kShortSearch);
+  const std::vector<Start> starts = Rated(StartPoints(layout, prior, options), cost, task, work);
   const int num_searches =
-      std::min<int>(many ? 1 : options.num_starts, static_cast<int>(starts.size()));
+      std::min<int>(many ? 1 : effort.num_searches, static_cast<int>(starts.size()));
   std::vector<Minimum> found(static_cast<std::size_t>(num_searches));
   base::ParallelFor({.num_items = num_searches, .item_work = task.max_evaluations * work},
                     [&](std::int64_t i) {
@@ -119,10 +129,12 @@ MapFit FitHyperparameters(const PooledData& all, const HyperLayout& layout,
                       own.start = starts[k].theta;
                       found[k] = Minimize(cost, own);
                     });
+  Start best = starts.front();
   for (const Minimum& one : found) {
     if (one.value < best.cost) best = {one.point, one.value};
   }
-  return {.theta = best.theta, .log_prior = LogPrior(options.priors, layout, best.theta, nullptr)};
+  return {.theta = best.theta,
+          .log_prior = prior.LogDensity(best.theta, nullptr) + prior.LogConstant()};
 }
 
 }  // namespace talus::surrogate

@@ -1,5 +1,5 @@
 // Maximum a posteriori hyper-parameters: a few local searches with analytic gradients, from the
-// best of a set of trial starts. Of many points, 200 decide.
+// best of a set of starts.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Evaluations pooled by point: replicates become one point with their mean and count.
+// Evaluations pooled by point and scale factor: replicates become one point with mean and count.
 //
 // Exact, not an approximation: for m values y_j = f + noise, the likelihood of all of them is that
 // of their mean, with noise variance n²/m, times a factor of n alone (PooledData::sum_of_squares).
@@ -6,24 +6,47 @@
 
 #include <Eigen/Core>
 
+#include "surrogate/process/covariance.h"
+
 namespace talus::surrogate {
 
+// Evaluations of one output, one a row. `growth` (covariance.h) and `level`, the index of the scale
+// factor, stay empty where all are at the target.
+struct Evaluations {
+  Eigen::MatrixXd points;  // n × d, unit cube
+  Eigen::VectorXd values;
+  Eigen::VectorXd growth = {};
+  Eigen::VectorXi level = {};
+};
+
+// Where one evaluation is made.
+struct Site {
+  Eigen::VectorXd x;  // unit cube
+  double growth = 0;
+  int level = 0;
+};
+
 struct PooledData {
-  Eigen::MatrixXd points;  // d × u, the distinct points as columns, in order of first appearance
-  Eigen::VectorXd values;  // u, means over the replicates
-  Eigen::VectorXd counts;  // u, number of replicates, >= 1
-  double sum_of_squares = 0;  // Σ (y_j - mean)² over all points, in squared units of the values
-  int num_values = 0;         // evaluations before pooling
+  Sites sites;                     // distinct, in order of first appearance
+  Eigen::VectorXi level;           // of each
+  Eigen::VectorXd values;          // means over the replicates
+  Eigen::VectorXd counts;          // number of replicates, >= 1
+  Eigen::VectorXi first;           // the evaluation that appeared first, from 0
+  Eigen::VectorXd sum_of_squares;  // Σ (y_j - mean)², one a scale factor
+  Eigen::VectorXd num_extra;       // evaluations beyond one a site, one a scale factor
+
+  Eigen::Index size() const { return values.size(); }
+  double num_values() const { return counts.sum(); }
 };
 
 // Points nearer than this in every coordinate are the same: rounding on the way through native
 // values and back must not hide a replicate.
 inline constexpr double kSamePoint = 1e-9;
 
-// `points` has one evaluation a row.
-PooledData Pool(const Eigen::MatrixXd& points, const Eigen::VectorXd& values);
+// `num_levels`: the number of scale factors.
+PooledData Pool(const Evaluations& evaluations, int num_levels = 1);
 
 // Adds one evaluation; returns the column it went to.
-Eigen::Index AddTo(PooledData& data, const Eigen::VectorXd& point, double value);
+Eigen::Index AddTo(PooledData& data, const Site& site, double value);
 
 }  // namespace talus::surrogate

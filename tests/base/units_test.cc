@@ -41,5 +41,19 @@ TEST(Units, WrongOnesAreNamedWithThoseThatFit) {
   EXPECT_THAT(ErrorOf("about 3 g", Dimension::kMass), HasSubstr("does not start with a number"));
 }
 
+// As people type them: powers without ^, microns, either of Unicode's two letters mu.
+TEST(Units, ReadsWhatPeopleType) {
+  EXPECT_DOUBLE_EQ(ParseQuantity("1500 kg/m3", Dimension::kDensity), 1500);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g/cm3", Dimension::kDensity), 1500);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g/ml", Dimension::kDensity), 1500);
+  EXPECT_DOUBLE_EQ(ParseQuantity("80 microns", Dimension::kLength), 80e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("80 \u00b5m", Dimension::kLength), 80e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("80 \u03bcm", Dimension::kLength), 80e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("2 mJ/m2", Dimension::kSurfaceEnergy), 2e-3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("2 \u00b5J/m\u00b2", Dimension::kSurfaceEnergy), 2e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("9.81 m/s2", Dimension::kAcceleration), 9.81);
+  EXPECT_THROW(ParseQuantity("1 m2", Dimension::kLength), ConfigError);
+}
+
 }  // namespace
 }  // namespace talus::base

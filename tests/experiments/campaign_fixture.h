@@ -24,8 +24,8 @@ class CampaignFixture : public ::testing::Test {
   static std::vector<journal::TrialRecord> Trials(const std::filesystem::path& folder) {
     return journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Trials();
   }
-  static CampaignResult Result(const std::filesystem::path& folder) {
-    return ParseResult(base::ReadFile(folder / "result.json"));
+  static Answer Result(const std::filesystem::path& folder) {
+    return ParseAnswer(base::ReadFile(folder / "result.json"));
   }
   ScratchFolder scratch_;
 };

@@ -12,6 +12,8 @@
 #include "base/random.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/start.h"
+#include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/runners/local_runner.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -76,10 +78,10 @@ class FakeEngine : public trials::TrialEngine {
  public:
   explicit FakeEngine(const FakeEngineOptions& options) : options_(options) {}
 
-  void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) override {
-    trials::PrepareFolder(folder, "case.json", rigs::HeapCaseText(heap_case));
-    const engine::Material& m = heap_case.powder.material;
-    const auto seed = heap_case.seed;
+  void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override {
+    trials::PrepareFolder(folder, "case.json", rigs::CaseText(rig_case));
+    const engine::Material& m = rig_case.powder.material;
+    const auto seed = rig_case.seed;
     imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, m.rolling_friction, seed));
     std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
     if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
@@ -89,8 +91,8 @@ class FakeEngine : public trials::TrialEngine {
       script += "if [ ! -e died ]; then touch died; kill -9 $$; fi\n";
     }
     constexpr double kFast = 0.1;  // [m/s]
-    const bool fails = options_.fail_at_low ||
-                       (options_.fail_fast_at_low && heap_case.device.lift_velocity > kFast);
+    const bool fails = options_.fail_at_low || (options_.fail_fast_at_low &&
+                                                rig_case.rig.lifted_tube.lift_velocity > kFast);
     if (fails && m.sliding_friction < 0.3) script += "echo no heap >&2; exit 3\n";
     const auto marker = folder.parent_path() / (folder.filename().string() + "_failed");
     if (options_.fail_once && !std::filesystem::exists(marker)) {
@@ -106,17 +108,17 @@ class FakeEngine : public trials::TrialEngine {
   bool IsComplete(const std::filesystem::path& folder) override {
     return std::filesystem::exists(folder / "profile.png");
   }
-  trials::TrialOutput Collect(const rigs::HeapCase& heap_case,
+  trials::TrialOutput Collect(const rigs::Case& rig_case,
                               const std::filesystem::path& folder) override {
-    const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
-    const engine::Material& m = heap_case.powder.material;
-    if (rigs::KindOf(heap_case) == rigs::RigKind::kTappedDensity) {
+    const rigs::CaseSize size = rigs::EstimateCase(rig_case);
+    const engine::Material& m = rig_case.powder.material;
+    if (rig_case.rig.kind == rigs::RigKind::kTappedDensity) {
       return {.profile = {},
               .num_steps = 100000,
               .num_particles = size.num_grains,
               .scalars = {{.name = "tapped_density_kg_per_m3",
                            .value = TappedDensity(m.rolling_friction, options_.density_scatter,
-                                                  heap_case.seed),
+                                                  rig_case.seed),
                            .unit = "kg/m3",
                            .undefined = ""}},
               .note = ""};
@@ -126,17 +128,17 @@ class FakeEngine : public trials::TrialEngine {
         .num_steps = std::llround(size.simulated_time / size.time_step),
         .num_particles = size.num_grains,
         .scalars = {{.name = "mass_fallen_kg",
-                     .value = FallenMass(m.sliding_friction, options_.mass_scatter, heap_case.seed),
+                     .value = FallenMass(m.sliding_friction, options_.mass_scatter, rig_case.seed),
                      .unit = "kg",
                      .undefined = ""}},
         .note = ""};
   }
 
-  bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+  bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                 const std::filesystem::path& to) override {
-    if (!rigs::IsSameRun(rigs::LoadHeapCase(from / "case.json"), heap_case)) return false;
+    if (!rigs::IsSameRun(rigs::LoadCase(from / "case.json"), rig_case)) return false;
     trials::CopyFolder(from, to);
-    std::ofstream(to / "case.json") << rigs::HeapCaseText(heap_case);
+    std::ofstream(to / "case.json") << rigs::CaseText(rig_case);
     return true;
   }
 

@@ -1,5 +1,5 @@
-// make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running [posterior]: a campaign to test
-// with.
+// make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running [coarse_design]: a campaign to
+// test with.
 #include <iostream>
 #include <string>
 
@@ -8,14 +8,15 @@
 
 int main(int argc, char** argv) {
   if (argc != 5 && argc != 6) {
-    std::cerr << "make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running [posterior]\n";
+    std::cerr
+        << "make_synthetic_campaign FOLDER TRIALS PARAMETERS finished|running [coarse_design]\n";
     return 2;
   }
   using namespace talus::test;
   const SyntheticOptions options{.num_trials = std::stoi(argv[2]),
                                  .num_parameters = std::stoi(argv[3]),
                                  .concluded = std::string(argv[4]) == "finished",
-                                 .posterior = argc == 6};
+                                 .coarse_design = argc == 6};
   WriteSyntheticJournal(MakeSyntheticCampaign(options), argv[1]);
   return 0;
 }

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "experiments/campaign/answer/headline.h"
 #include "imaging/heap/metrics.h"
-#include "optimizer/answer/credible_ranges.h"
 #include "optimizer/designs/design.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/posterior/credible_ranges.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::test {
 namespace {
@@ -116,7 +117,7 @@ analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
         evidence.parameters[k].range.ToNative(point(static_cast<Eigen::Index>(k))));
   }
   trial.seed = 1000 + i;
-  if (options.posterior && (trial.purpose == "design" || trial.purpose == "noise"))
+  if (options.coarse_design && (trial.purpose == "design" || trial.purpose == "noise"))
     trial.scale_factor = 2;
   trial.seconds = 40 + 15 * random.Uniform();
   trial.cpu_seconds = 0.97 * trial.seconds;
@@ -135,39 +136,68 @@ analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
   return trial;
 }
 
-analysis::Conclusion MakeConclusion(const analysis::Evidence& evidence,
-                                    const Eigen::VectorXd& truth) {
-  analysis::Conclusion conclusion{
-      .predicted = 1.52,
-      .predicted_sd = 0.08,
-      .confirmed = 1.61,
-      .num_confirmed = 3,
-      .noise_sd = 0.21,
-      .tied_volume = 0.034,
-      .warnings = {"μ_t and μ_r act on this heap alike (correlation -0.91): only "
-                   "their combination is well known."},
-      .conditions = {"surface energies that belong to Young's modulus 26.25 MPa, "
-                     "adhesion range f = 0.1 and lift velocity 1 cm/s"},
-      .model =
-          "Gaussian process of 8 image modes; leave-one-out error 0.19 mm² "
-          "(0.9 × the scatter of one simulation)."};
-  const bool has_draws = evidence.model && evidence.model->draws.rows() > 0;
+campaign::Answer MakeAnswer(const analysis::Evidence& evidence, const Eigen::VectorXd& truth) {
+  campaign::Answer answer{.name = evidence.name, .talus_version = "0.1.0"};
+  answer.stop = {.kind = campaign::StopKind::kRule, .rule = evidence.stop_reason};
+  answer.objective = "sad_mm2";
+  answer.objective_unit = "mm²";
+  answer.model = "posterior of 50 evaluations";
+  answer.conditions = {
+      .youngs_modulus = 26.25e6, .lift_velocity = 0.01, .adhesion = "jkr", .rolling = "epsd"};
+  answer.experiments = {{.name = "heap",
+                         .has_image = true,
+                         .num_heaps = 5,
+                         .noise_floor = evidence.reference.noise_floor,
+                         .noise_sd = 0.21}};
+  answer.posterior = campaign::ResultPosterior{
+      .region_volume = 0.034,
+      .fewest_at_finest = 30,
+      .experiments = {
+          {.name = "heap", .predicted = 1.52, .predicted_sd = 0.08, .implausibility = 0.6}}};
+  answer.warnings = {{.kind = campaign::AlarmKind::kCorrelated,
+                      .parameter = "sliding_friction",
+                      .other_parameter = "rolling_friction",
+                      .value = -0.91}};
+  if (truth.size() == 2) answer.correlation = {{1, -0.93}, {-0.93, 1}};
   std::vector<optimizer::Range> ranges;
-  if (has_draws) ranges = optimizer::CredibleRanges(evidence.model->draws, 0.9);
+  if (evidence.model) ranges = optimizer::CredibleRanges(evidence.model->draws, 0.9);
+  campaign::ResultCandidate confirmed;
   for (Eigen::Index k = 0; k < truth.size(); ++k) {
-    const auto& range = evidence.parameters[static_cast<std::size_t>(k)].range;
-    double low = std::max(0.0, truth(k) - 0.09);
-    double high = std::min(1.0, truth(k) + 0.07);
-    if (has_draws) {
-      low = ranges[static_cast<std::size_t>(k)].low;
-      high = ranges[static_cast<std::size_t>(k)].high;
-    }
-    conclusion.values.push_back(
-        {range.ToNative(truth(k)), range.ToNative(low), range.ToNative(high)});
-    conclusion.sobol_first.push_back(0.5 / static_cast<double>(k + 1));
-    conclusion.sobol_total.push_back(0.6 / static_cast<double>(k + 1));
+    const auto i = static_cast<std::size_t>(k);
+    const analysis::ParameterInfo& info = evidence.parameters[i];
+    const double low = ranges.empty() ? std::max(0.0, truth(k) - 0.09) : ranges[i].low;
+    const double high = ranges.empty() ? std::min(1.0, truth(k) + 0.07) : ranges[i].high;
+    answer.parameters.push_back({.name = info.range.name,
+                                 .unit = info.unit,
+                                 .value = info.range.ToNative(truth(k)),
+                                 .searched_low = info.range.low,
+                                 .searched_high = info.range.high,
+                                 .scale = info.range.scale,
+                                 .credible_low = info.range.ToNative(low),
+                                 .credible_high = info.range.ToNative(high),
+                                 .sobol_first = 0.5 / static_cast<double>(k + 1),
+                                 .sobol_total = 0.6 / static_cast<double>(k + 1)});
+    confirmed.values.push_back(answer.parameters.back().value);
   }
-  return conclusion;
+  confirmed.experiments = {{.name = "heap",
+                            .num_trials = 3,
+                            .mean = 1.61,
+                            .standard_error = 0.1,
+                            .sad_mm2 = 1.61,
+                            .profile_sad_mm2 = 1.3,
+                            .over_floor = 1.3 / evidence.reference.noise_floor}};
+  answer.confirmed = {confirmed};
+  campaign::ResultBranch branch{.share = 1};
+  for (const campaign::ResultParameter& p : answer.parameters) {
+    branch.values.push_back(p.value);
+    branch.low.push_back(p.credible_low);
+    branch.high.push_back(p.credible_high);
+  }
+  answer.posterior->branches = {branch};
+  if (const auto kind = campaign::VerdictKindOf(answer)) {
+    answer.verdict = {.kind = *kind, .text = campaign::HeadlineText(answer)};
+  }
+  return answer;
 }
 
 constexpr double kAlong = 0.18;   // sd along the valley, unit cube
@@ -218,7 +248,7 @@ Eigen::VectorXd LevelsOf(const Eigen::MatrixXd& points, const Eigen::MatrixXd& d
   return levels;
 }
 
-analysis::ModelEvidence MakeModel(const analysis::Evidence& evidence, bool posterior,
+analysis::ModelEvidence MakeModel(const analysis::Evidence& evidence,
                                   const Eigen::VectorXd& truth) {
   std::shared_ptr<optimizer::Strategy> strategy =
       optimizer::MakeStrategy({.kind = optimizer::StrategyKind::kGp},
@@ -234,12 +264,10 @@ analysis::ModelEvidence MakeModel(const analysis::Evidence& evidence, bool poste
   model.expected = answer.predicted_value;
   model.expected_sd = answer.predicted_sd;
   model.noise_sd = answer.noise_sd;
-  if (posterior) {
-    model.draws = MakeDraws(truth);
-    model.credible_levels = [draws = model.draws, truth](const Eigen::MatrixXd& points) {
-      return LevelsOf(points, draws, truth);
-    };
-  }
+  model.draws = MakeDraws(truth);
+  model.credible_levels = [draws = model.draws, truth](const Eigen::MatrixXd& points) {
+    return LevelsOf(points, draws, truth);
+  };
   model.predict = [strategy](const Eigen::MatrixXd& points) {
     return *strategy->Predict(points, 0);
   };
@@ -254,7 +282,7 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   analysis::Evidence evidence;
   evidence.name = "Ti6Al4V 45–111 µm";
   evidence.objective = "sad";
-  evidence.strategy = "surrogate";
+  evidence.strategy = "auto";
   evidence.max_simulations = 120;
   evidence.state = options.concluded ? "finished" : "running";
   if (options.concluded) evidence.stop_reason = "what is left to gain is below 1 × the noise";
@@ -295,9 +323,10 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
     evidence.trials.push_back(MakeTrial(i, evidence, options, points[static_cast<std::size_t>(i)]));
   }
   if (options.num_trials >= 20 && options.num_trials <= 200) {
-    evidence.model = MakeModel(evidence, options.posterior, truth);
+    evidence.model = MakeModel(evidence, truth);
   }
-  if (options.concluded) evidence.conclusion = MakeConclusion(evidence, truth);
+  evidence.experiments = {"heap"};
+  if (options.concluded) evidence.answer = MakeAnswer(evidence, truth);
   return evidence;
 }
 

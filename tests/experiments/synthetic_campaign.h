@@ -8,10 +8,10 @@ namespace talus::test {
 
 struct SyntheticOptions {
   int num_trials = 60;
-  int num_parameters = 3;  // 2 or 3: without the third, cohesion is that of the truth
-  int every_failed = 13;   // each so-manieth trial fails
-  bool concluded = true;   // else it is still running and there is no answer
-  bool posterior = false;  // the design at scale factor 2, the rest at 1; else all at 1
+  int num_parameters = 3;      // 2 or 3: without the third, cohesion is that of the truth
+  int every_failed = 13;       // each so-manieth trial fails
+  bool concluded = true;       // else it is still running and there is no answer
+  bool coarse_design = false;  // at scale factor 2, the rest at 1; else all at 1
 };
 
 // The set that the reference heap is drawn with: μ_t, μ_r and γ, SI.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/json/json_writer.h"
-#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/journal/journal.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -94,48 +94,6 @@ journal::TrialKind KindOf(const std::string& purpose) {
   return journal::TrialKind::kSearch;
 }
 
-std::string ResultOf(const analysis::Evidence& evidence, const analysis::Conclusion& conclusion) {
-  campaign::CampaignResult result{.name = evidence.name,
-                                  .talus_version = "0.1.0",
-                                  .stop_reason = evidence.stop_reason,
-                                  .objective = "sad_mm2",
-                                  .objective_unit = "mm²",
-                                  .predicted = conclusion.predicted,
-                                  .predicted_sd = conclusion.predicted_sd,
-                                  .noise_sd = conclusion.noise_sd,
-                                  .noise_floor = evidence.reference.noise_floor,
-                                  .tied_volume = conclusion.tied_volume,
-                                  .model = conclusion.model,
-                                  .conditions = {.youngs_modulus = 26.25e6,
-                                                 .lift_velocity = 0.01,
-                                                 .adhesion = "jkr",
-                                                 .rolling = "epsd"},
-                                  .cost = {}};
-  const bool valley = evidence.model && evidence.model->draws.rows() > 0;
-  if (valley && conclusion.values.size() == 2) result.correlation = {{1, -0.93}, {-0.93, 1}};
-  for (const std::string& text : conclusion.warnings) {
-    result.warnings.push_back({.kind = campaign::WarningKind::kOther, .text = text});
-  }
-  campaign::ResultCandidate confirmed{.num_trials = conclusion.num_confirmed,
-                                      .mean = conclusion.confirmed,
-                                      .sad_mm2 = conclusion.confirmed,
-                                      .profile_sad_mm2 = 0.8 * conclusion.confirmed};
-  result.confirmed_over_floor = *confirmed.profile_sad_mm2 / evidence.reference.noise_floor;
-  for (std::size_t k = 0; k < conclusion.values.size(); ++k) {
-    const analysis::RecommendedValue& v = conclusion.values[k];
-    result.parameters.push_back({.name = evidence.parameters[k].range.name,
-                                 .unit = evidence.parameters[k].unit,
-                                 .value = v.value,
-                                 .credible_low = v.low,
-                                 .credible_high = v.high,
-                                 .sobol_first = conclusion.sobol_first[k],
-                                 .sobol_total = conclusion.sobol_total[k]});
-    confirmed.values.push_back(v.value);
-  }
-  result.confirmed.push_back(confirmed);
-  return campaign::ResultText(result);
-}
-
 }  // namespace
 
 void WriteSyntheticJournal(const analysis::Evidence& evidence,
@@ -165,11 +123,11 @@ void WriteSyntheticJournal(const analysis::Evidence& evidence,
     if (done) record.metrics = RecordsOf(evidence, t.metrics);
     journal.Finish(record, done ? imaging::EncodePng(evidence.profile(t.id)->image) : "");
   }
-  journal.SetProgress({.state = evidence.state,
-                       .stop_reason = evidence.stop_reason,
-                       .elapsed_s = 1900,
-                       .result_json = evidence.conclusion ? ResultOf(evidence, *evidence.conclusion)
-                                                          : std::string()});
+  journal.SetProgress(
+      {.state = evidence.state,
+       .stop_reason = evidence.stop_reason,
+       .elapsed_s = 1900,
+       .result_json = evidence.answer ? campaign::AnswerJson(*evidence.answer) : std::string()});
 }
 
 }  // namespace talus::test

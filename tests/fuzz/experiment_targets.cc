@@ -10,6 +10,7 @@
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/record_json.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/runners/slurm_batch.h"
 #include "experiments/runners/slurm_queue.h"
 #include "experiments/runners/slurm_verdict.h"
@@ -25,6 +26,15 @@ namespace {
 template <class Options>
 void Load(std::string_view bytes) {
   Expect([&] { base::LoadOptions<Options>(base::ParseJson(bytes, "file.json")); });
+}
+
+void Case(std::string_view bytes) {
+  Expect([&] {
+    const auto rig_case = base::LoadOptions<rigs::Case>(base::ParseJson(bytes, "case.json"));
+    if (rig_case.powder.sizes.kind == engine::SizeKind::kFile) return;
+    base::Problems problems;
+    rigs::ValidateCase(rig_case, problems);
+  });
 }
 
 void Template(std::string_view bytes) {
@@ -87,7 +97,7 @@ void Slurm(std::string_view bytes) {
 }
 
 constexpr Target kTargets[] = {{"spec", Load<campaign::CampaignSpec>},
-                               {"case", Load<rigs::HeapCase>},
+                               {"case", Case},
                                {"problem", Load<trials::OptimizeProblem>},
                                {"template", Template},
                                {"scalars", Scalars},

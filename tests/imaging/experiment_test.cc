@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/photos/overlay.h"
 #include "imaging/spheres/projection.h"
 #include "tests/imaging/photo_folder.h"
 
@@ -140,29 +141,29 @@ TEST_P(ExperimentFaults, IsNamedWithItsRemedy) {
 INSTANTIATE_TEST_SUITE_P(EachPhoto, ExperimentFaults, testing::ValuesIn(kPhotoFaults),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// The plate of one photograph of four is of another scale: it cannot be used, its picture is kept,
-// and the message says where. A blank one has nothing to draw.
-TEST(Experiment, FaultIsDrawnAndNamed) {
+// The plate of one photograph of four is of another scale: it cannot be used, and what was found in
+// it can be drawn. A blank one has nothing to draw.
+TEST(Experiment, FaultsCanBeDrawn) {
   const fs::path folder = GoodFolder("drawn");
   WriteTriangle(folder / Name(2, 1), &Scene::plate_width, 310.0);
   WritePng(folder / Name(2, 0), Uniform(200));
-  std::vector<fs::path> drawn;
-  const auto keep = [&](const fs::path& photo, const ColorImage& picture) {
-    drawn.push_back(photo.filename());
-    const auto is = [&](const Color& color) {
-      return std::ranges::find(picture.pixels, color) != picture.pixels.end();
-    };
-    EXPECT_TRUE(is({230, 30, 30})) << "outline";
-    EXPECT_TRUE(is({40, 90, 240})) << "plate";
-    return fs::path("kept") / photo.filename();
-  };
+  ExperimentOptions options = Options(folder);
   try {
-    MeasureExperiment(Options(folder), keep);
+    MeasureExperiment(options);
     FAIL() << "no error";
-  } catch (const base::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("(see kept/run2_view1.png)"));
+  } catch (const UnusablePhotosError& error) {
+    EXPECT_EQ(error.photos().size(), 2u);
   }
-  EXPECT_THAT(drawn, testing::ElementsAre(fs::path("run2_view1.png")));
+  options.allow_missing_views = true;
+  const std::vector<UnusablePhoto> left_out = MeasureExperiment(options).left_out;
+  ASSERT_EQ(left_out.size(), 2u);
+  EXPECT_THROW(FaultOf(left_out[0], options), base::ConfigError);
+  const ColorImage picture = FaultOf(left_out[1], options);
+  const auto has = [&](const Color& color) {
+    return std::ranges::find(picture.pixels, color) != picture.pixels.end();
+  };
+  EXPECT_TRUE(has({230, 30, 30})) << "outline";
+  EXPECT_TRUE(has({40, 90, 240})) << "plate";
 }
 
 TEST(Experiment, LeavingOutMostPhotographsIsNotOffered) {
@@ -182,6 +183,22 @@ TEST(Experiment, NothingIsLeft) {
   EXPECT_THAT(ErrorOf(options), HasSubstr("no photograph is left"));
   EXPECT_THAT(ErrorOf(Options(EmptyFolder("none"))), HasSubstr("no file matches"));
   EXPECT_THAT(ErrorOf(Options("/no/such/folder")), HasSubstr("/no/such/folder"));
+}
+
+// Only a folder's names need one: `talus measure` leaves it empty for a map and for single files.
+TEST(ExperimentOptionsTest, APatternIsAskedForWithAFolderOnly) {
+  ExperimentOptions options;
+  options.plate_diameter = 0.01;
+  options.pattern = "";
+  options.map = "a.png";
+  base::Problems with_map;
+  options.Validate(with_map);
+  EXPECT_TRUE(with_map.empty());
+  options.map = "";
+  options.photos = "a";
+  base::Problems with_folder;
+  options.Validate(with_folder);
+  EXPECT_EQ(with_folder.list().size(), 1u);
 }
 
 TEST(ExperimentOptionsTest, BrokenRulesAreReportedTogether) {

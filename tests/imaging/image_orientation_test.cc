@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/orientation.h"
 #include "tests/imaging/stored_images.h"
 

@@ -48,7 +48,7 @@ TEST(MassStudy, ScatterAndDaysDecideRepeatability) {
   const MassStudy study = StudyMass(Runs(1e-3, {17, 19.5, 17, 19.5}, 1) +
                                     Runs(2e-3, {17.5, 17.6, 18.6, 18.7}, 1) + Runs(3e-3, {18}, 1));
   EXPECT_FALSE(study.chosen);
-  EXPECT_THAT(study.rows[0].remark, HasSubstr("scatters"));
+  EXPECT_THAT(study.rows[0].remark, HasSubstr("standard deviation"));
   EXPECT_THAT(study.rows[1].remark, HasSubstr("between days"));
   EXPECT_THAT(study.rows[2].remark, HasSubstr("one run"));
 }

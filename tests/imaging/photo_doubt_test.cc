@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "imaging/formats/images/image_file.h"
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
@@ -189,7 +190,11 @@ TEST(PhotoDoubt, PhotographsOfTwoKindsOfLightAreWarnedOf) {
   GrayImage front_lit = Triangle(SmallScene());
   for (std::uint8_t& level : front_lit.pixels) level = static_cast<std::uint8_t>(255 - level);
   WritePng(folder / Name(2, 1), front_lit);
-  EXPECT_THAT(DoubtsOf(folder), testing::ElementsAre(PhotoDoubt::kMixedLight));
+  const std::vector<PhotoWarning> warnings = MeasureExperiment(Options(folder)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].doubt, PhotoDoubt::kMixedLight);
+  EXPECT_EQ(warnings[0].photo.filename(), Name(2, 1));
+  EXPECT_THAT(WarningText(warnings[0]), HasSubstr("lit otherwise than most: 1 photographs"));
 }
 
 // Grains that hang over the rim on both sides: no corner of the plate is seen.

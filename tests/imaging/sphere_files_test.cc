@@ -70,6 +70,19 @@ TEST_F(SphereFilesTest, CsvColumnsAreFoundByNameUnitAndSeparator) {
   ExpectTheTwo(Read("x [mm],y [mm],z [mm],d (mm)\n1,-2,3,1\n0,1,2,0.5\n", {.length_unit = 7}));
 }
 
+TEST_F(SphereFilesTest, CsvQuotesHoldSeparatorsAndMustClose) {
+  ExpectTheTwo(
+      Read("\xef\xbb\xbf\"name, long\",x,y,z,r\n\"a, b\",1e-3,-2e-3,3e-3,5e-4\n"
+           "\"c\",0,1e-3,2e-3,2.5e-4\n"));
+  EXPECT_THAT(ErrorOf("name,x,y,z,r\n\"a,0,0,0,1\n"), HasSubstr("quote that is not closed"));
+  EXPECT_THAT(ErrorOf("\"x,y,z,r\n0,0,0,1\n"), HasSubstr("quote that is not closed"));
+}
+
+// The first was taken in silence.
+TEST_F(SphereFilesTest, TwoColumnsOfOneNameAreRefused) {
+  EXPECT_THAT(ErrorOf("x,y,z,r,x\n0,0,0,1,5\n"), HasSubstr("two columns called x"));
+}
+
 TEST_F(SphereFilesTest, RadiusIsPreferredToDiameter) {
   const auto spheres = Read("d,x,y,z,r\n1,0,0,0,3\n");
   EXPECT_EQ(spheres.at(0).radius, 3);

@@ -1,4 +1,4 @@
-#include "optimizer/acquisition/acquisition.h"
+#include "optimizer/search/acquisition.h"
 
 #include <gtest/gtest.h>
 

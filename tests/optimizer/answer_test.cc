@@ -1,12 +1,11 @@
-#include "optimizer/answer/answer.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "optimizer/answer/sobol_indices.h"
 #include "optimizer/designs/r_sequence.h"
-#include "optimizer/models/scalar_model.h"
+#include "optimizer/posterior/sobol_indices.h"
+#include "optimizer/search/describe_minimum.h"
+#include "optimizer/search/scalar_model.h"
 
 namespace talus::optimizer {
 namespace {
@@ -119,7 +118,7 @@ TEST(SobolIndices, AConstantDependsOnNothing) {
 TEST(ObjectiveModel, DifferencesAgreeWithTheAnalyticGradient) {
   const Eigen::MatrixXd points = RSequence(20, 3, 1);
   const Eigen::VectorXd values = (points * Eigen::Vector3d(2, 3, 4)).array().sin();
-  const auto process = surrogate::GaussianProcess::Fit(points, values, {});
+  const auto process = surrogate::GaussianProcess::Fit({points, values}, {});
   const TransformedModel model(process);
   const Eigen::Vector3d x(0.3, 0.8, 0.5);
   const MomentsGradient analytic = model.PredictWithGradient(x);

@@ -13,7 +13,7 @@
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/space/level_ranks.h"
 #include "optimizer/space/parameter_space.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,9 +1,9 @@
-#include "optimizer/answer/credible_ranges.h"
+#include "optimizer/posterior/credible_ranges.h"
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "optimizer/answer/rank_correlation.h"
+#include "optimizer/posterior/rank_correlation.h"
 
 namespace talus::optimizer {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {
@@ -105,7 +105,7 @@ TEST(MakeStrategy, EveryKindHasANameAndProposesAPoint) {
     const auto strategy = MakeStrategy(options, Domain{.num_parameters = 2}, &field, 1);
     EXPECT_EQ(strategy->Ask(1, {}).size(), 1u) << name;
   }
-  EXPECT_EQ(count, static_cast<int>(StrategyKind::kSubplex) + 1);
+  EXPECT_EQ(count, static_cast<int>(StrategyKind::kNelderMead) + 1);
 }
 
 TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
@@ -120,7 +120,6 @@ TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
   EXPECT_THAT(error_of({.kind = StrategyKind::kGrid, .levels = {3, 3}}),
               HasSubstr("has 2 numbers for 6 parameters"));
   EXPECT_THAT(error_of({.kind = StrategyKind::kGrid}), HasSubstr("must be at most 10000"));
-  EXPECT_THAT(error_of({.kind = StrategyKind::kField}), HasSubstr("bring no images"));
   EXPECT_THAT(error_of({.num_points = 0}), HasSubstr("num_points: is 0"));
 }
 

@@ -1,4 +1,4 @@
-#include "optimizer/information/expected_learning.h"
+#include "optimizer/posterior/expected_learning.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

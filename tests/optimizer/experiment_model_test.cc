@@ -1,4 +1,4 @@
-#include "optimizer/fidelity/experiment_model.h"
+#include "optimizer/posterior/experiment_model.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(ExperimentModel, KnowsTheNoiseOfEveryMode) {
   Eigen::VectorXd log_ratio = Eigen::VectorXd::Zero(8);
   for (std::uint64_t search = 1; search <= kSearches; ++search) {
     base::Random random(search, base::Stream("points"));
-    ExperimentData data;
+    OutputData data;
     for (int i = 0; i < 24; ++i) {
       const Eigen::Vector2d x(random.Uniform(), random.Uniform());
       data.points.push_back(x);

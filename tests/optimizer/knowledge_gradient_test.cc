@@ -1,4 +1,4 @@
-#include "optimizer/acquisition/knowledge_gradient.h"
+#include "optimizer/search/knowledge_gradient.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"
-#include "optimizer/models/scalar_model.h"
+#include "optimizer/search/scalar_model.h"
 
 namespace talus::optimizer {
 namespace {
@@ -53,7 +53,7 @@ class NoisyBowl : public ::testing::Test {
 
   const Eigen::MatrixXd points_ = RSequence(30, 2, 1);
   const TransformedModel model_{surrogate::GaussianProcess::Fit(
-      points_, Values(points_), {.trend = surrogate::Trend::kQuadratic})};
+      {points_, Values(points_)}, {.trend = surrogate::Trend::kQuadratic})};
   const Domain domain_{.num_parameters = 2};
   const Feasibility feasibility_;
   const ModelView view_{.model = model_,
@@ -86,7 +86,7 @@ TEST_F(NoisyBowl, GainIsTheMeanDropOfTheLowestPosteriorMean) {
       return x;
     }(2 * (i + 0.5) / kNumValues - 1);
     surrogate::GaussianProcess told = model_.process();
-    told.Add(step.point, at.mean + sd * z);
+    told.Add({.x = step.point}, at.mean + sd * z);
     sum += before - told.PredictAll(minimisers).mean.minCoeff();
   }
   // 400 slices leave the tails out: a few per cent.

@@ -1,11 +1,11 @@
-#include "optimizer/acquisition/local_step.h"
+#include "optimizer/search/local_step.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "optimizer/designs/r_sequence.h"
-#include "optimizer/space/neighbours.h"
+#include "optimizer/search/neighbours.h"
 
 namespace talus::optimizer {
 namespace {

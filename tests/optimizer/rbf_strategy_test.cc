@@ -1,9 +1,9 @@
-#include "optimizer/strategies/rbf_strategy.h"
+#include "optimizer/strategy/rbf_strategy.h"
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {

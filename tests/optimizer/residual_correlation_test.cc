@@ -1,4 +1,4 @@
-#include "optimizer/fidelity/residual_correlation.h"
+#include "optimizer/posterior/residual_correlation.h"
 
 #include <gtest/gtest.h>
 

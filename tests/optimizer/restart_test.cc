@@ -1,11 +1,11 @@
-#include "optimizer/acquisition/restart.h"
+#include "optimizer/search/restart.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "optimizer/designs/r_sequence.h"
-#include "optimizer/strategies/scalar_strategy.h"
+#include "optimizer/strategy/scalar_strategy.h"
 
 namespace talus::optimizer {
 namespace {

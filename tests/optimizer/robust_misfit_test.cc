@@ -1,4 +1,4 @@
-#include "optimizer/fidelity/robust_misfit.h"
+#include "optimizer/posterior/robust_misfit.h"
 
 #include <gtest/gtest.h>
 

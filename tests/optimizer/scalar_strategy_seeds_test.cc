@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "optimizer/strategies/scalar_strategy.h"
+#include "optimizer/strategy/scalar_strategy.h"
 
 namespace talus::optimizer {
 namespace {

@@ -1,4 +1,4 @@
-#include "optimizer/strategies/scalar_strategy.h"
+#include "optimizer/strategy/scalar_strategy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "optimizer/acquisition/step_choice.h"
+#include "optimizer/search/step_choice.h"
 
 #include <gtest/gtest.h>
 

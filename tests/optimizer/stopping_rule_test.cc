@@ -1,5 +1,5 @@
 // When a search ends by itself, at the edge of each rule.
-#include "optimizer/stopping/stopping_rule.h"
+#include "optimizer/search/stopping_rule.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "optimizer/acquisition/trust_region.h"
+#include "optimizer/search/trust_region.h"
 
 #include <gtest/gtest.h>
 

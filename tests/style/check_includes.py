@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""check_includes.py SOURCE_DIR: includes follow the arrows between folders, each folder and floor has
-one namespace, each third-party library stays behind its fence, and JSON is printed in one place."""
+"""check_includes.py SOURCE_DIR: includes follow the arrows between folders, no folder stands in a circle
+with a neighbour, each folder and floor has one namespace, each third-party library stays behind its fence,
+and JSON is printed in one place."""
+import collections
 import pathlib
 import re
 import sys
@@ -45,9 +47,35 @@ def namespace_of(name: str) -> str:
     return "talus::" + (parts[1] if parts[0] == "experiments" else parts[0])
 
 
+def rooms(name: str, target: str):
+    """The folder that both files are in, and the room of each in it: a sub-folder, or "" for the folder itself."""
+    own, other = name.split("/")[:-1], target.split("/")[:-1]
+    shared = 0
+    while shared < min(len(own), len(other)) and own[shared] == other[shared]:
+        shared += 1
+    return "/".join(own[:shared]), (own[shared:] or [""])[0], (other[shared:] or [""])[0]
+
+
+def circles(arrows) -> list:
+    """Rooms of one folder from which includes lead back to themselves. `arrows`: {folder: {room: {room: example}}}."""
+    found = []
+    for folder, leads in sorted(arrows.items()):
+        for room in sorted(leads):
+            seen, open_rooms = {}, list(leads[room].items())
+            while open_rooms:
+                other, example = open_rooms.pop()
+                if other not in seen:
+                    seen[other] = example
+                    open_rooms += leads.get(other, {}).items()
+            if room in seen:
+                found.append(f"{folder}/{room} stands in a circle of includes with its neighbours: {seen[room]}")
+    return found
+
+
 def main() -> int:
     root = pathlib.Path(sys.argv[1])
     wrong = []
+    arrows = collections.defaultdict(lambda: collections.defaultdict(dict))
     single_nlopt = set()
     for folder, allowed in MAY_INCLUDE.items():
         for path in sorted((root / folder).rglob("*")):
@@ -71,6 +99,12 @@ def main() -> int:
                     wrong.append(f"{name}:{number}: {folder} may not include {target}")
                 if first == folder == "experiments" and upward(name, target):
                     wrong.append(f"{name}:{number}: {target} is not on a lower floor")
+                if first == folder:
+                    parent, own, other = rooms(name, target)
+                    # Below a top folder or floor, a folder's own files and its sub-folders are one thing.
+                    is_top = parent in MAY_INCLUDE or parent.split("/")[-1] in FLOORS
+                    if own != other and (is_top or (own and other)):
+                        arrows[parent][own].setdefault(other, f"{name} includes {target}")
                 for pattern, files in FENCES:
                     if re.match(pattern, target) and not re.search(files, name):
                         wrong.append(f"{name}:{number}: {target} outside its fence ({files})")
@@ -78,6 +112,7 @@ def main() -> int:
                     single_nlopt.add(name)
     if len(single_nlopt) > 1:
         wrong.append(f"NLopt in more than one file: {sorted(single_nlopt)}")
+    wrong += circles(arrows)
     print("\n".join(wrong) or "includes follow the arrows")
     return 1 if wrong else 0
 

@@ -54,12 +54,12 @@ TEST_P(Gradients, CovarianceAndItsDiagonal) {
   Eigen::VectorXd length(3);
   length << 0.3, 0.7, 1.5;
   const Covariance covariance(kernel(), {.length = length, .signal = 1.3, .trend = trend_sd()});
-  const Eigen::MatrixXd others = RandomPoints(3, 5, 1);
+  const Sites others = Sites::At(RandomPoints(3, 5, 1), 0);
   const Eigen::VectorXd x = RandomPoints(3, 1, 2);
   const Eigen::MatrixXd gradient = covariance.Gradient(x, others);
-  for (Eigen::Index j = 0; j < others.cols(); ++j) {
+  for (Eigen::Index j = 0; j < others.columns.cols(); ++j) {
     const auto at = [&](const Eigen::VectorXd& p) {
-      return covariance.At(p.data(), others.col(j).data());
+      return covariance.At(p.data(), others.columns.col(j).data());
     };
     EXPECT_LT((gradient.col(j) - Differences(at, x)).norm(), 1e-7);
   }
@@ -73,12 +73,13 @@ TEST_P(Gradients, LikelihoodAndPriorWithReplicates) {
   points.row(12) = points.row(2);
   Eigen::VectorXd values = Waves(points);
   values[13] += 0.2;
-  const PooledData data = Pool(points, values);
+  const PooledData data = Pool({points, values});
   const HyperLayout layout{.dimension = 3,
                            .free_trend = trend() == Trend::kQuadratic,
                            .free_noise = true,
                            .free_warp = warps()};
-  Eigen::VectorXd theta = PriorMedian({}, layout);
+  const ThetaPrior prior({}, layout);
+  Eigen::VectorXd theta = prior.median;
   for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += 0.3 * (k % 3) - 0.4;
   Eigen::VectorXd gradient;
   const double likelihood = LogLikelihood(data, kernel(), layout, theta, &gradient);
@@ -89,15 +90,46 @@ TEST_P(Gradients, LikelihoodAndPriorWithReplicates) {
   EXPECT_LT((gradient - Differences(at, theta)).norm(), 1e-6 * (1 + gradient.norm()));
 
   Eigen::VectorXd prior_gradient = Eigen::VectorXd::Zero(theta.size());
-  LogPrior({}, layout, theta, &prior_gradient);
-  const auto prior = [&](const Eigen::VectorXd& t) { return LogPrior({}, layout, t, nullptr); };
-  EXPECT_LT((prior_gradient - Differences(prior, theta)).norm(), 1e-7);
+  prior.LogDensity(theta, &prior_gradient);
+  const auto density = [&](const Eigen::VectorXd& t) { return prior.LogDensity(t, nullptr); };
+  EXPECT_LT((prior_gradient - Differences(density, theta)).norm(), 1e-7);
+}
+
+// Three scale factors of which one has replicates, and every hyper-parameter free.
+TEST_P(Gradients, LikelihoodOfSeveralScaleFactors) {
+  Evaluations told{.points = RandomPoints(18, 3, 6),
+                   .values = {},
+                   .growth = Eigen::VectorXd(18),
+                   .level = Eigen::VectorXi(18)};
+  for (Eigen::Index i = 0; i < 18; ++i) {
+    told.level[i] = i < 9 ? 0 : (i < 14 ? 1 : 2);
+    told.growth[i] = 1 - 0.5 * told.level[i];
+  }
+  told.points.row(8) = told.points.row(1);
+  told.values = Waves(told.points) + told.growth;
+  told.values[8] += 0.3;
+  const PooledData data = Pool(told, 3);
+  const HyperLayout layout{.dimension = 3,
+                           .num_levels = 3,
+                           .free_trend = trend() == Trend::kQuadratic,
+                           .free_noise = true,
+                           .free_warp = warps(),
+                           .has_scale = true};
+  const HyperPriors priors{.noise = std::vector<LogNormal>(3, {.median = 0.1, .log_sd = 1})};
+  Eigen::VectorXd theta = ThetaPrior(priors, layout).median;
+  for (Eigen::Index k = 0; k < theta.size(); ++k) theta[k] += 0.3 * (k % 3) - 0.25;
+  Eigen::VectorXd gradient;
+  ASSERT_TRUE(std::isfinite(LogLikelihood(data, kernel(), layout, theta, &gradient)));
+  const auto at = [&](const Eigen::VectorXd& t) {
+    return LogLikelihood(data, kernel(), layout, t, nullptr);
+  };
+  EXPECT_LT((gradient - Differences(at, theta)).norm(), 1e-6 * (1 + gradient.norm()));
 }
 
 TEST_P(Gradients, PredictedMeanAndVariance) {
   const Eigen::MatrixXd points = RandomPoints(20, 3, 4);
   const auto process =
-      GaussianProcess::Fit(points, 50 + 7 * Waves(points).array(),
+      GaussianProcess::Fit({points, 50 + 7 * Waves(points).array()},
                            {.kernel = kernel(), .trend = trend(), .warp_inputs = warps()});
   const Eigen::VectorXd x = RandomPoints(3, 1, 5);
   const PredictionGradient gradient = process.PredictWithGradient(x);

@@ -61,6 +61,14 @@ def joint():
     return good
 
 
+def paired():
+    good = example("scenes/bouncing_pair.json")
+    good["materials"].append({"name": "steel"})
+    good["walls"][0]["material"] = "steel"
+    good["pairs"] = [{"between": ["glass", "steel"], "sliding_friction": 0.2}]
+    return good
+
+
 def command_case():
     good = example("scenes/heap_case.json")
     good["engine"] = {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]}
@@ -76,6 +84,7 @@ GOOD = {  # name: content, and how it is tried
     "scene": (lambda: example("scenes/bouncing_pair.json"), ["simulate", "{}", "--out", "new"]),
     "stepped": (lambda: {**example("scenes/bouncing_pair.json"), "time_step": 1e-7},
                 ["simulate", "{}", "--out", "new"]),
+    "paired": (paired, ["simulate", "{}", "--out", "new"]),
     "packing": (lambda: example("scenes/packing.json"), ["simulate", "{}", "--out", "new"]),
     "problem": (lambda: example("optimize/bowl.json"),
                 ["optimize", "{}", "--out", "new.json", "--", "cat"]),

@@ -39,9 +39,9 @@ class CampaignFaults : public CampaignFixture {
   // All of the result but what it cost, which no two runs share: recommended set, ranges,
   // candidates.
   static std::string Recommended(const fs::path& folder) {
-    CampaignResult result = Result(folder);
+    Answer result = Result(folder);
     result.cost = {};
-    return ResultText(result);
+    return AnswerJson(result);
   }
   static std::size_t NumTrials(const fs::path& folder) { return Trials(folder).size(); }
   void ExpectCalm(const fs::path& folder, const Calm& calm) {

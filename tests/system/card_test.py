@@ -44,10 +44,11 @@ def time_step(text):
     return float(re.search(r"timestep (\S+)", text).group(1))
 
 
-def ours(folder, scene, step):
+def ours(folder, scene, step, models=None):
     spheres, gravity, floor, end = SCENES[scene]
     (folder / "scene.json").write_text(json.dumps({
-        "materials": [{"name": "powder", **MATERIAL}], "gravity": [0, 0, -gravity], "time_step": step,
+        "materials": [{"name": "powder", **MATERIAL}], "models": models or {}, "gravity": [0, 0, -gravity],
+        "time_step": step,
         "spheres": [{"diameter": DIAMETER, "position": p, "velocity": v} for p, v in spheres],
         "walls": [{"name": "floor", "shape": "plane"}] if floor else [],
         "stop": {"time": end}, "outputs": {"times": [end], "vtp": False}}))
@@ -97,12 +98,12 @@ class Card(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
 
-    def agree(self, program, scene):
+    def agree(self, program, scene, models=None):
         if not shutil.which(COMMANDS[program]):
             self.skipTest(program + " is not installed")
-        lines = card(self.folder, program)
+        lines = card(self.folder, program, models=models)
         step = time_step(lines)
-        for mine, other in zip(ours(self.folder, scene, step), theirs(self.folder, scene, program, lines),
+        for mine, other in zip(ours(self.folder, scene, step, models), theirs(self.folder, scene, program, lines),
                                strict=True):
             yield mine, other
 
@@ -124,6 +125,22 @@ class Card(unittest.TestCase):
                     self.assertGreater(mine[0], DIAMETER)
                     self.assertAlmostEqual(mine[0], other[0], delta=0.01 * mine[0])
                     self.assertLess(abs(mine[3]) + abs(other[3]), 1e-9)
+
+    # Seen: 0.06 %. With epsd the grain ends 0.4 % short of that.
+    def test_epsd2_is_that_of_liggghts(self):
+        for mine, other in self.agree("liggghts", "rolling", {"rolling": "epsd2"}):
+            self.assertGreater(mine[0], DIAMETER)
+            self.assertAlmostEqual(mine[0], other[0], delta=0.002 * mine[0])
+        self.assertIn("NOT INCLUDED: the epsd2", card(self.folder, "lethe", models={"rolling": "epsd2"}))
+
+    def test_a_name_with_a_line_break_stays_in_its_line(self):
+        # LAMMPS and LIGGGHTS run a line that begins with `shell`.
+        for name in ("liggghts", "lammps", "lethe", "yade", "mercurydpm", "table"):
+            file = self.folder / "powder\nshell touch here.json"
+            file.write_text(json.dumps(case()))
+            done = subprocess.run([TALUS, "card", file, "--format", name], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertFalse([line for line in done.stdout.splitlines() if line.startswith("shell")])
 
     def test_codes_that_are_not_at_hand_are_given_converted_numbers(self):
         radius, m = DIAMETER / 2, MATERIAL

@@ -204,6 +204,18 @@ class Progress(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("is there already", done.stderr)
 
+    # Their names say which heap each is of; once they made one heap of eighty views.
+    def test_photographs_one_by_one_are_runs(self):
+        out = self.folder / "one_by_one.json"
+        photos = [str(path) for path in sorted((SOURCE / "examples/photos/powder_a").glob("*.jpg"))]
+        done = talus("init", *photos, "--out", str(out), "--plate-diameter", "10 mm", "--tube-diameter", "10 mm",
+                     "--lift-velocity", "50 mm/s", "--mass", "1.602 g", "--density", "4386 kg/m3",
+                     "--grain-diameter", "100 microns")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("5 heaps (01, 02, 03, 04, 05), 80 photographs", done.stdout)
+        self.assertEqual(out.read_text().count('"name": "0'), 5)
+        self.assertEqual(talus("validate", str(out), "--without-experiment").returncode, 0)
+
     # As a user at a terminal: it asks for what no flag has said, and again after a wrong answer.
     def test_init_asks_on_a_terminal(self):
         out = self.folder / "asked.json"

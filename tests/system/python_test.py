@@ -51,6 +51,9 @@ def check_ask_tell():
     strategy = talus.Strategy(parameters)
     raises(talus.ConfigError, "energy", strategy.tell, {"friction": 0.5}, 1.0)
     raises(talus.ConfigError, "needs a value", strategy.tell, {"friction": 0.5, "energy": 1e-4})
+    raises(talus.ConfigError, "beyond 1e100", strategy.tell, {"friction": 0.5, "energy": 1e-4}, -1e160)
+    for energy in (1.0, -1.0, float("nan")):
+        raises(talus.ConfigError, "outside the searched range", strategy.tell, {"friction": 0.5, "energy": energy}, 1.0)
     raises(ValueError, "frictoin", talus.Strategy, [{"name": "a", "low": 0, "high": 1}],
            {"frictoin": 1})
 
@@ -87,6 +90,11 @@ def check_projection():
     area = (image == 0).sum() * 1e-8
     assert abs(area - numpy.pi * 1e-6) < 2 * numpy.pi * 1e-3 * 1e-4, area
     raises(talus.ConfigError, "four columns", talus.project, numpy.zeros((2, 3)), FRAME)
+    for bad in ([numpy.nan, 0, 0, 1e-3], [0, 0, 0, -1e-3], [0, 0, 0, numpy.inf]):
+        raises(talus.ConfigError, "row 1", talus.project, numpy.array([[0, 0, 0, 1e-3], bad]), FRAME)
+    empty = numpy.zeros((0, 0), numpy.uint8)
+    raises(talus.ConfigError, "is empty", talus.compare, empty, empty, FRAME)
+    raises(talus.ConfigError, "reference: has 7 x 5 px", talus.compare, image, numpy.zeros((5, 7), numpy.uint8), FRAME)
     raises(talus.ConfigError, "width", talus.project, numpy.zeros((0, 4)), {**FRAME, "width_px": -1})
 
 

@@ -64,11 +64,11 @@ class ReportInABrowser(unittest.TestCase):
         cls.driver.quit()
         cls.folder.cleanup()
 
-    def open_report(self, name, trials, parameters, state, width=1400, posterior=False):
+    def open_report(self, name, trials, parameters, state, width=1400, coarse_design=False):
         campaign = pathlib.Path(self.folder.name) / name
         if not campaign.exists():
             subprocess.run([self.maker, campaign, str(trials), str(parameters), state] +
-                           (["posterior"] if posterior else []), check=True)
+                           (["coarse_design"] if coarse_design else []), check=True)
             subprocess.run([self.talus, "report", campaign], check=True, stdout=subprocess.DEVNULL)
         self.driver.set_window_size(width, 1000)
         for log in ("browser", "performance"):
@@ -190,9 +190,9 @@ class ReportInABrowser(unittest.TestCase):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                     {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True})
         try:
-            for name, posterior in (("three", False), ("posterior", True)):
-                self.open_report(name, 60, 3 if not posterior else 2, "finished", width=500,
-                                 posterior=posterior)
+            for name, coarse_design in (("three", False), ("posterior", True)):
+                self.open_report(name, 60, 3 if not coarse_design else 2, "finished", width=500,
+                                 coarse_design=coarse_design)
                 self.check_charts()
                 width = self.driver.execute_script("return document.documentElement.scrollWidth")
                 self.assertEqual(width, 390)
@@ -204,11 +204,10 @@ class ReportInABrowser(unittest.TestCase):
         return self.driver.execute_script("return " + path)
 
     def test_posterior_is_what_the_page_shows(self):
-        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
         charts = self.check_charts()
         self.assertIn("region", charts)
         self.assertIn("marginal-1", charts)
-        self.assertTrue(self.numbers_of("D.model.posterior"))
         self.assertGreaterEqual(min(self.numbers_of("D.slices.flatMap((s) => s.mean)")), 0)
         self.assertGreaterEqual(min(self.numbers_of("D.slices.flatMap((s) => s.low)")), 0)
         text = self.driver.find_element(By.TAG_NAME, "main").text
@@ -221,7 +220,7 @@ class ReportInABrowser(unittest.TestCase):
 
     # What `talus next` leaves in the folder, with a test whose simulations have been run.
     def test_next_steps_are_those_that_talus_next_ranks(self):
-        self.open_report("next", 60, 2, "finished", posterior=True)
+        self.open_report("next", 60, 2, "finished", coarse_design=True)
         campaign = pathlib.Path(self.folder.name) / "next"
         self.assertEqual(self.driver.find_elements(By.ID, "next-table"), [])
         subprocess.run([self.talus, "next", campaign], check=True, stdout=subprocess.DEVNULL)
@@ -235,7 +234,7 @@ class ReportInABrowser(unittest.TestCase):
         path.write_text(json.dumps(table))
         (campaign / "next" / "wide-plate.png").write_bytes(grey_png(320, 100))
         subprocess.run([self.talus, "report", campaign], check=True, stdout=subprocess.DEVNULL)
-        self.open_report("next", 60, 2, "finished", posterior=True)
+        self.open_report("next", 60, 2, "finished", coarse_design=True)
         self.check_charts()
         steps = self.driver.find_element(By.ID, "next").text
         self.assertIn("Wide plate: carry it out in 3 runs", steps)
@@ -254,7 +253,7 @@ class ReportInABrowser(unittest.TestCase):
         self.keep_screenshot("next")
 
     def test_running_campaign_shows_its_region(self):
-        self.open_report("running_posterior", 60, 2, "running", posterior=True)
+        self.open_report("running_posterior", 60, 2, "running", coarse_design=True)
         self.assertIn("region", self.check_charts())
         self.assertRegex(self.driver.find_element(By.ID, "so-far").text, r"Joint 90\s% region so far\n[\d.]+ %")
         self.assertEqual(self.driver.execute_script("return talusCharts.filter((c) => c.id === 'shrinking').length"), 0)
@@ -267,7 +266,7 @@ class ReportInABrowser(unittest.TestCase):
         self.keep_screenshot("running")
 
     def test_verdict_comes_before_any_number(self):
-        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
         first = self.driver.execute_script(
             "return document.querySelector('#answer').children[1].id")
         self.assertEqual(first, "verdict")
@@ -281,7 +280,7 @@ class ReportInABrowser(unittest.TestCase):
         self.assertEqual(iou, ["–"])
 
     def test_trials_of_several_grain_sizes_are_told_apart(self):
-        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
         self.check_charts()
         names = self.driver.execute_script(
             "return echarts.getInstanceByDom(document.getElementById('space')).getOption()"
@@ -296,7 +295,7 @@ class ReportInABrowser(unittest.TestCase):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "features": [{"name": "prefers-color-scheme", "value": "dark"}]})
         try:
-            self.open_report("posterior", 60, 2, "finished", posterior=True)
+            self.open_report("posterior", 60, 2, "finished", coarse_design=True)
             self.check_charts()
             lightness = self.driver.execute_script(
                 "const of = (colour) => colour.match(/\\d+/g).slice(0, 3).map(Number)"
@@ -315,8 +314,8 @@ class ReportInABrowser(unittest.TestCase):
     def test_a_screen_reader_finds_a_name_for_everything(self):
         """What Chromium hands to a screen reader: charts are images with a name, and no heading skips a level."""
         named = {"button", "checkbox", "combobox", "image", "link", "slider", "table", "textbox"}
-        for name, parameters, posterior in (("three", 3, False), ("posterior", 2, True)):
-            self.open_report(name, 60, parameters, "finished", posterior=posterior)
+        for name, parameters, coarse_design in (("three", 3, False), ("posterior", 2, True)):
+            self.open_report(name, 60, parameters, "finished", coarse_design=coarse_design)
             nodes = self.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
             seen = [n for n in nodes if not n["ignored"]]
             kinds = {n["role"]["value"] for n in seen}
@@ -339,7 +338,7 @@ class ReportInABrowser(unittest.TestCase):
 
     # The first print of a page whose charts have not been seen yet has all pages that a second one has.
     def test_nothing_is_cut_off_the_end_of_the_paper(self):
-        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
 
         def pages():
             pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})
@@ -364,7 +363,7 @@ class ReportInABrowser(unittest.TestCase):
 
     # Every chart is drawn, seen or not, and none is wider than A4 with its margins.
     def test_prints_on_a4(self):
-        self.open_report("posterior", 60, 2, "finished", posterior=True)
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
         self.driver.execute_script("for (const made of talusCharts) made.start()")
         end = time.monotonic() + MOST_SECONDS
         while time.monotonic() < end and not self.driver.execute_script(

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/files/file.h"
-#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/answer.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/spheres/projection.h"
 #include "tests/experiments/scratch_folder.h"
@@ -65,7 +65,7 @@ void MakeExperiment(const fs::path& folder, int seed) {
   imaging::WritePng(folder / "map.png", imaging::MeanImage(profiles));
 }
 
-CampaignResult Calibrate(const fs::path& folder, int seed) {
+Answer Calibrate(const fs::path& folder, int seed) {
   const fs::path spec = folder / "spec.json";
   base::WriteFileAtomically(spec, R"({"experiment": {"map": "map.png", "map_heaps": )" +
                                       std::to_string(kHeaps) +
@@ -79,10 +79,10 @@ CampaignResult Calibrate(const fs::path& folder, int seed) {
     "confirm": {"candidates": 1, "replicates": 2}, "workers": 1, "seed": )" +
                                       std::to_string(seed) + "}");
   RunTalus("calibrate " + spec.string() + " --out " + (folder / "run").string());
-  return ParseResult(base::ReadFile(folder / "run" / "result.json"));
+  return ParseAnswer(base::ReadFile(folder / "run" / "result.json"));
 }
 
-bool IsRecovered(const CampaignResult& result, int seed) {
+bool IsRecovered(const Answer& result, int seed) {
   bool all = result.parameters.size() == kTruth.size();
   for (const ResultParameter& p : result.parameters) {
     const double truth = kTruth.at(p.name);

@@ -6,6 +6,7 @@
 #include "base/files/file.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/report/page/page.h"
+#include "experiments/campaign/answer/answer_summary.h"
 #include "tests/experiments/two_experiments.h"
 #include "tests/system/session.h"
 
@@ -22,9 +23,9 @@ class TwoExperimentsFaults : public TwoExperiments {
   }
   // All of the result but its cost, which no two runs share.
   static std::string Recommended(const fs::path& folder) {
-    CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+    Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
     result.cost = {};
-    return ResultText(result);
+    return AnswerJson(result);
   }
 };
 
@@ -68,9 +69,9 @@ TEST_F(TwoExperimentsFaults, AFailedTrialOfOneExperimentLeavesTheOtherTrialsAndT
   }
   EXPECT_GT(failed, 0);
   EXPECT_TRUE(told_by_the_other);
-  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+  const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
   EXPECT_LT(result.parameters[0].credible_low, kTrueSliding);
-  EXPECT_GT(result.parameters[0].credible_high, kTrueSliding) << ResultSummary(result, folder);
+  EXPECT_GT(result.parameters[0].credible_high, kTrueSliding) << AnswerSummary(result, folder);
   EXPECT_EQ(result.cost.num_failed, failed);
   const std::string page =
       analysis::PageJson(analysis::MakeReportData(analysis::GatherEvidence(folder, "fast lift")));

@@ -7,10 +7,12 @@
 #include "base/json/json_writer.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/card/card_formats.h"
-#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/folder_in_text.h"
-#include "experiments/campaign/start.h"
-#include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/journal.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/load_case.h"
 
 namespace talus::analysis {
 namespace {
@@ -26,18 +28,17 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
     throw base::ConfigError(folder.string() + ": has no result yet; `talus status " +
                             base::ShellWord(folder.string()) + "` says where the campaign stands");
   }
-  const campaign::CampaignResult result = campaign::ParseResult(text);
+  const campaign::Answer result = campaign::ParseAnswer(text);
   const journal::CampaignRecord record = journal.Campaign();
   const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
   std::vector<double> values;
   for (const campaign::ResultParameter& p : result.parameters) values.push_back(p.value);
-  const rigs::HeapCase heap_case =
-      campaign::CaseOf(spec, {.values = values, .scale_factor = result.conditions.scale_factor},
-                       campaign::ReferencesOf(record, spec).front().frame());
-  Card card = CardOf(heap_case);
+  const rigs::Case rig_case = campaign::CaseOf(
+      spec, {.values = values, .scale_factor = result.conditions.scale_factor}, std::nullopt);
+  Card card = CardOf(rig_case);
   card.title = result.name;
-  for (const campaign::ResultWarning& warning : result.warnings) {
-    card.notes.push_back(campaign::WithFolder(warning.text, folder));
+  for (const campaign::Alarm& warning : result.warnings) {
+    card.notes.push_back(campaign::WithFolder(campaign::AlarmText(warning), folder));
   }
   for (const campaign::ResultParameter& p : result.parameters) {
     card.ranges.push_back({.name = p.name,
@@ -51,18 +52,18 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Card CardOf(const rigs::HeapCase& heap_case) {
-  const rigs::HeapSize size = rigs::EstimateHeap(heap_case);
-  const engine::Material powder = rigs::UsedMaterial(heap_case);
-  const rigs::Device& device = heap_case.device;
+Card CardOf(const rigs::Case& rig_case) {
+  const rigs::PowderSize size = rigs::EstimatePowder(rig_case);
+  const engine::Material powder = rigs::UsedMaterial(rig_case);
+  const rigs::LiftedTubeOptions& device = rig_case.rig.lifted_tube;
   Card card{.title = "one case",
             .materials = {{.name = "powder", .material = powder}},
-            .models = heap_case.models,
-            .scale_factor = heap_case.coarse_graining.scale_factor,
-            .surface_energy_given = heap_case.powder.material.surface_energy,
+            .models = rig_case.models,
+            .scale_factor = rig_case.coarse_graining.scale_factor,
+            .surface_energy_given = rig_case.powder.material.surface_energy,
             .mean_diameter = size.mean_diameter,
             .time_step = size.time_step,
-            .gravity = heap_case.gravity,
+            .gravity = rig_case.gravity,
             .lift_velocity = device.lift_velocity,
             .plate_diameter = device.plate_diameter,
             .tube_inner_diameter = device.tube_inner_diameter};
@@ -70,14 +71,14 @@ Card CardOf(const rigs::HeapCase& heap_case) {
     const engine::Material material = wall.value_or(rigs::WallMaterial()).Over(powder);
     if (!Same(material, powder)) card.materials.push_back({.name = name, .material = material});
   };
-  add("tube", device.tube_material);
-  add("plate", device.plate_material);
+  add("tube", rig_case.materials.walls);
+  add("plate", rig_case.materials.floor);
   return card;
 }
 
 Card ReadCard(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return ReadCampaignCard(path);
-  Card card = CardOf(rigs::LoadHeapCase(path));
+  Card card = CardOf(rigs::LoadCase(path));
   card.title = path.filename().string();
   return card;
 }

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/field.h"
+#include "engine/laws/material.h"
 #include "engine/laws/pair_constants.h"
-#include "engine/scene/material.h"
-#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/rigs/case/case.h"
 
 namespace talus::analysis {
 
@@ -44,7 +44,7 @@ struct Card {
   std::vector<std::string> notes{};  // of the campaign: what is doubtful
 };
 
-Card CardOf(const rigs::HeapCase& heap_case);
+Card CardOf(const rigs::Case& rig_case);
 
 // Of a campaign's folder (its recommended set, at the scale factor that it holds for) or of a
 // case.json. Throws ConfigError when the campaign has no result yet.

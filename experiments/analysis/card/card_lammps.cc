@@ -59,7 +59,7 @@ std::string PairModel(const Card& card, const engine::Material& a, const engine:
          " damping tsuji";
 }
 
-std::string Remarks(const Card& card) {
+std::string LammpsRemarks(const Card& card) {
   std::string text;
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text +=
@@ -99,7 +99,7 @@ double TsujiRestitution(double restitution) {
 
 std::string LammpsCard(const Card& card) {
   std::ostringstream text;
-  text << CardHead(card, "LAMMPS (package GRANULAR)", "# ") << Remarks(card)
+  text << CardHead(card, "LAMMPS (package GRANULAR)", "# ") << LammpsRemarks(card)
        << "# density: " << CardNumber(card.materials[0].material.density) << " kg/m3\n"
        << "# restitution is the input of `damping tsuji` that rebounds with "
        << CardNumber(card.materials[0].material.restitution) << "\n"

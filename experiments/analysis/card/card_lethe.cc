@@ -48,6 +48,8 @@ const char* RollingName(engine::Rolling rolling) {
       return "viscous";
     case engine::Rolling::kEpsd:
       return "epsd";
+    case engine::Rolling::kEpsd2:  // which Lethe has not; the card says so
+      return "none";
   }
   return "";
 }
@@ -61,6 +63,9 @@ std::string LetheCard(const Card& card) {
   const auto [particles, walls] = ContactNames(card.models.adhesion);
   std::ostringstream text;
   text << CardHead(card, "Lethe", "# ");
+  if (card.models.rolling == engine::Rolling::kEpsd2) {
+    text << "# NOT INCLUDED: the epsd2 rolling resistance, which Lethe has not.\n";
+  }
   if (!one_wall) text << "# Lethe has one wall material: the plate's; the tube had another.\n";
   text << "subsection lagrangian physical properties\n  subsection particle type 0\n"
        << "    set density particles = " << CardNumber(powder.density) << "\n"

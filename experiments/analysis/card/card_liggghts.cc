@@ -1,5 +1,6 @@
-// LIGGGHTS-PUBLIC 3.8: hertz, history and epsd are (N1)–(N4), (T1)–(T3) and (R1)–(R4) with f = 0,
-// so that nothing is converted. Pair values are given as a matrix, mixed here by (P5).
+// LIGGGHTS-PUBLIC 3.8: hertz, history, epsd and epsd2 are (N1)–(N4), (T1)–(T3), (R1)–(R4) with
+// f = 0 and (R6), so that nothing is converted. Pair values are given as a matrix, mixed here by
+// (P5).
 #include <sstream>
 
 #include "experiments/analysis/card/card_formats.h"
@@ -26,11 +27,21 @@ std::string PerPair(const Card& card, const std::string& property, double engine
 
 // Empty for no rolling resistance; nothing in LIGGGHTS is the viscous model.
 std::string RollingModel(engine::Rolling rolling) {
-  if (rolling == engine::Rolling::kEpsd) return " rolling_friction epsd";
-  return rolling == engine::Rolling::kConstant ? " rolling_friction cdt" : "";
+  switch (rolling) {
+    case engine::Rolling::kConstant:
+      return " rolling_friction cdt";
+    case engine::Rolling::kEpsd:
+      return " rolling_friction epsd";
+    case engine::Rolling::kEpsd2:
+      return " rolling_friction epsd2";
+    case engine::Rolling::kNone:
+    case engine::Rolling::kViscous:
+      return "";
+  }
+  return "";
 }
 
-std::string Remarks(const Card& card) {
+std::string LiggghtsRemarks(const Card& card) {
   std::string text;
   if (card.models.adhesion != engine::Adhesion::kNone) {
     text +=
@@ -54,7 +65,7 @@ std::string Remarks(const Card& card) {
 std::string LiggghtsCard(const Card& card) {
   using M = engine::Material;
   std::ostringstream text;
-  text << CardHead(card, "LIGGGHTS-PUBLIC 3.8", "# ") << Remarks(card) << "# Atom types:";
+  text << CardHead(card, "LIGGGHTS-PUBLIC 3.8", "# ") << LiggghtsRemarks(card) << "# Atom types:";
   for (std::size_t i = 0; i < card.materials.size(); ++i) {
     text << ' ' << i + 1 << ' ' << card.materials[i].name
          << (i + 1 < card.materials.size() ? "," : "; walls without a type of their own: 1\n");

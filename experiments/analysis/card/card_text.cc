@@ -4,6 +4,7 @@
 
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/card/card_formats.h"
 
@@ -13,7 +14,8 @@ std::string CardNumber(double value) { return base::ShortNumber(value, 6); }
 
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark) {
   std::ostringstream text;
-  text << mark << card.title << ", calibrated with talus, for " << code << ". SI units.\n"
+  text << mark << base::OneLine(card.title) << ", calibrated with talus, for " << code
+       << ". SI units.\n"
        << mark << "Holds together with: scale factor " << CardNumber(card.scale_factor)
        << " (grains of " << CardNumber(card.mean_diameter * 1e3)
        << " mm, D50), Young's modulus as below, time step up to " << CardNumber(card.time_step)
@@ -26,7 +28,8 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
          << " J/m2 is used at this scale factor for " << CardNumber(card.surface_energy_given)
          << " J/m2 of the powder.\n";
   }
-  for (const std::string& note : card.notes) text << mark << "Warning: " << note << '\n';
+  for (const std::string& note : card.notes)
+    text << mark << "Warning: " << base::OneLine(note) << '\n';
   return text.str();
 }
 

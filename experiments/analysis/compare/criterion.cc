@@ -1,7 +1,7 @@
 #include "experiments/analysis/compare/criterion.h"
 
-#include "experiments/analysis/report/labels.h"
-#include "experiments/rigs/rig.h"
+#include "experiments/analysis/compare/labels.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::analysis {
 

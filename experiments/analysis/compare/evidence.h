@@ -14,9 +14,10 @@
 #include <vector>
 
 #include "experiments/analysis/compare/experiment_fit.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/journal/records.h"
 #include "imaging/heap/profile.h"
-#include "optimizer/models/objective_model.h"
+#include "optimizer/search/objective_model.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::analysis {
@@ -61,61 +62,14 @@ struct ReferenceEvidence {
   bool has_image() const { return !aehp.image.pixels.empty(); }
 };
 
-// One parameter of the recommended set.
-struct RecommendedValue {
-  double value = 0;  // SI
-  double low = 0;    // credible range: 90 %, all together
-  double high = 0;
-};
-
-// One of several separate answers: a connected part of the joint 90 % region.
-struct AnswerBranch {
-  double share = 0;            // of the posterior in the region
-  std::vector<double> values;  // SI, in the order of Evidence::parameters, as low and high
-  std::vector<double> low;
-  std::vector<double> high;
-};
-
-// What the campaign itself concludes.
-struct Conclusion {
-  std::string verdict_kind{};            // "point", "curve", "region", "separate"; empty: not known
-  std::string verdict{};                 // the same in a sentence
-  std::string trade_off{};               // which parameters change together; empty where none do
-  std::vector<int> traded{};             // these two, as they are listed
-  std::string unsettled{};               // that the budget ended the search, where it did too early
-  double more_simulations = kUndefined;  // that would end it by its rule
-  double width_then = kUndefined;        // of the ranges after these, over today's [-]
-  std::string use{};                     // whether to use the recommended set now
-  bool asks_for_simulations = false;     // an alarm does
-  bool has_posterior = false;
-  std::vector<std::vector<double>> representative{};  // sets to look at side by side, SI
-  std::vector<AnswerBranch> branches{};  // the likeliest first; empty where there is no posterior
-  std::string objective{};               // key of one of kObjectives
-  std::vector<RecommendedValue> values{};
-  double predicted = kUndefined;             // the objective there, by the campaign's model
-  double predicted_sd = kUndefined;          // of that mean
-  double confirmed = kUndefined;             // mean over the confirming trials
-  double confirmed_profile = kUndefined;     // SAD of their mean profile [mm²]
-  double confirmed_over_floor = kUndefined;  // … over the experiment's noise floor
-  int num_confirmed = 0;
-  double noise_sd = kUndefined;  // scatter of one evaluation
-  double tied_volume = kUndefined;
-  std::vector<double> sobol_first{};  // one a parameter, or empty
-  std::vector<double> sobol_total{};
-  std::vector<std::string> warnings{};
-  std::vector<std::string> held_out{};    // an experiment that the answer is made without, in words
-  std::vector<std::string> conditions{};  // what the calibrated set holds for
-  std::string model{};                    // which surrogate answered and how well it predicts
-};
-
-// The model that the campaign's strategy answers with, asked again. Points are of the unit cube.
+// The model that the campaign answers with, asked again. Points are of the unit cube.
 struct ModelEvidence {
   Eigen::VectorXd point;         // that it recommends
   double expected = kUndefined;  // the objective there, of the experiment that is shown; >= 0
   double expected_sd = kUndefined;
   double noise_sd = kUndefined;  // scatter of one evaluation there
-  Eigen::MatrixXd draws;  // of the posterior, one a row; none where it works out no posterior
-  // Share of the posterior that is denser than at a point, one a row; empty without a posterior.
+  Eigen::MatrixXd draws;         // of the posterior, one a row
+  // Share of the posterior that is denser than at a point, one a row.
   std::function<Eigen::VectorXd(const Eigen::MatrixXd&)> credible_levels{};
   // The objective, >= 0, one point a row; empty where the experiment that is shown has no image.
   std::function<optimizer::Moments(const Eigen::MatrixXd&)> predict;
@@ -146,7 +100,7 @@ struct Evidence {
   std::vector<TrialEvidence> trials;
   std::vector<TrialEvidence> of_others;  // trials of the other experiments, without metrics
   ReferenceEvidence reference;
-  std::optional<Conclusion> conclusion;                         // none before there is one
+  std::optional<campaign::Answer> answer;                       // none before there is one
   std::vector<FitRow> fit;                                      // of it, to every experiment
   std::vector<std::string> experiments;                         // all of the campaign's, by name
   std::optional<ModelEvidence> model;                           // none where no model answers

@@ -5,32 +5,26 @@
 #include <string>
 #include <vector>
 
-#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/journal/records.h"
 
 namespace talus::analysis {
 
 // One thing that was measured beside what the recommended set gives of it.
 struct FitRow {
-  enum class Meets {
-    kYes,      // within what the measurement itself leaves open
-    kNo,       // farther off
-    kNotKnown  // nothing to judge it by
-  };
   std::string experiment{};
   std::string what{};       // "shape", "mass fallen"
   std::string measured{};   // "5 runs, each 0.68 mm² SAD from the mean of the others"
   std::string simulated{};  // "0.446 mm² SAD", "5.51 mg"; empty where nothing was simulated there
   std::string judgement{};  // "0.66 times as far as the runs are from each other"
-  Meets meets = Meets::kNotKnown;
+  campaign::Meets meets = campaign::Meets::kUnknown;
   double implausibility = std::numeric_limits<double>::quiet_NaN();  // of the experiment
   bool held_out = false;  // the answer is made without it
 };
 
 // Every experiment's image and numbers, in the campaign's order: as confirmed with fresh seeds, or
 // as the model predicts where nothing was confirmed.
-std::vector<FitRow> FitRows(const campaign::CampaignResult& result,
-                            const journal::CampaignRecord& record);
+std::vector<FitRow> FitRows(const campaign::Answer& result, const journal::CampaignRecord& record);
 
 // The rows in a sentence: which experiments are met and which are not; empty without rows.
 std::string FitSentence(const std::vector<FitRow>& rows);

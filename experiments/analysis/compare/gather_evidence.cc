@@ -14,11 +14,11 @@
 #include "base/json/json_reader.h"
 #include "base/version.h"
 #include "engine/kernel/dispatch.h"
-#include "experiments/analysis/report/labels.h"
-#include "experiments/campaign/answer/campaign_result.h"
-#include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/analysis/compare/labels.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/journal/journal.h"
-#include "experiments/rigs/rig.h"
+#include "experiments/journal/objective.h"
+#include "experiments/rigs/observables/observable.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::analysis {
@@ -190,15 +190,20 @@ void AddReference(const journal::ExperimentRecord& record, Evidence& evidence) {
   evidence.reference.noise_floor = record.noise_mm2.value_or(kUndefined);
 }
 
-void AddConclusion(const std::string& result_json, const journal::CampaignRecord& record,
-                   Evidence& evidence) {
-  if (result_json.empty()) return;
-  evidence.conclusion = ConclusionOf(result_json, evidence.parameters);
-  for (std::string& warning : evidence.conclusion->warnings) {
-    warning = campaign::WithFolder(warning, evidence.folder);
+// A result calls its objective by the key of its value, "sad_mm2" or "aor2_difference_deg".
+std::string ObjectiveKey(const std::string& result_key) {
+  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
+    if (result_key == info.ValueKey()) return std::string(info.key);
   }
-  evidence.objective = evidence.conclusion->objective;
-  evidence.fit = FitRows(campaign::ParseResult(result_json), record);
+  throw base::Error("the journal's result is of \"" + result_key + "\", which is not known here");
+}
+
+void AddAnswer(const std::string& result_json, const journal::CampaignRecord& record,
+               Evidence& evidence) {
+  if (result_json.empty()) return;
+  evidence.answer = campaign::ParseAnswer(result_json);
+  evidence.objective = ObjectiveKey(evidence.answer->objective);
+  evidence.fit = FitRows(*evidence.answer, record);
 }
 
 void AddVersions(const journal::CampaignRecord& record, Evidence& evidence) {
@@ -249,7 +254,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   const journal::ExperimentRecord& shown = record.experiments.at(evidence.experiment);
   AddTrialsOf(shown, journal->Trials(), evidence);
   AddReference(shown, evidence);
-  AddConclusion(progress.result_json, record, evidence);
+  AddAnswer(progress.result_json, record, evidence);
   AddTimes(evidence, progress.elapsed_s);
   AddVersions(record, evidence);
   evidence.profile =

@@ -15,8 +15,4 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
 // Adds the model that the campaign's strategy answers with, or why there is none to ask.
 void AddModel(const std::filesystem::path& campaign, Evidence& evidence);
 
-// From the text of result.json of a campaign that searched `parameters`.
-Conclusion ConclusionOf(const std::string& result_json,
-                        const std::vector<ParameterInfo>& parameters);
-
 }  // namespace talus::analysis

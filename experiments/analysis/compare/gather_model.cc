@@ -13,11 +13,11 @@ optimizer::Moments NotNegative(optimizer::Moments moments) {
   return moments;
 }
 
-// The one that the campaign's spec names, told again what the journal holds.
-std::shared_ptr<optimizer::Strategy> StrategyTold(const std::filesystem::path& campaign) {
+// The one that answers, told again what the journal holds.
+std::shared_ptr<optimizer::PosteriorStrategy> StrategyTold(const std::filesystem::path& campaign) {
   const campaign::JointView view = campaign::ReadJointView(campaign);
-  std::shared_ptr<optimizer::Strategy> strategy =
-      campaign::MakeCampaignStrategy(view.spec, view.record, view.references);
+  std::shared_ptr<optimizer::PosteriorStrategy> strategy =
+      campaign::MakePosteriorStrategy(view.spec, view.record, view.references);
   for (const optimizer::Observation& observation : view.observations) strategy->Tell(observation);
   return strategy;
 }
@@ -32,23 +32,21 @@ void AddModel(const std::filesystem::path& campaign, Evidence& evidence) {
     evidence.model_absent = "no trial has succeeded yet";
     return;
   }
-  const std::shared_ptr<optimizer::Strategy> strategy = StrategyTold(campaign);
+  const std::shared_ptr<optimizer::PosteriorStrategy> strategy = StrategyTold(campaign);
   const optimizer::Answer answer = strategy->Recommend();
-  const int experiment = static_cast<int>(evidence.experiment);
-  const auto expected = strategy->Predict(answer.point.transpose(), experiment);
-  if (!expected && !answer.posterior) {
-    evidence.model_absent = answer.model.empty() ? "the strategy has none" : answer.model;
+  if (!answer.posterior) {
+    evidence.model_absent = answer.model;
     return;
   }
+  const int experiment = static_cast<int>(evidence.experiment);
+  const auto expected = strategy->Predict(answer.point.transpose(), experiment);
   ModelEvidence model;
   model.point = answer.point;
   model.noise_sd = answer.noise_sd;
-  if (answer.posterior) {
-    model.draws = answer.posterior->draws;
-    model.credible_levels = [strategy](const Eigen::MatrixXd& points) {
-      return *strategy->CredibleLevels(points);
-    };
-  }
+  model.draws = answer.posterior->draws;
+  model.credible_levels = [strategy](const Eigen::MatrixXd& points) {
+    return *strategy->CredibleLevels(points);
+  };
   if (expected) {
     model.expected = NotNegative(*expected).mean[0];
     model.expected_sd = expected->sd[0];

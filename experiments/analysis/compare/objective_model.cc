@@ -44,7 +44,7 @@ surrogate::GaussianProcess FitProcess(const std::vector<ModelPoint>& points,
     rows.row(i) = point.point.transpose();
     values(i) = point.quantity;
   }
-  return surrogate::GaussianProcess::Fit(rows, values, options);
+  return surrogate::GaussianProcess::Fit({.points = rows, .values = values}, options);
 }
 
 }  // namespace

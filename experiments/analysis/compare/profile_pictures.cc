@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "experiments/analysis/compare/crop.h"
+#include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/difference_map.h"
-#include "imaging/photos/canvas.h"
 
 namespace talus::analysis {
 namespace {

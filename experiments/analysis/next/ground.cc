@@ -4,12 +4,12 @@
 
 namespace talus::analysis {
 
-std::unique_ptr<optimizer::FidelityStrategy> ModelOf(const campaign::JointView& view,
-                                                     const std::vector<double>& scale_factors,
-                                                     optimizer::ExperimentTarget target) {
-  const optimizer::FidelityOptions options{
+std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView& view,
+                                                      const std::vector<double>& scale_factors,
+                                                      optimizer::ExperimentTarget target) {
+  const optimizer::PosteriorStrategyOptions options{
       .scale_factors = scale_factors, .target = 0, .seed = view.spec.seed};
-  return std::make_unique<optimizer::FidelityStrategy>(
+  return std::make_unique<optimizer::PosteriorStrategy>(
       options, view.space.MakeDomain(),
       std::vector<optimizer::ExperimentTarget>{std::move(target)});
 }

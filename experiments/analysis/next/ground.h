@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "experiments/campaign/answer/joint_view.h"
-#include "optimizer/fidelity/posterior.h"
-#include "optimizer/information/expected_learning.h"
+#include "optimizer/posterior/expected_learning.h"
+#include "optimizer/posterior/posterior.h"
 
 namespace talus::analysis {
 
@@ -26,9 +26,9 @@ struct Ground {
 
 // A model of a test that was not made, simulated at these scale factors; its target is what the
 // simulations show on average.
-std::unique_ptr<optimizer::FidelityStrategy> ModelOf(const campaign::JointView& view,
-                                                     const std::vector<double>& scale_factors,
-                                                     optimizer::ExperimentTarget target);
+std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView& view,
+                                                      const std::vector<double>& scale_factors,
+                                                      optimizer::ExperimentTarget target);
 
 // Variance of each output as measured by so many runs, with the model's error; `to_target` is the
 // noise variance at the target over that of the simulations.

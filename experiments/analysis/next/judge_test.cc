@@ -64,7 +64,7 @@ Hypothetical Imagine(const Ground& ground, const TestCandidate& test, const Test
 }
 
 void TellDesign(const TestDesign& design, const Hypothetical& made,
-                optimizer::FidelityStrategy& strategy) {
+                optimizer::PosteriorStrategy& strategy) {
   for (const DesignTrial& trial : design.trials) {
     optimizer::Observation observation{.point = trial.point, .scale_factor = design.scale_factor};
     if (design.frame) observation.field = made.reference.Field(trial.profile);

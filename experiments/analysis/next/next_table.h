@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/journal/records.h"
-#include "optimizer/information/expected_learning.h"
+#include "optimizer/posterior/expected_learning.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::analysis {

@@ -11,6 +11,7 @@
 #include "experiments/analysis/next/judge_test.h"
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::analysis {
 namespace {
@@ -19,7 +20,6 @@ using campaign::JointView;
 using optimizer::OutputPredictions;
 
 constexpr int kDraws = 1000;
-constexpr const char* kFallen = "mass_fallen_kg";
 
 // What the simulations of a campaign have taken, for what more of them will.
 class Cost {
@@ -126,10 +126,11 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
   for (const int e : view.Answered()) {
     const journal::ExperimentRecord& record = view.record.experiments[static_cast<std::size_t>(e)];
     if (!record.scalars.empty()) continue;
+    const std::string fallen = rigs::MetricName(rigs::Observable::kMassFallen);
     std::vector<double> values;
     std::vector<optimizer::Observation> told;
     for (const journal::TrialRecord& trial : campaign::InOrderOfFinish(view.trials)) {
-      const auto value = trial.Metric(kFallen);
+      const auto value = trial.Metric(fallen);
       if (trial.experiment != e || !campaign::IsOfSearch(trial) || !value) continue;
       values.push_back(*value);
       told.push_back({.point = campaign::PointOf(trial),
@@ -138,7 +139,7 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
     }
     if (values.empty() || *std::max_element(values.begin(), values.end()) <= 0) continue;
     optimizer::ExperimentTarget target{.name = record.name};
-    target.scalars = {{.name = kFallen, .value = MeanOf(values), .standard_error = 0}};
+    target.scalars = {{.name = fallen, .value = MeanOf(values), .standard_error = 0}};
     const auto model = ModelOf(view, view.spec.coarse_graining.Levels(), std::move(target));
     for (const optimizer::Observation& observation : told) model->Tell(observation);
     if (!model->CanModel()) continue;
@@ -192,11 +193,10 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
                       ": has too few trials of each experiment for a posterior; go on with "
                       "`talus resume`");
   }
-  const Ground ground{
-      .view = view,
-      .posterior = strategy->Model(),
-      .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
-      .model_error = view.spec.posterior.value_or(campaign::PosteriorOptions{}).model_error};
+  const Ground ground{.view = view,
+                      .posterior = strategy->Model(),
+                      .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
+                      .model_error = view.spec.posterior.model_error};
   NextTable table{.parameters = view.record.parameters};
   for (const int i : view.space.Free()) {
     table.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);

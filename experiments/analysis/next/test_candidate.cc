@@ -8,6 +8,8 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/name.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::analysis {
@@ -25,30 +27,21 @@ struct CandidateFile {
   }
 };
 
-rigs::HeapCase TypicalOf(const campaign::JointView& view, const TestCandidate& test) {
+rigs::Case TypicalOf(const campaign::JointView& view, const TestCandidate& test) {
   return campaign::TypicalCase(SpecOf(view, test), 0, view.spec.coarse_graining.Levels().front());
 }
 
-// The numbers that tell most of a rig's observables, with what a careful laboratory reaches.
-std::vector<ExpectedNumber> UsualNumbers(rigs::RigKind kind) {
-  switch (kind) {
-    case rigs::RigKind::kLiftedTube:
-      return {{.metric = "mass_fallen_kg"}};
-    case rigs::RigKind::kTappedDensity:
-      return {{.metric = "tapped_density_kg_per_m3", .relative_error = 0.005}};
-    case rigs::RigKind::kColumnCollapse:
-      return {{.metric = "runout_m", .relative_error = 0.02},
-              {.metric = "height_m", .relative_error = 0.02}};
-    case rigs::RigKind::kTiltingBox:
-      return {{.metric = "angle_deg", .standard_error = 1}};
-    case rigs::RigKind::kDrawDown:
-      return {{.metric = "mass_left_kg"},
-              {.metric = "discharge_time_s", .relative_error = 0.02},
-              {.metric = "angle_deg", .standard_error = 1}};
-    case rigs::RigKind::kDrum:
-      return {{.metric = "angle_deg", .standard_error = 1}};
+// The numbers that the rig's table marks as usual, with what a careful laboratory reaches.
+std::vector<ExpectedNumber> UsualNumbers(const rigs::Case& rig_case) {
+  std::vector<ExpectedNumber> numbers;
+  for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
+    if (!measured.usual) continue;
+    const rigs::UsualError& error = rigs::InfoOf(measured.observable).usual_error;
+    numbers.push_back({.metric = rigs::MetricName(measured.observable),
+                       .standard_error = error.absolute,
+                       .relative_error = error.relative});
   }
-  return {};
+  return numbers;
 }
 
 // Where no experiment has images to take the pixels from.
@@ -64,7 +57,7 @@ imaging::Frame UsualFrame(double plate, double grain) {
 }  // namespace
 
 void TestCandidate::Validate(base::Problems& problems) const {
-  problems.Require(!name.empty(), "name", "is empty");
+  base::RequireName(problems, "name", name);
   problems.Require(runs >= 1 && runs <= 1000, "runs", runs, "must be from 1 to 1000");
 }
 
@@ -88,13 +81,15 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
 
 std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
   base::Problems problems(test.name, {});
-  TypicalOf(view, test).Validate(problems);
+  rigs::ValidateCase(TypicalOf(view, test), problems);
   if (problems.empty()) {
     const auto known = rigs::EntryOf(TypicalOf(view, test)).observables;
     const auto numbers = campaign::ScalarsOf(test.numbers);
     for (const campaign::ScalarSpec& number : numbers) {
-      problems.Require(std::find(known.begin(), known.end(), number.metric) != known.end(),
-                       number.key, "is not measured by the rig");
+      const bool measured = std::any_of(known.begin(), known.end(), [&](const auto& o) {
+        return rigs::MetricName(o.observable) == number.metric;
+      });
+      problems.Require(measured, number.key, "is not measured by the rig");
     }
   }
   try {
@@ -108,15 +103,15 @@ std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
 std::optional<imaging::Frame> FrameOf(const campaign::JointView& view, const TestCandidate& test) {
   constexpr double kMargin = 0.1;  // of the plate diameter, on either side
   if (test.frame) return test.frame;
-  const rigs::HeapCase heap_case = TypicalOf(view, test);
-  if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) return std::nullopt;
+  const rigs::Case rig_case = TypicalOf(view, test);
+  if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) return std::nullopt;
   const auto seen = std::find_if(view.references.begin(), view.references.end(),
                                  [](const campaign::Reference& r) { return r.has_image(); });
   imaging::Frame frame = seen != view.references.end()
                              ? seen->frame().value()
-                             : UsualFrame(heap_case.device.plate_diameter,
-                                          rigs::EstimateHeap(heap_case).mean_diameter);
-  frame.plate_diameter = heap_case.device.plate_diameter;
+                             : UsualFrame(rig_case.rig.lifted_tube.plate_diameter,
+                                          rigs::EstimateCase(rig_case).mean_diameter);
+  frame.plate_diameter = rig_case.rig.lifted_tube.plate_diameter;
   const double width = (1 + 2 * kMargin) * frame.plate_diameter / frame.pixel_size;
   frame.width = static_cast<int>(std::ceil(width));
   frame.center_x = 0.5 * frame.width;
@@ -128,7 +123,7 @@ std::vector<ExpectedNumber> NumbersOf(const campaign::JointView& view, const Tes
   for (const campaign::ScalarSpec& scalar : campaign::ScalarsOf(test.numbers)) {
     numbers.push_back({.metric = scalar.metric, .standard_error = scalar.standard_error});
   }
-  return numbers.empty() ? UsualNumbers(rigs::KindOf(TypicalOf(view, test))) : numbers;
+  return numbers.empty() ? UsualNumbers(TypicalOf(view, test)) : numbers;
 }
 
 std::string ExperimentText(const campaign::JointView& view, const TestCandidate& test) {

@@ -19,7 +19,7 @@ struct TestCandidate {
   std::optional<rigs::RigOptions> rig{};
   std::optional<rigs::Device> device{};
   std::optional<rigs::FillingRule> filling{};
-  std::optional<rigs::HeapRules> rules{};
+  std::optional<rigs::PhaseRules> rules{};
   std::optional<imaging::Frame> frame{};  // default: of the lifted tube's plate; others have none
   int runs = 3;                           // that would be made, >= 1
   campaign::ExpectedErrors numbers{};     // that would be measured; default: the rig's usual ones

@@ -45,8 +45,8 @@ std::vector<std::vector<double>> Spread(const Eigen::MatrixXd& draws) {
   return points;
 }
 
-rigs::HeapCase CaseAt(const campaign::JointView& view, const TestCandidate& test,
-                      const campaign::DesignRecord& record, std::size_t index) {
+rigs::Case CaseAt(const campaign::JointView& view, const TestCandidate& test,
+                  const campaign::DesignRecord& record, std::size_t index) {
   const std::vector<double>& point = record.points[index];
   const Eigen::VectorXd unit =
       Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));

@@ -47,19 +47,19 @@ std::string Confirmed(const Evidence& evidence) {
     if (row.simulated.empty()) continue;
     words.push_back(row.simulated + " (" + row.what + " of \"" + row.experiment + "\")");
   }
-  if (words.empty() || evidence.conclusion->num_confirmed == 0) return "";
+  if (words.empty() || evidence.answer->confirmed.empty()) return "";
   return " Simulated again with fresh seeds, it gives " + Listed(words) + ".";
 }
 
 std::string Answered(const Evidence& evidence) {
-  const Conclusion& c = *evidence.conclusion;
   std::vector<std::string> words;
-  for (std::size_t k = 0; k < c.values.size() && k < evidence.parameters.size(); ++k) {
+  for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     const ParameterInfo& p = evidence.parameters[k];
-    std::string word = p.symbol + " = " + WithUnit(c.values[k].value, p.unit);
-    if (std::isfinite(c.values[k].low)) {
-      word += " (90 % credible range " + base::ShortNumber(c.values[k].low, 3) + " to " +
-              base::ShortNumber(c.values[k].high, 3) + ")";
+    const campaign::ResultParameter& v = evidence.answer->parameters[k];
+    std::string word = p.symbol + " = " + WithUnit(v.value, p.unit);
+    if (std::isfinite(v.credible_low)) {
+      word += " (90 % credible range " + base::ShortNumber(v.credible_low, 3) + " to " +
+              base::ShortNumber(v.credible_high, 3) + ")";
     }
     words.push_back(word);
   }
@@ -71,7 +71,7 @@ std::string StartedWith(const Evidence& evidence) {
   return evidence.versions.empty() ? "" : evidence.versions.front().text;
 }
 
-// What the simulations were held against; empty before there is a conclusion.
+// What the simulations were held against; empty before there is an answer.
 std::string Measured(const ReportData& data) {
   std::vector<std::string> words;
   for (const FitRow& row : data.evidence.fit) {
@@ -125,8 +125,8 @@ std::string MethodsText(const ReportData& data) {
   const Evidence& e = data.evidence;
   std::string text = "The contact parameters were calibrated with talus " + StartedWith(e) +
                      ". Calibrated were " + Searched(e) + "." + Measured(data) + Simulated(e);
-  if (e.conclusion) {
-    std::string model = e.conclusion->model;
+  if (e.answer) {
+    std::string model = e.answer->model;
     if (model.ends_with('.')) model.pop_back();
     if (!model.empty()) text += " The model that answers: " + model + ".";
     text += Answered(e);

@@ -11,10 +11,10 @@ namespace {
 // Where the slices pass: the recommended set, before there is one the model's own.
 Eigen::VectorXd SliceCentre(const Evidence& evidence) {
   Eigen::VectorXd point = evidence.model->point;
-  if (!evidence.conclusion) return point;
+  if (!evidence.answer) return point;
   for (Eigen::Index k = 0; k < point.size(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const double value = evidence.conclusion->values[i].value;
+    const double value = evidence.answer->parameters[i].value;
     point(k) = std::clamp(evidence.parameters[i].range.ToUnit(value), 0.0, 1.0);
   }
   return point;
@@ -25,12 +25,8 @@ void AddModelViews(ReportData& data) {
   const Evidence& evidence = data.evidence;
   if (!evidence.model) return;
   if (evidence.model->predict) data.slices = SliceModel(evidence, SliceCentre(evidence));
-  if (evidence.model->draws.rows() > 0) {
-    data.marginals = Marginals(evidence);
-    data.pairs = PosteriorPairs(evidence);
-  } else if (evidence.model->predict) {
-    data.pairs = TiePairs(evidence);
-  }
+  data.marginals = Marginals(evidence);
+  data.pairs = PosteriorPairs(evidence);
 }
 
 }  // namespace
@@ -49,7 +45,7 @@ ReportData MakeReportData(Evidence evidence) {
 
 double RegionShare(const ReportData& data) {
   double least = kUndefined;
-  for (const PairMap& pair : data.has_posterior() ? data.pairs : std::vector<PairMap>{}) {
+  for (const PairMap& pair : data.pairs) {
     const auto inside = std::count_if(pair.value.begin(), pair.value.end(),
                                       [](double level) { return level < 0.9; });
     const double share =

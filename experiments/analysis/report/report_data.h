@@ -54,7 +54,6 @@ struct ReportData {
   std::vector<OutlineCurve> outlines;  // the experiment's first
   std::vector<Picture> pictures;
 
-  bool has_posterior() const { return !marginals.empty(); }
   const ObjectiveFinding& own() const { return findings[objective]; }
 };
 

@@ -2,7 +2,6 @@
 
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
-#include "experiments/analysis/report/charts/figures.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/tables.h"
 
@@ -25,9 +24,6 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
     if (candidate.picture.png.empty()) continue;
     base::WriteFileAtomically(folder / "figures" / (candidate.picture.name + ".png"),
                               candidate.picture.png);
-  }
-  for (const NamedText& figure : ReportFigures(data)) {
-    base::WriteFileAtomically(folder / "figures" / (figure.name + ".svg"), figure.text);
   }
   for (const NamedText& table : ReportTables(data)) {
     base::WriteFileAtomically(folder / "tables" / (table.name + ".csv"), table.text);

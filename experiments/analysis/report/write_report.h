@@ -8,7 +8,7 @@
 
 namespace talus::analysis {
 
-// report.html, figures/*.svg and *.png, and tables/*.csv under `folder`, each written atomically.
+// report.html, figures/*.png, and tables/*.csv under `folder`, each written atomically.
 // Returns the page's path.
 std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder,
                                   const PageOptions& page = {});

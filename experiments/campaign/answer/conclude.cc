@@ -6,18 +6,16 @@
 #include <string_view>
 
 #include "base/version.h"
-#include "experiments/campaign/alarms.h"
 #include "experiments/campaign/answer/agreement.h"
-#include "experiments/campaign/answer/best_confirmed.h"
+#include "experiments/campaign/answer/alarms.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/plan/cores.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
 namespace {
-
-constexpr std::size_t kMostTied = 200;  // listed; the tied volume counts them all
 
 struct Sample {
   int count = 0;
@@ -64,16 +62,16 @@ std::optional<double> MeanMetric(const std::vector<const journal::TrialRecord*>&
 }
 
 ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
-                            const CampaignEvidence& of, std::size_t experiment) {
-  const Reference& reference = of.references[experiment];
-  const journal::ExperimentRecord& record = of.campaign.experiments[experiment];
+                            const CampaignEvidence& evidence, std::size_t experiment) {
+  const Reference& reference = evidence.references[experiment];
+  const journal::ExperimentRecord& record = evidence.campaign.experiments[experiment];
   ResultConfirmed confirmed{.name = record.name};
   std::vector<double> objective;
   std::vector<imaging::GrayImage> profiles;
   for (const journal::TrialRecord* trial : trials) {
     if (const auto value = reference.Value(*trial)) objective.push_back(*value);
     if (trial->status != journal::TrialStatus::kOk) continue;
-    if (auto profile = of.profile(trial->id)) profiles.push_back(std::move(*profile));
+    if (auto profile = evidence.profile(trial->id)) profiles.push_back(std::move(*profile));
   }
   const Sample sample = SampleOf(objective);
   confirmed.num_trials = static_cast<int>(std::count_if(
@@ -91,41 +89,75 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
-    confirmed.scalars.push_back({.name = scalar.name,
-                                 .mean = MeanMetric(trials, scalar.name).value_or(kNotKnown),
-                                 .measured = scalar.value,
-                                 .measured_sd = scalar.standard_error});
+    confirmed.scalars.push_back(
+        {.name = scalar.name, .mean = MeanMetric(trials, scalar.name).value_or(kNotKnown)});
   }
   return confirmed;
 }
 
-ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& of,
+ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& evidence,
                             const Eigen::VectorXd& point) {
   ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
-  std::vector<ResultConfirmed> all;
-  for (std::size_t e = 0; e < of.references.size(); ++e) {
+  for (std::size_t e = 0; e < evidence.references.size(); ++e) {
     const auto trials = Confirming(planner, point, static_cast<int>(e));
     for (const journal::TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
-    all.push_back(ConfirmedOf(trials, of, e));
+    candidate.experiments.push_back(ConfirmedOf(trials, evidence, e));
   }
-  const ResultConfirmed& first = all.front();
-  candidate.num_trials = first.num_trials;
-  candidate.mean = first.mean;
-  candidate.standard_error = first.standard_error;
-  candidate.sad_mm2 = first.sad_mm2;
-  candidate.profile_sad_mm2 = first.profile_sad_mm2;
-  if (all.size() > 1 || !first.scalars.empty()) candidate.experiments = std::move(all);
   return candidate;
 }
 
-void AddParameters(const optimizer::Answer& answer, const Planner& planner,
-                   CampaignResult& result) {
+// Of the objective, from the trials at one set before the search.
+std::optional<double> ReplicatesSd(const Planner& planner, const Reference& reference,
+                                   int experiment) {
+  std::vector<double> values;
+  for (const journal::TrialRecord& trial : planner.trials()) {
+    if (trial.kind != journal::TrialKind::kNoise || trial.experiment != experiment) continue;
+    if (const auto value = reference.Value(trial)) values.push_back(*value);
+  }
+  if (values.size() < 2) return std::nullopt;
+  return SampleOf(values).sd;
+}
+
+ResultExperiment ExperimentOf(const Planner& planner, const CampaignEvidence& evidence,
+                              std::size_t experiment) {
+  const journal::ExperimentRecord& record = evidence.campaign.experiments[experiment];
+  const Reference& reference = evidence.references[experiment];
+  const int index = static_cast<int>(experiment);
+  ResultExperiment made{.name = record.name,
+                        .has_image = reference.has_image(),
+                        .num_heaps = record.num_heaps,
+                        .noise_floor = record.noise_mm2,
+                        .replicates_sd = ReplicatesSd(planner, reference, index)};
+  if (const auto frame = reference.frame()) {
+    made.powder_area = record.nebp_px * std::pow(1e3 * frame->pixel_size, 2);
+  }
+  for (const journal::ScalarRecord& scalar : record.scalars) {
+    made.numbers.push_back(
+        {.name = scalar.name, .value = scalar.value, .standard_error = scalar.standard_error});
+  }
+  return made;
+}
+
+void AddExperiments(const optimizer::Answer& answer, Planner& planner,
+                    const CampaignEvidence& evidence, Answer& result) {
+  for (std::size_t e = 0; e < evidence.references.size(); ++e) {
+    result.experiments.push_back(ExperimentOf(planner, evidence, e));
+    result.experiments.back().noise_sd = planner.NoiseSd(answer.point, static_cast<int>(e));
+  }
+}
+
+void AddParameters(const optimizer::Answer& answer, const Planner& planner, Answer& result) {
   const auto& space = planner.space();
   const std::vector<int> free = space.Free();
   const std::vector<double> values = FreeValues(space, answer.point);
   for (std::size_t i = 0; i < free.size(); ++i) {
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
-    ResultParameter parameter{.name = p.name, .unit = UnitOf(p.name), .value = values[i]};
+    ResultParameter parameter{.name = p.name,
+                              .unit = UnitOf(p.name),
+                              .value = values[i],
+                              .searched_low = p.low,
+                              .searched_high = p.high,
+                              .scale = p.scale};
     if (i < answer.credible.size()) {
       parameter.credible_low = p.ToNative(answer.credible[i].low);
       parameter.credible_high = p.ToNative(answer.credible[i].high);
@@ -137,16 +169,13 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
 }
 
 void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
-                     const CampaignEvidence& of, CampaignResult& result) {
+                     const CampaignEvidence& evidence, Answer& result) {
   for (const Eigen::VectorXd& point : planner.Candidates(answer)) {
-    const ResultCandidate candidate = CandidateOf(planner, of, point);
-    if (candidate.num_trials > 0) result.confirmed.push_back(candidate);
-  }
-  if (result.confirmed.empty()) return;
-  // Where several experiments are to be met, none of them alone decides.
-  if (of.references.size() == 1) TakeBestConfirmed(result);
-  if (result.noise_floor && result.confirmed[0].profile_sad_mm2) {
-    result.confirmed_over_floor = *result.confirmed[0].profile_sad_mm2 / *result.noise_floor;
+    ResultCandidate candidate = CandidateOf(planner, evidence, point);
+    const auto succeeded = [](const ResultConfirmed& c) { return c.num_trials > 0; };
+    if (std::ranges::any_of(candidate.experiments, succeeded)) {
+      result.confirmed.push_back(std::move(candidate));
+    }
   }
 }
 
@@ -161,62 +190,58 @@ Eigen::MatrixXd InRegion(const Eigen::MatrixXd& draws, const Planner& planner) {
   return draws(inside, Eigen::all);
 }
 
-// What the sentence and the sets to look at stand on: the posterior's draws, or the sets that tie.
-void AddVerdict(const optimizer::Answer& answer, const Planner& planner, CampaignResult& result) {
-  Eigen::MatrixXd points(static_cast<Eigen::Index>(answer.tied.size()), answer.point.size());
-  for (std::size_t i = 0; i < answer.tied.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = answer.tied[i];
-  }
-  if (answer.posterior) points = InRegion(answer.posterior->draws, planner);
+// The sets to look at stand on the posterior's draws.
+void AddRepresentatives(const optimizer::Answer& answer, const Planner& planner, Answer& result) {
+  if (!answer.posterior) return;
+  const Eigen::MatrixXd points = InRegion(answer.posterior->draws, planner);
   for (const Eigen::VectorXd& set : RepresentativeSets(points, answer.point)) {
     result.representative.push_back(FreeValues(planner.space(), set));
   }
-  VerdictBasis basis{.correlation = result.correlation,
-                     .sets = result.representative,
-                     .region_volume = result.tied_volume};
-  for (const int i : planner.space().Free()) {
-    basis.parameters.push_back(planner.space().parameters[static_cast<std::size_t>(i)]);
-    basis.names.push_back(basis.parameters.back().name);
+}
+
+bool HasLiftedTube(const CampaignSpec& spec) {
+  const int count = static_cast<int>(ExperimentsOf(spec).size());
+  for (int e = 0; e < count; ++e) {
+    const rigs::Case rig_case = TypicalCase(spec, e, spec.coarse_graining.Target());
+    if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) return true;
   }
-  for (const ResultParameter& parameter : result.parameters) {
-    basis.low.push_back(parameter.credible_low);
-    basis.high.push_back(parameter.credible_high);
-  }
-  if (result.posterior) basis.branches = result.posterior->branches;
-  result.verdict = VerdictOf(basis);
+  return false;
 }
 
 ResultConditions ConditionsOf(const CampaignSpec& spec) {
-  return {.scale_factor = spec.coarse_graining.Target(),
-          .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent,
-          .youngs_modulus = spec.powder.material.youngs_modulus,
-          .lift_velocity = spec.device.lift_velocity,
-          .adhesion = std::string(base::NameOf(spec.models.adhesion)),
-          .rolling = std::string(base::NameOf(spec.models.rolling))};
+  ResultConditions conditions{
+      .scale_factor = spec.coarse_graining.Target(),
+      .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent,
+      .youngs_modulus = spec.powder.material.youngs_modulus,
+      .adhesion = std::string(base::NameOf(spec.models.adhesion)),
+      .rolling = std::string(base::NameOf(spec.models.rolling))};
+  if (HasLiftedTube(spec)) conditions.lift_velocity = spec.device.lift_velocity;
+  return conditions;
 }
 
-ResultCost CostOf(const Planner& planner, const CampaignEvidence& of) {
-  ResultCost cost{.elapsed = of.elapsed};
+ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
+  ResultCost cost{.elapsed = evidence.elapsed};
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.status == journal::TrialStatus::kRunning) continue;
     ++cost.num_trials;
     if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
-    const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * CoresOfTrial(of.spec);
+    const double seconds =
+        trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * CoresOfTrial(evidence.spec);
     if (std::isfinite(seconds)) cost.core_hours += seconds / 3600;
   }
   return cost;
 }
 
-JointView ViewOf(const Planner& planner, const CampaignEvidence& of) {
+JointView ViewOf(const Planner& planner, const CampaignEvidence& evidence) {
   JointView view{.folder = {},
-                 .spec = of.spec,
-                 .record = of.campaign,
-                 .references = of.references,
+                 .spec = evidence.spec,
+                 .record = evidence.campaign,
+                 .references = evidence.references,
                  .space = planner.space(),
                  .trials = planner.trials()};
   view.Observe([&](const journal::TrialRecord& trial) {
-    const auto profile = of.profile(trial.id);
-    const Reference& reference = of.references[static_cast<std::size_t>(trial.experiment)];
+    const auto profile = evidence.profile(trial.id);
+    const Reference& reference = evidence.references[static_cast<std::size_t>(trial.experiment)];
     return profile ? reference.Field(*profile) : std::vector<float>{};
   });
   return view;
@@ -224,16 +249,14 @@ JointView ViewOf(const Planner& planner, const CampaignEvidence& of) {
 
 // Whether the experiments agree and, where they do not, what each alone would say: it tells which
 // of them is the odd one.
-void AddAgreement(const Planner& planner, const CampaignEvidence& of, CampaignResult& result) {
-  if (of.references.size() < 2 || !result.posterior) return;
-  const Agreement agreement = AgreementOf(ViewOf(planner, of));
+void AddAgreement(const Planner& planner, const CampaignEvidence& evidence, Answer& result) {
+  if (evidence.references.size() < 2 || !result.posterior) return;
+  const Agreement agreement = AgreementOf(ViewOf(planner, evidence));
   result.posterior->tension = agreement.tension;
-  if (Disagree(agreement.tension, result.posterior->raw_coverage)) {
-    result.warnings.push_back(Worded(
-        {.kind = WarningKind::kDisagree, .experiment = agreement.odd, .value = agreement.tension}));
-  }
-  if (std::ranges::none_of(result.warnings, [](const ResultWarning& w) {
-        return w.kind == WarningKind::kImplausible || w.kind == WarningKind::kDisagree;
+  result.posterior->odd = agreement.odd;
+  const std::vector<Alarm> alarms = PosteriorAlarms(result);
+  if (std::ranges::none_of(alarms, [](const Alarm& a) {
+        return a.kind == AlarmKind::kImplausible || a.kind == AlarmKind::kDisagree;
       })) {
     return;
   }
@@ -246,39 +269,29 @@ void AddAgreement(const Planner& planner, const CampaignEvidence& of, CampaignRe
 }
 
 // What the answer, made without it, predicts of the experiment that is held out.
-void AddHeldOut(const Planner& planner, const CampaignEvidence& of, CampaignResult& result) {
-  if (!of.spec.hold_out || !result.posterior) return;
+void AddHeldOut(const Planner& planner, const CampaignEvidence& evidence, Answer& result) {
+  if (!evidence.spec.hold_out || !result.posterior) return;
   std::erase_if(result.posterior->experiments,
-                [&](const ResultStanding& e) { return e.name == *of.spec.hold_out; });
-  result.held_out = HoldOut(ViewOf(planner, of), *of.spec.hold_out).predicted;
+                [&](const ResultStanding& e) { return e.name == *evidence.spec.hold_out; });
+  result.held_out = HoldOut(ViewOf(planner, evidence), *evidence.spec.hold_out).predicted;
 }
 
 }  // namespace
 
-std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence& of) {
+std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidence) {
   const auto answer = planner.Recommend();
   if (!answer) return std::nullopt;
-  CampaignResult result;
-  result.name = of.spec.name;
+  Answer result;
+  result.name = evidence.spec.name;
   result.talus_version = base::Version();
-  result.stop_reason = planner.stop_reason();
+  result.stop = planner.stop().value_or(Stop{});
   if (const auto lacks = planner.Shortfall()) {
     result.unsettled = {.why = lacks->text, .share = lacks->share, .num_more = lacks->num_more};
   }
-  result.objective = of.references.front().info().ValueKey();
-  result.objective_unit = of.references.front().info().unit;
+  const journal::ObjectiveInfo& objective = journal::InfoOf(evidence.spec.objective);
+  result.objective = objective.ValueKey();
+  result.objective_unit = objective.unit;
   AddParameters(*answer, planner, result);
-  if (std::any_of(of.references.begin(), of.references.end(),
-                  [](const Reference& r) { return r.has_image(); })) {
-    result.predicted = answer->predicted_value;
-    result.predicted_sd = answer->predicted_sd;
-    result.noise_sd = answer->noise_sd;
-  }
-  result.noise_floor = of.campaign.experiments.front().noise_mm2;
-  result.tied_volume = answer->tied_volume;
-  for (std::size_t i = 0; i < std::min(answer->tied.size(), kMostTied); ++i) {
-    result.tied.push_back(FreeValues(planner.space(), answer->tied[i]));
-  }
   for (Eigen::Index i = 0; i < answer->correlation.rows(); ++i) {
     const Eigen::RowVectorXd row = answer->correlation.row(i);
     result.correlation.emplace_back(row.data(), row.data() + row.size());
@@ -287,25 +300,21 @@ std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence&
   if (answer->posterior) {
     result.posterior = DescribePosterior(*answer->posterior, planner.space());
   }
-  AddHeldOut(planner, of, result);
-  AddVerdict(*answer, planner, result);
-  std::vector<double> noise;
-  for (const journal::TrialRecord& trial : planner.trials()) {
-    if (trial.kind != journal::TrialKind::kNoise) continue;
-    if (const auto value = of.references.front().Value(trial)) noise.push_back(*value);
-  }
-  if (noise.size() >= 2) result.replicates_sd = SampleOf(noise).sd;
-  AddConfirmation(*answer, planner, of, result);
-  result.conditions = ConditionsOf(of.spec);
-  AddAlarms({.answer = *answer,
-             .space = planner.space(),
-             .spec = of.spec,
-             .campaign = of.campaign,
-             .reference = of.references.front(),
+  AddHeldOut(planner, evidence, result);
+  AddRepresentatives(*answer, planner, result);
+  AddExperiments(*answer, planner, evidence, result);
+  AddConfirmation(*answer, planner, evidence, result);
+  AddAgreement(planner, evidence, result);
+  result.conditions = ConditionsOf(evidence.spec);
+  result.cost = CostOf(planner, evidence);
+  const auto kind = VerdictKindOf(result);
+  if (kind) result.verdict = {.kind = *kind, .text = {}};
+  AddAlarms({.spec = evidence.spec,
+             .campaign = evidence.campaign,
+             .references = evidence.references,
              .trials = planner.trials()},
             result);
-  AddAgreement(planner, of, result);
-  result.cost = CostOf(planner, of);
+  if (kind) result.verdict->text = HeadlineText(result);
   return result;
 }
 

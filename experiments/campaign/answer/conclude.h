@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/campaign/answer/campaign_result.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/plan/planner.h"
 #include "experiments/journal/records.h"
 
@@ -22,6 +22,6 @@ struct CampaignEvidence {
 };
 
 // Nothing when no trial has succeeded.
-std::optional<CampaignResult> Conclude(Planner& planner, const CampaignEvidence& of);
+std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidence);
 
 }  // namespace talus::campaign

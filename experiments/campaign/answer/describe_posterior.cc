@@ -5,11 +5,6 @@
 #include "base/text/csv.h"
 
 namespace talus::campaign {
-namespace {
-
-constexpr double kAlarm = 3;  // implausibility above which no set fits
-
-}  // namespace
 
 std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
                                const Eigen::VectorXd& point) {
@@ -53,32 +48,6 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   .high = FreeValues(space, branch.high)});
   }
   return posterior;
-}
-
-std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior) {
-  std::vector<ResultWarning> warnings;
-  for (const ResultStanding& e : posterior.experiments) {
-    if (!(e.implausibility > kAlarm)) continue;
-    warnings.push_back(Worded(
-        {.kind = WarningKind::kImplausible, .experiment = e.name, .value = e.implausibility}));
-  }
-  if (posterior.is_extrapolated) {
-    warnings.push_back(Worded(
-        {.kind = WarningKind::kExtrapolated, .scale_factor = posterior.target_scale_factor}));
-  }
-  for (const double level : posterior.unlearnt_scale_factors) {
-    warnings.push_back(Worded({.kind = WarningKind::kUnlearntScaleFactor, .scale_factor = level}));
-  }
-  // Of several experiments the regions are small, and the errors of their surrogates weigh more:
-  // bench/twins/dem_twins.py.
-  constexpr int kEnough = 12;
-  if (posterior.experiments.size() > 1 && !posterior.is_extrapolated &&
-      posterior.unlearnt_scale_factors.empty() && posterior.fewest_at_finest > 0 &&
-      posterior.fewest_at_finest < kEnough) {
-    warnings.push_back(
-        Worded({.kind = WarningKind::kFewSimulations, .value = 1.0 * posterior.fewest_at_finest}));
-  }
-  return warnings;
 }
 
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,

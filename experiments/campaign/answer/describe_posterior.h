@@ -1,13 +1,12 @@
-// An optimiser's posterior in a campaign's own words: SI values, names and warnings.
+// An optimiser's posterior in a campaign's own words: SI values and names.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "experiments/campaign/answer/result_posterior.h"
-#include "experiments/campaign/answer/result_warning.h"
 #include "experiments/journal/records.h"
-#include "optimizer/fidelity/posterior_summary.h"
+#include "optimizer/posterior_summary.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::campaign {
@@ -20,9 +19,6 @@ std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentS
 
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   const optimizer::ParameterSpace& space);
-
-// What of it must be said aloud.
-std::vector<ResultWarning> PosteriorWarnings(const ResultPosterior& posterior);
 
 // Its draws, one a line, SI with the units in the head.
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,

@@ -15,7 +15,7 @@ namespace {
 
 using optimizer::ExperimentModel;
 
-constexpr int kDraws = 400;
+constexpr int kHoldOutDraws = 400;
 
 // Draws of what would be measured: the simulated mean, its uncertainty and the measurement's error.
 PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::Moments& at,
@@ -86,7 +86,7 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   const optimizer::Posterior& posterior = alone->Model();
   const ExperimentModel& model = posterior.models().front();
   const Eigen::VectorXd& answer = result.others.point;
-  const Eigen::MatrixXd draws = of_others->Sample().Draws(kDraws, view.spec.seed);
+  const Eigen::MatrixXd draws = of_others->Sample().Draws(kHoldOutDraws, view.spec.seed);
   ResultHeldOut& predicted = result.predicted;
   predicted.implausibility = posterior.Implausibility(0, answer);
   predicted.least_implausibility = predicted.implausibility;

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "experiments/campaign/answer/describe_posterior.h"
-#include "experiments/campaign/start.h"
+#include "experiments/campaign/record/stored.h"
 
 namespace talus::campaign {
 
@@ -60,13 +60,13 @@ JointView ReadJointView(const std::filesystem::path& root) {
   return view;
 }
 
-std::unique_ptr<optimizer::FidelityStrategy> StrategyOf(const JointView& view,
-                                                        const std::vector<int>& experiments) {
+std::unique_ptr<optimizer::PosteriorStrategy> StrategyOf(const JointView& view,
+                                                         const std::vector<int>& experiments) {
   const std::vector<optimizer::ExperimentTarget> all =
       TargetsOf(view.spec, view.record, view.references);
   std::vector<optimizer::ExperimentTarget> targets;
   for (const int e : experiments) targets.push_back(all[static_cast<std::size_t>(e)]);
-  auto strategy = MakeJointStrategyFor(view.spec, std::move(targets));
+  auto strategy = MakePosteriorStrategyFor(view.spec, std::move(targets));
   for (optimizer::Observation observation : view.observations) {
     const auto at = std::find(experiments.begin(), experiments.end(), observation.experiment);
     if (at == experiments.end()) continue;
@@ -76,7 +76,7 @@ std::unique_ptr<optimizer::FidelityStrategy> StrategyOf(const JointView& view,
   return strategy;
 }
 
-PartialAnswer AnswerOf(const JointView& view, optimizer::FidelityStrategy& strategy,
+PartialAnswer AnswerOf(const JointView& view, optimizer::PosteriorStrategy& strategy,
                        const std::vector<int>& experiments) {
   PartialAnswer partial;
   for (const int e : experiments) {

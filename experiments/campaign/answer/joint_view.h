@@ -11,7 +11,7 @@
 
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
-#include "experiments/campaign/reference.h"
+#include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
 
@@ -41,8 +41,8 @@ struct JointView {
 JointView ReadJointView(const std::filesystem::path& folder);
 
 // Told what the trials of these experiments say, and nothing of others.
-std::unique_ptr<optimizer::FidelityStrategy> StrategyOf(const JointView& view,
-                                                        const std::vector<int>& experiments);
+std::unique_ptr<optimizer::PosteriorStrategy> StrategyOf(const JointView& view,
+                                                         const std::vector<int>& experiments);
 
 // What some of the experiments answer by themselves.
 struct PartialAnswer {
@@ -53,7 +53,7 @@ struct PartialAnswer {
   double region_volume = 1;              // of the joint 90 % region, share of the searched box
 };
 // Throws base::Error when there are too few trials of them.
-PartialAnswer AnswerOf(const JointView& view, optimizer::FidelityStrategy& strategy,
+PartialAnswer AnswerOf(const JointView& view, optimizer::PosteriorStrategy& strategy,
                        const std::vector<int>& experiments);
 
 }  // namespace talus::campaign

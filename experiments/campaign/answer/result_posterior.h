@@ -40,7 +40,7 @@ struct ResultPredictedNumber {
 
 // A set beside an experiment, at the target scale factor.
 struct ResultStanding {
-  std::string name;
+  std::string name{};
   double predicted = std::numeric_limits<double>::quiet_NaN();     // objective; NaN without images
   double predicted_sd = std::numeric_limits<double>::quiet_NaN();  // of that mean
   double implausibility = 0;                                       // [standard deviations]
@@ -58,7 +58,7 @@ struct ResultStanding {
 
 // What one experiment answers by itself. Values in the order of the parameters, SI.
 struct ResultAlone {
-  std::string name;
+  std::string name{};
   std::vector<double> values{};
   std::vector<double> low{};  // joint 90 % ranges
   std::vector<double> high{};
@@ -82,10 +82,10 @@ struct ResultPosterior {
   double tempered_coverage = 0;          // … after it
   int num_left_out = 0;                  // trials that the two are made of
   std::vector<double> unlearnt_scale_factors{};  // scale factors whose bias is not known yet
-  int fewest_at_finest = 0;  // simulations at the smallest one, of the experiment with the fewest;
-                             // 0: not known, of an earlier version
+  int fewest_at_finest = 0;  // simulations at the smallest one, of the experiment with the fewest
   std::vector<ResultStanding> experiments;  // at the recommended set
   double tension = 0;                // between the experiments [standard deviations]: agreement.h
+  std::string odd{};                 // the experiment with the largest part of it; "" without
   std::vector<ResultAlone> alone{};  // where experiments disagree only
 
   template <class Self, class Visitor>
@@ -102,6 +102,7 @@ struct ResultPosterior {
     visit("fewest_at_finest", self.fewest_at_finest);
     visit("experiments", self.experiments);
     visit("tension", self.tension);
+    visit("odd", self.odd);
     visit("alone", self.alone);
   }
 };

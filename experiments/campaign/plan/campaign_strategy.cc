@@ -1,12 +1,11 @@
 #include "experiments/campaign/plan/campaign_strategy.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "experiments/campaign/plan/core_time.h"
 #include "imaging/formats/images/image_file.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::campaign {
 
@@ -36,49 +35,33 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
   return targets;
 }
 
-std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategyFor(
+std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategyFor(
     const CampaignSpec& spec, std::vector<optimizer::ExperimentTarget> targets) {
-  const PosteriorOptions posterior = spec.posterior.value_or(PosteriorOptions{});
-  const optimizer::FidelityOptions options{.scale_factors = spec.coarse_graining.Levels(),
-                                           .target = spec.coarse_graining.Target(),
-                                           .num_initial = spec.strategy.num_initial,
-                                           .model_error = posterior.model_error,
-                                           .stop_share = posterior.stop_share,
-                                           .seed = spec.seed};
-  return std::make_unique<optimizer::FidelityStrategy>(options, SpaceOf(spec).MakeDomain(),
-                                                       std::move(targets));
+  const optimizer::PosteriorStrategyOptions options{.scale_factors = spec.coarse_graining.Levels(),
+                                                    .target = spec.coarse_graining.Target(),
+                                                    .num_initial = spec.strategy.num_initial,
+                                                    .model_error = spec.posterior.model_error,
+                                                    .stop_share = spec.posterior.stop_share,
+                                                    .seed = spec.seed};
+  return std::make_unique<optimizer::PosteriorStrategy>(options, SpaceOf(spec).MakeDomain(),
+                                                        std::move(targets));
 }
 
-std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategy(
+std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategy(
     const CampaignSpec& spec, const journal::CampaignRecord& record,
     const std::vector<Reference>& references) {
   std::vector<optimizer::ExperimentTarget> targets = TargetsOf(spec, record, references);
   for (optimizer::ExperimentTarget& target : targets) {
     if (spec.hold_out && target.name == *spec.hold_out) target.weight = 0;
   }
-  return MakeJointStrategyFor(spec, std::move(targets));
+  return MakePosteriorStrategyFor(spec, std::move(targets));
 }
 
-std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(
-    const CampaignSpec& spec, const journal::CampaignRecord& record,
-    const std::vector<Reference>& references) {
-  if (spec.IsJoint()) return MakeJointStrategy(spec, record, references);
+std::unique_ptr<optimizer::Strategy> MakeProposer(const CampaignSpec& spec,
+                                                  const std::vector<Reference>& references) {
+  if (!spec.HasOwnProposer()) return nullptr;
   const optimizer::FieldObjective field = references.front().MakeFieldObjective();
   return optimizer::MakeStrategy(spec.strategy, SpaceOf(spec).MakeDomain(), &field, spec.seed);
-}
-
-std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialRecord> trials) {
-  std::erase_if(trials, [](const journal::TrialRecord& t) {
-    return t.status == journal::TrialStatus::kRunning;
-  });
-  std::sort(trials.begin(), trials.end(),
-            [](const auto& a, const auto& b) { return a.finish_order < b.finish_order; });
-  return trials;
-}
-
-Eigen::VectorXd PointOf(const journal::TrialRecord& trial) {
-  return Eigen::Map<const Eigen::VectorXd>(trial.unit.data(),
-                                           static_cast<Eigen::Index>(trial.unit.size()));
 }
 
 optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Reference& reference,

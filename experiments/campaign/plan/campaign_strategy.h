@@ -1,15 +1,15 @@
-// The strategy that chooses a campaign's trials, and what it is told of them.
+// The strategies that choose a campaign's trials and make its answer, and what they are told.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "experiments/campaign/reference.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
-#include "optimizer/fidelity/fidelity_strategy.h"
-#include "optimizer/strategies/strategy.h"
+#include "optimizer/strategy/posterior_strategy.h"
+#include "optimizer/strategy/strategy.h"
 
 namespace talus::campaign {
 
@@ -18,31 +18,20 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
                                                    const journal::CampaignRecord& record,
                                                    const std::vector<Reference>& references);
 
-// The spec's own, or the one over all scale factors and experiments where there are several.
-std::unique_ptr<optimizer::Strategy> MakeCampaignStrategy(const CampaignSpec& spec,
-                                                          const journal::CampaignRecord& record,
-                                                          const std::vector<Reference>& references);
-
-// The one over all scale factors and experiments, also where there is one of each only.
-std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategy(
+// The calibration's own strategy: told every trial of the search, it makes the answer, and chooses
+// the trials unless the spec names another strategy for that.
+std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategy(
     const CampaignSpec& spec, const journal::CampaignRecord& record,
     const std::vector<Reference>& references);
 
-// One over other targets at the campaign's scale factors: some of its experiments, or a test that
-// has not been made.
-std::unique_ptr<optimizer::FidelityStrategy> MakeJointStrategyFor(
+// The same for other targets at the campaign's scale factors: some of its experiments, or a test
+// that has not been made.
+std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategyFor(
     const CampaignSpec& spec, std::vector<optimizer::ExperimentTarget> targets);
 
-// Whether a strategy is told of it: all but the confirming ones are.
-inline bool IsOfSearch(const journal::TrialRecord& trial) {
-  return trial.kind != journal::TrialKind::kConfirm;
-}
-
-// Those that have finished, in the order in which a strategy was told of them.
-std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialRecord> trials);
-
-// The unit cube's point of a trial.
-Eigen::VectorXd PointOf(const journal::TrialRecord& trial);
+// The strategy that chooses the trials in its place; null where the spec names none.
+std::unique_ptr<optimizer::Strategy> MakeProposer(const CampaignSpec& spec,
+                                                  const std::vector<Reference>& references);
 
 // A finished trial as a strategy is told it; the field is empty when it failed or its image is
 // lost.

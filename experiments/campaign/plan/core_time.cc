@@ -5,6 +5,7 @@
 
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/rigs/load_case.h"
 
 namespace talus::campaign {
 namespace {
@@ -19,7 +20,7 @@ double Measured(const journal::TrialRecord& trial, int num_cores) {
 }  // namespace
 
 double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor) {
-  const rigs::HeapSize size = rigs::EstimateHeap(TypicalCase(spec, experiment, scale_factor));
+  const rigs::CaseSize size = rigs::EstimateCase(TypicalCase(spec, experiment, scale_factor));
   return static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
 }
 

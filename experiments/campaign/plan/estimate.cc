@@ -6,6 +6,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -14,13 +15,13 @@ namespace {
 
 // Cost goes with the number of grain steps, whatever the number of grains, so a small heap tells
 // the speed; filling a large one would take longer than the measurement.
-double MeasureSpeed(rigs::HeapCase heap_case, std::int64_t num_grains) {
+double MeasureSpeed(rigs::Case rig_case, std::int64_t num_grains) {
   constexpr double kEnoughGrains = 2000;
   constexpr double kSeconds = 1;
   const double reduction = std::cbrt(static_cast<double>(num_grains) / kEnoughGrains);
-  heap_case.coarse_graining.scale_factor *= std::max(1.0, reduction);
-  heap_case.threads = 1;
-  const std::unique_ptr<rigs::Rig> rig = rigs::MakeRig(heap_case);
+  rig_case.coarse_graining.scale_factor *= std::max(1.0, reduction);
+  rig_case.threads = 1;
+  const std::unique_ptr<rigs::Rig> rig = rigs::MakeRig(rig_case);
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   double seconds = 0;
@@ -37,7 +38,7 @@ TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double sca
   // Peak resident memory of runs with 6,000, 48,000 and 280,000 grains (20, 46 and 193 MB).
   constexpr double kProgram = 16e6;
   constexpr double kGrain = 650;
-  const rigs::HeapSize size = rigs::EstimateHeap(TypicalCase(spec, experiment, scale_factor));
+  const rigs::CaseSize size = rigs::EstimateCase(TypicalCase(spec, experiment, scale_factor));
   return {.experiment = experiment,
           .scale_factor = scale_factor,
           .num_grains = size.num_grains,

@@ -10,7 +10,6 @@
 #include "base/random.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "optimizer/designs/design.h"
 
 namespace talus::campaign {
@@ -50,13 +49,14 @@ std::uint64_t StreamOf(journal::TrialKind kind) {
 
 }  // namespace
 
-Planner::Planner(const CampaignSpec& spec, std::vector<Reference> references,
-                 std::unique_ptr<optimizer::Strategy> strategy)
+Planner::Planner(const CampaignSpec& spec, const journal::CampaignRecord& record,
+                 std::vector<Reference> references)
     : spec_(spec),
       references_(std::move(references)),
       space_(SpaceOf(spec)),
       domain_(space_.MakeDomain()),
-      strategy_(std::move(strategy)),
+      posterior_(MakePosteriorStrategy(spec_, record, references_)),
+      proposer_(MakeProposer(spec_, references_)),
       core_time_(spec_) {}
 
 void Planner::Started(const journal::TrialRecord& trial) {
@@ -69,7 +69,10 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
                                   [&](const journal::TrialRecord& t) { return t.id == trial.id; });
   *known = trial;
   if (!IsOfSearch(trial)) return;
-  strategy_->Tell(ObservationOf(trial, ReferenceOf(trial), std::move(field)));
+  const optimizer::Observation observation =
+      ObservationOf(trial, ReferenceOf(trial), std::move(field));
+  posterior_->Tell(observation);
+  if (proposer_) proposer_->Tell(observation);
   CheckThatSomeSucceed();
 }
 
@@ -81,12 +84,11 @@ void Planner::CheckThatSomeSucceed() {
     if (trial.status == journal::TrialStatus::kFailed) ++failed;
   }
   if (failed < kFailuresToGiveUp) return;
-  StopSearch("the first " + std::to_string(failed) + " trials all failed, the last because it " +
-             trials_.back().reason);
+  StopSearch({.kind = StopKind::kAllFailed, .value = 1.0 * failed, .rule = trials_.back().reason});
 }
 
-void Planner::StopSearch(const std::string& reason) {
-  if (stop_reason_.empty()) stop_reason_ = reason;
+void Planner::StopSearch(Stop stop) {
+  if (!stop_) stop_ = std::move(stop);
 }
 
 int Planner::Count(journal::TrialKind kind) const {
@@ -159,8 +161,7 @@ Eigen::VectorXd Planner::NoisePoint() const {
 }
 
 bool Planner::PlanNoise(std::vector<journal::TrialRecord>& planned) {
-  if (!stop_reason_.empty() || Count(journal::TrialKind::kNoise) >= spec_.noise.replicates)
-    return false;
+  if (stop_ || Count(journal::TrialKind::kNoise) >= spec_.noise.replicates) return false;
   Append(Make(journal::TrialKind::kNoise, {.point = NoisePoint()}), planned);
   return true;
 }
@@ -198,13 +199,13 @@ int Planner::SetsLeft() const {
   return (left + spec_.replicates - 1) / spec_.replicates;
 }
 
-std::optional<std::string> Planner::WhyBudgetIsUsed() {
+std::optional<Stop> Planner::WhyBudgetIsUsed() {
   const int most = spec_.budget.simulations;
   if (most > 0 && NumOfSearch() >= most) {
-    return "the budget of " + std::to_string(most) + " simulations is used";
+    return Stop{.kind = StopKind::kSimulations, .value = 1.0 * most};
   }
   if (spec_.budget.core_time && CoreTimeOfSearch() >= *spec_.budget.core_time) {
-    return "the budget of " + trials::DurationText(*spec_.budget.core_time) + " core time is used";
+    return Stop{.kind = StopKind::kCoreTime, .value = *spec_.budget.core_time};
   }
   return std::nullopt;
 }
@@ -218,16 +219,15 @@ void Planner::LeaveCoresToTrials() const {
 }
 
 bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) {
-  if (!stop_reason_.empty()) return false;
-  if (const auto reason = WhyBudgetIsUsed()) {
-    StopSearch(*reason);
-    budget_ended_ = true;
+  if (stop_) return false;
+  if (const auto used = WhyBudgetIsUsed()) {
+    StopSearch(*used);
     return false;
   }
   LeaveCoresToTrials();
   if (NumOfSearch() >= spec_.budget.min_simulations) {
-    if (const auto reason = strategy_->StopReason()) {
-      StopSearch(*reason);
+    if (const auto reason = Chooser().StopReason()) {
+      StopSearch({.kind = StopKind::kRule, .rule = *reason});
       return false;
     }
   }
@@ -239,7 +239,7 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
                          .scale_factor = trial.scale_factor});
     }
   }
-  const auto proposals = strategy_->AskAt(std::min({count, SetsLeft(), kMostAsked}), pending);
+  const auto proposals = Chooser().AskAt(std::min({count, SetsLeft(), kMostAsked}), pending);
   for (const optimizer::Proposal& proposal : proposals) {
     const bool design = proposal.origin == optimizer::Origin::kDesign;
     journal::TrialRecord trial =
@@ -251,13 +251,15 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
     }
     Append(std::move(trial), planned);
   }
-  if (proposals.empty() && pending.empty()) StopSearch("the strategy has no more to propose");
+  if (proposals.empty() && pending.empty()) StopSearch({.kind = StopKind::kNothingLeft});
   return !proposals.empty();
 }
 
 std::optional<optimizer::StopShortfall> Planner::Shortfall() {
-  if (!budget_ended_) return std::nullopt;
-  return strategy_->Shortfall();
+  if (!stop_ || (stop_->kind != StopKind::kSimulations && stop_->kind != StopKind::kCoreTime)) {
+    return std::nullopt;
+  }
+  return Chooser().Shortfall();
 }
 
 std::optional<optimizer::Answer> Planner::Recommend() {
@@ -266,7 +268,14 @@ std::optional<optimizer::Answer> Planner::Recommend() {
   });
   if (!any) return std::nullopt;
   LeaveCoresToTrials();
-  return strategy_->Recommend();
+  return posterior_->Recommend();
+}
+
+std::optional<double> Planner::NoiseSd(const Eigen::VectorXd& point, int experiment) {
+  if (!posterior_->CanModel()) return std::nullopt;
+  const auto& model = posterior_->Model().models()[static_cast<std::size_t>(experiment)];
+  if (!model.has_image()) return std::nullopt;
+  return model.ObjectiveNoise(point);
 }
 
 // A program of another version may recommend another set after the same search. What confirmed the
@@ -282,39 +291,6 @@ std::int64_t Planner::ConfirmSet(const Eigen::VectorXd& candidate) const {
   return next;
 }
 
-// The points of a joint search are of several experiments and sizes, whose objectives do not
-// compare: other branches of the posterior are what is worth a look beside the recommended set.
-std::vector<Eigen::VectorXd> Planner::RankedPoints(const optimizer::Answer& answer) const {
-  std::vector<Eigen::VectorXd> points;
-  if (spec_.IsJoint()) {
-    if (!answer.posterior) return points;
-    for (const optimizer::PosteriorBranch& b : answer.posterior->branches)
-      points.push_back(b.point);
-    return points;
-  }
-  struct Set {
-    double sum = 0;
-    int count = 0;
-    Eigen::VectorXd point;
-    double mean() const { return sum / count; }
-  };
-  std::map<std::int64_t, Set> by_number;
-  for (const journal::TrialRecord& trial : trials_) {
-    const auto value = ReferenceOf(trial).Value(trial);
-    if (!IsOfSearch(trial) || trial.status != journal::TrialStatus::kOk || !value) continue;
-    Set& set = by_number[trial.set];
-    set.sum += *value;
-    ++set.count;
-    set.point = PointOf(trial);
-  }
-  std::vector<Set> sets;
-  for (const auto& [number, set] : by_number) sets.push_back(set);
-  std::stable_sort(sets.begin(), sets.end(),
-                   [](const Set& a, const Set& b) { return a.mean() < b.mean(); });
-  for (const Set& set : sets) points.push_back(set.point);
-  return points;
-}
-
 std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer) const {
   std::vector<Eigen::VectorXd> candidates;
   const auto add = [&](const Eigen::VectorXd& point) {
@@ -326,7 +302,8 @@ std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer
     }
   };
   add(answer.point);
-  for (const Eigen::VectorXd& point : RankedPoints(answer)) add(point);
+  if (!answer.posterior) return candidates;
+  for (const optimizer::PosteriorBranch& branch : answer.posterior->branches) add(branch.point);
   return candidates;
 }
 

@@ -12,18 +12,20 @@
 
 #include "base/parallel_for.h"
 #include "experiments/campaign/plan/core_time.h"
-#include "experiments/campaign/reference.h"
+#include "experiments/campaign/plan/stop.h"
+#include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
-#include "optimizer/strategies/strategy.h"
+#include "optimizer/strategy/posterior_strategy.h"
+#include "optimizer/strategy/strategy.h"
 
 namespace talus::campaign {
 
 class Planner {
  public:
-  // `references` are of the campaign's experiments.
-  Planner(const CampaignSpec& spec, std::vector<Reference> references,
-          std::unique_ptr<optimizer::Strategy> strategy);
+  // `references`: one for each of the campaign's experiments.
+  Planner(const CampaignSpec& spec, const journal::CampaignRecord& record,
+          std::vector<Reference> references);
 
   // A trial that is running, started now or by an earlier process.
   void Started(const journal::TrialRecord& trial);
@@ -34,24 +36,28 @@ class Planner {
   // for running ones, and none at the end.
   std::vector<journal::TrialRecord> Next(int count);
 
-  // No more trials of noise and search, because …
-  void StopSearch(const std::string& reason);
-  const std::string& stop_reason() const { return stop_reason_; }
+  // No more trials of noise and search, for this reason; the first one counts.
+  void StopSearch(Stop stop);
+  const std::optional<Stop>& stop() const { return stop_; }
   // What the strategy's own rule lacks; nothing where the budget did not end the search.
   std::optional<optimizer::StopShortfall> Shortfall();
 
   // What the trials so far say; nothing before the first that succeeded.
   std::optional<optimizer::Answer> Recommend();
 
-  // The sets to be confirmed: the recommended one first, then the best of the others.
+  // The sets to be confirmed: the recommended one first, then the posterior's other branches.
   std::vector<Eigen::VectorXd> Candidates(const optimizer::Answer& answer) const;
   // TrialRecord::set of the trials that confirm a candidate: theirs where there are any.
   std::int64_t ConfirmSet(const Eigen::VectorXd& candidate) const;
 
   // Strategy::CredibleLevels; the evaluations told so far.
   std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) const {
-    return strategy_->CredibleLevels(points);
+    return posterior_->CredibleLevels(points);
   }
+
+  // Of the objective of one simulation of an experiment there, by the model that answers; nothing
+  // without an image or while there are too few trials.
+  std::optional<double> NoiseSd(const Eigen::VectorXd& point, int experiment);
 
   const std::vector<journal::TrialRecord>& trials() const { return trials_; }  // by id
   const optimizer::ParameterSpace& space() const { return space_; }
@@ -71,9 +77,10 @@ class Planner {
   const Reference& ReferenceOf(const journal::TrialRecord& trial) const {
     return references_[static_cast<std::size_t>(trial.experiment)];
   }
-  std::vector<Eigen::VectorXd> RankedPoints(const optimizer::Answer& answer) const;
+  // The strategy that chooses the trials.
+  optimizer::Strategy& Chooser() { return proposer_ ? *proposer_ : *posterior_; }
   int SetsLeft() const;
-  std::optional<std::string> WhyBudgetIsUsed();
+  std::optional<Stop> WhyBudgetIsUsed();
   void LeaveCoresToTrials() const;  // of those that the loops of the strategy may use
   void Append(journal::TrialRecord trial, std::vector<journal::TrialRecord>& planned);
   Eigen::VectorXd NoisePoint() const;
@@ -85,11 +92,11 @@ class Planner {
   const std::vector<Reference> references_;
   const optimizer::ParameterSpace space_;
   const optimizer::Domain domain_;
-  std::unique_ptr<optimizer::Strategy> strategy_;
+  const std::unique_ptr<optimizer::PosteriorStrategy> posterior_;  // makes the answer
+  const std::unique_ptr<optimizer::Strategy> proposer_;            // null: posterior_ chooses, too
   std::vector<journal::TrialRecord> trials_;
   std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
-  std::string stop_reason_;
-  bool budget_ended_ = false;
+  std::optional<Stop> stop_;
   CoreTime core_time_;
   const int most_threads_ = base::MostLoopThreads();
 };

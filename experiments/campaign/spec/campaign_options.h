@@ -34,17 +34,18 @@ struct BudgetOptions {
 };
 
 struct NoiseOptions {
-  int replicates = 3;  // at one point with other seeds before the search, 0 or >= 2
+  int replicates = 0;  // at one point with other seeds before the search, 0 or >= 2
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("replicates", self.replicates,
-          {.doc = "trials at one point before the search, for the run-to-run scatter; 0 or >= 2"});
+    visit(
+        "replicates", self.replicates,
+        {.doc = "trials at one point before the search, to see the run-to-run scatter; 0 or >= 2"});
   }
   void Validate(base::Problems& problems) const;
 };
 
-// What a posterior over several grain sizes or experiments is made with.
+// How the posterior reads the observations, and when it knows enough.
 struct PosteriorOptions {
   double model_error = 1;    // sd of what no simulation can match, in run-to-run sds, >= 0
   double stop_share = 0.02;  // the surrogate's variance over what the experiment leaves open [-]

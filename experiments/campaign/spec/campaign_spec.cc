@@ -6,8 +6,10 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/name.h"
 #include "experiments/journal/record_json.h"
-#include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "imaging/spheres/projection.h"
@@ -60,11 +62,11 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
     values.push_back(parameter.fixed.value_or(parameter.low));
     if (!parameter.fixed) calibrated.push_back(parameter.name);
   }
-  const rigs::HeapCase heap_case = CaseOf(
+  const rigs::Case rig_case = CaseOf(
       spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
   problems.Within("engine", [&] {
     trials::CheckCommand(spec.engine.command,
-                         {.heap_case = heap_case,
+                         {.rig_case = rig_case,
                           .calibrated = calibrated,
                           .elsewhere = spec.runner.kind != RunnerKind::kLocal},
                          problems);
@@ -87,9 +89,13 @@ bool IsGiven(const nlohmann::json& root, const char* section, const char* key) {
 void CompleteDefaults(CampaignSpec& spec, const nlohmann::json& root) {
   // Beside core time the number of trials is free.
   if (spec.budget.core_time && !IsGiven(root, "budget", "simulations")) spec.budget.simulations = 0;
-  // A posterior learns the noise from the search itself, at every scale factor.
-  const bool several = spec.experiments || spec.coarse_graining.scale_factors;
-  if (several && spec.IsJoint() && !IsGiven(root, "noise", "replicates")) spec.noise.replicates = 0;
+}
+
+// Whether every trial has the same objective, as a plain minimiser needs it.
+bool HasOneObjective(const CampaignSpec& spec) {
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  return !spec.coarse_graining.AreSeveral() && experiments.size() == 1 &&
+         experiments.front().images.HasImages();
 }
 
 // What shows only when it is put together, such as a tube that cannot hold the mass.
@@ -97,11 +103,11 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
-      const rigs::HeapCase heap_case = TypicalCase(spec, static_cast<int>(e), factor);
-      heap_case.Validate(problems);
+      const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), factor);
+      rigs::ValidateCase(rig_case, problems);
       if (!problems.empty()) return;  // the same for every scale factor
-      if (rigs::KindOf(heap_case) != rigs::RigKind::kLiftedTube) continue;
-      const double across = rigs::GrainsAcrossPlate(heap_case);
+      if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
+      const double across = rigs::GrainsAcrossPlate(rig_case);
       problems.Require(across >= kFewestAcross, "coarse_graining",
                        "leaves " + std::to_string(across).substr(0, 4) +
                            " grains across the plate of \"" + experiments[e].name +
@@ -132,7 +138,8 @@ void NoiseOptions::Validate(base::Problems& problems) const {
 }
 
 void PosteriorOptions::Validate(base::Problems& problems) const {
-  problems.Require(model_error >= 0, "model_error", model_error, "must not be negative");
+  problems.Require(model_error >= 0 && model_error <= 1000, "model_error", model_error,
+                   "must be in [0, 1000]");
   problems.Require(stop_share >= 0, "stop_share", stop_share, "must not be negative");
 }
 
@@ -146,6 +153,7 @@ void ConfirmOptions::Validate(base::Problems& problems) const {
 }
 
 void CampaignSpec::Validate(base::Problems& problems) const {
+  if (!name.empty()) base::RequireName(problems, "name", name);
   problems.Require(gravity > 0, "gravity", gravity, "must be positive");
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
@@ -162,13 +170,9 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(budget.simulations == 0 || budget.simulations > noise.replicates,
                    "budget.simulations", budget.simulations, "must be more than noise.replicates");
   ValidateExperiments(*this, problems);
-  problems.Require(!IsJoint() || strategy.kind == optimizer::StrategyKind::kSurrogate,
-                   "strategy.kind",
-                   "must be \"surrogate\" with several scale factors or experiments: the others "
-                   "know one of each only");
-  problems.Require(!posterior || IsJoint(), "posterior",
-                   "has no effect with one scale factor and one experiment without numbers; leave "
-                   "it out");
+  problems.Require(!HasOwnProposer() || HasOneObjective(*this), "strategy.kind",
+                   "must be \"auto\" with several scale factors or experiments, or without "
+                   "an image: the others minimise one objective only");
   if (!parameters) return;
   problems.Within("parameters", [&] { ValidateRanges(*parameters, powder.material, problems); });
   problems.Require(!parameters->surface_energy || models.adhesion != engine::Adhesion::kNone,
@@ -179,10 +183,8 @@ void CampaignSpec::Validate(base::Problems& problems) const {
                    "has no effect without a rolling model; set models.rolling or leave it out");
 }
 
-bool CampaignSpec::IsJoint() const {
-  if (coarse_graining.AreSeveral()) return true;
-  return experiments && (experiments->size() > 1 ||
-                         (!experiments->empty() && !ScalarsOf(experiments->front()).empty()));
+bool CampaignSpec::HasOwnProposer() const {
+  return strategy.kind != optimizer::StrategyKind::kAuto;
 }
 
 std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
@@ -211,7 +213,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   base::Problems problems(file.path.string(), file.places);
   base::ReadOptions(file.root, spec,
                     {problems, std::filesystem::absolute(file.path).parent_path()});
-  if (spec.name.empty()) spec.name = file.path.stem().string();
+  if (spec.name.empty()) spec.name = base::OneLine(file.path.stem().string());
   if (!spec.parameters) spec.parameters = UsualRanges(spec.models.adhesion);
   CompleteDefaults(spec, file.root);
   base::TreeValidator(problems).Check(spec);
@@ -250,44 +252,44 @@ optimizer::ParameterSpace SpaceOf(const CampaignSpec& spec) {
   return space;
 }
 
-rigs::HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
-                      const std::optional<imaging::Frame>& frame) {
-  rigs::HeapCase heap_case;
-  heap_case.powder = spec.powder;
+rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
+                  const std::optional<imaging::Frame>& frame) {
+  rigs::Case rig_case;
+  rig_case.powder = spec.powder;
   const ExperimentSpec experiment =
       ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
-  heap_case.rig = experiment.rig;
-  heap_case.device = *experiment.device;
-  heap_case.models = spec.models;
-  heap_case.coarse_graining = {
+  rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
+  rig_case.SetDevice(*experiment.device);
+  rig_case.models = spec.models;
+  rig_case.coarse_graining = {
       .scale_factor = settings.scale_factor,
       .surface_energy_exponent = spec.coarse_graining.surface_energy_exponent};
-  heap_case.filling = *experiment.filling;
-  heap_case.rules = *experiment.rules;
-  heap_case.gravity = spec.gravity;
-  heap_case.rayleigh_fraction = spec.rayleigh_fraction;
-  heap_case.seed = settings.seed;
-  heap_case.frame = frame;
-  heap_case.num_views = spec.num_views;
-  heap_case.threads = spec.threads;
+  rig_case.filling = *experiment.filling;
+  rig_case.rules = *experiment.rules;
+  rig_case.gravity = spec.gravity;
+  rig_case.rayleigh_fraction = spec.rayleigh_fraction;
+  rig_case.seed = settings.seed;
+  rig_case.frame = frame;
+  rig_case.num_views = spec.num_views;
+  rig_case.threads = spec.threads;
   const optimizer::ParameterSpace space = SpaceOf(spec);
   for (std::size_t i = 0; i < space.parameters.size(); ++i) {
-    SetParameter(heap_case, space.parameters[i].name, settings.values[i]);
+    SetParameter(rig_case, space.parameters[i].name, settings.values[i]);
   }
-  return heap_case;
+  return rig_case;
 }
 
-rigs::HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor) {
+rigs::Case TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor) {
   const optimizer::ParameterSpace space = SpaceOf(spec);
   const auto num_free = static_cast<Eigen::Index>(space.Free().size());
   const std::vector<double> values = space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
-  rigs::HeapCase heap_case = CaseOf(
+  rigs::Case rig_case = CaseOf(
       spec,
       {.values = values, .seed = spec.seed, .scale_factor = scale_factor, .experiment = experiment},
       {});
-  heap_case.frame = imaging::Frame{.pixel_size = 1e-4,
-                                   .plate_diameter = rigs::EntryOf(heap_case).width(heap_case)};
-  return heap_case;
+  rig_case.frame =
+      imaging::Frame{.pixel_size = 1e-4, .plate_diameter = rigs::EntryOf(rig_case).width(rig_case)};
+  return rig_case;
 }
 
 std::vector<std::string> ForbiddenChanges(const std::string& old_text,

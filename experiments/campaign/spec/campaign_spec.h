@@ -15,9 +15,9 @@
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/campaign/spec/where_options.h"
 #include "experiments/journal/objective.h"
-#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/rigs/case/case.h"
 #include "imaging/photos/experiment.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::campaign {
 
@@ -29,10 +29,10 @@ struct CampaignSpec {
   engine::ContactModels models;
   GrainSizes coarse_graining;
   rigs::FillingRule filling;
-  rigs::HeapRules rules;
+  rigs::PhaseRules rules;
   double gravity = 9.81;  // [m/s²], > 0
   double rayleigh_fraction =
-      rigs::kHeapRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
+      rigs::kUsualRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
   std::optional<imaging::ExperimentOptions> experiment{};  // of a campaign with one only
   std::optional<std::vector<ExperimentSpec>> experiments{};
   std::optional<std::string> hold_out{};  // name of one that the answer is not made from
@@ -43,8 +43,8 @@ struct CampaignSpec {
   optimizer::StrategyOptions strategy;
   BudgetOptions budget;
   NoiseOptions noise;
-  int replicates = 1;                           // seeds of each proposed set, >= 1
-  std::optional<PosteriorOptions> posterior{};  // with several scale factors or experiments only
+  int replicates = 1;  // seeds of each proposed set, >= 1
+  PosteriorOptions posterior;
   ConfirmOptions confirm;
   std::uint64_t seed = 1;
   int workers = 0;                   // trials at the same time, >= 0; 0: as many as cores
@@ -86,9 +86,7 @@ struct CampaignSpec {
     visit("budget", self.budget, {.doc = "when the search ends at the latest"});
     visit("noise", self.noise, {.doc = "how the run-to-run scatter is estimated first"});
     visit("replicates", self.replicates, {.doc = "seeds of each proposed set, >= 1"});
-    visit("posterior", self.posterior,
-          {.doc = "what the observations are held to say, with several scale factors or "
-                  "experiments"});
+    visit("posterior", self.posterior, {.doc = "what the observations are held to say"});
     visit("confirm", self.confirm, {.doc = "what is simulated again at the end"});
     visit("seed", self.seed, {.doc = "every random choice follows from it"});
     visit("workers", self.workers, {.doc = "trials at the same time; 0: as many as cores"});
@@ -103,9 +101,8 @@ struct CampaignSpec {
   // What each part cannot see by itself.
   void Validate(base::Problems& problems) const;
 
-  // Whether trials of several scale factors or experiments, or numbers beside images, make one
-  // answer: then a posterior over all of them chooses and answers.
-  bool IsJoint() const;
+  // Whether another strategy than the calibration's own chooses the trials.
+  bool HasOwnProposer() const;
 };
 
 // Reads, completes and validates a spec; throws one ConfigError with every problem.
@@ -136,11 +133,11 @@ struct TrialSettings {
   double scale_factor = 1;
   int experiment = 0;
 };
-rigs::HeapCase CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
-                      const std::optional<imaging::Frame>& frame);
+rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
+                  const std::optional<imaging::Frame>& frame);
 
 // A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
-rigs::HeapCase TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);
+rigs::Case TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);
 
 // What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
 // what a running campaign may change is left out.

@@ -1,9 +1,11 @@
 #include "experiments/campaign/spec/experiment_spec.h"
 
+#include "base/text/name.h"
+
 namespace talus::campaign {
 
 void ExperimentSpec::Validate(base::Problems& problems) const {
-  problems.Require(!name.empty(), "name", "must not be empty");
+  base::RequireName(problems, "name", name);
   problems.Require(weight > 0 && weight <= 100, "weight", weight,
                    "must be positive, and at most 100; leave the experiment out instead of 0");
   const bool has_numbers = !ScalarsOf(*this).empty();

@@ -10,10 +10,10 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "experiments/campaign/spec/measured_numbers.h"
-#include "experiments/rigs/lifted_tube/device.h"
-#include "experiments/rigs/lifted_tube/filling_rule.h"
-#include "experiments/rigs/lifted_tube/heap_rules.h"
-#include "experiments/rigs/rig_options.h"
+#include "experiments/rigs/case/device.h"
+#include "experiments/rigs/options/filling_rule.h"
+#include "experiments/rigs/options/rig_options.h"
+#include "experiments/rigs/options/rules.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
@@ -22,7 +22,7 @@ struct ExperimentSpec {
   std::string name;
   imaging::ExperimentOptions images;
   std::optional<rigs::Device> device{};        // default: the campaign's
-  std::optional<rigs::HeapRules> rules{};      // default: the campaign's
+  std::optional<rigs::PhaseRules> rules{};     // default: the campaign's
   std::optional<rigs::RigOptions> rig{};       // default: the campaign's
   std::optional<rigs::FillingRule> filling{};  // default: the campaign's
   MeasuredNumbers numbers;

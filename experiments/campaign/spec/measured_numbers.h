@@ -4,10 +4,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::campaign {
 
@@ -47,36 +50,38 @@ struct ExpectedError {
   }
 };
 
-// One line each: the key and the dimension make the name of the metric that trials are measured by
-// (ScalarsOf).
+// One of each observable (rigs/observables/observable.h), under its key.
 template <template <base::Dimension> class Number>
-struct NumbersOf {
-  using Dimension = base::Dimension;
-  std::optional<Number<Dimension::kMass>> mass_on_plate{}, mass_fallen{}, mass_left{};
-  std::optional<Number<Dimension::kDensity>> poured_density{}, tapped_density{};
-  std::optional<Number<Dimension::kNone>> hausner_ratio{};
-  std::optional<Number<Dimension::kLength>> runout{}, height{};
-  std::optional<Number<Dimension::kTime>> discharge_time{};
-  std::optional<Number<Dimension::kMassRate>> discharge_rate{};
-  std::optional<Number<Dimension::kAngle>> angle{}, shear_angle{};
+class NumbersOf {
+ public:
+  template <rigs::Observable O>
+  auto& Of() {
+    return std::get<static_cast<std::size_t>(O)>(numbers_);
+  }
+
+  template <rigs::Observable O>
+  const auto& Of() const {
+    return std::get<static_cast<std::size_t>(O)>(numbers_);
+  }
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("mass_on_plate", self.mass_on_plate, {.doc = "of the heap that stays on the plate"});
-    visit("mass_fallen", self.mass_fallen,
-          {.doc = "of the powder that fell over the rim, or through the slot"});
-    visit("mass_left", self.mass_left,
-          {.doc = "of the powder that stayed above the slot, or left the tilted box"});
-    visit("poured_density", self.poured_density, {.doc = "bulk density as poured"});
-    visit("tapped_density", self.tapped_density, {.doc = "bulk density after the taps"});
-    visit("hausner_ratio", self.hausner_ratio, {.doc = "tapped over poured density"});
-    visit("runout", self.runout, {.doc = "of the collapsed column, from its front"});
-    visit("height", self.height, {.doc = "of the collapsed column"});
-    visit("discharge_time", self.discharge_time, {.doc = "until 95 % of what runs out has passed"});
-    visit("discharge_rate", self.discharge_rate, {.doc = "through the slot"});
-    visit("angle", self.angle, {.doc = "of repose, sliding or the drum's surface (docs/rigs.md)"});
-    visit("shear_angle", self.shear_angle, {.doc = "of the slopes above the slot"});
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (visit(rigs::kObservables[I].key, std::get<I>(self.numbers_),
+             base::FieldInfo{.doc = rigs::kObservables[I].doc}),
+       ...);
+    }
+    (Indices{});
   }
+
+ private:
+  using Indices = std::make_index_sequence<rigs::kObservables.size()>;
+
+  template <std::size_t... I>
+  static auto Optionals(std::index_sequence<I...>)
+      -> std::tuple<std::optional<Number<rigs::kObservables[I].dimension>>...>;
+
+  decltype(Optionals(Indices{})) numbers_{};
 };
 using MeasuredNumbers = NumbersOf<MeasuredNumber>;
 using ExpectedErrors = NumbersOf<ExpectedError>;

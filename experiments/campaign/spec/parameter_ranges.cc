@@ -127,15 +127,15 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
   return base::ParseQuantity(text, DimensionOf(Parameter(parameter).property));
 }
 
-void SetParameter(rigs::HeapCase& heap_case, const std::string& parameter, double value) {
+void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value) {
   const auto [body, property] = Parameter(parameter);
   switch (body) {
     case Body::kPowder:
-      return engine::Material::Visit(heap_case.powder.material, PropertySetter{property, value});
+      return engine::Material::Visit(rig_case.powder.material, PropertySetter{property, value});
     case Body::kPlate:
-      return SetOnWall(heap_case.device.plate_material, property, value);
+      return SetOnWall(rig_case.materials.floor, property, value);
     case Body::kTube:
-      return SetOnWall(heap_case.device.tube_material, property, value);
+      return SetOnWall(rig_case.materials.walls, property, value);
   }
 }
 

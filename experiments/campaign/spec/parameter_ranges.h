@@ -6,8 +6,8 @@
 
 #include "base/field.h"
 #include "base/problems.h"
-#include "engine/scene/material.h"
-#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "engine/laws/material.h"
+#include "experiments/rigs/case/case.h"
 #include "optimizer/space/parameter_space.h"
 
 namespace talus::campaign {
@@ -90,7 +90,7 @@ std::string UnitOf(const std::string& parameter);
 double ParseProperty(const std::string& parameter, const std::string& text);
 
 // Sets a parameter by its name above: the powder's, the plate's or the tube's.
-void SetParameter(rigs::HeapCase& heap_case, const std::string& parameter, double value);
+void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value);
 
 // What is wrong with a range, or with the powder at one of its ends, under the range's name.
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,

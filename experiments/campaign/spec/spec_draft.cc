@@ -9,7 +9,7 @@
 #include "base/problems.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
-#include "experiments/rigs/lifted_tube/heap_scene.h"
+#include "experiments/rigs/case/case_warnings.h"
 
 namespace talus::campaign {
 namespace {
@@ -43,24 +43,32 @@ std::string ScaleFactors(double grains_across) {
 }
 
 std::string Photographs(const SpecAnswers& answers) {
-  if (answers.photos.empty()) {
+  if (answers.runs.empty()) {
     return "    \"photos\": " + Quoted(answers.folder.string()) +
            ",\n    // {run} is the heap, {view} the direction it was photographed from; * is "
            "anything\n    \"pattern\": " +
            Quoted(answers.pattern) + ",\n";
   }
   std::string text =
-      "    // one heap; add a run for each further heap of the same powder\n"
-      "    \"runs\": [{\"name\": \"1\", \"photos\": [";
-  for (std::size_t i = 0; i < answers.photos.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + Quoted(answers.photos[i].string());
+      "    // a run a heap; add one for each further heap of the same powder\n"
+      "    \"runs\": [";
+  for (std::size_t i = 0; i < answers.runs.size(); ++i) {
+    text += (i == 0 ? "{\"name\": " : ",\n             {\"name\": ") +
+            Quoted(answers.runs[i].name) + ", \"photos\": [";
+    const char* separator = "";
+    for (const auto& photo : answers.runs[i].photos) {
+      text += separator + Quoted(photo.string());
+      separator = ", ";
+    }
+    text += "]}";
   }
-  return text + "]}],\n";
+  return text + "],\n";
 }
 
 std::string Models(bool cohesive) {
   if (!cohesive) {
-    return "  // dry grains; \"jkr\" for cohesive ones, with a range of surface_energy below\n"
+    return "  // docs/physics.md. Dry grains; \"jkr\" for cohesive ones, with a range of "
+           "surface_energy below\n"
            "  \"models\": {\"adhesion\": \"none\", \"rolling\": \"epsd\"},\n";
   }
   return "  // cohesive grains; \"none\" for dry ones, without surface_energy below\n"
@@ -122,7 +130,7 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "time step does\n"
          "      \"poisson_ratio\": 0.3,\n"
          "      \"restitution\": 0.5 // a heap at rest hardly depends on it\n    },\n"
-         "    // a measured distribution makes a better powder: see docs/campaigns.md\n"
+         "    // a measured distribution makes a better powder: size tables in docs/scene.md\n"
          "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
          Quoted(answers.grain_diameter) + "},\n    \"mass\": " + Quoted(answers.mass) +
          " // filled into the tube\n  },\n"

@@ -5,14 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "imaging/photos/experiment.h"
+
 namespace talus::campaign {
 
 // Quantities as the user wrote them, with their units.
 struct SpecAnswers {
   std::string name;
-  std::filesystem::path folder;                   // of the photographs, or
-  std::string pattern = "run{run}_view{view}.*";  // … of their names in it
-  std::vector<std::filesystem::path> photos;      // these, of one heap
+  std::filesystem::path folder;         // of the photographs, or
+  std::string pattern;                  // … of their names in it
+  std::vector<imaging::PhotoRun> runs;  // or these, heap by heap
   std::string plate_diameter;
   std::string scale;  // of a heap on a table; empty with a plate
   std::string tube_diameter;

@@ -9,24 +9,25 @@
 #include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/campaign/spec/plausible.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::campaign {
 namespace {
 
-rigs::HeapCase RigOf(const ExperimentSpec& experiment) {
-  rigs::HeapCase heap_case;
-  heap_case.rig = experiment.rig;
-  heap_case.device = *experiment.device;
-  return heap_case;
+rigs::Case RigOf(const ExperimentSpec& experiment) {
+  rigs::Case rig_case;
+  rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
+  rig_case.SetDevice(*experiment.device);
+  return rig_case;
 }
 
 // Images are scaled by the width of plate, drum or box: another one shows another test.
 void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
   if (!e.images.HasImages()) return;
-  const rigs::HeapCase of = RigOf(e);
+  const rigs::Case of = RigOf(e);
   const double width = rigs::EntryOf(of).width(of);
-  const bool tube = rigs::KindOf(of) == rigs::RigKind::kLiftedTube;
+  const bool tube = of.rig.kind == rigs::RigKind::kLiftedTube;
   problems.Require(
       std::abs(e.images.plate_diameter - width) <= 0.01 * width, place + ".plate_diameter",
       e.images.plate_diameter,
@@ -38,14 +39,19 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
 
 // Another engine's command may measure what it likes.
 void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
-  const rigs::HeapCase of = RigOf(e);
+  const rigs::Case of = RigOf(e);
   const auto known = rigs::EntryOf(of).observables;
   for (const ScalarSpec& scalar : ScalarsOf(e)) {
-    if (std::find(known.begin(), known.end(), scalar.metric) != known.end()) continue;
     std::string all;
-    for (const char* name : known) all += (all.empty() ? "" : ", ") + std::string(name);
+    bool measured = false;
+    for (const rigs::RigObservable& o : known) {
+      const std::string name = rigs::MetricName(o.observable);
+      measured |= name == scalar.metric;
+      all += (all.empty() ? "" : ", ") + name;
+    }
+    if (measured) continue;
     problems.Add(place + "." + scalar.key,
-                 "is not measured by the rig " + std::string(base::NameOf(rigs::KindOf(of))) +
+                 "is not measured by the rig " + std::string(base::NameOf(of.rig.kind)) +
                      ", which measures " + all + "; remove it, or name the rig of this test");
   }
 }
@@ -137,6 +143,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
   if (!spec.experiment && !spec.experiments) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   CheckNamedWalls(spec, all, problems);
+  CheckPlausible(spec, all, problems);
   if (!spec.experiments) return;
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;
@@ -146,9 +153,6 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
         names.insert(all[i].name).second, place + ".name",
         "\"" + all[i].name + "\" stands there twice: results could not tell them apart");
     CheckWidth(all[i], place, problems);
-    problems.Require(all[i].weight == 1 || spec.IsJoint(), place + ".weight", all[i].weight,
-                     "has no effect with one experiment without numbers at one scale factor; "
-                     "leave it out");
     if (spec.engine.kind == EngineKind::kTalus) CheckNumbers(all[i], place, problems);
   }
   if (spec.parameters) CheckWalls(spec, all, problems);

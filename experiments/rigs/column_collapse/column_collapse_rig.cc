@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
@@ -12,8 +13,23 @@ namespace {
 constexpr int kGate = 0;
 constexpr double kFront = 0.99;  // of the mass lies behind the front
 
-std::vector<engine::Wall> Walls(const HeapCase& c, double height) {
-  const ColumnCollapseOptions& channel = c.rig->column_collapse;
+}  // namespace
+
+ColumnCollapseRig::ColumnCollapseRig(const Case& c, State state, engine::Simulation simulation)
+    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
+  Phase running = Resting("running out", c.rules.heap);
+  running.begin = [this] { Open(); };
+  SetPhases({running}, TestTime(c, FilledHeight(c, vessel())));
+}
+
+void ColumnCollapseRig::Open() {
+  const auto& velocity = rig_case().rig.column_collapse.gate_velocity;
+  if (!velocity) return scene().RemoveWall(kGate);
+  scene().SetMotion(kGate, {{.time = scene().time(), .velocity = {0, 0, *velocity}}});
+}
+
+std::vector<engine::Wall> ColumnCollapseRig::Walls(const Case& c, double height) {
+  const ColumnCollapseOptions& channel = c.rig.column_collapse;
   const engine::Rectangle gate{.center = {channel.length / 2, 0, 0.75 * height},
                                .normal = {1, 0, 0},
                                .edge = {0, 1, 0},
@@ -32,63 +48,36 @@ std::vector<engine::Wall> Walls(const HeapCase& c, double height) {
            .material = kWalls}};
 }
 
-}  // namespace
-
-ColumnCollapseRig::ColumnCollapseRig(const HeapCase& c)
-    : PhasedRig(c, VesselOf(c), [&c](double height) { return Walls(c, height); }) {
-  Plan();
-}
-
-ColumnCollapseRig::ColumnCollapseRig(const HeapCase& c, const PhasedState& state,
-                                     engine::Simulation simulation)
-    : PhasedRig(c, VesselOf(c), state, std::move(simulation)) {
-  Plan();
-}
-
-void ColumnCollapseRig::Plan() {
-  SetPhases({{.name = "running out",
-              .ends_with = PhaseEnd::kAtRest,
-              .rest = heap_case().rules.heap,
-              .begin = [this] { Open(); }}});
-}
-
-void ColumnCollapseRig::Open() {
-  const auto& velocity = heap_case().rig->column_collapse.gate_velocity;
-  if (!velocity) return scene().RemoveWall(kGate);
-  scene().SetMotion(kGate, {{.time = scene().time(), .velocity = {0, 0, *velocity}}});
-}
-
-Vessel ColumnCollapseRig::VesselOf(const HeapCase& c) {
-  const ColumnCollapseOptions& channel = c.rig->column_collapse;
+Vessel ColumnCollapseRig::VesselOf(const Case& c) {
+  const ColumnCollapseOptions& channel = c.rig.column_collapse;
   return BoxVessel({}, channel.length, channel.width);
 }
 
-void ColumnCollapseRig::Validate(const HeapCase&, base::Problems&) {}
+void ColumnCollapseRig::Validate(const Case&, base::Problems&) {}
 
-double ColumnCollapseRig::Width(const HeapCase& c) { return c.rig->column_collapse.length; }
+double ColumnCollapseRig::Width(const Case& c) { return c.rig.column_collapse.length; }
 
 // It falls and runs out in a few times √(h/g).
-double ColumnCollapseRig::TestTime(const HeapCase& c, double filled_height) {
-  const auto& velocity = c.rig->column_collapse.gate_velocity;
+double ColumnCollapseRig::TestTime(const Case& c, double filled_height) {
+  const auto& velocity = c.rig.column_collapse.gate_velocity;
   return 5 * std::sqrt(filled_height / c.gravity) + (velocity ? filled_height / *velocity : 0);
 }
 
-std::vector<Observable> ColumnCollapseRig::Observables() const {
-  const double length = heap_case().rig->column_collapse.length;
-  const std::vector<engine::Particle> grains = simulation().Particles();
+std::vector<Reading> ColumnCollapseRig::Readings(GrainSpan grains) const {
+  const double length = rig_case().rig.column_collapse.length;
   const double front = MassQuantile(grains, kFront, [](const auto& p) { return p.position.x; });
   double top = 0;
   for (const engine::Particle& p : grains) top = std::max(top, p.position.z + p.radius);
   const double runout = front - length / 2;
-  std::vector<Observable> all{{.name = "runout_m", .value = runout},
-                              {.name = "height_m", .value = top},
-                              {.name = "column_height_m", .value = state().bed.height},
-                              {.name = "aspect_ratio", .value = state().bed.height / length}};
+  std::vector<Reading> all{{Observable::kRunout, runout},
+                           {Observable::kHeight, top},
+                           {Observable::kColumnHeight, state().bed.height},
+                           {Observable::kAspectRatio, state().bed.height / length}};
   // Between the foot of the end wall and the thin front.
   const double reach = front + length / 2;
-  all.push_back(AngleOf("angle_deg", SurfaceOf(grains, {.from = -length / 2 + 0.2 * reach,
-                                                        .to = -length / 2 + 0.8 * reach,
-                                                        .width = MeanDiameter()})));
+  all.push_back(AngleOf(Observable::kAngle, SurfaceOf(grains, {.from = -length / 2 + 0.2 * reach,
+                                                               .to = -length / 2 + 0.8 * reach,
+                                                               .width = MeanDiameter()})));
   return all;
 }
 

@@ -1,37 +1,37 @@
 // How fast a powder runs through a slot, how much stays above, and the slopes that it leaves above
 // and below. x is across the slot, its origin in the slot's middle; z = 0 is the lower floor.
-
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/rigs/phased/phased_rig.h"
+#include "experiments/rigs/phased/flow.h"
+#include "experiments/rigs/phased/remembering_rig.h"
 
 namespace talus::rigs {
 
-class DrawDownRig : public PhasedRig {
+class DrawDownRig : public RememberingRig<FlowMemory> {
  public:
-  static constexpr const char* kObservables[] = {"mass_fallen_kg",   "mass_left_kg",
-                                                 "discharge_time_s", "discharge_rate_kg_per_s",
-                                                 "angle_deg",        "shear_angle_deg"};
+  static constexpr RigObservable kMeasured[] = {
+      {Observable::kMassFallen},          {Observable::kMassLeft, true},
+      {Observable::kDischargeTime, true}, {Observable::kDischargeRate},
+      {Observable::kAngle, true},         {Observable::kShearAngle}};
 
-  explicit DrawDownRig(const HeapCase& heap_case);
-  DrawDownRig(const HeapCase& heap_case, const PhasedState& state, engine::Simulation simulation);
+  DrawDownRig(const Case& rig_case, State state, engine::Simulation simulation);
 
-  static Vessel VesselOf(const HeapCase& heap_case);
-  static void Validate(const HeapCase& heap_case, base::Problems& problems);
-  static double Width(const HeapCase& heap_case);
-  static double TestTime(const HeapCase& heap_case, double filled_height);
-
-  std::vector<Observable> Observables() const override;
+  static Vessel VesselOf(const Case& rig_case);
+  static std::vector<engine::Wall> Walls(const Case& rig_case, double height);
+  static void Validate(const Case& rig_case, base::Problems& problems);
+  static double Width(const Case& rig_case);
+  static double TestTime(const Case& rig_case, double filled_height);
 
  protected:
-  bool Look() override;
+  std::optional<PhaseEnd> Look() override;
+  std::vector<Reading> Readings(GrainSpan grains) const override;
 
  private:
-  void Plan();
-  double Passed() const;  // mass below the slot [kg]
+  double MassBelow(GrainSpan grains) const;  // the slot [kg]
 };
 
 }  // namespace talus::rigs

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/text/number_text.h"
+#include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
@@ -14,8 +16,39 @@ constexpr double kBoxWidth = 1.2;   // of the box that is filled, in radii
 constexpr double kBoxFloor = 0.2;   // its floor above the lowest point, in radii
 constexpr double kBoxHeight = 1.6;  // in radii
 
-std::vector<engine::Wall> Walls(const HeapCase& c, double) {
-  const DrumOptions& drum = c.rig->drum;
+}  // namespace
+
+DrumRig::DrumRig(const Case& c, State state, engine::Simulation simulation)
+    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
+  const DrumOptions& drum = rig_case().rig.drum;
+  const double turn = 2 * std::numbers::pi / drum.speed;
+  Phase starting = Lasting("starting", drum.start_turns * turn);
+  starting.begin = [this] { Turn(); };
+  SetPhases({starting, Lasting("turning", drum.turns * turn)},
+            TestTime(c, FilledHeight(c, vessel())));
+}
+
+void DrumRig::Turn() {
+  const engine::MotionStep motion{.time = scene().time(),
+                                  .angular_velocity = {0, rig_case().rig.drum.speed, 0}};
+  for (int wall = 0; wall < 3; ++wall) scene().SetMotion(wall, {motion});
+}
+
+std::optional<PhaseEnd> DrumRig::Look() {
+  if (phase_name() != "turning") return std::nullopt;
+  const std::vector<engine::Particle>& grains = view().particles;
+  const auto along = [](const auto& p) { return p.position.x; };
+  const double low = MassQuantile(grains, 0.02, along);
+  const double high = MassQuantile(grains, 0.98, along);
+  const auto slope = SlopeOf(SurfaceOf(
+      grains,
+      {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()}));
+  if (slope) memory().angles.push_back(SlopeAngle(-*slope));
+  return std::nullopt;
+}
+
+std::vector<engine::Wall> DrumRig::Walls(const Case& c, double) {
+  const DrumOptions& drum = c.rig.drum;
   const double radius = drum.diameter / 2;
   const auto lid = [&](double y) {
     return engine::Disc{.center = {0, y, radius}, .normal = {0, 1, 0}, .radius = radius};
@@ -29,71 +62,37 @@ std::vector<engine::Wall> Walls(const HeapCase& c, double) {
           {.name = "back", .shape = lid(drum.width / 2), .material = kWalls}};
 }
 
-}  // namespace
-
-DrumRig::DrumRig(const HeapCase& c)
-    : PhasedRig(c, VesselOf(c), [&c](double height) { return Walls(c, height); }) {
-  Plan();
+Vessel DrumRig::VesselOf(const Case& c) {
+  const double radius = c.rig.drum.diameter / 2;
+  return BoxVessel({0, 0, kBoxFloor * radius}, kBoxWidth * radius, c.rig.drum.width);
 }
 
-DrumRig::DrumRig(const HeapCase& c, const PhasedState& state, engine::Simulation simulation)
-    : PhasedRig(c, VesselOf(c), state, std::move(simulation)) {
-  Plan();
-}
-
-void DrumRig::Plan() {
-  const DrumOptions& drum = heap_case().rig->drum;
-  const double turn = 2 * std::numbers::pi / drum.speed;
-  SetPhases({{.name = "starting", .duration = drum.start_turns * turn, .begin = [this] { Turn(); }},
-             {.name = "turning", .duration = drum.turns * turn}});
-}
-
-void DrumRig::Turn() {
-  const engine::MotionStep motion{.time = scene().time(),
-                                  .angular_velocity = {0, heap_case().rig->drum.speed, 0}};
-  for (int wall = 0; wall < 3; ++wall) scene().SetMotion(wall, {motion});
-}
-
-// The series holds one angle a look.
-bool DrumRig::Look() {
-  if (phase_name() != "turning") return false;
-  const std::vector<engine::Particle> grains = simulation().Particles();
-  const auto along = [](const auto& p) { return p.position.x; };
-  const double low = MassQuantile(grains, 0.02, along);
-  const double high = MassQuantile(grains, 0.98, along);
-  const auto slope = SlopeOf(SurfaceOf(
-      grains,
-      {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()}));
-  if (slope) memory().series.push_back(SlopeAngle(-*slope));
-  return false;
-}
-
-Vessel DrumRig::VesselOf(const HeapCase& c) {
-  const double radius = c.rig->drum.diameter / 2;
-  return BoxVessel({0, 0, kBoxFloor * radius}, kBoxWidth * radius, c.rig->drum.width);
-}
-
-void DrumRig::Validate(const HeapCase& c, base::Problems& problems) {
+void DrumRig::Validate(const Case& c, base::Problems& problems) {
   problems.Require(!c.filling.taps, "filling.taps", "are not of this rig: remove them");
   problems.Require(c.filling.kind == FillingKind::kDense, "filling.kind",
                    "must be \"dense\": a closed drum is not poured into");
-  const double most = kBoxHeight * c.rig->drum.diameter / 2;
-  const double filled = EstimateHeap(c).filled_height;
+  const DrumOptions& drum = c.rig.drum;
+  const double froude = drum.speed * drum.speed * drum.diameter / 2 / c.gravity;
+  problems.Require(froude < 1, "rig.speed", drum.speed,
+                   "rad/s is so fast that the powder turns with the drum: ω²R/g is " +
+                       base::ShortNumber(froude) + ", must be below 1");
+  const double most = kBoxHeight * c.rig.drum.diameter / 2;
+  const double filled = FilledHeight(c, VesselOf(c));
   problems.Require(filled < most, "powder.mass", c.powder.mass,
                    "is too much for the drum: it is filled to six tenths at most");
 }
 
-double DrumRig::Width(const HeapCase& c) { return c.rig->drum.diameter; }
+double DrumRig::Width(const Case& c) { return c.rig.drum.diameter; }
 
-double DrumRig::TestTime(const HeapCase& c, double) {
-  const DrumOptions& drum = c.rig->drum;
+double DrumRig::TestTime(const Case& c, double) {
+  const DrumOptions& drum = c.rig.drum;
   return (drum.start_turns + drum.turns) * 2 * std::numbers::pi / drum.speed;
 }
 
-std::vector<Observable> DrumRig::Observables() const {
-  const std::vector<double>& angles = state().series;
-  Observable angle{.name = "angle_deg"};
-  Observable spread{.name = "angle_sd_deg"};
+std::vector<Reading> DrumRig::Readings(GrainSpan) const {
+  const std::vector<double>& angles = memory().angles;
+  Reading angle{Observable::kAngle};
+  Reading spread{Observable::kAngleSd};
   if (angles.size() < 2) {
     angle.undefined = spread.undefined = "the surface has too few grains across";
     return {angle, spread};

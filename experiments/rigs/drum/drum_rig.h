@@ -1,35 +1,42 @@
 // The dynamic angle of repose in a turning drum: the mean slope of the middle half of the surface,
 // over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
 // towards -x.
-
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/rigs/phased/phased_rig.h"
+#include "experiments/rigs/phased/remembering_rig.h"
 
 namespace talus::rigs {
 
-class DrumRig : public PhasedRig {
+struct DrumMemory {
+  std::vector<double> angles{};  // of the surface at each look [deg]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("angles_deg", self.angles);
+  }
+};
+
+class DrumRig : public RememberingRig<DrumMemory> {
  public:
-  static constexpr const char* kObservables[] = {"angle_deg", "angle_sd_deg"};
+  static constexpr RigObservable kMeasured[] = {{Observable::kAngle, true}, {Observable::kAngleSd}};
 
-  explicit DrumRig(const HeapCase& heap_case);
-  DrumRig(const HeapCase& heap_case, const PhasedState& state, engine::Simulation simulation);
+  DrumRig(const Case& rig_case, State state, engine::Simulation simulation);
 
-  static Vessel VesselOf(const HeapCase& heap_case);
-  static void Validate(const HeapCase& heap_case, base::Problems& problems);
-  static double Width(const HeapCase& heap_case);
-  static double TestTime(const HeapCase& heap_case, double filled_height);
-
-  std::vector<Observable> Observables() const override;
+  static Vessel VesselOf(const Case& rig_case);
+  static std::vector<engine::Wall> Walls(const Case& rig_case, double height);
+  static void Validate(const Case& rig_case, base::Problems& problems);
+  static double Width(const Case& rig_case);
+  static double TestTime(const Case& rig_case, double filled_height);
 
  protected:
-  bool Look() override;
+  std::optional<PhaseEnd> Look() override;
+  std::vector<Reading> Readings(GrainSpan grains) const override;
 
  private:
-  void Plan();
   void Turn();
 };
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/scene/scene.h"
+#include "engine/scene.h"
 
 namespace talus::rigs {
 

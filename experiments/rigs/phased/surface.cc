@@ -47,8 +47,8 @@ std::optional<double> SlopeOf(std::span<const SurfacePoint> surface) {
   return xz / xx;
 }
 
-Observable AngleOf(const std::string& name, std::span<const SurfacePoint> surface) {
-  Observable angle{.name = name};
+Reading AngleOf(Observable observable, std::span<const SurfacePoint> surface) {
+  Reading angle{observable};
   if (const auto slope = SlopeOf(surface)) {
     angle.value = SlopeAngle(std::abs(*slope));
   } else {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene.h"
-#include "experiments/rigs/rig.h"
+#include "engine/scene.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::rigs {
 
@@ -30,7 +30,7 @@ std::vector<SurfacePoint> SurfaceOf(std::span<const engine::Particle> grains,
 std::optional<double> SlopeOf(std::span<const SurfacePoint> surface);
 
 // The angle of the slope as an observable, whichever side is the higher [deg].
-Observable AngleOf(const std::string& name, std::span<const SurfacePoint> surface);
+Reading AngleOf(Observable observable, std::span<const SurfacePoint> surface);
 
 // Below which `share` of the grains' volume has its place along an axis; 0 without grains.
 double MassQuantile(std::span<const engine::Particle> grains, double share,

@@ -2,64 +2,68 @@
 
 #include <utility>
 
-namespace talus::rigs {
-namespace {
+#include "base/error.h"
+#include "base/text/number_text.h"
+#include "experiments/rigs/case/materials.h"
 
-std::vector<engine::Wall> Walls(const HeapCase& c, double height) {
-  const double radius = c.rig->tapped_density.diameter / 2;
+namespace talus::rigs {
+namespace {}  // namespace
+
+TappedDensityRig::TappedDensityRig(const Case& c, State state, engine::Simulation simulation)
+    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
+  Phase settling = Resting("settling", c.rules.settling);
+  settling.end = [this] { MeasureTapped(); };
+  SetPhases({Tapping(c.rig.tapped_density.taps), settling}, TestTime(c, FilledHeight(c, vessel())));
+}
+
+std::vector<engine::Wall> TappedDensityRig::Walls(const Case& c, double height) {
+  const double radius = c.rig.tapped_density.diameter / 2;
   return {{.name = "cylinder",
            .shape = engine::OpenCylinder{.base = {}, .radius = radius, .length = 1.2 * height},
            .material = kWalls},
           {.name = "floor", .shape = engine::Plane{}, .material = kFloor}};
 }
 
-}  // namespace
-
-TappedDensityRig::TappedDensityRig(const HeapCase& c)
-    : PhasedRig(c, VesselOf(c), [&c](double height) { return Walls(c, height); }) {
-  Plan();
+// Beds of equal spheres reach 0.64 and no packing of them more than 0.74; those of several sizes
+// little more.
+void TappedDensityRig::MeasureTapped() {
+  constexpr double kDensest = 0.8;
+  memory().solid_fraction = BedNow().solid_fraction;
+  if (memory().solid_fraction <= kDensest) return;
+  throw base::Error("the grains are pressed into each other: a solid fraction of " +
+                    base::ShortNumber(memory().solid_fraction) + " after the taps, above the " +
+                    base::ShortNumber(kDensest) +
+                    " that powders reach; lower taps.height or raise youngs_modulus");
 }
 
-TappedDensityRig::TappedDensityRig(const HeapCase& c, const PhasedState& state,
-                                   engine::Simulation simulation)
-    : PhasedRig(c, VesselOf(c), state, std::move(simulation)) {
-  Plan();
-}
-
-void TappedDensityRig::Plan() {
-  Phase settling = Settling();
-  settling.end = [this] { memory().numbers = {BedNow().solid_fraction}; };
-  SetPhases({Tapping(heap_case().rig->tapped_density.taps), settling});
-}
-
-Vessel TappedDensityRig::VesselOf(const HeapCase& c) {
-  const double diameter = c.rig->tapped_density.diameter;
+Vessel TappedDensityRig::VesselOf(const Case& c) {
+  const double diameter = c.rig.tapped_density.diameter;
   engine::FillRegion region;
   region.diameter = diameter;
   return {.region = region, .area = region.Area(), .across = diameter};
 }
 
-void TappedDensityRig::Validate(const HeapCase& c, base::Problems& problems) {
+void TappedDensityRig::Validate(const Case& c, base::Problems& problems) {
   problems.Require(!c.filling.taps, "filling.taps",
                    "are not of this rig: rig.taps are, and the density is measured before and "
                    "after them");
 }
 
-double TappedDensityRig::Width(const HeapCase& c) { return c.rig->tapped_density.diameter; }
+double TappedDensityRig::Width(const Case& c) { return c.rig.tapped_density.diameter; }
 
-double TappedDensityRig::TestTime(const HeapCase& c, double) {
-  const TapRule& taps = c.rig->tapped_density.taps;
+double TappedDensityRig::TestTime(const Case& c, double) {
+  const TapRule& taps = c.rig.tapped_density.taps;
   return taps.count * taps.interval;
 }
 
-std::vector<Observable> TappedDensityRig::Observables() const {
-  const double grain = heap_case().powder.material.density;
+std::vector<Reading> TappedDensityRig::Readings(GrainSpan) const {
+  const double grain = rig_case().powder.material.density;
   const double poured = state().bed.solid_fraction;
-  const double tapped = state().numbers.at(0);
-  return {{.name = "poured_density_kg_per_m3", .value = grain * poured},
-          {.name = "tapped_density_kg_per_m3", .value = grain * tapped},
-          {.name = "hausner_ratio", .value = tapped / poured},
-          {.name = "tapped_solid_fraction", .value = tapped}};
+  const double tapped = memory().solid_fraction;
+  return {{Observable::kPouredDensity, grain * poured},
+          {Observable::kTappedDensity, grain * tapped},
+          {Observable::kHausnerRatio, tapped / poured},
+          {Observable::kTappedSolidFraction, tapped}};
 }
 
 }  // namespace talus::rigs

@@ -2,35 +2,45 @@
 //
 //   ρ = m / (A h)     h = 2 (height of the centre of mass above the floor), the level of an even
 //   bed
-
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/rigs/phased/phased_rig.h"
+#include "experiments/rigs/phased/remembering_rig.h"
 
 namespace talus::rigs {
 
-class TappedDensityRig : public PhasedRig {
+struct TappedDensityMemory {
+  double solid_fraction = 0;  // after the taps [-]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("solid_fraction", self.solid_fraction);
+  }
+};
+
+class TappedDensityRig : public RememberingRig<TappedDensityMemory> {
  public:
-  static constexpr const char* kObservables[] = {"poured_density_kg_per_m3",
-                                                 "tapped_density_kg_per_m3", "hausner_ratio",
-                                                 "tapped_solid_fraction"};
+  static constexpr RigObservable kMeasured[] = {{Observable::kPouredDensity},
+                                                {Observable::kTappedDensity, true},
+                                                {Observable::kHausnerRatio},
+                                                {Observable::kTappedSolidFraction}};
 
-  explicit TappedDensityRig(const HeapCase& heap_case);
-  TappedDensityRig(const HeapCase& heap_case, const PhasedState& state,
-                   engine::Simulation simulation);
+  TappedDensityRig(const Case& rig_case, State state, engine::Simulation simulation);
 
-  static Vessel VesselOf(const HeapCase& heap_case);
-  static void Validate(const HeapCase& heap_case, base::Problems& problems);
-  static double Width(const HeapCase& heap_case);
-  static double TestTime(const HeapCase& heap_case, double filled_height);
+  static Vessel VesselOf(const Case& rig_case);
+  static std::vector<engine::Wall> Walls(const Case& rig_case, double height);
+  static void Validate(const Case& rig_case, base::Problems& problems);
+  static double Width(const Case& rig_case);
+  static double TestTime(const Case& rig_case, double filled_height);
 
-  std::vector<Observable> Observables() const override;
+ protected:
+  std::vector<Reading> Readings(GrainSpan grains) const override;
 
  private:
-  void Plan();
+  void MeasureTapped();
 };
 
 }  // namespace talus::rigs

@@ -5,19 +5,68 @@
 #include <numbers>
 #include <utility>
 
+#include "experiments/rigs/case/materials.h"
+
 namespace talus::rigs {
 namespace {
 
 constexpr int kGate = 0;
 constexpr double kSlid = 0.5;  // mean diameters
 
-// In PhasedState::numbers.
-enum Number { kStartCentre, kAngle, kMassLeft, kNumNumbers };
-
 double Degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
-std::vector<engine::Wall> Walls(const HeapCase& c, double height) {
-  const TiltingBoxOptions& box = c.rig->tilting_box;
+}  // namespace
+
+TiltingBoxRig::TiltingBoxRig(const Case& c, State state, engine::Simulation simulation)
+    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
+  const TiltingBoxOptions& box = rig_case().rig.tilting_box;
+  std::vector<Phase> phases;
+  if (box.lip_height) {
+    phases.push_back(Resting("opening", c.rules.heap));
+    phases.back().begin = [this] { scene().RemoveWall(kGate); };
+  }
+  phases.push_back(Lasting("tilting", box.largest_angle / box.rate));
+  phases.back().begin = [this] { Tilt(); };
+  SetPhases(std::move(phases), TestTime(c, FilledHeight(c, vessel())));
+}
+
+void TiltingBoxRig::Tilt() {
+  memory().start_centre = Centre();
+  const double rate = rig_case().rig.tilting_box.rate;
+  scene().SetGravityTurns({{.time = scene().time(), .angular_velocity = {0, -rate, 0}}});
+}
+
+double TiltingBoxRig::Centre() const {
+  const double left = memory().mass_left;
+  double mass = left;
+  double moment = left * rig_case().rig.tilting_box.length / 2;
+  for (const engine::Particle& p : view().particles) {
+    const double m = MassOf({&p, 1});
+    mass += m;
+    moment += m * p.position.x;
+  }
+  return moment / mass;
+}
+
+std::optional<PhaseEnd> TiltingBoxRig::Look() {
+  const TiltingBoxOptions& box = rig_case().rig.tilting_box;
+  const double beyond = box.length / 2 + 2 * simulation().LargestRadius();
+  std::vector<std::int64_t> leaving;
+  for (const engine::Particle& p : view().particles) {
+    if (p.position.x <= beyond) continue;
+    memory().mass_left += MassOf({&p, 1});
+    leaving.push_back(p.id);
+  }
+  Remove(leaving);
+  if (phase_name() != "tilting") return std::nullopt;
+  const bool slid = Centre() - memory().start_centre > kSlid * MeanDiameter();
+  if (!slid) return std::nullopt;
+  memory().angle = box.rate * (simulation().time() - phase_start());
+  return PhaseEnd::kDone;
+}
+
+std::vector<engine::Wall> TiltingBoxRig::Walls(const Case& c, double height) {
+  const TiltingBoxOptions& box = c.rig.tilting_box;
   const double lip = box.lip_height.value_or(0);
   const double gate = std::max(1.5 * height, 2 * lip);
   const auto across = [&](double low, double high) {
@@ -42,89 +91,29 @@ std::vector<engine::Wall> Walls(const HeapCase& c, double height) {
   return walls;
 }
 
-}  // namespace
-
-TiltingBoxRig::TiltingBoxRig(const HeapCase& c)
-    : PhasedRig(c, VesselOf(c), [&c](double height) { return Walls(c, height); }) {
-  Plan();
+Vessel TiltingBoxRig::VesselOf(const Case& c) {
+  return BoxVessel({}, c.rig.tilting_box.length, c.rig.tilting_box.width);
 }
 
-TiltingBoxRig::TiltingBoxRig(const HeapCase& c, const PhasedState& state,
-                             engine::Simulation simulation)
-    : PhasedRig(c, VesselOf(c), state, std::move(simulation)) {
-  Plan();
-}
+void TiltingBoxRig::Validate(const Case&, base::Problems&) {}
 
-void TiltingBoxRig::Plan() {
-  const TiltingBoxOptions& box = heap_case().rig->tilting_box;
-  memory().numbers.resize(kNumNumbers, 0);
-  std::vector<Phase> phases;
-  if (box.lip_height) {
-    phases.push_back({.name = "opening",
-                      .ends_with = PhaseEnd::kAtRest,
-                      .rest = heap_case().rules.heap,
-                      .begin = [this] { scene().RemoveWall(kGate); }});
-  }
-  phases.push_back(
-      {.name = "tilting", .duration = box.largest_angle / box.rate, .begin = [this] { Tilt(); }});
-  SetPhases(std::move(phases));
-}
-
-void TiltingBoxRig::Tilt() {
-  memory().numbers[kStartCentre] = Centre();
-  const double rate = heap_case().rig->tilting_box.rate;
-  scene().SetGravityTurns({{.time = scene().time(), .angular_velocity = {0, -rate, 0}}});
-}
-
-double TiltingBoxRig::Centre() const {
-  const double left = state().numbers[kMassLeft];
-  double mass = left;
-  double moment = left * heap_case().rig->tilting_box.length / 2;
-  for (const engine::Particle& p : simulation().Particles()) {
-    const double m = MassOf({&p, 1});
-    mass += m;
-    moment += m * p.position.x;
-  }
-  return moment / mass;
-}
-
-bool TiltingBoxRig::Look() {
-  const TiltingBoxOptions& box = heap_case().rig->tilting_box;
-  const double beyond = box.length / 2 + 2 * simulation().LargestRadius();
-  memory().num_left += scene().RemoveIf([&](const engine::Particle& p) {
-    const bool leaves = p.position.x > beyond;
-    if (leaves) memory().numbers[kMassLeft] += MassOf({&p, 1});
-    return leaves;
-  });
-  if (phase_name() != "tilting") return false;
-  const bool slid = Centre() - state().numbers[kStartCentre] > kSlid * MeanDiameter();
-  if (slid) memory().numbers[kAngle] = box.rate * (simulation().time() - phase_start());
-  return slid;
-}
-
-Vessel TiltingBoxRig::VesselOf(const HeapCase& c) {
-  return BoxVessel({}, c.rig->tilting_box.length, c.rig->tilting_box.width);
-}
-
-void TiltingBoxRig::Validate(const HeapCase&, base::Problems&) {}
-
-double TiltingBoxRig::Width(const HeapCase& c) { return c.rig->tilting_box.length; }
+double TiltingBoxRig::Width(const Case& c) { return c.rig.tilting_box.length; }
 
 // Most powders slide at half of the usual largest angle.
-double TiltingBoxRig::TestTime(const HeapCase& c, double) {
-  return 0.5 * c.rig->tilting_box.largest_angle / c.rig->tilting_box.rate;
+double TiltingBoxRig::TestTime(const Case& c, double) {
+  return 0.5 * c.rig.tilting_box.largest_angle / c.rig.tilting_box.rate;
 }
 
-std::vector<Observable> TiltingBoxRig::Observables() const {
-  const double angle = state().numbers[kAngle];
-  const double largest = Degrees(heap_case().rig->tilting_box.largest_angle);
-  Observable slid{.name = "angle_deg"};
+std::vector<Reading> TiltingBoxRig::Readings(GrainSpan) const {
+  const double angle = memory().angle;
+  const double largest = Degrees(rig_case().rig.tilting_box.largest_angle);
+  Reading slid{Observable::kAngle};
   if (angle > 0) {
     slid.value = Degrees(angle);
   } else {
     slid.undefined = "nothing slid up to " + std::to_string(std::lround(largest)) + " deg";
   }
-  return {slid, {.name = "mass_left_kg", .value = state().numbers[kMassLeft]}};
+  return {slid, {Observable::kMassLeft, memory().mass_left}};
 }
 
 }  // namespace talus::rigs

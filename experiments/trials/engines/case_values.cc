@@ -5,6 +5,8 @@
 #include "base/random.h"
 #include "base/text/number_text.h"
 #include "engine/scene/size_distribution.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::trials {
@@ -36,8 +38,8 @@ void AddMaterial(const std::string& prefix, const engine::Material& material, Sc
   });
 }
 
-void AddDevice(const rigs::HeapCase& c, Scalars& scalars) {
-  const rigs::Device& device = c.device;
+void AddDevice(const rigs::Case& c, Scalars& scalars) {
+  const rigs::LiftedTubeOptions& device = c.rig.lifted_tube;
   const std::pair<const char*, double> kLengths[] = {
       {"tube_inner_diameter", device.tube_inner_diameter},
       {"tube_inner_radius", device.tube_inner_diameter / 2},
@@ -47,8 +49,8 @@ void AddDevice(const rigs::HeapCase& c, Scalars& scalars) {
       {"lift_velocity", device.lift_velocity}};
   for (const auto& [name, value] : kLengths) scalars[name] = base::ExactNumber(value);
   const engine::Material& powder = c.powder.material;
-  AddMaterial("tube_", device.tube_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
-  AddMaterial("plate_", device.plate_material.value_or(rigs::WallMaterial{}).Over(powder), scalars);
+  AddMaterial("tube_", c.materials.walls.value_or(rigs::WallMaterial{}).Over(powder), scalars);
+  AddMaterial("plate_", c.materials.floor.value_or(rigs::WallMaterial{}).Over(powder), scalars);
 }
 
 // {{ rig_length }}, {{ rig_taps_count }}, …: the keys of the rig's kind.
@@ -71,10 +73,10 @@ struct RigValues {
 };
 
 // The powder as it is simulated: scaled, and counted.
-void AddSizes(const rigs::HeapCase& c, Scalars& scalars) {
+void AddSizes(const rigs::Case& c, Scalars& scalars) {
   const double factor = c.coarse_graining.scale_factor;
   const engine::SizeCurve curve(c.powder.sizes);
-  const rigs::HeapSize size = rigs::EstimateHeap(c);
+  const rigs::CaseSize size = rigs::EstimateCase(c);
   scalars["scale_factor"] = base::ExactNumber(factor);
   scalars["smallest_diameter"] = base::ExactNumber(factor * curve.smallest());
   scalars["largest_diameter"] = base::ExactNumber(factor * curve.largest());
@@ -82,16 +84,18 @@ void AddSizes(const rigs::HeapCase& c, Scalars& scalars) {
   scalars["num_grains"] = std::to_string(size.num_grains);
   scalars["mass"] = base::ExactNumber(c.powder.mass);
   scalars["filled_height"] = base::ExactNumber(size.filled_height);
-  scalars["tube_length"] = base::ExactNumber(c.device.tube_length.value_or(size.filled_height));
+  scalars["tube_length"] =
+      base::ExactNumber(c.rig.lifted_tube.tube_length.value_or(size.filled_height));
   // The tube is lifted by little more than the powder's height.
-  scalars["box_height"] = base::ExactNumber(4 * c.device.tube_length.value_or(size.filled_height) +
-                                            2 * c.device.plate_diameter);
+  scalars["box_height"] =
+      base::ExactNumber(4 * c.rig.lifted_tube.tube_length.value_or(size.filled_height) +
+                        2 * c.rig.lifted_tube.plate_diameter);
   scalars["time_step"] = base::ExactNumber(size.time_step);
 }
 
 }  // namespace
 
-TemplateValues CaseValues(const rigs::HeapCase& c) {
+TemplateValues CaseValues(const rigs::Case& c) {
   TemplateValues values;
   Scalars& scalars = values.scalars;
   AddMaterial("", c.powder.material, scalars);
@@ -104,7 +108,7 @@ TemplateValues CaseValues(const rigs::HeapCase& c) {
   scalars["rest_time"] = base::ExactNumber(c.rules.heap.max_time);
   // For decks that cannot calculate.
   const double lifted = c.rules.settling.max_time +
-                        1.2 * rigs::EstimateHeap(c).filled_height / c.device.lift_velocity;
+                        1.2 * rigs::EstimateCase(c).filled_height / c.rig.lifted_tube.lift_velocity;
   scalars["lifted_time"] = base::ExactNumber(lifted);
   scalars["end_time"] = base::ExactNumber(lifted + c.rules.heap.max_time);
   scalars["seed"] = std::to_string(PlainSeed(c.seed));
@@ -112,15 +116,15 @@ TemplateValues CaseValues(const rigs::HeapCase& c) {
   scalars["threads"] = std::to_string(c.threads);
   AddSizes(c, scalars);
   AddDevice(c, scalars);
-  if (c.rig) rigs::RigOptions::Visit(*c.rig, RigValues{scalars, "rig_"});
+  rigs::RigOptions::Visit(c.rig, RigValues{scalars, "rig_"});
   values.tables["grains"] = {.columns = {"number", "x", "y", "z", "diameter", "radius"},
                              .rows = {}};
   return values;
 }
 
-void AddGrains(const rigs::HeapCase& c, TemplateValues& values) {
+void AddGrains(const rigs::Case& c, TemplateValues& values) {
   TemplateTable& table = values.tables.at("grains");
-  rigs::HeapCase dense = c;  // another engine gets its grains in place
+  rigs::Case dense = c;  // another engine gets its grains in place
   dense.filling = {};
   const rigs::FilledScene made = rigs::FillVessel(dense, rigs::EntryOf(dense).vessel(dense));
   // The exact number, which the estimate may miss by one.

@@ -3,16 +3,16 @@
 
 #include <string>
 
-#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/rigs/case/case.h"
 #include "experiments/trials/engines/template_text.h"
 
 namespace talus::trials {
 
 // Every value, in SI. The table `grains` has its columns but no rows: see AddGrains.
-TemplateValues CaseValues(const rigs::HeapCase& heap_case);
+TemplateValues CaseValues(const rigs::Case& rig_case);
 
 // The rows of `grains`: the powder as our own engine fills it into the tube for this seed. Takes a
 // while for many grains, so only where a template asks for it.
-void AddGrains(const rigs::HeapCase& heap_case, TemplateValues& values);
+void AddGrains(const rigs::Case& rig_case, TemplateValues& values);
 
 }  // namespace talus::trials

@@ -14,7 +14,10 @@
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
-#include "experiments/rigs/rig_list.h"
+#include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/lifted_tube/masses.h"
+#include "experiments/rigs/load_case.h"
+#include "experiments/rigs/observables/observable.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
@@ -38,8 +41,8 @@ constexpr const char* kMpiLauncher = "mpirun";
 constexpr const char* kCommandFile = ".command.json";
 constexpr const char* kResult = "result.json";
 
-std::string CaseText(const rigs::HeapCase& heap_case, const CommandOptions& options) {
-  const CommandCase command_case{.heap = heap_case, .engine = options};
+std::string CaseText(const rigs::Case& rig_case, const CommandOptions& options) {
+  const CommandCase command_case{.heap = rig_case, .engine = options};
   return base::JsonText(base::ToJson(command_case), 2) + "\n";
 }
 
@@ -51,17 +54,23 @@ struct Measured {
   std::vector<journal::MetricRecord> scalars{};
 };
 
+journal::MetricRecord RecordOf(rigs::Observable observable, double value) {
+  const std::string name = rigs::MetricName(observable);
+  return {.name = name, .value = value, .unit = rigs::UnitOfObservable(name), .undefined = ""};
+}
+
 // The mass that is filled in is the case's, whatever the other engine's grains come to.
-std::vector<journal::MetricRecord> MassesOf(const rigs::HeapCase& heap_case,
+std::vector<journal::MetricRecord> MassesOf(const rigs::Case& rig_case,
                                             const std::vector<base::Sphere>& heap) {
   double volume = 0;
   for (const base::Sphere& s : heap) {
     volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
   }
-  const double on_plate = volume * heap_case.powder.material.density;
-  const double fallen = std::max(0.0, heap_case.powder.mass - on_plate);
-  return {{.name = "mass_on_plate_kg", .value = on_plate, .unit = "kg", .undefined = ""},
-          {.name = "mass_fallen_kg", .value = fallen, .unit = "kg", .undefined = ""}};
+  const double on_plate = volume * rig_case.powder.material.density;
+  const double filled = std::max(rig_case.powder.mass, on_plate);
+  const double fallen = rigs::Fallen({.filled = filled, .present = on_plate, .on_plate = on_plate});
+  return {RecordOf(rigs::Observable::kMassOnPlate, on_plate),
+          RecordOf(rigs::Observable::kMassFallen, fallen)};
 }
 
 void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
@@ -73,13 +82,13 @@ void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
   base::WriteFileAtomically(path, engine::VtpOf(particles, 0), Outlives::kProgram);
 }
 
-Measured MeasureSpheres(const CommandOptions& options, const rigs::HeapCase& heap_case,
+Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_case,
                         const fs::path& file, const fs::path& folder) {
   const auto spheres =
       OnOurPlate(options, imaging::ReadSpheres(file, {.length_unit = options.length_unit}));
-  const bool on_plate = rigs::KindOf(heap_case) == rigs::RigKind::kLiftedTube;
+  const bool on_plate = rig_case.rig.kind == rigs::RigKind::kLiftedTube;
   const double plate =
-      heap_case.frame ? heap_case.frame->plate_diameter : heap_case.device.plate_diameter;
+      rig_case.frame ? rig_case.frame->plate_diameter : rig_case.rig.lifted_tube.plate_diameter;
   const auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +
@@ -88,26 +97,25 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::HeapCase& hea
   }
   Measured measured{
       .files = {}, .profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
-  if (heap_case.frame) {
+  if (rig_case.frame) {
     measured.profile =
-        imaging::ProjectHeap(heap, *heap_case.frame, rigs::NumViewsOf(heap_case)).image;
+        imaging::ProjectHeap(heap, *rig_case.frame, rigs::NumViewsOf(rig_case)).image;
     base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
                               Outlives::kProgram);
   }
   if (file.filename() != "heap.vtp") WriteHeap(folder / "heap.vtp", heap);
-  if (on_plate) measured.scalars = MassesOf(heap_case, heap);
+  if (on_plate) measured.scalars = MassesOf(rig_case, heap);
   return measured;
 }
 
-Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
-                      const fs::path& folder) {
+Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs::path& folder) {
   Measured measured{.files = {}, .profile = imaging::ReadGrayImage(file)};
-  if (!heap_case.frame) {
+  if (!rig_case.frame) {
     throw base::Error(
         "left an image, but the experiment has numbers only; leave scalars.json or "
         "scalars.csv");
   }
-  const imaging::Frame& frame = *heap_case.frame;
+  const imaging::Frame& frame = *rig_case.frame;
   if (measured.profile.width != frame.width || measured.profile.height != frame.height) {
     throw base::Error("left the image " + file.filename().string() + " of " +
                       std::to_string(measured.profile.width) + " x " +
@@ -121,14 +129,14 @@ Measured MeasureImage(const rigs::HeapCase& heap_case, const fs::path& file,
 
 // What the command left: spheres or an image where there is a frame, numbers, or both. The masses
 // of a lifted tube's heap follow from its spheres; a number that the command gives itself counts.
-Measured MeasureResult(const CommandOptions& options, const rigs::HeapCase& heap_case,
+Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case,
                        const fs::path& folder) {
   const std::vector<journal::MetricRecord> given = ReadScalars(folder);
   Measured measured;
-  if (heap_case.frame || given.empty()) {
+  if (rig_case.frame || given.empty()) {
     const fs::path file = FindResult(options, folder, kCommandFile);
-    measured = file.extension() == ".png" ? MeasureImage(heap_case, file, folder)
-                                          : MeasureSpheres(options, heap_case, file, folder);
+    measured = file.extension() == ".png" ? MeasureImage(rig_case, file, folder)
+                                          : MeasureSpheres(options, rig_case, file, folder);
     measured.files.push_back(file);
   }
   if (!given.empty()) measured.files.push_back(ScalarFile(folder));
@@ -140,7 +148,7 @@ Measured MeasureResult(const CommandOptions& options, const rigs::HeapCase& heap
   return measured;
 }
 
-// Of the files that were measured: what the command left has no checksum of its own.
+// The checksum of the files that were measured: what the command left has no checksum of its own.
 nlohmann::ordered_json ChecksumsOf(const std::vector<fs::path>& files, const fs::path& folder) {
   nlohmann::ordered_json checksums = nlohmann::ordered_json::object();
   for (const fs::path& file : files) {
@@ -167,7 +175,7 @@ bool IsAsMeasured(const fs::path& folder) {
   }
 }
 
-std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured,
+std::string ResultText(const rigs::Case& rig_case, const Measured& measured,
                        const fs::path& folder) {
   nlohmann::ordered_json result;
   result["kind"] = kKind;
@@ -175,24 +183,24 @@ std::string ResultText(const rigs::HeapCase& heap_case, const Measured& measured
   result["talus_version"] = base::Version();
   result["measured"] = ChecksumsOf(measured.files, folder);
   result["counts"] = {{"in_file", measured.num_spheres}, {"on_heap", measured.num_grains}};
-  result["conditions"] = {{"scale_factor", heap_case.coarse_graining.scale_factor},
-                          {"youngs_modulus_Pa", heap_case.powder.material.youngs_modulus},
-                          {"lift_velocity_m_per_s", heap_case.device.lift_velocity},
-                          {"seed", heap_case.seed}};
+  result["conditions"] = {{"scale_factor", rig_case.coarse_graining.scale_factor},
+                          {"youngs_modulus_Pa", rig_case.powder.material.youngs_modulus},
+                          {"lift_velocity_m_per_s", rig_case.rig.lifted_tube.lift_velocity},
+                          {"seed", rig_case.seed}};
   for (const journal::MetricRecord& scalar : measured.scalars) {
     if (scalar.undefined.empty()) result["observables"][scalar.name] = scalar.value;
   }
-  if (heap_case.frame) {
-    result["profile"] = base::ToJson(*heap_case.frame);
+  if (rig_case.frame) {
+    result["profile"] = base::ToJson(*rig_case.frame);
     result["profile"]["file"] = "profile.png";
-    result["profile"]["num_views"] = rigs::NumViewsOf(heap_case);
+    result["profile"]["num_views"] = rigs::NumViewsOf(rig_case);
   }
   return base::WithChecksum(base::JsonText(result, 2) + "\n");
 }
 
 // What the placeholders mean: the case's values, and how the command is to run.
-TemplateValues ValuesOf(const CommandOptions& options, const rigs::HeapCase& heap_case) {
-  TemplateValues values = CaseValues(heap_case);
+TemplateValues ValuesOf(const CommandOptions& options, const rigs::Case& rig_case) {
+  TemplateValues values = CaseValues(rig_case);
   values.scalars["ranks"] = std::to_string(options.ranks.value_or(1));
   return values;
 }
@@ -228,14 +236,14 @@ CommandEngine::CommandEngine(const CommandOptions& options)
   }
 }
 
-void CommandEngine::Prepare(const rigs::HeapCase& heap_case, const fs::path& folder) {
-  PrepareFolder(folder, "case.json", CaseText(heap_case, options_));
+void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
+  PrepareFolder(folder, "case.json", CaseText(rig_case, options_));
   if (IsComplete(folder)) return;
   for (const char* ended : {kDone, kResult}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
   RemoveScalars(folder);
-  TemplateValues values = ValuesOf(options_, heap_case);
-  if (templates_.Uses(options_, "grains")) AddGrains(heap_case, values);
+  TemplateValues values = ValuesOf(options_, rig_case);
+  if (templates_.Uses(options_, "grains")) AddGrains(rig_case, values);
   templates_.Fill(values, folder);
   std::vector<std::string> filled = FilledCommand(options_, values);
   if (IsLaunchedByUs(options_, templates_)) {
@@ -263,9 +271,9 @@ bool CommandEngine::IsComplete(const fs::path& folder) {
   return fs::exists(folder / kDone) && IsAsMeasured(folder);
 }
 
-TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::path& folder) {
-  const Measured measured = MeasureResult(options_, heap_case, folder);
-  base::WriteFileAtomically(folder / kResult, ResultText(heap_case, measured, folder),
+TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& folder) {
+  const Measured measured = MeasureResult(options_, rig_case, folder);
+  base::WriteFileAtomically(folder / kResult, ResultText(rig_case, measured, folder),
                             Outlives::kProgram);
   return {.profile = measured.profile,
           .num_steps = 0,
@@ -275,22 +283,21 @@ TrialOutput CommandEngine::Collect(const rigs::HeapCase& heap_case, const fs::pa
 }
 
 // Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
-bool CommandEngine::TakeOver(const rigs::HeapCase& heap_case, const fs::path& from,
-                             const fs::path& to) {
+bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
   const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / "case.json"));
-  if (!rigs::IsSameRun(made.heap, heap_case)) return false;
+  if (!rigs::IsSameRun(made.heap, rig_case)) return false;
   if (base::ToJson(made.engine) != base::ToJson(options_)) return false;
-  const bool same_frame = made.heap.frame == heap_case.frame;
+  const bool same_frame = made.heap.frame == rig_case.frame;
   if (!same_frame && FindResult(options_, from, kCommandFile).extension() == ".png") return false;
   CopyFolder(from, to);
-  base::WriteFileAtomically(to / "case.json", CaseText(heap_case, options_));
+  base::WriteFileAtomically(to / "case.json", CaseText(rig_case, options_));
   return true;
 }
 
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems) {
   const TemplateFolder templates(options.templates.value());
-  templates.Check(options, ValuesOf(options, check.heap_case), check.calibrated, problems);
+  templates.Check(options, ValuesOf(options, check.rig_case), check.calibrated, problems);
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),
@@ -309,11 +316,13 @@ CommandCase LoadCommandCase(const base::JsonFile& file) {
   auto command_case = base::LoadOptions<CommandCase>(file);
   engine::ReadSizeFile(command_case.heap.powder.sizes);
   base::Problems problems(file.path.string(), file.places);
-  problems.Require(command_case.heap.frame || command_case.heap.rig, "frame",
-                   "is missing: the result is measured in it");
+  rigs::ValidateCase(command_case.heap, problems);
+  problems.Require(
+      command_case.heap.frame || command_case.heap.rig.kind != rigs::RigKind::kLiftedTube, "frame",
+      "is missing: the result is measured in it");
   problems.Within("engine", [&] {
     CheckCommand(command_case.engine,
-                 {.heap_case = command_case.heap, .calibrated = {}, .elsewhere = false}, problems);
+                 {.rig_case = command_case.heap, .calibrated = {}, .elsewhere = false}, problems);
   });
   problems.ThrowIfAny();
   return command_case;

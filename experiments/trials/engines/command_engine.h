@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json/json_file.h"
 #include "experiments/trials/engines/command_options.h"
 #include "experiments/trials/engines/template_folder.h"
 #include "experiments/trials/engines/trial_engine.h"
@@ -17,12 +18,11 @@ class CommandEngine : public TrialEngine {
   // Throws ConfigError when the templates cannot be read or are not those of `options`' hash.
   explicit CommandEngine(const CommandOptions& options);
 
-  void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) override;
+  void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
-  TrialOutput Collect(const rigs::HeapCase& heap_case,
-                      const std::filesystem::path& folder) override;
-  bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+  TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                 const std::filesystem::path& to) override;
 
  private:
@@ -33,7 +33,7 @@ class CommandEngine : public TrialEngine {
 // What can be known to be wrong before anything runs: unknown placeholders, ones of `calibrated`
 // that nothing uses, and, unless `elsewhere` (a cluster's nodes), a program that is not there.
 struct CommandCheck {
-  const rigs::HeapCase& heap_case;  // any of the campaign
+  const rigs::Case& rig_case;  // any of the campaign
   std::vector<std::string> calibrated;
   bool elsewhere = false;
 };
@@ -42,12 +42,12 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
 
 // A case.json of such an engine: that of a heap test with one more key, `engine`.
 struct CommandCase {
-  rigs::HeapCase heap;
+  rigs::Case heap;
   CommandOptions engine;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    rigs::HeapCase::Visit(self.heap, visit);
+    rigs::Case::Visit(self.heap, visit);
     visit("engine", self.engine,
           {.required = true, .doc = "another engine: its templates, command and result"});
   }

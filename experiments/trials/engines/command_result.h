@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/sphere.h"
-#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/rigs/case/case.h"
 #include "experiments/trials/engines/command_options.h"
 
 namespace talus::trials {

@@ -1,15 +1,18 @@
 #include "experiments/trials/engines/command_scalars.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "experiments/rigs/rig.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::trials {
 namespace {
@@ -37,10 +40,28 @@ std::string Trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
 }
 
+// Nobody can tell which of the two values is meant.
+[[noreturn]] void ThrowTwice(const char* file, const std::string& name) {
+  throw base::Error("left " + std::string(file) + " with \"" + name.substr(0, kMostQuoted) +
+                    "\" twice");
+}
+
+// Refuses a key that stands there twice, of which the parser would keep the last.
+nlohmann::json ParseOnce(const std::string& text) {
+  std::set<std::string> names;
+  const auto look = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    if (depth != 1 || event != nlohmann::json::parse_event_t::key) return true;
+    const auto [name, is_new] = names.insert(parsed.get<std::string>());
+    if (!is_new) ThrowTwice(kJson, *name);
+    return true;
+  };
+  return nlohmann::json::parse(text, look, false);
+}
+
 }  // namespace
 
 std::vector<journal::MetricRecord> ParseJsonScalars(const std::string& text) {
-  const auto root = nlohmann::json::parse(text, nullptr, false);
+  const auto root = ParseOnce(text);
   if (!root.is_object()) throw base::Error("left a scalars.json that is no JSON object");
   std::vector<journal::MetricRecord> scalars;
   for (const auto& [name, value] : root.items()) {
@@ -56,10 +77,16 @@ std::vector<journal::MetricRecord> ParseJsonScalars(const std::string& text) {
 // A first line "name,value" is a head.
 std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text) {
   std::vector<journal::MetricRecord> scalars;
-  std::istringstream lines(text);
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::istringstream lines(text.substr(text.starts_with(kByteOrderMark) ? 3 : 0));
+  std::set<std::string> names;
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (Trimmed(line).empty()) continue;
+    if (std::ranges::count(line, '"') % 2 != 0) {
+      throw base::Error("left scalars.csv whose line " + std::to_string(number) +
+                        " has a quote that is not closed: " + line.substr(0, kMostQuoted));
+    }
     const auto comma = line.find(',');
     const std::string name = Trimmed(line.substr(0, comma));
     const std::string word = comma == std::string::npos ? "" : Trimmed(line.substr(comma + 1));
@@ -71,6 +98,7 @@ std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text) {
       throw base::Error("left scalars.csv whose line " + std::to_string(number) +
                         " is no name and number: " + line.substr(0, kMostQuoted));
     }
+    if (!names.insert(name).second) ThrowTwice(kCsv, name);
     scalars.push_back(ScalarOf(name, whole ? std::optional(value) : std::nullopt));
   }
   return scalars;

@@ -9,8 +9,9 @@
 #include "base/json/json_file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
-#include "experiments/rigs/lifted_tube/heap_result.h"
-#include "experiments/rigs/rig.h"
+#include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/load_case.h"
+#include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
@@ -20,7 +21,6 @@ namespace talus::trials {
 
 namespace {
 
-// Results of earlier versions have none.
 std::vector<journal::MetricRecord> ScalarsOf(const nlohmann::json& result) {
   std::vector<journal::MetricRecord> scalars;
   if (!result.contains("observables")) return scalars;
@@ -46,24 +46,24 @@ double CpuTimeOf(const nlohmann::json& result) {
 }
 
 // The finished run's grains in the frame, and the result as a run of this case would have it.
-void DrawAnew(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) {
+void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
   auto result = nlohmann::ordered_json::parse(text.value_or(""), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
   std::filesystem::remove(folder / "profile.png");
   result.erase("profile");
-  if (heap_case.frame) {
-    const int num_views = rigs::NumViewsOf(heap_case);
+  if (rig_case.frame) {
+    const int num_views = rigs::NumViewsOf(rig_case);
     const auto grains = imaging::ReadSpheres(folder / "heap.vtp", {});
     base::WriteFileAtomically(
         folder / "profile.png",
-        imaging::EncodePng(imaging::ProjectHeap(grains, *heap_case.frame, num_views).image));
-    result["profile"] = base::ToJson(*heap_case.frame);
+        imaging::EncodePng(imaging::ProjectHeap(grains, *rig_case.frame, num_views).image));
+    result["profile"] = base::ToJson(*rig_case.frame);
     result["profile"]["file"] = "profile.png";
     result["profile"]["num_views"] = num_views;
   }
-  result["input_hash"] = base::Hex(rigs::HeapCaseHash(heap_case));
-  base::WriteFileAtomically(folder / "case.json", rigs::HeapCaseText(heap_case));
+  result["input_hash"] = base::Hex(rigs::CaseHash(rig_case));
+  base::WriteFileAtomically(folder / "case.json", rigs::CaseText(rig_case));
   base::WriteFileAtomically(folder / "result.json",
                             base::WithChecksum(base::JsonText(result, 2) + "\n"));
 }
@@ -76,8 +76,8 @@ std::filesystem::path TalusEngine::ThisProgram() {
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 
-void TalusEngine::Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) {
-  PrepareFolder(folder, "case.json", rigs::HeapCaseText(heap_case));
+void TalusEngine::Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) {
+  PrepareFolder(folder, "case.json", rigs::CaseText(rig_case));
 }
 
 std::vector<std::string> TalusEngine::Command(const std::filesystem::path&) {
@@ -89,8 +89,7 @@ bool TalusEngine::IsComplete(const std::filesystem::path& folder) {
   return std::filesystem::exists(result) && base::IfWhole(base::ReadFile(result));
 }
 
-TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
-                                 const std::filesystem::path& folder) {
+TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
   if (!text) throw base::Error("left a result.json that does not match its checksum");
   const auto result = nlohmann::json::parse(*text, nullptr, false);
@@ -105,21 +104,21 @@ TrialOutput TalusEngine::Collect(const rigs::HeapCase& heap_case,
                      .scalars = ScalarsOf(result),
                      .cpu_time = CpuTimeOf(result),
                      .note = reason};
-  if (!heap_case.frame) return output;
+  if (!rig_case.frame) return output;
   output.profile = imaging::ReadGrayImage(folder / "profile.png");
-  if (output.profile.width != heap_case.frame->width ||
-      output.profile.height != heap_case.frame->height) {
+  if (output.profile.width != rig_case.frame->width ||
+      output.profile.height != rig_case.frame->height) {
     throw base::Error("left a profile.png of another size than the experiment's");
   }
   return output;
 }
 
-bool TalusEngine::TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+bool TalusEngine::TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                            const std::filesystem::path& to) {
-  if (!rigs::IsSameRun(rigs::LoadHeapCase(from / "case.json"), heap_case)) return false;
-  if (heap_case.frame && !std::filesystem::exists(from / "heap.vtp")) return false;
+  if (!rigs::IsSameRun(rigs::LoadCase(from / "case.json"), rig_case)) return false;
+  if (rig_case.frame && !std::filesystem::exists(from / "heap.vtp")) return false;
   CopyFolder(from, to);
-  DrawAnew(heap_case, to);
+  DrawAnew(rig_case, to);
   return true;
 }
 

@@ -14,12 +14,11 @@ class TalusEngine : public TrialEngine {
   // `program` is the talus to run; this one itself by default.
   explicit TalusEngine(std::filesystem::path program = ThisProgram());
 
-  void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) override;
+  void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
-  TrialOutput Collect(const rigs::HeapCase& heap_case,
-                      const std::filesystem::path& folder) override;
-  bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+  TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                 const std::filesystem::path& to) override;
 
   static std::filesystem::path ThisProgram();

@@ -26,7 +26,7 @@ class TemplateFolder {
   // Whether a value or table is used anywhere.
   bool Uses(const CommandOptions& engine, const std::string& name) const;
 
-  // Of names and contents; 16 hexadecimal digits.
+  // The hash of names and contents; 16 hexadecimal digits.
   std::string Hash() const;
 
   // Writes the filled files, with the permissions of their templates.

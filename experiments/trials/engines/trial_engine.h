@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/journal/records.h"
-#include "experiments/rigs/lifted_tube/heap_case.h"
+#include "experiments/rigs/case/case.h"
 #include "imaging/gray_image.h"
 
 namespace talus::trials {
@@ -28,7 +28,7 @@ class TrialEngine {
 
   // Makes the folder ready for the command. A folder that was made ready for the same case keeps
   // what is in it, a finished result or a checkpoint; any other is cleared first.
-  virtual void Prepare(const rigs::HeapCase& heap_case, const std::filesystem::path& folder) = 0;
+  virtual void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) = 0;
 
   // To be run in the folder.
   virtual std::vector<std::string> Command(const std::filesystem::path& folder) = 0;
@@ -38,13 +38,12 @@ class TrialEngine {
 
   // What a complete folder holds. Throws base::Error with the reason when it is no good: the trial
   // has failed then.
-  virtual TrialOutput Collect(const rigs::HeapCase& heap_case,
-                              const std::filesystem::path& folder) = 0;
+  virtual TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) = 0;
 
   // Makes `to` the complete folder of the case from a complete one of the same run, drawn in the
   // case's frame. False, and `to` is left alone, where `from` is of another run or what is in it
   // cannot be drawn anew.
-  virtual bool TakeOver(const rigs::HeapCase& heap_case, const std::filesystem::path& from,
+  virtual bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                         const std::filesystem::path& to) = 0;
 };
 

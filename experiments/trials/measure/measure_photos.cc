@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -9,11 +11,13 @@
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "base/json/json_text.h"
+#include "base/parallel_for.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/photos/overlay.h"
-#include "imaging/photos/photo_collection.h"
+#include "imaging/photos/photo_reading.h"
 #include "imaging/photos/photo_set.h"
 
 namespace talus::trials {
@@ -64,11 +68,12 @@ void WriteOverlays(const MeasureRequest& request, const imaging::Experiment& exp
   }
   const std::vector<std::pair<fs::path, const imaging::MeasuredView*>> files(views.begin(),
                                                                              views.end());
-  imaging::ForEachPhoto(files.size(), [&](std::size_t i) {
-    const auto& [path, view] = files[i];
+  const auto write = [&](std::int64_t i) {
+    const auto& [path, view] = files[static_cast<std::size_t>(i)];
     imaging::WritePng(path, imaging::OverlayOf(*view, experiment.aehp.frame, request.experiment,
                                                experiment.photo_pixel));
-  });
+  };
+  base::ParallelFor({.num_items = std::ssize(files), .item_work = imaging::kPhotoWork}, write);
 }
 
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
@@ -90,17 +95,20 @@ void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experi
                             base::JsonText(ExperimentJson(experiment), 2) + "\n");
 }
 
-void PrintSummary(const imaging::Experiment& experiment, const std::string& scale,
+void PrintSummary(const imaging::Experiment& experiment, const imaging::ExperimentOptions& options,
                   std::ostream& print) {
   const imaging::Frame& frame = experiment.aehp.frame;
   std::size_t num_views = 0;
   for (const imaging::MeasuredRun& run : experiment.runs) num_views += run.views.size();
   if (num_views > 0) {
-    print << "AEHP of " << experiment.runs.size() << " run(s), " << num_views << " photographs\n";
+    print << "AEHP of " << experiment.runs.size() << " run(s), " << num_views << " photographs";
+    if (!options.photos.empty()) print << " (pattern " << options.pattern << ")";
+    print << '\n';
   } else {
     print << "AEHP from a map\n";
   }
-  print << (scale.empty() ? "  plate " : "  table, by " + scale + ", of which count ")
+  print << (options.scale.empty() ? "  plate "
+                                  : "  table, by " + options.scale + ", of which count ")
         << frame.plate_diameter / frame.pixel_size << " px wide, " << frame.pixel_size * 1e6
         << " um a pixel, centre at column " << frame.center_x << ", baseline at row "
         << frame.baseline << " of " << frame.width << " x " << frame.height << " px\n"
@@ -128,16 +136,36 @@ void PrintWarnings(const imaging::Experiment& experiment, const fs::path& out,
   }
 }
 
-// Pictures of unusable photographs, under names that keep photographs of several folders apart.
-imaging::PictureSink KeepFaults(const fs::path& out) {
-  if (out.empty()) return {};
-  return [out](const fs::path& photo, const imaging::ColorImage& picture) {
-    const fs::path path = OverlayPath(
-        out, "fault_" + photo.parent_path().filename().string() + "_" + photo.stem().string());
-    fs::create_directories(path.parent_path());
-    imaging::WritePng(path, picture);
-    return path;
-  };
+// Draws what was found in the photographs that cannot be used, under names that keep photographs of
+// several folders apart. Says where the pictures are, a line each: one that is unreadable, black or
+// blank has none.
+std::string DrawUnusable(const MeasureRequest& request,
+                         const std::vector<imaging::UnusablePhoto>& photos) {
+  std::string said;
+  for (const imaging::UnusablePhoto& unusable : photos) {
+    const std::string name = "fault_" + unusable.photo.parent_path().filename().string() + "_" +
+                             unusable.photo.stem().string();
+    const fs::path path = OverlayPath(request.out, name);
+    try {
+      const imaging::ColorImage picture = imaging::FaultOf(unusable, request.experiment);
+      fs::create_directories(path.parent_path());
+      imaging::WritePng(path, picture);
+      said += "\n" + unusable.photo.string() + ": see " + path.string();
+    } catch (const base::ConfigError&) {
+      continue;  // the fault says why
+    }
+  }
+  return said;
+}
+
+imaging::Experiment MeasureOrDraw(const MeasureRequest& request) {
+  try {
+    return imaging::MeasureExperiment(request.experiment);
+  } catch (const imaging::UnusablePhotosError& error) {
+    throw base::ConfigError(error.what() + (request.out.empty()
+                                                ? "\nwith --out DIR what was found in each is drawn"
+                                                : DrawUnusable(request, error.photos())));
+  }
 }
 
 }  // namespace
@@ -151,6 +179,7 @@ void SetSource(const std::vector<fs::path>& inputs, bool is_map,
   }
   if (inputs.size() == 1 && fs::is_directory(inputs.front())) {
     options.photos = inputs.front();
+    if (options.pattern.empty()) options.pattern = imaging::RecognisePattern(inputs.front());
     return;
   }
   for (const fs::path& input : inputs) {
@@ -159,18 +188,20 @@ void SetSource(const std::vector<fs::path>& inputs, bool is_map,
                             ": is a folder among other inputs; give one folder, or photographs "
                             "one by one, or --choose-mass for one folder a mass");
   }
-  options.runs = GroupPhotos(inputs, options.pattern);
+  options.runs = GroupPhotos(
+      inputs, options.pattern.empty() ? imaging::RecognisePattern(inputs) : options.pattern);
 }
 
 void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {
   MeasureRequest complete = request;
   SetSource(request.inputs, request.is_map, complete.experiment);
-  const imaging::Experiment experiment =
-      imaging::MeasureExperiment(complete.experiment, KeepFaults(request.out));
-  PrintSummary(experiment, complete.experiment.scale, print);
+  const imaging::Experiment experiment = MeasureOrDraw(complete);
+  PrintSummary(experiment, complete.experiment, print);
   PrintWarnings(experiment, request.out, print);
   if (request.out.empty()) return;
   WriteFiles(complete, experiment);
+  const std::string drawn = DrawUnusable(complete, experiment.left_out);
+  if (!drawn.empty()) print << "left out:" << drawn << '\n';
   print << "written to " << request.out.string() << "/ (look at overlays/*.png)\n";
 }
 

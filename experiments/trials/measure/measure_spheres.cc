@@ -10,6 +10,7 @@
 #include "base/json/json_writer.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/heap/difference_map.h"

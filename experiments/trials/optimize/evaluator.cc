@@ -12,6 +12,8 @@
 namespace talus::trials {
 namespace {
 
+constexpr double kLargest = 1e100;  // squares of it are summed up
+
 std::string Excerpt(const std::string& text) {
   constexpr std::size_t kLongest = 200;
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + " …";
@@ -86,7 +88,8 @@ std::string Evaluator::TakeAnswer(const std::string& output,
     if (!answer["value"].is_number()) return "has a \"value\" that is no number";
     if (field_) return "is a \"value\", but the problem has a target image: take one of them away";
     observation.value = answer["value"].get<double>();
-    return "";
+    if (std::abs(observation.value) <= kLargest) return "";
+    return "has a \"value\" beyond 1e100, which no search can work with";
   }
   try {
     if (answer.contains("profile")) {

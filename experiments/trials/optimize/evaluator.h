@@ -9,8 +9,8 @@
 
 #include "experiments/trials/optimize/answer_image.h"
 #include "experiments/trials/optimize/optimize_problem.h"
-#include "optimizer/models/field_objective.h"
-#include "optimizer/strategies/strategy.h"
+#include "optimizer/outputs/field_objective.h"
+#include "optimizer/strategy/strategy.h"
 
 namespace talus::trials {
 

@@ -44,6 +44,7 @@ class Loop {
       EvaluateAndTell(batch);
       stopped = WhyStop(batch.empty());
     }
+    if (tally_.num_failed == num_told() && num_told() > 0) AllFailed();
     const std::string result =
         base::JsonText(OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped), 2) + "\n";
     if (folder_) folder_->WriteResult(result);
@@ -99,10 +100,12 @@ class Loop {
     }
     for (auto& one : running) one.wait();
     for (auto& one : running) Tell(one.get());
-    if (num_told() >= kHopeless && tally_.num_failed == num_told()) {
-      throw base::Error("the first " + std::to_string(num_told()) +
-                        " evaluations have all failed, the last with " + last_failure_);
-    }
+    if (num_told() >= kHopeless && tally_.num_failed == num_told()) AllFailed();
+  }
+
+  [[noreturn]] void AllFailed() const {
+    throw base::Error("the first " + std::to_string(num_told()) +
+                      " evaluations have all failed, the last with " + last_failure_);
   }
 
   void Tell(const Evaluated& evaluated) {

@@ -22,11 +22,8 @@ void OptimizeProblem::Validate(base::Problems& problems) const {
                      "parameters[" + std::to_string(i) + "].name",
                      "must not be \"seed\": the command is given one under that name");
   }
-  problems.Within("strategy", [&] {
-    strategy.ValidateFor(static_cast<int>(space.Free().size()), problems);
-    problems.Require(strategy.kind != optimizer::StrategyKind::kField || target, "kind",
-                     "\"field\" needs a target image; give \"target\", or use \"surrogate\"");
-  });
+  problems.Within("strategy",
+                  [&] { strategy.ValidateFor(static_cast<int>(space.Free().size()), problems); });
   problems.Require(evaluations >= 1, "evaluations", evaluations, "must be at least 1");
   problems.Require(workers >= 1 && workers <= 8, "workers", workers, "must be from 1 to 8");
   problems.Require(time_cap > 0, "time_cap", time_cap, "must be positive");

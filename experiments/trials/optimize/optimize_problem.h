@@ -9,7 +9,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "optimizer/space/parameter_space.h"
-#include "optimizer/strategies/make_strategy.h"
+#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::trials {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "optimizer/answer/answer.h"
+#include "optimizer/search/describe_minimum.h"
 
 namespace talus::trials {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "experiments/trials/optimize/optimize_problem.h"
-#include "optimizer/strategies/strategy.h"
+#include "optimizer/strategy/strategy.h"
 
 namespace talus::trials {
 

@@ -5,7 +5,8 @@
 #include "base/error.h"
 #include "engine/run/scene_run.h"
 #include "engine/scene/scene_json.h"
-#include "experiments/rigs/lifted_tube/heap_result.h"
+#include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_run.h"
 #include "experiments/trials/engines/command_engine.h"
 
@@ -34,20 +35,18 @@ void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
 }
 
 void SimulateTest(base::JsonFile input, const RunFolderOptions& options) {
-  const rigs::HeapCase heap_case = rigs::LoadHeapCase(input);
+  const rigs::Case rig_case = rigs::LoadCase(input);
   const RunJob job{
-      .kind = rigs::KindOf(heap_case) == rigs::RigKind::kLiftedTube
-                  ? "heap"
-                  : std::string(base::NameOf(rigs::KindOf(heap_case))),
-      .input_hash = rigs::HeapCaseHash(heap_case),
+      .kind = std::string(base::NameOf(rig_case.rig.kind)),
+      .input_hash = rigs::CaseHash(rig_case),
       .source = input.path,
       .input_name = "case.json",
-      .input = rigs::HeapCaseText(heap_case),
-      .checkpoint_interval = heap_case.checkpoint_interval,
-      .start = [&] { return std::make_unique<rigs::RigRun>(heap_case, options.folder); },
+      .input = rigs::CaseText(rig_case),
+      .checkpoint_interval = rig_case.checkpoint_interval,
+      .start = [&] { return std::make_unique<rigs::RigRun>(rig_case, options.folder); },
       .go_on =
           [&](const engine::RunCheckpoint& checkpoint) {
-            return std::make_unique<rigs::RigRun>(heap_case, options.folder, checkpoint);
+            return std::make_unique<rigs::RigRun>(rig_case, options.folder, checkpoint);
           }};
   DriveRun(job, options);
 }

@@ -63,12 +63,7 @@ Layout ReadLayout(const Bytes& bytes, std::size_t num_bytes, const std::string& 
 RawImage DecodeBmp(std::string_view data, const std::string& name) {
   const Bytes bytes(data, name);
   const Layout layout = ReadLayout(bytes, data.size(), name);
-  RawImage image{.width = layout.width,
-                 .height = layout.height,
-                 .channels = 3,
-                 .bits = 8,
-                 .gray = {},
-                 .samples = {}};
+  RawImage image{.width = layout.width, .height = layout.height, .channels = 3, .bits = 8};
   std::vector<std::uint16_t> samples;
   const std::size_t stride = (static_cast<std::size_t>(layout.width) * layout.bits + 31) / 32 * 4;
   for (int y = 0; y < layout.height; ++y) {

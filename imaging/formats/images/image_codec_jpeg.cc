@@ -36,7 +36,7 @@ struct Reader {
   ~Reader() { jpeg_destroy_decompress(&jpeg); }
 };
 
-// Of the first APP1 segment that holds EXIF.
+// The orientation in the first APP1 segment that holds EXIF.
 int OrientationOf(const jpeg_decompress_struct& jpeg) {
   constexpr std::string_view kExif("Exif\0\0", 6);
   for (const jpeg_marker_struct* marker = jpeg.marker_list; marker; marker = marker->next) {
@@ -63,9 +63,7 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
                  .height = static_cast<int>(jpeg.output_height),
                  .channels = 1,
                  .bits = 8,
-                 .orientation = OrientationOf(jpeg),
-                 .gray = {},
-                 .samples = {}};
+                 .orientation = OrientationOf(jpeg)};
   std::vector<JSAMPLE> row(jpeg.output_width);
   while (jpeg.output_scanline < jpeg.output_height) {
     JSAMPLE* rows[] = {row.data()};

@@ -49,25 +49,25 @@ class Cursor {
 
 }  // namespace
 
-RawImage DecodePgm(std::string_view bytes, const std::string& name) {
+RawImage DecodePgm(std::string_view bytes, const std::string& name, double white) {
   const bool is_text = bytes.starts_with("P2");
   Cursor cursor(bytes, name);
-  RawImage image;
+  RawImage image{.white = white};
   image.width = cursor.Number();
   image.height = cursor.Number();
-  const int white = cursor.Number();
+  const int most = cursor.Number();
   CheckImageSize({.width = image.width, .height = image.height, .num_bytes = bytes.size()}, name);
-  if (white < 1 || white > 65535) ThrowDamaged(name, "its white is not from 1 to 65535");
-  image.bits = white > 255 ? 16 : 8;
-  const std::int64_t full = white > 255 ? 65535 : 255;
+  if (most < 1 || most > 65535) ThrowDamaged(name, "its white is not from 1 to 65535");
+  image.bits = most > 255 ? 16 : 8;
+  const std::int64_t full = most > 255 ? 65535 : 255;
   if (!is_text) cursor.Byte();  // the one blank after the header
   std::vector<std::uint16_t> row(static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
     for (std::uint16_t& pixel : row) {
       int sample = is_text ? cursor.Number() : cursor.Byte();
-      if (!is_text && white > 255) sample = sample << 8 | cursor.Byte();
-      if (sample > white) ThrowDamaged(name, "a pixel is brighter than white");
-      pixel = static_cast<std::uint16_t>((sample * full + white / 2) / white);
+      if (!is_text && most > 255) sample = sample << 8 | cursor.Byte();
+      if (sample > most) ThrowDamaged(name, "a pixel is brighter than white");
+      pixel = static_cast<std::uint16_t>((sample * full + most / 2) / most);
     }
     image.AddRow(row);
   }

@@ -117,8 +117,8 @@ std::string Encode(const std::uint8_t* pixels, int width, int height, int channe
 
 }  // namespace
 
-RawImage DecodePng(std::string_view bytes, const std::string& name) {
-  RawImage image;
+RawImage DecodePng(std::string_view bytes, const std::string& name, double white) {
+  RawImage image{.white = white};
   Source source{.bytes = bytes};
   Reader reader(name);
   const int passes = ReadHeader(reader, source, image, name);

@@ -75,15 +75,14 @@ RawImage EmptyImage(const Layout& layout, int channels, int bits) {
                  .height = static_cast<int>(layout.height),
                  .channels = channels,
                  .bits = bits,
-                 .orientation = layout.orientation,
-                 .gray = {},
-                 .samples = {}};
+                 .orientation = layout.orientation};
   return image;
 }
 
 // 16-bit rows in strips, which libtiff's ready-made conversion would cut to 8 bits.
-RawImage ReadDeep(TIFF* tiff, const Layout& layout, const std::string& name) {
+RawImage ReadDeep(TIFF* tiff, const Layout& layout, const std::string& name, double white) {
   RawImage image = EmptyImage(layout, layout.channels, 16);
+  image.white = white;
   const bool inverted = layout.photometric == PHOTOMETRIC_MINISWHITE;
   std::vector<std::uint16_t> row(static_cast<std::size_t>(layout.width) * layout.channels);
   for (std::uint32_t y = 0; y < layout.height; ++y) {
@@ -118,7 +117,7 @@ RawImage ReadConverted(TIFF* tiff, const Layout& layout, const std::string& name
 
 }  // namespace
 
-RawImage DecodeTiff(std::string_view bytes, const std::string& name) {
+RawImage DecodeTiff(std::string_view bytes, const std::string& name, double white) {
   TIFFSetErrorHandler(OnWarning);  // the exception says it
   TIFFSetWarningHandler(OnWarning);
   Source source{.bytes = bytes};
@@ -130,7 +129,7 @@ RawImage DecodeTiff(std::string_view bytes, const std::string& name) {
   const bool deep = layout.bits == 16 && layout.channels <= 4 &&
                     layout.planar == PLANARCONFIG_CONTIG && layout.format == SAMPLEFORMAT_UINT &&
                     layout.photometric <= PHOTOMETRIC_RGB && !TIFFIsTiled(tiff.get());
-  return deep ? ReadDeep(tiff.get(), layout, name) : ReadConverted(tiff.get(), layout, name);
+  return deep ? ReadDeep(tiff.get(), layout, name, white) : ReadConverted(tiff.get(), layout, name);
 }
 
 }  // namespace talus::imaging

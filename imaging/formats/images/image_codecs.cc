@@ -5,7 +5,9 @@
 #include "base/error.h"
 
 namespace talus::imaging {
+namespace {
 
+// Samples of one pixel as a grey level, 0 … 255.
 std::uint8_t GrayLevel(const std::uint16_t* s, int channels, double white) {
   const bool color = channels >= 3;
   double luma = color ? (0.299 * s[0] + 0.587 * s[1] + 0.114 * s[2]) / white : s[0] / white;
@@ -16,13 +18,15 @@ std::uint8_t GrayLevel(const std::uint16_t* s, int channels, double white) {
   return static_cast<std::uint8_t>(std::clamp(luma, 0.0, 1.0) * 255 + 0.5);
 }
 
+}  // namespace
+
 void RawImage::AddRow(std::span<const std::uint16_t> row) {
-  if (bits == 16) {
-    samples.insert(samples.end(), row.begin(), row.end());
+  if (bits == 16 && white == 0) {
+    for (const std::uint16_t sample : row) largest = std::max(largest, sample);
     return;
   }
   for (std::size_t i = 0; i < row.size(); i += static_cast<std::size_t>(channels)) {
-    gray.push_back(GrayLevel(&row[i], channels, 255));
+    gray.push_back(GrayLevel(&row[i], channels, bits == 8 ? 255 : white));
   }
 }
 

@@ -12,31 +12,30 @@
 namespace talus::imaging {
 
 // Filled row by row from the top, so that a header that promises more than the file holds takes no
-// memory. Rows of 8 bits become grey at once; those of 16 are kept, as the largest sample of all
-// says how many of the bits the camera has used.
+// memory. Rows of 8 bits become grey at once. Those of 16 do where their white is known; else only
+// the largest sample is kept, which says how many of the bits the camera has used, and
+// the file is read again: samples would take up to eight times the image's memory.
 struct RawImage {
   int width = 0;
   int height = 0;
-  int channels = 1;                    // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
-  int bits = 8;                        // 8 or 16
-  int orientation = kUpright;          // how the camera was held, as EXIF numbers it
-  std::vector<std::uint8_t> gray;      // of 8 bits
-  std::vector<std::uint16_t> samples;  // of 16 bits
+  int channels = 1;                  // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
+  int bits = 8;                      // 8 or 16
+  int orientation = kUpright;        // how the camera was held, as EXIF numbers it
+  double white = 0;                  // sample of 16 bits that is white; 0: not known
+  std::uint16_t largest = 0;         // sample of 16 bits
+  std::vector<std::uint8_t> gray{};  // empty where white is not known
 
   // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
   void AddRow(std::span<const std::uint16_t> row);
 };
 
-// Samples of one pixel as a grey level, 0 … 255: luma (Rec. 601), transparency on white.
-std::uint8_t GrayLevel(const std::uint16_t* samples, int channels, double white);
-
-// Each throws ConfigError that starts with `name` when the bytes are damaged or of a kind it does
-// not read.
-RawImage DecodePng(std::string_view bytes, const std::string& name);
+// Grey is luma (Rec. 601), transparency on white. Each throws ConfigError that starts with `name`
+// when the bytes are damaged or of a kind it does not read. `white` is RawImage::white.
+RawImage DecodePng(std::string_view bytes, const std::string& name, double white);
+RawImage DecodeTiff(std::string_view bytes, const std::string& name, double white);
+RawImage DecodePgm(std::string_view bytes, const std::string& name, double white);
 RawImage DecodeJpeg(std::string_view bytes, const std::string& name);
-RawImage DecodeTiff(std::string_view bytes, const std::string& name);
 RawImage DecodeBmp(std::string_view bytes, const std::string& name);
-RawImage DecodePgm(std::string_view bytes, const std::string& name);
 
 struct ImageSize {
   std::int64_t width = 0;     // [px]

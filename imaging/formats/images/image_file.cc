@@ -1,6 +1,5 @@
 #include "imaging/formats/images/image_file.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
@@ -11,22 +10,21 @@
 namespace talus::imaging {
 namespace {
 
-RawImage Decode(std::string_view bytes, const std::string& name) {
-  if (bytes.starts_with("\x89PNG")) return DecodePng(bytes, name);
+RawImage Decode(std::string_view bytes, const std::string& name, double white) {
+  if (bytes.starts_with("\x89PNG")) return DecodePng(bytes, name, white);
   if (bytes.starts_with("\xff\xd8\xff")) return DecodeJpeg(bytes, name);
   if (bytes.starts_with(std::string_view("II*\0", 4)) ||
       bytes.starts_with(std::string_view("MM\0*", 4))) {
-    return DecodeTiff(bytes, name);
+    return DecodeTiff(bytes, name, white);
   }
   if (bytes.starts_with("BM")) return DecodeBmp(bytes, name);
-  if (bytes.starts_with("P5") || bytes.starts_with("P2")) return DecodePgm(bytes, name);
+  if (bytes.starts_with("P5") || bytes.starts_with("P2")) return DecodePgm(bytes, name, white);
   throw base::ConfigError(name + ": " + (bytes.empty() ? "is empty" : "is no image we can read") +
                           "; give a PNG, JPEG, TIFF, BMP or PGM file");
 }
 
-// Of 16 bits: cameras store 10, 12 or 14 in them; the largest sample tells which.
-double WhiteLevel(const RawImage& raw) {
-  const std::uint16_t largest = *std::max_element(raw.samples.begin(), raw.samples.end());
+// Cameras store 10, 12 or 14 bits in 16; the largest sample tells which.
+double WhiteOf(std::uint16_t largest) {
   for (const int bits : {10, 12, 14}) {
     const int white = (1 << bits) - 1;
     if (largest > 255 && largest <= white) return white;
@@ -41,24 +39,11 @@ void WriteAnyPng(const std::filesystem::path& path, const Image& image) {
 
 }  // namespace
 
-ColorImage ToColor(const GrayImage& gray) {
-  ColorImage color{.width = gray.width, .height = gray.height, .pixels = {}};
-  color.pixels.reserve(gray.pixels.size());
-  for (const std::uint8_t level : gray.pixels) color.pixels.push_back({level, level, level});
-  return color;
-}
-
 GrayImage DecodeGrayImage(std::string_view bytes, const std::string& name) {
-  RawImage raw = Decode(bytes, name);
-  GrayImage gray{.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)};
-  if (raw.bits == 8) return Upright(gray, raw.orientation);
-  const double white = WhiteLevel(raw);
-  const auto channels = static_cast<std::size_t>(raw.channels);
-  gray.pixels.resize(raw.samples.size() / channels);
-  for (std::size_t i = 0; i < gray.pixels.size(); ++i) {
-    gray.pixels[i] = GrayLevel(&raw.samples[i * channels], raw.channels, white);
-  }
-  return Upright(gray, raw.orientation);
+  RawImage raw = Decode(bytes, name, 0);
+  if (raw.bits == 16) raw = Decode(bytes, name, WhiteOf(raw.largest));
+  return Upright({.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)},
+                 raw.orientation);
 }
 
 GrayImage ReadGrayImage(const std::filesystem::path& path) {

@@ -4,31 +4,14 @@
 // program is started thousands of times in a campaign.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "imaging/color_image.h"
 #include "imaging/gray_image.h"
 
 namespace talus::imaging {
-
-using Color = std::array<std::uint8_t, 3>;  // red, green, blue
-
-struct ColorImage {
-  int width = 0;              // [px]
-  int height = 0;             // [px]
-  std::vector<Color> pixels;  // row by row from the top
-
-  Color& at(int x, int y) {
-    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(x)];
-  }
-};
-
-ColorImage ToColor(const GrayImage& gray);
 
 // Colour becomes luma (Rec. 601), transparency shows white, and 16 bits become 8; a 16-bit file
 // that uses only 10, 12 or 14 of them, as cameras write, is taken to be that deep. The image is

@@ -69,18 +69,21 @@ void BlankBelow(Profile& profile) {
   }
 }
 
+void RequireFit(const Profile& profile, const std::string& name) {
+  const auto& [image, frame] = profile;
+  if (frame.width == image.width && frame.height == image.height) return;
+  throw base::ConfigError(name + ": has " + std::to_string(image.width) + " x " +
+                          std::to_string(image.height) +
+                          " px; its frame must have the same width_px and height_px");
+}
+
 }  // namespace
 
 Profile ReadMap(const std::filesystem::path& path, double plate_diameter,
                 const std::optional<Frame>& frame) {
   Profile profile{.image = ReadGrayImage(path), .frame = {}};
-  profile.frame = frame.value_or(Frame{});
-  if (!frame) profile.frame = FindFrame(profile.image, plate_diameter, path.string());
-  if (profile.frame.width != profile.image.width || profile.frame.height != profile.image.height) {
-    throw base::ConfigError(path.string() + ": has " + std::to_string(profile.image.width) + " x " +
-                            std::to_string(profile.image.height) +
-                            " px; its frame must have the same width_px and height_px");
-  }
+  profile.frame = frame ? *frame : FindFrame(profile.image, plate_diameter, path.string());
+  RequireFit(profile, path.string());
   BlankBelow(profile);
   return profile;
 }

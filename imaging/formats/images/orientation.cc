@@ -50,7 +50,7 @@ int ExifOrientation(std::string_view tiff) {
   return kUpright;
 }
 
-GrayImage Upright(const GrayImage& stored, int orientation) {
+GrayImage Upright(GrayImage stored, int orientation) {
   if (orientation <= kUpright || orientation > 8) return stored;
   const bool turned = orientation >= 5;  // rows become columns
   const bool from_right = orientation == 2 || orientation == 3 || orientation >= 7;
@@ -64,8 +64,11 @@ GrayImage Upright(const GrayImage& stored, int orientation) {
     for (int x = 0; x < image.width; ++x) {
       const int column = turned ? y : x;
       const int row = turned ? x : y;
-      image.pixels.push_back(stored.at(from_right ? stored.width - 1 - column : column,
-                                       from_bottom ? stored.height - 1 - row : row));
+      const int x_stored = from_right ? stored.width - 1 - column : column;
+      const int y_stored = from_bottom ? stored.height - 1 - row : row;
+      image.pixels.push_back(stored.pixels[static_cast<std::size_t>(y_stored) *
+                                               static_cast<std::size_t>(stored.width) +
+                                           static_cast<std::size_t>(x_stored)]);
     }
   }
   return image;

@@ -20,6 +20,6 @@ inline constexpr int kUpright = 1;
 // such tag or is damaged: a photograph is not lost to its description.
 int ExifOrientation(std::string_view tiff);
 
-GrayImage Upright(const GrayImage& stored, int orientation);
+GrayImage Upright(GrayImage stored, int orientation);
 
 }  // namespace talus::imaging

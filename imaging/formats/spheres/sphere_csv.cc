@@ -16,17 +16,28 @@ char SeparatorOf(std::string_view line) {
   return ' ';
 }
 
-std::vector<std::string_view> Cells(std::string_view line, char separator) {
+// Takes a cell and the separator behind it off the front; a quoted one may hold separators.
+std::string_view TakeCell(std::string_view& line, char separator, const TextCursor& cursor) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  const bool quoted = first != std::string_view::npos && line[first] == '"';
+  const std::size_t closing = quoted ? line.find('"', first + 1) : 0;
+  if (closing == std::string_view::npos) {
+    cursor.Fail("has a quote that is not closed; close it, or write the cell without quotes");
+  }
+  const std::size_t end = std::min(line.find(separator, closing), line.size());
+  const std::string_view cell =
+      quoted ? line.substr(first + 1, closing - first - 1) : Trimmed(line.substr(0, end));
+  line.remove_prefix(end);
+  return cell;
+}
+
+std::vector<std::string_view> Cells(std::string_view line, char separator,
+                                    const TextCursor& cursor) {
   if (separator == ' ') return Words(line);
-  std::vector<std::string_view> cells;
-  for (std::size_t start = 0; start <= line.size();) {
-    const std::size_t end = std::min(line.find(separator, start), line.size());
-    std::string_view cell = Trimmed(line.substr(start, end - start));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
-      cell = cell.substr(1, cell.size() - 2);
-    }
-    cells.push_back(cell);
-    start = end + 1;
+  std::vector<std::string_view> cells{TakeCell(line, separator, cursor)};
+  while (!line.empty()) {
+    line.remove_prefix(1);
+    cells.push_back(TakeCell(line, separator, cursor));
   }
   return cells;
 }
@@ -45,7 +56,8 @@ Head ReadHead(TextCursor& cursor) {
   const bool yade = line.starts_with(kYade);
   const char separator = yade ? '_' : SeparatorOf(line);
   Head head{.names = {}, .separator = yade ? '\t' : separator};
-  for (const std::string_view cell : Cells(yade ? line.substr(kYade.size()) : line, separator)) {
+  for (const std::string_view cell :
+       Cells(yade ? line.substr(kYade.size()) : line, separator, cursor)) {
     head.names.emplace_back(cell);
   }
   double number = 0;
@@ -82,8 +94,8 @@ std::vector<base::Sphere> ReadSphereCsv(std::string_view text, const std::string
     const std::string_view line = cursor.Line();
     const std::string_view trimmed = Trimmed(line);
     if (trimmed.empty() || trimmed.starts_with('#')) continue;
-    ReadRow(cursor, Cells(head.separator == '\t' ? trimmed : line, head.separator), columns, row,
-            spheres);
+    ReadRow(cursor, Cells(head.separator == '\t' ? trimmed : line, head.separator, cursor), columns,
+            row, spheres);
   }
   return spheres;
 }

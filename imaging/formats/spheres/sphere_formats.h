@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/sphere.h"
+#include "imaging/formats/spheres/sphere_columns.h"
 #include "imaging/formats/spheres/sphere_files.h"
-#include "imaging/spheres/sphere_columns.h"
 
 namespace talus::imaging {
 

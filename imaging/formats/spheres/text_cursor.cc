@@ -16,7 +16,7 @@ std::string Quoted(std::string_view word) {
   return '"' + std::string(word.substr(0, kMost)) + (word.size() > kMost ? "…\"" : "\"");
 }
 
-// Of a number out of the range of doubles: whether it is too small, not too large.
+// Whether a number out of the range of doubles is too small, not too large.
 bool IsTiny(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');

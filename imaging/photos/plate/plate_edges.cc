@@ -5,15 +5,11 @@
 
 #include "base/error.h"
 #include "imaging/photos/plate/side_lines.h"
-#include "imaging/photos/tilted_view.h"
 
 namespace talus::imaging {
 namespace {
 
-constexpr double kAsWide = 0.9;           // of the widest: still a candidate for the plate
-constexpr double kLeastThick = 0.015;     // rows with straight sides / width
 constexpr int kTrimmed = 2;               // rows at the ends of a side that the lens has rounded
-constexpr double kOffLine = 0.75;         // where a side has left its line [px]
 constexpr double kNearLine = 1.0;         // how far a point of the lower edge may be from it [px]
 constexpr std::size_t kFewestLower = 10;  // points that make a lower edge
 
@@ -23,25 +19,53 @@ constexpr double kSteepest = 2.5;         // step between neighbours of one stra
 constexpr std::size_t kFewestCorner = 6;  // neighbours that make a straight outline
 constexpr double kCornerRms = 0.25;       // of them to a line [px]
 
-[[noreturn]] void ThrowNoPlate(const std::string& name) {
-  throw base::ConfigError(
-      name +
-      ": no plate found (two straight parallel sides below the heap, clear of the image's border); "
-      "check that the plate is in the picture and sharp, give its place with \"frame\", or leave "
-      "the photograph out; a heap on a table without a plate needs a known length, such as two "
-      "marks of a ruler, in pixels: --scale \"104,310-884,312=30 mm\" (\"scale\" in a spec)");
-}
+// The photograph seen in the directions of the plate, between its pixels.
+class TiltedView {
+ public:
+  TiltedView(const BacklitPhoto& photo, double tilt)
+      : photo_(photo), cosine_(std::cos(tilt)), sine_(std::sin(tilt)) {}
 
-const StraightSides* ChoosePlate(const std::vector<StraightSides>& straight) {
-  double widest = 0;
-  for (const StraightSides& sides : straight) widest = std::max(widest, sides.width());
-  const StraightSides* plate = nullptr;
-  for (const StraightSides& sides : straight) {
-    const bool thick = sides.last - sides.first + 1 >= kLeastThick * sides.width();
-    if (thick && sides.width() >= kAsWide * widest) plate = &sides;
+  double threshold() const { return photo_.threshold; }
+
+  // From `origin`, `along` to the right and `up`, both as the plate lies.
+  EdgePoint Point(const EdgePoint& origin, double along, double up) const {
+    return {.x = origin.x + along * cosine_ + up * sine_,
+            .y = origin.y + along * sine_ - up * cosine_};
   }
-  return plate;
-}
+  // Linear between pixel centres; light outside the image.
+  double At(const EdgePoint& point) const {
+    const double x = point.x - 0.5;
+    const double y = point.y - 0.5;
+    const int column = static_cast<int>(std::floor(x));
+    const int row = static_cast<int>(std::floor(y));
+    const RelativeImage& image = photo_.image;
+    if (column < 0 || row < 0 || column + 1 >= image.width || row + 1 >= image.height) return 1;
+    const double right = x - column;
+    const double below = y - row;
+    return (1 - below) * ((1 - right) * image.at(column, row) + right * image.at(column + 1, row)) +
+           below *
+               ((1 - right) * image.at(column, row + 1) + right * image.at(column + 1, row + 1));
+  }
+  // How far one can go from a dark point in steps of `step` (up > 0, down < 0) until it gets light,
+  // within `reach`; nothing when it does not, or when it is light to begin with.
+  std::optional<double> DarkUntil(const EdgePoint& from, double step, double reach) const {
+    double before = At(from);
+    if (before >= photo_.threshold) return std::nullopt;
+    for (double way = step; std::abs(way) <= reach; way += step) {
+      const double here = At(Point(from, 0, way));
+      if (here >= photo_.threshold) {
+        return way - step * (here - photo_.threshold) / (here - before);
+      }
+      before = here;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const BacklitPhoto& photo_;
+  double cosine_;
+  double sine_;
+};
 
 struct Line {
   double at_zero = 0;
@@ -168,46 +192,41 @@ std::optional<EdgePoint> FindSeam(const TiltedView& tilted, const EdgePoint& mid
   return tilted.Point(middle, 0, moment / light - squares / 2 / light);
 }
 
-// The row above which the side has left its line for good, seen from the plate upwards.
-template <class Deviation>
-double EndOfSide(const StraightSides& plate, Deviation deviation) {
-  int row = (plate.first + plate.last) / 2;
-  while (row > 1 && !(deviation(row) && deviation(row - 1))) --row;
-  return row + 1;
+const PlateSides& RequirePlate(const std::optional<PlateSides>& sides, const std::string& name) {
+  if (sides) return *sides;
+  throw base::ConfigError(
+      name +
+      ": no plate found (two straight parallel sides below the heap, clear of the image's border); "
+      "check that the plate is in the picture and sharp, give its place with \"frame\", or leave "
+      "the photograph out; a heap on a table without a plate needs a known length, such as two "
+      "marks of a ruler, in pixels: --scale \"104,310-884,312=30 mm\" (\"scale\" in a spec)");
+}
+
+PlateEdges EdgesAlong(const BacklitPhoto& photo, const PlateSides& sides) {
+  const StraightSides& plate = sides.straight;
+  PlateEdges edges;
+  edges.tilt = -std::atan(plate.slope);
+  edges.width = plate.width() * std::cos(edges.tilt);
+  for (int row = plate.first + kTrimmed; row <= plate.last - kTrimmed; ++row) {
+    const SideEnds& ends = *sides.ends[static_cast<std::size_t>(row)];
+    edges.left.push_back({.x = ends.left, .y = row + 0.5});
+    edges.right.push_back({.x = ends.right, .y = row + 0.5});
+  }
+  const EdgePoint left{.x = plate.LeftAt(sides.left_top - 0.5), .y = sides.left_top};
+  const EdgePoint right{.x = plate.RightAt(sides.right_top - 0.5), .y = sides.right_top};
+  const EdgePoint middle{.x = (left.x + right.x) / 2, .y = (left.y + right.y) / 2};
+  const TiltedView tilted(photo, edges.tilt);
+  edges.lower = FindLower(tilted, plate, photo.image.height);
+  edges.seam = FindSeam(tilted, middle, edges.width);
+  edges.top_left = FindCorner(tilted, left, -1);
+  edges.top_right = FindCorner(tilted, right, +1);
+  return edges;
 }
 
 }  // namespace
 
 PlateEdges FindPlateEdges(const BacklitPhoto& photo, const std::string& name) {
-  const std::vector<std::optional<SideEnds>> sides = FindSides(photo);
-  const std::vector<StraightSides> straight = FindStraightSides(sides);
-  const StraightSides* const found = ChoosePlate(straight);
-  if (found == nullptr) ThrowNoPlate(name);
-  const StraightSides& plate = *found;
-  PlateEdges edges;
-  edges.tilt = -std::atan(plate.slope);
-  edges.width = plate.width() * std::cos(edges.tilt);
-  for (int row = plate.first + kTrimmed; row <= plate.last - kTrimmed; ++row) {
-    const SideEnds& ends = *sides[static_cast<std::size_t>(row)];
-    edges.left.push_back({.x = ends.left, .y = row + 0.5});
-    edges.right.push_back({.x = ends.right, .y = row + 0.5});
-  }
-  const TiltedView tilted(photo, edges.tilt);
-  edges.lower = FindLower(tilted, plate, photo.image.height);
-  const auto off = [&](int row, double SideEnds::*end, double line) {
-    const auto& ends = sides[static_cast<std::size_t>(row)];
-    return !ends || std::abs((*ends).*end - line) > kOffLine;
-  };
-  const double left_end =
-      EndOfSide(plate, [&](int row) { return off(row, &SideEnds::left, plate.LeftAt(row)); });
-  const double right_end =
-      EndOfSide(plate, [&](int row) { return off(row, &SideEnds::right, plate.RightAt(row)); });
-  const EdgePoint middle{.x = (plate.LeftAt(left_end - 0.5) + plate.RightAt(right_end - 0.5)) / 2,
-                         .y = (left_end + right_end) / 2};
-  edges.seam = FindSeam(tilted, middle, edges.width);
-  edges.top_left = FindCorner(tilted, {.x = plate.LeftAt(left_end - 0.5), .y = left_end}, -1);
-  edges.top_right = FindCorner(tilted, {.x = plate.RightAt(right_end - 0.5), .y = right_end}, +1);
-  return edges;
+  return EdgesAlong(photo, RequirePlate(FindPlateSides(photo), name));
 }
 
 }  // namespace talus::imaging

@@ -12,6 +12,9 @@ constexpr double kLargestRms = 0.35;    // of a side to its line [px]
 constexpr double kLargestStep = 1.0;    // of the next row to the line so far [px]
 constexpr double kLargestSlope = 0.14;  // 8°
 constexpr double kSlopeNoise = 0.4;     // px over the length: how unlike the two slopes may be
+constexpr double kAsWide = 0.9;         // of the widest: still a candidate for the plate
+constexpr double kLeastThick = 0.015;   // rows with straight sides / width
+constexpr double kOffLine = 0.75;       // where a side has left its line [px]
 
 cv::Mat LargestArea(const BacklitPhoto& photo) {
   const cv::Mat relative(photo.image.height, photo.image.width, CV_32F,
@@ -123,8 +126,6 @@ class Grower {
   LineFit right_;
 };
 
-}  // namespace
-
 std::vector<std::optional<SideEnds>> FindSides(const BacklitPhoto& photo) {
   const cv::Mat area = LargestArea(photo);
   std::vector<std::optional<SideEnds>> sides(static_cast<std::size_t>(area.rows));
@@ -141,6 +142,7 @@ std::vector<std::optional<SideEnds>> FindSides(const BacklitPhoto& photo) {
   return sides;
 }
 
+// The longest runs of rows with straight parallel sides, from the top.
 std::vector<StraightSides> FindStraightSides(const std::vector<std::optional<SideEnds>>& sides) {
   std::vector<StraightSides> found;
   for (int row = 0; row < static_cast<int>(sides.size()); ++row) {
@@ -150,6 +152,42 @@ std::vector<StraightSides> FindStraightSides(const std::vector<std::optional<Sid
     row = straight->last;
   }
   return found;
+}
+
+std::optional<StraightSides> ChoosePlate(const std::vector<StraightSides>& straight) {
+  double widest = 0;
+  for (const StraightSides& sides : straight) widest = std::max(widest, sides.width());
+  std::optional<StraightSides> plate;
+  for (const StraightSides& sides : straight) {
+    const bool thick = sides.last - sides.first + 1 >= kLeastThick * sides.width();
+    if (thick && sides.width() >= kAsWide * widest) plate = sides;
+  }
+  return plate;
+}
+
+// The row above which a side has left its line for good.
+template <class Line>
+double EndOfSide(const PlateSides& sides, double SideEnds::*end, Line line) {
+  const auto off = [&](int row) {
+    const std::optional<SideEnds>& ends = sides.ends[static_cast<std::size_t>(row)];
+    return !ends || std::abs((*ends).*end - line(row)) > kOffLine;
+  };
+  int row = (sides.straight.first + sides.straight.last) / 2;
+  while (row > 1 && !(off(row) && off(row - 1))) --row;
+  return row + 1;
+}
+
+}  // namespace
+
+std::optional<PlateSides> FindPlateSides(const BacklitPhoto& photo) {
+  PlateSides sides{.ends = FindSides(photo), .straight = {}};
+  const std::optional<StraightSides> plate = ChoosePlate(FindStraightSides(sides.ends));
+  if (!plate) return std::nullopt;
+  sides.straight = *plate;
+  sides.left_top = EndOfSide(sides, &SideEnds::left, [&](int row) { return plate->LeftAt(row); });
+  sides.right_top =
+      EndOfSide(sides, &SideEnds::right, [&](int row) { return plate->RightAt(row); });
+  return sides;
 }
 
 }  // namespace talus::imaging

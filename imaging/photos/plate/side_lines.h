@@ -8,14 +8,12 @@
 
 namespace talus::imaging {
 
-// Where the largest dark area begins and ends in a row [px from the left edge of the image].
+// Where the largest dark area begins and ends in a row [px from the left edge of the image]. A row
+// without it, or where it reaches the image's border, has none.
 struct SideEnds {
   double left = 0;
   double right = 0;
 };
-
-// A row without it, or where it reaches the image's border, has none.
-std::vector<std::optional<SideEnds>> FindSides(const BacklitPhoto& photo);
 
 // Rows first … last whose ends lie on x = left + slope (y - first), y the row's centre, and the
 // same for right.
@@ -31,7 +29,15 @@ struct StraightSides {
   double width() const { return right - left; }  // along the row [px]
 };
 
-// The longest runs of rows with straight parallel sides, from the top.
-std::vector<StraightSides> FindStraightSides(const std::vector<std::optional<SideEnds>>& sides);
+// The sides of the plate: of the straight parallel ones about as wide as the widest, the lowest.
+struct PlateSides {
+  std::vector<std::optional<SideEnds>> ends;  // in every row of the photograph
+  StraightSides straight;
+  double left_top = 0;   // where the sides leave their lines for good, seen from the plate upwards
+  double right_top = 0;  // [px] from the top edge of the image
+};
+
+// Nothing where no straight parallel sides are thick enough for a plate's.
+std::optional<PlateSides> FindPlateSides(const BacklitPhoto& photo);
 
 }  // namespace talus::imaging

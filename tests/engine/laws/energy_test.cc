@@ -82,12 +82,12 @@ TEST_P(ChainInSpace, NeverHasMoreEnergyThanAtTheStart) {
   const bool sticks = adhesion != Adhesion::kNone;
   EXPECT_EQ(sticks, !simulation.Contacts().empty());
 }
-INSTANTIATE_TEST_SUITE_P(EveryLaw, ChainInSpace,
-                         ::testing::Combine(::testing::Values(Adhesion::kNone, Adhesion::kDmt,
-                                                              Adhesion::kJkr),
-                                            ::testing::Values(Rolling::kNone, Rolling::kConstant,
-                                                              Rolling::kViscous, Rolling::kEpsd),
-                                            ::testing::Values(2, 5)));
+INSTANTIATE_TEST_SUITE_P(
+    EveryLaw, ChainInSpace,
+    ::testing::Combine(::testing::Values(Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr),
+                       ::testing::Values(Rolling::kNone, Rolling::kConstant, Rolling::kViscous,
+                                         Rolling::kEpsd, Rolling::kEpsd2),
+                       ::testing::Values(2, 5)));
 
 using JkrForms = std::tuple<JkrRollingLimit, JkrSlidingSpring, double>;
 class JkrChain : public ::testing::TestWithParam<JkrForms> {};

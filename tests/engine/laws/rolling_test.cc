@@ -31,7 +31,7 @@ Scene RollingSphere(Rolling rolling, double speed) {
 
 class RollingLaw : public ::testing::TestWithParam<Rolling> {};
 
-// Deceleration μ_r g/1.4. Until the EPSD spring has wound up it is less; a longer run makes that
+// Deceleration μ_r g/1.4. Until an EPSD spring has wound up it is less; a longer run makes that
 // less than the tolerance.
 TEST_P(RollingLaw, DeceleratesByItsLimit) {
   const double speed = 0.3;
@@ -47,7 +47,7 @@ TEST_P(RollingLaw, DeceleratesByItsLimit) {
   EXPECT_NEAR(deceleration / (0.1 * kGravity / 1.4), 1, 1e-3);
 }
 INSTANTIATE_TEST_SUITE_P(Limited, RollingLaw,
-                         ::testing::Values(Rolling::kConstant, Rolling::kEpsd));
+                         ::testing::Values(Rolling::kConstant, Rolling::kEpsd, Rolling::kEpsd2));
 
 // T_r = μ_r R* F_n |ω R|: v decays exponentially at the rate μ_r g/1.4 per m/s.
 TEST(ViscousRolling, SpeedDecaysExponentially) {
@@ -67,6 +67,34 @@ TEST(EpsdRolling, BringsASphereToRestWhereItStays) {
   EXPECT_LT(kRadius * base::Norm(rest.angular_velocity), 1e-6);
   simulation.Advance(steps);
   EXPECT_LT(base::Norm(simulation.Particles()[0].position - rest.position), 1e-9);
+}
+
+// Below its limit and with e = 1 the sphere rocks on two springs. With s = Rφ and k_r = k_t R²,
+//
+//   m ẍ = −k_t (x − s)      (2/5) m s̈ = k_t (x − s) − k_t s      ω² = (3 − √6.5) k_t/m, the slower
+//
+// s = (1 − ω² m/k_t) x in that mode. The first force finds the springs a step's way long, so that
+// it rocks about −ẋ Δt: 2 ω Δt = 1.2e-3 of the amplitude.
+TEST(Epsd2Rolling, RocksForEverAtTheFrequencyOfItsSprings) {
+  Scene scene = SphereOnPlate(Rolling::kEpsd2);
+  scene.materials[0].restitution = 1;
+  scene.time_step = 2e-7;
+  const Material& m = scene.materials[0];
+  const double overlap = kRadius - scene.particles[0].position.z;
+  const double stiffness =
+      MakePairConstants(m, m, {}).shear_stiffness * std::sqrt(kRadius * overlap);
+  const double ratio = 3 - std::sqrt(6.5);
+  const double omega = std::sqrt(ratio * stiffness / SphereMass(m, kRadius));
+  const double speed = 1e-4;  // [m/s]; from 2.6e-4 on it meets its limit
+  scene.particles[0].velocity = {speed, 0, 0};
+  scene.particles[0].angular_velocity = {0, (1 - ratio) * speed / kRadius, 0};
+  Simulation simulation(scene);
+  const double amplitude = speed / omega;
+  while (omega * simulation.time() < 20 * std::numbers::pi) {
+    simulation.Advance(500);
+    const double expected = amplitude * std::sin(omega * simulation.time());
+    ASSERT_NEAR(simulation.Particles()[0].position.x, expected, 2e-3 * amplitude);
+  }
 }
 
 // On a slope the torque m g sinα R meets its limit μ_r R m g cosα at tanα = μ_r.
@@ -121,7 +149,7 @@ TEST_P(AnyRolling, TwistAboutTheNormalIsKept) {
 }
 INSTANTIATE_TEST_SUITE_P(All, AnyRolling,
                          ::testing::Values(Rolling::kNone, Rolling::kConstant, Rolling::kViscous,
-                                           Rolling::kEpsd));
+                                           Rolling::kEpsd, Rolling::kEpsd2));
 
 }  // namespace
 }  // namespace talus::engine

@@ -1,5 +1,5 @@
 // Threads that share a task: everyone is called, nobody goes on too early, nobody sleeps for ever.
-#include "engine/team.h"
+#include "engine/threads/team.h"
 
 #include <gtest/gtest.h>
 

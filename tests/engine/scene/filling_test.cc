@@ -37,7 +37,7 @@ Load Box() {
                                  .height = 0.009}}};
 }
 
-// Of every pair and with the region, over the radius: the O(n²) answer.
+// The largest overlap of any pair and with the region, over the radius: the O(n²) answer.
 double BruteForceOverlap(const Load& load, const Filling& filling) {
   const FillRegion& region = load.request.region;
   double largest = 0;

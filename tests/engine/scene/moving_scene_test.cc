@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "engine/wall_motion.h"
+#include "engine/bodies/wall_motion.h"
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {

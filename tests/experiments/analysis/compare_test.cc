@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "experiments/analysis/compare/strategy_runs.h"
-#include "experiments/campaign/reference.h"
+#include "experiments/campaign/record/reference.h"
 #include "tests/experiments/synthetic_campaign.h"
 
 namespace talus::analysis {
@@ -126,29 +125,6 @@ TEST(CompareObjectives, LeavesOutTrialsAtAnotherScaleAndFailures) {
   evidence.trials[2].scale_factor = 2;
   evidence.trials[3].state = journal::TrialStatus::kFailed;
   EXPECT_THAT(Find(evidence, "sad").from_trials.best[0].trials, ElementsAre(2));
-}
-
-TEST(CompareStrategies, CountsTheSimulationsThatEachNeeded) {
-  Evidence first = OneParameter("sad_mm2", {{0.1, 5}, {0.2, 3}, {0.3, 4}, {0.4, 1}});
-  Evidence second = OneParameter("sad_mm2", {{0.5, 1.05}, {0.6, 9}, {0.7, 0.5}});
-  first.objective = "sad";
-  second.trials[2].purpose = "confirm";  // does not count
-  const auto runs = CompareStrategies({"one", "two"}, {first, second});
-  EXPECT_THAT(runs[0].best, ElementsAre(5, 3, 3, 1));
-  EXPECT_THAT(runs[1].best, ElementsAre(1.05, 1.05));
-  EXPECT_THAT(StrategiesText(runs, 0.1), testing::ContainsRegex("\\(one\\) +1 +4 +4 +0\n"));
-  EXPECT_THAT(StrategiesText(runs, 0.1), testing::ContainsRegex("\\(two\\) +1.05 +2 +1 +0\n"));
-}
-
-TEST(CompareStrategies, RefusesAnotherExperimentOrOtherRanges) {
-  Evidence first = OneParameter("sad_mm2", {{0.1, 5}});
-  first.objective = "sad";
-  Evidence other = first;
-  other.parameters[0].range.high = 2;
-  EXPECT_THROW(CompareStrategies({"one", "two"}, {first, other}), base::ConfigError);
-  other = first;
-  other.reference.aehp.frame.width += 1;
-  EXPECT_THROW(CompareStrategies({"one", "two"}, {first, other}), base::ConfigError);
 }
 
 // Why profiles are compared at all: one angle fits many heaps.

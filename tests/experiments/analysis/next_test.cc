@@ -110,7 +110,7 @@ TEST_F(NextTest, ATestOfNumbersOnlyIsJudgedByThem) {
     return test.name == "tapped density";
   });
   TestCandidate weighed = *tapped;
-  weighed.numbers.tapped_density = {.standard_error = 1};
+  weighed.numbers.Of<rigs::Observable::kTappedDensity>() = {.standard_error = 1};
   const NextTable table = Rank(view, {weighed}, true);
   const NextCandidate& judged = Find(table, "tapped density");
   ASSERT_TRUE(judged.learning.has_value()) << judged.what;
@@ -157,7 +157,7 @@ TEST_F(NextTest, CandidatesComeFromAFile) {
   const std::vector<TestCandidate> tests = LoadTests(file);
   ASSERT_EQ(tests.size(), 2u);
   EXPECT_EQ(tests[1].rig.value().kind, rigs::RigKind::kTappedDensity);
-  EXPECT_EQ(tests[1].numbers.tapped_density.value().standard_error, 4);
+  EXPECT_EQ(tests[1].numbers.Of<rigs::Observable::kTappedDensity>().value().standard_error, 4);
   EXPECT_EQ(tests[0].runs, 5);
   EXPECT_EQ(tests[0].device.value().lift_velocity, 0.2);
   std::ofstream(file) << R"({"candidates": [{"runs": 0}]})";

@@ -34,7 +34,7 @@ constexpr const char* kNextJson = R"({"after_trial": 60,
 
 // The folder of a synthetic campaign with what `talus next` leaves there.
 Evidence WithNext(const std::string& name, const std::string& text) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2, .posterior = true});
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2, .coarse_design = true});
   evidence.folder = std::filesystem::path(testing::TempDir()) / ("talus_next_" + name);
   std::filesystem::remove_all(evidence.folder);
   std::filesystem::create_directories(evidence.folder / "next");

@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/campaign/answer/agreement.h"
+#include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
@@ -41,26 +43,26 @@ TEST_F(TwoExperiments, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
   const JointView view = ReadJointView(folder);
   EXPECT_FALSE(HoldOut(view, "fast lift").predicted.numbers.at(0).IsInside())
       << HeldOutText(view, HoldOut(view, "fast lift")) << base::ReadFile(folder / "result.json");
-  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+  const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
   ASSERT_EQ(result.posterior.value().alone.size(), 2u);
   EXPECT_EQ(result.posterior->alone[0].name, "heap");
   // The runs went to where both are least wrong, so the heap's own answer is a coarse one.
   EXPECT_NEAR(result.posterior->alone[0].values[0], kTrueSliding, 0.15);
-  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("no set fits"));
-  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("heap alone"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("no set fits"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("heap alone"));
   EXPECT_GT(result.posterior->tension, 2);
-  EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const ResultWarning& w) {
-    return w.kind == WarningKind::kDisagree && !w.experiment.value_or("").empty();
+  EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const Alarm& w) {
+    return w.kind == AlarmKind::kDisagree && !w.experiment.value_or("").empty();
   }));
 }
 
 TEST_F(TwoExperiments, TestsThatAgreeRaiseNoAlarm) {
   const auto folder = Begin("run", "23 mg", 40);
   RunFake(folder, {});
-  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
-  EXPECT_TRUE(result.posterior.value().alone.empty()) << ResultSummary(result, "runs/heap");
+  const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
+  EXPECT_TRUE(result.posterior.value().alone.empty()) << AnswerSummary(result, "runs/heap");
   EXPECT_LT(result.posterior->tension, 2);
-  EXPECT_EQ(ResultSummary(result, "runs/heap").find("no set fits"), std::string::npos);
+  EXPECT_EQ(AnswerSummary(result, "runs/heap").find("no set fits"), std::string::npos);
 }
 
 TEST(Agreement, TensionIsNoAlarmWhereSurrogatesMissMostOfTheirOwnTrials) {
@@ -74,7 +76,7 @@ TEST(Agreement, TensionIsNoAlarmWhereSurrogatesMissMostOfTheirOwnTrials) {
 TEST_F(TwoExperiments, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   const auto folder = Begin("run", "42 mg", 30, {.hold_out = "fast lift"});
   RunFake(folder, {});
-  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+  const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
   EXPECT_LT(result.parameters[0].credible_low, kTrueSliding);
   EXPECT_GT(result.parameters[0].credible_high, kTrueSliding);
   EXPECT_GT(result.parameters[0].credible_low, 0.2);
@@ -89,11 +91,12 @@ TEST_F(TwoExperiments, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   EXPECT_EQ(fallen.measured, 42e-6);
   EXPECT_FALSE(fallen.IsInside());
   EXPECT_GT(held_out.implausibility, 3);
-  EXPECT_THAT(ResultSummary(result, "runs/heap"),
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"),
               HasSubstr("fast lift, which the answer is made without"));
-  EXPECT_EQ(ResultSummary(result, "runs/heap").find("no set fits"), std::string::npos);
+  EXPECT_EQ(AnswerSummary(result, "runs/heap").find("no set fits"), std::string::npos);
   const analysis::Evidence evidence = analysis::GatherEvidence(folder, "");
-  EXPECT_THAT(evidence.conclusion.value().held_out.front(), HasSubstr("without fast lift"));
+  EXPECT_THAT(analysis::HeldOutWords(evidence.answer.value()).front(),
+              HasSubstr("without fast lift"));
   // It is simulated where the others are, by design and to confirm, but nowhere for its own sake.
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   for (const journal::TrialRecord& trial : journal.Trials()) {

@@ -12,10 +12,13 @@
 #include "base/error.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/export/export.h"
+#include "experiments/campaign/answer/alarms.h"
+#include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
 #include "experiments/campaign/answer/describe_posterior.h"
-#include "experiments/campaign/folder/status.h"
+#include "experiments/campaign/status.h"
 #include "experiments/journal/checksums.h"
+#include "experiments/rigs/load_case.h"
 #include "tests/experiments/campaign_fixture.h"
 #include "tests/experiments/two_experiments.h"
 
@@ -44,9 +47,9 @@ TEST_F(JointCampaign, TrialsHaveTheScaleFactorsThatTheStrategyAsksForAndConfirmA
     } else {
       factors.insert(trial.scale_factor);
     }
-    const rigs::HeapCase heap_case =
-        rigs::LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
-    EXPECT_EQ(heap_case.coarse_graining.scale_factor, trial.scale_factor);
+    const rigs::Case rig_case =
+        rigs::LoadCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    EXPECT_EQ(rig_case.coarse_graining.scale_factor, trial.scale_factor);
   }
   EXPECT_EQ(factors, (std::set<double>{1, 2}));
 }
@@ -79,7 +82,7 @@ TEST_F(JointCampaign, ASetIsConfirmedByTrialsOfItsOwn) {
   ASSERT_EQ(trials.size(), 16u + 2u + 2u);
   EXPECT_EQ(trials[18].set, trials[17].set + 1);
   EXPECT_EQ(trials[19].set, trials[18].set);
-  EXPECT_EQ(Result(folder).confirmed.at(0).num_trials, 2);
+  EXPECT_EQ(Result(folder).confirmed.at(0).experiments.at(0).num_trials, 2);
   RunFake(folder, {});
   EXPECT_EQ(Trials(folder).size(), trials.size());
 }
@@ -89,12 +92,12 @@ TEST_F(JointCampaign, ItEndsWhenItsCoreTimeIsUsed) {
     "budget": {"core_time": "1 us"}, "confirm": {"candidates": 0}, "workers": 1)");
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(Trials(folder).size(), 1u);  // a process takes longer than that
-  EXPECT_THAT(Result(folder).stop_reason, HasSubstr("core time is used"));
+  EXPECT_THAT(Result(folder).stop.Text(), HasSubstr("core time is used"));
 }
 
-bool SaysThatTheBudgetEndedIt(const CampaignResult& result) {
-  return std::ranges::any_of(
-      result.warnings, [](const ResultWarning& w) { return w.kind == WarningKind::kBudgetEnded; });
+bool SaysThatTheBudgetEndedIt(const Answer& result) {
+  return std::ranges::any_of(result.warnings,
+                             [](const Alarm& w) { return w.kind == AlarmKind::kBudgetEnded; });
 }
 
 TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
@@ -102,7 +105,7 @@ TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
     "confirm": {"candidates": 0}, "workers": 1, "posterior": {"stop_share": )";
   const fs::path early = Begin(rule + R"(1e-6}, "budget": {"simulations": 20})", "early");
   RunFake(early, {});
-  const CampaignResult cut = Result(early);
+  const Answer cut = Result(early);
   ASSERT_TRUE(cut.unsettled);
   EXPECT_THAT(cut.unsettled->why, HasSubstr("of what the measurements leave open"));
   EXPECT_GT(cut.unsettled->share, 1e-6);
@@ -121,7 +124,7 @@ TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
 TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
   const fs::path folder = Begin(kTwoSizes);
   RunFake(folder, {});
-  const CampaignResult result = Result(folder);
+  const Answer result = Result(folder);
   ASSERT_TRUE(result.posterior.has_value());
   const ResultPosterior& posterior = *result.posterior;
   EXPECT_EQ(posterior.target_scale_factor, 1);
@@ -142,7 +145,7 @@ TEST_F(JointCampaign, TheResultHoldsThePosteriorAndItsDraws) {
   const double sliding = std::stod(line);
   EXPECT_GE(sliding, 0.1);  // SI, so within the range and not in the unit cube
   EXPECT_LE(sliding, 0.8);
-  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("the joint 90 % region fills"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("the joint 90 % region fills"));
 }
 
 TEST_F(JointCampaign, ConsiderSaysWhereASetStandsWithoutWritingAnything) {
@@ -191,15 +194,15 @@ TEST_F(JointCampaign, ConsiderRefusesWhatIsNoSetOfTheCampaign) {
 TEST_F(JointCampaign, FewGrainsAcrossThePlateAreAWarningOfTheResult) {
   const fs::path folder = Begin(kTwoSizes);  // 10 mm over 0.8 mm
   RunFake(folder, {});
-  const CampaignResult result = Result(folder);
-  std::vector<ResultWarning> found;
+  const Answer result = Result(folder);
+  std::vector<Alarm> found;
   std::ranges::copy_if(result.warnings, std::back_inserter(found),
-                       [](const ResultWarning& w) { return w.kind == WarningKind::kFewGrains; });
+                       [](const Alarm& w) { return w.kind == AlarmKind::kFewGrains; });
   ASSERT_EQ(found.size(), 1u);  // at the finest scale factor; there are 12.5 at the other
   EXPECT_EQ(found[0].scale_factor, 1);
   EXPECT_NEAR(found[0].value.value(), 25, 1e-9);
   EXPECT_THAT(
-      ResultSummary(result, "runs/heap"),
+      AnswerSummary(result, "runs/heap"),
       HasSubstr("only 25 grains across the plate of \"heap\" at their true size: single grains "
                 "show in its outline"));
 }
@@ -215,9 +218,9 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   for (const journal::TrialRecord& trial : trials) {
     const auto e = static_cast<std::size_t>(trial.experiment);
     ++(trial.kind == journal::TrialKind::kConfirm ? confirmed : searched).at(e);
-    const rigs::HeapCase heap_case =
-        rigs::LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
-    EXPECT_EQ(heap_case.device.lift_velocity, trial.experiment == 0 ? 0.01 : 0.2);
+    const rigs::Case rig_case =
+        rigs::LoadCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    EXPECT_EQ(rig_case.rig.lifted_tube.lift_velocity, trial.experiment == 0 ? 0.01 : 0.2);
     EXPECT_TRUE(trial.Metric("mass_fallen_kg").has_value());
   }
   EXPECT_GT(searched[0], 0);
@@ -227,13 +230,13 @@ TEST_F(TwoExperiments, EachTrialIsOfOneWithItsDeviceAndTheResultSpeaksOfBoth) {
   ASSERT_EQ(record.experiments.size(), 2u);
   EXPECT_EQ(record.experiments[1].scalars.at(0).value, 23e-6);
 
-  const CampaignResult result = ParseResult(base::ReadFile(folder / "result.json"));
+  const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
   const auto& experiments = result.confirmed.at(0).experiments;
-  ASSERT_TRUE(experiments && experiments->size() == 2);
-  EXPECT_EQ((*experiments)[1].name, "fast lift");
-  EXPECT_EQ((*experiments)[1].scalars.at(0).measured, 23e-6);
+  ASSERT_EQ(experiments.size(), 2u);
+  EXPECT_EQ(experiments[1].name, "fast lift");
+  EXPECT_EQ(result.experiments.at(1).numbers.at(0).value, 23e-6);
   EXPECT_EQ(result.posterior.value().experiments.size(), 2u);
-  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("mass_fallen_kg"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("mass_fallen_kg"));
   EXPECT_THAT(StatusText(folder), HasSubstr("fast lift at scale factor 2: "));
   EXPECT_THAT(analysis::TrialsCsv(record, trials), HasSubstr(",fast lift,2,"));
   // Trials are compared with the experiment that they are of.
@@ -254,19 +257,26 @@ TEST_F(TwoExperiments, ADamagedJournalIsMadeAnewWithBoth) {
       2u);
 }
 
+Answer With(const ResultPosterior& posterior) {
+  Answer answer;
+  answer.posterior = posterior;
+  return answer;
+}
+
 TEST(PosteriorInWords, AnAlarmWhereNoSetFits) {
   const ResultPosterior posterior{.target_scale_factor = 1,
                                   .is_extrapolated = true,
                                   .unlearnt_scale_factors = {2},
                                   .experiments = {{.name = "heap", .implausibility = 2.9},
                                                   {.name = "wide plate", .implausibility = 3.4}}};
-  const auto warnings = PosteriorWarnings(posterior);
+  const auto warnings = PosteriorAlarms(With(posterior));
   ASSERT_EQ(warnings.size(), 3u);
-  EXPECT_EQ(warnings[0].kind, WarningKind::kImplausible);
+  EXPECT_EQ(warnings[0].kind, AlarmKind::kImplausible);
   EXPECT_EQ(warnings[0].experiment, "wide plate");
-  EXPECT_THAT(warnings[0].text, HasSubstr("the contact law, the plate material or the set-up"));
-  EXPECT_EQ(warnings[1].kind, WarningKind::kExtrapolated);
-  EXPECT_EQ(warnings[2].kind, WarningKind::kUnlearntScaleFactor);
+  EXPECT_THAT(AlarmText(warnings[0]),
+              HasSubstr("the contact law, the plate material or the set-up"));
+  EXPECT_EQ(warnings[1].kind, AlarmKind::kExtrapolated);
+  EXPECT_EQ(warnings[2].kind, AlarmKind::kUnlearntScaleFactor);
   EXPECT_EQ(warnings[2].scale_factor, 2);
 }
 
@@ -274,21 +284,15 @@ TEST(PosteriorInWords, FewSimulationsOfSeveralExperimentsAreSaid) {
   ResultPosterior posterior{.target_scale_factor = 1,
                             .fewest_at_finest = 8,
                             .experiments = {{.name = "heap"}, {.name = "wide plate"}}};
-  const auto warnings = PosteriorWarnings(posterior);
+  const auto warnings = PosteriorAlarms(With(posterior));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].kind, WarningKind::kFewSimulations);
-  EXPECT_THAT(warnings[0].text, HasSubstr("only 8 simulations"));
+  EXPECT_EQ(warnings[0].kind, AlarmKind::kFewSimulations);
+  EXPECT_THAT(AlarmText(warnings[0]), HasSubstr("only 8 simulations"));
   posterior.fewest_at_finest = 12;
-  EXPECT_TRUE(PosteriorWarnings(posterior).empty());
+  EXPECT_TRUE(PosteriorAlarms(With(posterior)).empty());
   posterior.fewest_at_finest = 8;
   posterior.experiments.pop_back();  // one alone has room enough
-  EXPECT_TRUE(PosteriorWarnings(posterior).empty());
-}
-
-TEST(ResultText, WarningsOfEarlierVersionsAreRead) {
-  const CampaignResult result = ParseResult(R"({"name": "old", "warnings": ["mind the gap"]})");
-  ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_EQ(result.warnings[0].text, "mind the gap");
+  EXPECT_TRUE(PosteriorAlarms(With(posterior)).empty());
 }
 
 }  // namespace

@@ -12,8 +12,10 @@
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/usual_tests.h"
+#include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
-#include "experiments/campaign/folder/status.h"
+#include "experiments/campaign/status.h"
+#include "experiments/rigs/load_case.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
@@ -70,14 +72,13 @@ TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   std::array<int, 2> searched{};
   for (const journal::TrialRecord& trial : Trials(folder)) {
-    const rigs::HeapCase heap_case =
-        rigs::LoadHeapCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
+    const rigs::Case rig_case =
+        rigs::LoadCase(CampaignFolder{folder}.trial(trial.id) / "case.json");
     const bool tapped = trial.experiment == 1;
-    EXPECT_EQ(rigs::KindOf(heap_case),
+    EXPECT_EQ(rig_case.rig.kind,
               tapped ? rigs::RigKind::kTappedDensity : rigs::RigKind::kLiftedTube);
-    EXPECT_EQ(heap_case.filling.kind,
-              tapped ? rigs::FillingKind::kPour : rigs::FillingKind::kDense);
-    EXPECT_EQ(heap_case.frame.has_value(), !tapped);
+    EXPECT_EQ(rig_case.filling.kind, tapped ? rigs::FillingKind::kPour : rigs::FillingKind::kDense);
+    EXPECT_EQ(rig_case.frame.has_value(), !tapped);
     EXPECT_EQ(trial.status, journal::TrialStatus::kOk);
     EXPECT_EQ(trial.Metric("sad_mm2").has_value(), !tapped);
     EXPECT_EQ(trial.Metric("tapped_density_kg_per_m3").has_value(), tapped);
@@ -87,8 +88,8 @@ TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
   }
   EXPECT_GT(searched[0], 3);
   EXPECT_GT(searched[1], 3);
-  const CampaignResult result = Result(folder);
-  const auto& experiments = result.confirmed.at(0).experiments.value();
+  const Answer result = Result(folder);
+  const auto& experiments = result.confirmed.at(0).experiments;
   EXPECT_EQ(experiments.at(1).num_trials, 2);
   EXPECT_NEAR(experiments.at(1).scalars.at(0).mean, 1480, 30);
   EXPECT_THAT(StatusText(folder), HasSubstr("tapped at scale factor 2: "));
@@ -105,16 +106,16 @@ TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
 TEST_F(NumbersOnly, AloneDecideWhatTheySpeakOf) {
   const fs::path folder = BeginWith("run", std::string(kFallen) + "," + kTapped);
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
-  const CampaignResult result = Result(folder);
+  const Answer result = Result(folder);
   ASSERT_EQ(result.parameters.size(), 2u);
   EXPECT_NEAR(result.parameters[0].value, kTrueSliding, 0.08);
   EXPECT_NEAR(result.parameters[1].value, kTrueRolling, 0.05);
   EXPECT_LT(result.parameters[1].credible_high - result.parameters[1].credible_low, 0.25);
   EXPECT_LE(result.parameters[1].credible_low, kTrueRolling);
   EXPECT_GE(result.parameters[1].credible_high, kTrueRolling);
-  EXPECT_EQ(result.confirmed.at(0).num_trials, 2);
-  EXPECT_THAT(ResultSummary(result, "runs/heap"), HasSubstr("tapped_density_kg_per_m3"));
-  EXPECT_THAT(ResultSummary(result, "runs/heap"), ::testing::Not(HasSubstr("nan")));
+  EXPECT_EQ(result.confirmed.at(0).experiments.at(0).num_trials, 2);
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), HasSubstr("tapped_density_kg_per_m3"));
+  EXPECT_THAT(AnswerSummary(result, "runs/heap"), ::testing::Not(HasSubstr("nan")));
   EXPECT_THAT(StatusText(folder), HasSubstr("numbers only"));
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   EXPECT_THAT(analysis::TrialsCsv(journal.Campaign(), journal.Trials()),

@@ -37,16 +37,8 @@ TEST(ScaleFactors, TheSmallestIsTheTargetUnlessTheSpecAsksForLess) {
   EXPECT_THAT(several.coarse_graining.Levels(), ElementsAre(3, 2, 1.5));
   EXPECT_EQ(several.coarse_graining.Target(), 1.5);
   EXPECT_EQ(several.coarse_graining.scale_factor, 1.5);  // of the confirmation
-  EXPECT_TRUE(several.IsJoint());
-  EXPECT_EQ(several.noise.replicates, 0);  // the search itself shows the noise
-  const CampaignSpec beyond =
-      Read(R"("coarse_graining": {"scale_factor": 2, "target": 1}, "noise": {"replicates": 2})");
+  const CampaignSpec beyond = Read(R"("coarse_graining": {"scale_factor": 2, "target": 1})");
   EXPECT_EQ(beyond.coarse_graining.Target(), 1);
-  EXPECT_TRUE(beyond.IsJoint());
-  EXPECT_EQ(beyond.noise.replicates, 2);  // as the user says
-  const CampaignSpec one = Read(R"("coarse_graining": {"scale_factors": [2]})");
-  EXPECT_FALSE(one.IsJoint());
-  EXPECT_EQ(one.noise.replicates, 3);
 }
 
 TEST(ScaleFactors, TheSpecReadsBackWithThem) {
@@ -54,7 +46,7 @@ TEST(ScaleFactors, TheSpecReadsBackWithThem) {
   EXPECT_EQ(SpecText(ParseSpecText(text)), text);
   // A spec without the keys is written as before they were known.
   const std::string plain = SpecText(Read(R"("seed": 1)"));
-  for (const char* key : {"scale_factors", "target", "core_time", "experiments", "posterior"}) {
+  for (const char* key : {"scale_factors", "target", "core_time", "experiments"}) {
     EXPECT_EQ(plain.find(std::string("\"") + key), std::string::npos) << key;
   }
 }
@@ -78,8 +70,7 @@ TEST(ScaleFactors, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(graining(R"("scale_factors": [1, 5])"), "");  // ten across
   EXPECT_THAT(ErrorOf(R"("coarse_graining": {"scale_factors": [1, 2]},
                          "strategy": {"kind": "lhs"})"),
-              HasSubstr("strategy.kind: must be \"surrogate\""));
-  EXPECT_THAT(ErrorOf(R"("posterior": {"model_error": 1})"), HasSubstr("posterior: has no effect"));
+              HasSubstr("strategy.kind: must be \"auto\""));
 }
 
 std::string ErrorOfExperiments(const std::string& list, const std::string& more = "") {
@@ -123,9 +114,8 @@ TEST(Experiments, EachHasItsOwnDeviceOrTheCampaigns) {
        "device": {"plate_diameter": "30 mm", "lift_velocity": "5 cm/s"},
        "mass_fallen": {"value": "21 mg", "sd": "2 mg"}}]})",
                                                              "/folder/powder.json"));
-  EXPECT_TRUE(spec.IsJoint());
-  EXPECT_EQ(TypicalCase(spec, 0, 1).device.lift_velocity, 0.02);
-  EXPECT_EQ(TypicalCase(spec, 1, 1).device.plate_diameter, 0.03);
+  EXPECT_EQ(TypicalCase(spec, 0, 1).rig.lifted_tube.lift_velocity, 0.02);
+  EXPECT_EQ(TypicalCase(spec, 1, 1).rig.lifted_tube.plate_diameter, 0.03);
   const auto scalars = ScalarsOf(ExperimentsOf(spec)[1]);
   ASSERT_EQ(scalars.size(), 1u);
   EXPECT_EQ(scalars[0].metric, "mass_fallen_kg");

@@ -57,7 +57,7 @@ TEST(Spec, AnySubsetOfTheMaterialWithUnitsAndFixedValues) {
   const auto space = SpaceOf(spec);
   ASSERT_EQ(space.Free().size(), 2u);
   const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 1));
-  const rigs::HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
+  const rigs::Case c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
   EXPECT_NEAR(c.powder.material.surface_energy, 2e-5, 1e-15);  // √(1e-6 · 4e-4)
   EXPECT_DOUBLE_EQ(c.powder.material.youngs_modulus, 30e6);
   EXPECT_DOUBLE_EQ(c.powder.material.restitution, 0.6);
@@ -76,12 +76,12 @@ TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
   const auto space = SpaceOf(spec);
   ASSERT_EQ(space.Free().size(), 2u);
   const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 0.5));
-  const rigs::HeapCase c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
+  const rigs::Case c = CaseOf(spec, {.values = values, .seed = 7, .scale_factor = 2}, {});
   EXPECT_DOUBLE_EQ(c.powder.material.sliding_friction, 0.3);
-  EXPECT_DOUBLE_EQ(c.device.plate_material.value().sliding_friction.value(), 0.5);
-  EXPECT_DOUBLE_EQ(c.device.plate_material.value().restitution.value(), 0.4);  // the device's stays
-  EXPECT_FALSE(c.device.plate_material.value().surface_energy);                // follows the powder
-  EXPECT_DOUBLE_EQ(c.device.tube_material.value().surface_energy.value(), 1e-4);
+  EXPECT_DOUBLE_EQ(c.materials.floor.value().sliding_friction.value(), 0.5);
+  EXPECT_DOUBLE_EQ(c.materials.floor.value().restitution.value(), 0.4);  // the device's stays
+  EXPECT_FALSE(c.materials.floor.value().surface_energy);                // follows the powder
+  EXPECT_DOUBLE_EQ(c.materials.walls.value().surface_energy.value(), 1e-4);
   EXPECT_EQ(UnitOf("plate_surface_energy"), "J/m^2");
   EXPECT_THAT(ErrorOf(With(R"("parameters": {"plate_sliding_friction": {"min": -1, "max": 1}})")),
               HasSubstr("parameters.plate_sliding_friction.min"));

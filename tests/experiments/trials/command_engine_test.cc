@@ -12,6 +12,7 @@
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
+#include "experiments/trials/engines/command_scalars.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
@@ -20,19 +21,19 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-rigs::HeapCase SmallCase() {
-  rigs::HeapCase heap_case;
-  heap_case.powder.sizes.kind = engine::SizeKind::kMono;
-  heap_case.powder.sizes.diameter = 1e-3;
-  heap_case.powder.mass = 1e-4;  // 76 grains
-  heap_case.device.plate = rigs::PlateKind::kDisc;
-  heap_case.frame = imaging::Frame{.width = 40,
-                                   .height = 30,
-                                   .pixel_size = 5e-4,
-                                   .center_x = 20,
-                                   .baseline = 25,
-                                   .plate_diameter = 0.01};
-  return heap_case;
+rigs::Case SmallCase() {
+  rigs::Case rig_case;
+  rig_case.powder.sizes.kind = engine::SizeKind::kMono;
+  rig_case.powder.sizes.diameter = 1e-3;
+  rig_case.powder.mass = 1e-4;  // 76 grains
+  rig_case.rig.lifted_tube.plate = rigs::PlateKind::kDisc;
+  rig_case.frame = imaging::Frame{.width = 40,
+                                  .height = 30,
+                                  .pixel_size = 5e-4,
+                                  .center_x = 20,
+                                  .baseline = 25,
+                                  .plate_diameter = 0.01};
+  return rig_case;
 }
 
 class CommandEngineTest : public ::testing::Test {
@@ -53,8 +54,8 @@ class CommandEngineTest : public ::testing::Test {
   std::string Text(const std::string& name) { return base::ReadFile(root_ / name); }
 
   // The whole trial, as a campaign has it run.
-  TrialOutput Run(const rigs::HeapCase& heap_case = SmallCase()) {
-    SimulateCommandCase({.heap = heap_case, .engine = options_}, root_ / "trial", false);
+  TrialOutput Run(const rigs::Case& rig_case = SmallCase()) {
+    SimulateCommandCase({.heap = rig_case, .engine = options_}, root_ / "trial", false);
     return {.profile = imaging::ReadGrayImage(root_ / "trial/profile.png"), .note = {}};
   }
   std::string FailureOf() {
@@ -68,7 +69,7 @@ class CommandEngineTest : public ::testing::Test {
   std::string CheckErrors(const std::vector<std::string>& calibrated = {}) {
     base::Problems problems("spec.json", {});
     try {
-      CheckCommand(options_, {.heap_case = SmallCase(), .calibrated = calibrated}, problems);
+      CheckCommand(options_, {.rig_case = SmallCase(), .calibrated = calibrated}, problems);
       problems.ThrowIfAny();
     } catch (const base::ConfigError& error) {
       return error.what();
@@ -96,9 +97,9 @@ TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
 
 // Of any rig: its keys are placeholders, its numbers stand in a file.
 TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
-  rigs::HeapCase drum = SmallCase();
-  drum.rig.emplace().kind = rigs::RigKind::kDrum;
-  drum.rig->drum = {.diameter = 0.02, .width = 0.01, .speed = 2};
+  rigs::Case drum = SmallCase();
+  drum.rig.kind = rigs::RigKind::kDrum;
+  drum.rig.drum = {.diameter = 0.02, .width = 0.01, .speed = 2};
   drum.frame.reset();
   const auto scalars_of = [&] {
     CommandEngine engine(options_);
@@ -122,6 +123,20 @@ TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
   EXPECT_THROW(scalars_of(), base::Error);
   Deck("run.sh", "true");  // neither numbers nor a result
   EXPECT_THROW(scalars_of(), base::Error);
+}
+
+// The last value of a doubled name counted, and a mark before the first name made another of it.
+TEST(CommandScalars, EachNameStandsOnce) {
+  const auto marked = ParseCsvScalars(
+      "\xef\xbb\xbf"
+      "angle_deg,31.5\n\"runout_m\",\"0.03\"\n");
+  ASSERT_EQ(marked.size(), 2u);
+  EXPECT_EQ(marked[0].name, "angle_deg");
+  EXPECT_EQ(marked[1].value, 0.03);
+  EXPECT_THROW(ParseCsvScalars("angle_deg,31.5\nangle_deg,32\n"), base::Error);
+  EXPECT_THROW(ParseCsvScalars("\"angle_deg,31.5\n"), base::Error);
+  EXPECT_THROW(ParseJsonScalars(R"({"angle_deg": 31.5, "angle_deg": 32})"), base::Error);
+  EXPECT_EQ(ParseJsonScalars(R"({"angle_deg": 31.5, "runout_m": null})").size(), 2u);
 }
 
 TEST_F(CommandEngineTest, ANumberThatTheCommandGivesCounts) {
@@ -354,33 +369,33 @@ TEST_F(CommandEngineTest, FolderWithOtherFilesIsLeftAlone) {
 }
 
 TEST(CaseValues, SeedsSuitTheCodesThatTakeThem) {
-  rigs::HeapCase heap_case = SmallCase();
+  rigs::Case rig_case = SmallCase();
   std::set<std::string> primes;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    heap_case.seed = seed;
-    const TemplateValues values = CaseValues(heap_case);
+    rig_case.seed = seed;
+    const TemplateValues values = CaseValues(rig_case);
     const long prime = std::stol(values.scalars.at("prime_seed"));
     EXPECT_GT(prime, 10000);
     for (long d = 2; d * d <= prime; ++d) ASSERT_NE(prime % d, 0);
     primes.insert(values.scalars.at("prime_seed"));
   }
   EXPECT_EQ(primes.size(), 50u);
-  heap_case.seed = ~std::uint64_t{0};
-  const long seed = std::stol(CaseValues(heap_case).scalars.at("seed"));
+  rig_case.seed = ~std::uint64_t{0};
+  const long seed = std::stol(CaseValues(rig_case).scalars.at("seed"));
   EXPECT_TRUE(seed > 0 && seed < 900000000) << seed;
 }
 
 TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
-  rigs::HeapCase heap_case = SmallCase();
-  heap_case.coarse_graining.scale_factor = 2;
-  heap_case.powder.material.surface_energy = 1e-4;
-  heap_case.device.plate_material = rigs::WallMaterial{.sliding_friction = 0.125};
-  TemplateValues values = CaseValues(heap_case);
+  rigs::Case rig_case = SmallCase();
+  rig_case.coarse_graining.scale_factor = 2;
+  rig_case.powder.material.surface_energy = 1e-4;
+  rig_case.materials.floor = rigs::WallMaterial{.sliding_friction = 0.125};
+  TemplateValues values = CaseValues(rig_case);
   EXPECT_EQ(std::stod(values.scalars.at("mean_diameter")), 2e-3);
   EXPECT_EQ(std::stod(values.scalars.at("surface_energy_used")), 2e-4);
   EXPECT_EQ(values.scalars.at("plate_sliding_friction"), "0.125");
   EXPECT_EQ(values.scalars.at("tube_sliding_friction"), "0.5");
-  AddGrains(heap_case, values);
+  AddGrains(rig_case, values);
   const TemplateTable& grains = values.tables.at("grains");
   EXPECT_EQ(std::to_string(grains.rows.size()), values.scalars.at("num_grains"));
   EXPECT_EQ(std::stod(grains.rows.at(0).at(4)), 2e-3);

@@ -7,6 +7,7 @@
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/rig_run.h"
 
 namespace talus::trials {
@@ -35,8 +36,8 @@ TEST(TalusEngine, ATrialWithADamagedResultIsNotComplete) {
   fs::remove_all(folder);
 }
 
-rigs::HeapCase SmallHeap(const imaging::Frame& frame) {
-  rigs::HeapCase c;
+rigs::Case SmallHeap(const imaging::Frame& frame) {
+  rigs::Case c;
   c.powder.material = {.density = 2500, .youngs_modulus = 1e6, .sliding_friction = 0.5};
   c.powder.sizes.diameter = 1.5e-3;
   c.powder.mass = 0.4e-3;
@@ -44,9 +45,9 @@ rigs::HeapCase SmallHeap(const imaging::Frame& frame) {
   return c;
 }
 
-void Simulate(const rigs::HeapCase& c, const fs::path& folder) {
+void Simulate(const rigs::Case& c, const fs::path& folder) {
   fs::create_directories(folder);
-  base::WriteFileAtomically(folder / "case.json", rigs::HeapCaseText(c));
+  base::WriteFileAtomically(folder / "case.json", rigs::CaseText(c));
   rigs::RigRun run(c, folder);
   while (run.Advance()) {
   }
@@ -55,18 +56,18 @@ void Simulate(const rigs::HeapCase& c, const fs::path& folder) {
 
 TEST(TalusEngine, ARunIsTakenOverWithTheImageThatItsOwnFrameWouldHaveGiven) {
   const fs::path root = fs::temp_directory_path() / ("talus_taken_" + std::to_string(::getpid()));
-  const rigs::HeapCase seen = SmallHeap({.width = 60,
-                                         .height = 40,
-                                         .pixel_size = 3e-4,
-                                         .center_x = 30,
-                                         .baseline = 36,
-                                         .plate_diameter = 0.01});
-  const rigs::HeapCase asked = SmallHeap({.width = 90,
-                                          .height = 50,
-                                          .pixel_size = 2e-4,
-                                          .center_x = 41,
-                                          .baseline = 45,
-                                          .plate_diameter = 0.01});
+  const rigs::Case seen = SmallHeap({.width = 60,
+                                     .height = 40,
+                                     .pixel_size = 3e-4,
+                                     .center_x = 30,
+                                     .baseline = 36,
+                                     .plate_diameter = 0.01});
+  const rigs::Case asked = SmallHeap({.width = 90,
+                                      .height = 50,
+                                      .pixel_size = 2e-4,
+                                      .center_x = 41,
+                                      .baseline = 45,
+                                      .plate_diameter = 0.01});
   Simulate(seen, root / "seen");
   Simulate(asked, root / "asked");
   TalusEngine engine("talus");
@@ -75,7 +76,7 @@ TEST(TalusEngine, ARunIsTakenOverWithTheImageThatItsOwnFrameWouldHaveGiven) {
   EXPECT_EQ(engine.Collect(asked, root / "taken").profile.pixels,
             engine.Collect(asked, root / "asked").profile.pixels);
   EXPECT_EQ(base::ReadFile(root / "taken/case.json"), base::ReadFile(root / "asked/case.json"));
-  rigs::HeapCase other = asked;
+  rigs::Case other = asked;
   other.powder.material.sliding_friction = 0.4;
   EXPECT_FALSE(engine.TakeOver(other, root / "seen", root / "other"));
   EXPECT_FALSE(fs::exists(root / "other"));

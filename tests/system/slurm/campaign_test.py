@@ -66,7 +66,7 @@ def two_experiments(folder, runner):
                                   "device": {"plate": "disc", "lift_velocity": "20 cm/s"},
                                   "mass_fallen": {"value": "20 mg", "sd": "5 mg"}}]
     del text["noise"]
-    text.update(strategy={"kind": "surrogate"}, budget={"simulations": 12},
+    text.update(strategy={"kind": "auto"}, budget={"simulations": 12},
                 confirm={"candidates": 1, "replicates": 1}, coarse_graining={"scale_factor": 1})
     path.write_text(json.dumps(text))
     return path

@@ -1,5 +1,5 @@
-// The report's colours, in one place: the figures for a paper take them as they are, the page as
-// properties of its style sheet (on paper and in the light look) and with its data.
+// The report's colours, in one place: the page takes them as properties of its style sheet (on
+// paper and in the light look) and with its data.
 #pragma once
 
 #include <array>
@@ -18,17 +18,11 @@ inline constexpr const char* kTrials = "#9aa5ad";       // those that are not am
 inline constexpr const char* kRegion50 = "#2b7ba8";
 inline constexpr const char* kRegion90 = "#b5d3e4";
 
-// The chance to tie, from the paper's white on; the darkest is the highest.
-inline constexpr std::array kChance{"#cfe3ee", "#7fb2cf", kRegion50, "#07405e"};
-
 // Okabe and Ito's colours: told apart with every common colour blindness.
 inline constexpr std::array kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                      "#E69F00", "#56B4E9", "#6b6b6b"};
 
 inline const char* PaletteColor(std::size_t index) { return kPalette[index % kPalette.size()]; }
-
-// From white over kChance to its last; `share` of the highest chance, in [0, 1].
-std::string ChanceShade(double share);
 
 // For the style sheet, ahead of what it says of a dark screen.
 std::string ColorProperties();

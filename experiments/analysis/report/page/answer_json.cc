@@ -1,9 +1,10 @@
 #include <cmath>
 
-#include "experiments/analysis/report/labels.h"
+#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
+#include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/journal/objective.h"
-#include "experiments/rigs/rig.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::analysis {
 namespace {
@@ -33,16 +34,16 @@ PageValue StepJson(const NextStep& step) {
 }
 
 PageValue FitJson(const FitRow& row) {
-  const char* meets = row.meets == FitRow::Meets::kYes  ? "yes"
-                      : row.meets == FitRow::Meets::kNo ? "no"
-                                                        : "unknown";
+  const char* meets = row.meets == campaign::Meets::kYes  ? "yes"
+                      : row.meets == campaign::Meets::kNo ? "no"
+                                                          : "unknown";
   return {{"experiment", row.experiment}, {"what", row.what},
           {"measured", row.measured},     {"simulated", row.simulated},
           {"judgement", row.judgement},   {"meets", meets},
           {"held_out", row.held_out},     {"implausibility", NumberJson(row.implausibility)}};
 }
 
-PageValue BranchJson(const AnswerBranch& branch) {
+PageValue BranchJson(const campaign::ResultBranch& branch) {
   return {{"share", NumberJson(branch.share)},
           {"values", NumbersJson(branch.values)},
           {"low", NumbersJson(branch.low)},
@@ -50,11 +51,27 @@ PageValue BranchJson(const AnswerBranch& branch) {
 }
 
 // What the campaign minimised, whatever experiment is shown.
-PageValue ObjectiveOf(const Conclusion& conclusion) {
+PageValue ObjectiveOf(const Evidence& evidence) {
   for (const journal::ObjectiveInfo& info : journal::kObjectives) {
-    if (info.key == conclusion.objective) return {{"title", info.title}, {"unit", info.unit}};
+    if (info.key == evidence.objective) return {{"title", info.title}, {"unit", info.unit}};
   }
-  return {{"title", conclusion.objective}, {"unit", ""}};
+  return {{"title", evidence.objective}, {"unit", ""}};
+}
+
+// The recommended value of a parameter and its range.
+PageValue ValueJson(const campaign::ResultParameter& p) {
+  return {{"value", NumberJson(p.value)},
+          {"low", NumberJson(p.credible_low)},
+          {"high", NumberJson(p.credible_high)}};
+}
+
+// Of every parameter, or of none.
+PageValue SobolJson(const campaign::Answer& answer, double campaign::ResultParameter::*index) {
+  PageValue list = PageValue::array();
+  for (const campaign::ResultParameter& p : answer.parameters) {
+    if (std::isfinite(p.*index)) list.push_back(NumberJson(p.*index));
+  }
+  return list;
 }
 
 PageValue ApartJson(const CandidateView::Number& number) {
@@ -87,38 +104,40 @@ PageValue NextTableJson(const NextTableView& table) {
 }
 
 PageValue HeadlineJson(const ReportData& data) {
-  const Conclusion& c = *data.evidence.conclusion;
-  const PageValue objective = ObjectiveOf(c);
-  return {{"values", ListJson(c.values,
-                              [](const RecommendedValue& v) {
-                                return PageValue{{"value", NumberJson(v.value)},
-                                                 {"low", NumberJson(v.low)},
-                                                 {"high", NumberJson(v.high)}};
-                              })},
-          {"verdict", c.verdict},
-          {"verdict_kind", c.verdict_kind},
-          {"trade_off", c.trade_off},
-          {"traded", c.traded},
-          {"unsettled", c.unsettled},
-          {"use", c.use},
-          {"posterior", c.has_posterior},
-          {"branches", ListJson(c.branches, BranchJson)},
-          {"representatives", ListJson(data.representative,
-                                       [&](const RepresentativeView& view) {
-                                         return RepresentativeJson(data, view);
-                                       })},
-          {"next", ListJson(data.next_steps, StepJson)},
-          {"fit", ListJson(data.evidence.fit, FitJson)},
-          {"fit_sentence", FitSentence(data.evidence.fit)},
-          {"objective_title", objective["title"]},
-          {"objective_unit", objective["unit"]},
-          {"predicted", NumberJson(c.predicted)},
-          {"predicted_sd", NumberJson(c.predicted_sd)},
-          {"noise_sd", NumberJson(c.noise_sd)},
-          {"tied_volume", NumberJson(c.tied_volume)},
-          {"sobol_first", NumbersJson(c.sobol_first)},
-          {"sobol_total", NumbersJson(c.sobol_total)},
-          {"model", c.model}};
+  const Evidence& e = data.evidence;
+  const campaign::Answer& a = *e.answer;
+  const PageValue objective = ObjectiveOf(e);
+  const auto traded = TradedPair(a);
+  const std::string& shown = e.experiments.at(e.experiment);
+  const campaign::ResultStanding* standing = campaign::StandingOf(a, shown);
+  const auto& noise_sd = a.experiments.at(e.experiment).noise_sd;
+  return {
+      {"values", ListJson(a.parameters, ValueJson)},
+      {"sentences", HeadlineWords(e)},
+      {"verdict_kind", a.verdict ? base::NameOf(a.verdict->kind) : ""},
+      {"fits",
+       !campaign::HasAlarm(a, {campaign::AlarmKind::kImplausible, campaign::AlarmKind::kDisagree,
+                               campaign::AlarmKind::kMisses})},
+      {"trade_off", TradeOffWords(e)},
+      {"traded", traded ? PageValue{traded->first, traded->second} : PageValue::array()},
+      {"unsettled", UnsettledWords(a)},
+      {"use", UseWords(a)},
+      {"branches", a.posterior ? ListJson(a.posterior->branches, BranchJson) : PageValue::array()},
+      {"representatives",
+       ListJson(data.representative,
+                [&](const RepresentativeView& view) { return RepresentativeJson(data, view); })},
+      {"next", ListJson(data.next_steps, StepJson)},
+      {"fit", ListJson(e.fit, FitJson)},
+      {"fit_sentence", FitSentence(e.fit)},
+      {"objective_title", objective["title"]},
+      {"objective_unit", objective["unit"]},
+      {"predicted", NumberJson(standing != nullptr ? standing->predicted : kUndefined)},
+      {"predicted_sd", NumberJson(standing != nullptr ? standing->predicted_sd : kUndefined)},
+      {"noise_sd", NumberJson(noise_sd.value_or(kUndefined))},
+      {"region_volume", NumberJson(a.posterior ? a.posterior->region_volume : kUndefined)},
+      {"sobol_first", SobolJson(a, &campaign::ResultParameter::sobol_first)},
+      {"sobol_total", SobolJson(a, &campaign::ResultParameter::sobol_total)},
+      {"model", a.model}};
 }
 
 }  // namespace talus::analysis

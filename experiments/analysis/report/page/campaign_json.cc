@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/text/shell_text.h"
-#include "experiments/analysis/report/labels.h"
+#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
 
 namespace talus::analysis {

@@ -31,7 +31,7 @@ PageValue MetricsJson(const Evidence& evidence);
 PageValue TrialsJson(const Evidence& evidence);  // by column: half the size of a list of objects
 
 // What the campaign concludes, and what to do next.
-PageValue HeadlineJson(const ReportData& data);  // needs a conclusion
+PageValue HeadlineJson(const ReportData& data);  // needs an answer
 PageValue NextTableJson(const NextTableView& table);
 
 }  // namespace talus::analysis

@@ -2,12 +2,13 @@
 #include <cmath>
 
 #include "base/json/json_text.h"
+#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/colors.h"
-#include "experiments/analysis/report/labels.h"
 #include "experiments/analysis/report/methods.h"
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/page/page.h"
+#include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
 
@@ -66,8 +67,7 @@ PageValue ModelJson(const ReportData& data) {
   }
   return {{"values", NumbersJson(values)},
           {"expected", NumberJson(e.model->expected)},
-          {"expected_sd", NumberJson(e.model->expected_sd)},
-          {"posterior", data.has_posterior()}};
+          {"expected_sd", NumberJson(e.model->expected_sd)}};
 }
 
 PageValue SliceJson(const ModelSlice& slice) {
@@ -122,7 +122,6 @@ PageValue OverlayJson(const ReportData& data) {
 
 PageValue ColorsJson() {
   return {{"palette", kPalette},
-          {"chance", kChance},
           {"regions", {kRegion50, kRegion90}},
           {"scatter_band", kScatterBand},
           {"light_ink", kInk}};
@@ -162,16 +161,13 @@ void AddModel(const ReportData& data, PageValue& page) {
   });
 }
 
-void AddConclusion(const ReportData& data, PageValue& page) {
-  const auto& conclusion = data.evidence.conclusion;
-  page["headline"] = conclusion ? HeadlineJson(data) : PageValue(nullptr);
+void AddAnswer(const ReportData& data, PageValue& page) {
+  const auto& answer = data.evidence.answer;
+  page["headline"] = answer ? HeadlineJson(data) : PageValue(nullptr);
   page["next"] = data.next_table ? NextTableJson(*data.next_table) : PageValue(nullptr);
-  const auto lines = [&](const std::vector<std::string> Conclusion::*list) {
-    return conclusion ? PageValue((*conclusion).*list) : PageValue::array();
-  };
-  page["warnings"] = lines(&Conclusion::warnings);
-  page["held_out"] = lines(&Conclusion::held_out);
-  page["conditions"] = lines(&Conclusion::conditions);
+  page["warnings"] = answer ? PageValue(AlarmWords(data.evidence)) : PageValue::array();
+  page["held_out"] = answer ? PageValue(HeldOutWords(*answer)) : PageValue::array();
+  page["conditions"] = answer ? PageValue(ConditionWords(answer->conditions)) : PageValue::array();
 }
 
 void AddProvenance(const ReportData& data, PageValue& page) {
@@ -194,7 +190,7 @@ std::string PageJson(const ReportData& data) {
                  {"parameters", ParametersJson(data.evidence)},
                  {"metrics", MetricsJson(data.evidence)},
                  {"trials", TrialsJson(data.evidence)}};
-  AddConclusion(data, page);
+  AddAnswer(data, page);
   AddModel(data, page);
   AddProfiles(data, page);
   AddProvenance(data, page);

@@ -7,6 +7,7 @@
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"
@@ -36,13 +37,31 @@ Eigen::VectorXd PointOf(const Evidence& evidence, const std::vector<double>& val
   return point;
 }
 
-void FindNearest(const Evidence& evidence, const Eigen::VectorXd& point, RepresentativeView& view) {
+// Trials at the search's scale factor whose sets lie in the joint 90 % region: only the heap of a
+// set that fits may stand for one.
+std::vector<const TrialEvidence*> FittingTrials(const Evidence& evidence) {
+  std::vector<const TrialEvidence*> trials;
   for (const TrialEvidence& trial : evidence.trials) {
     if (trial.state != journal::TrialStatus::kOk) continue;
-    if (trial.scale_factor != evidence.scale_factor) continue;
-    const double distance = (trial.point - point).lpNorm<Eigen::Infinity>();
+    if (trial.scale_factor == evidence.scale_factor) trials.push_back(&trial);
+  }
+  if (!evidence.model || trials.empty()) return trials;
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(trials.size()), trials.front()->point.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = trials[i]->point;
+  }
+  const Eigen::VectorXd levels = evidence.model->credible_levels(points);
+  std::erase_if(
+      trials, [&, i = Eigen::Index{0}](const TrialEvidence*) mutable { return levels[i++] > 0.9; });
+  return trials;
+}
+
+void FindNearest(const std::vector<const TrialEvidence*>& trials, const Eigen::VectorXd& point,
+                 RepresentativeView& view) {
+  for (const TrialEvidence* trial : trials) {
+    const double distance = (trial->point - point).lpNorm<Eigen::Infinity>();
     if (view.trial != nullptr && distance >= view.distance) continue;
-    view.trial = &trial;
+    view.trial = trial;
     view.distance = distance;
   }
 }
@@ -116,13 +135,14 @@ imaging::Camera CameraOf(const imaging::Frame& frame, const Box& box) {
 
 std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
   std::vector<RepresentativeView> views;
-  if (!evidence.conclusion) return views;
+  if (!evidence.answer) return views;
   std::vector<double> recommended;
-  for (const RecommendedValue& v : evidence.conclusion->values) recommended.push_back(v.value);
-  std::vector<std::vector<double>> sets = evidence.conclusion->representative;
+  for (const campaign::ResultParameter& p : evidence.answer->parameters) {
+    recommended.push_back(p.value);
+  }
+  std::vector<std::vector<double>> sets = evidence.answer->representative;
   if (sets.empty()) sets.push_back(recommended);
-  // The middle one is the model's choice; what was confirmed better takes its place.
-  sets[sets.size() / 2] = recommended;
+  const std::vector<const TrialEvidence*> trials = FittingTrials(evidence);
   for (std::size_t i = 0; i < sets.size(); ++i) {
     RepresentativeView view{.values = sets[i], .is_recommended = i == sets.size() / 2, .heap = {}};
     const Eigen::VectorXd point = PointOf(evidence, sets[i]);
@@ -131,7 +151,7 @@ std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
       view.expected = at.mean[0];
       view.expected_sd = at.sd[0];
     }
-    FindNearest(evidence, point, view);
+    FindNearest(trials, point, view);
     AddHeap(evidence, i, view);
     views.push_back(std::move(view));
   }

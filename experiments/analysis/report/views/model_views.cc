@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/analysis/compare/objective_model.h"
 #include "experiments/analysis/report/views/posterior_density.h"
 
 namespace talus::analysis {
@@ -12,11 +11,7 @@ namespace {
 constexpr int kSlicePoints = 61;
 constexpr int kMarginalCells = 60;
 constexpr int kRegionCells = 120;         // of a pair, each way
-constexpr int kTieCells = 16;             // … where each point is asked of the model
-constexpr int kTieSample = 4096;          // points of the cube: 16 fall into each cell
 constexpr double kNinetyPercent = 1.645;  // standard deviations each side
-
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 std::vector<double> Along(const ParameterInfo& parameter, int num_cells, double offset) {
   const int count = offset == 0 ? num_cells + 1 : num_cells;
@@ -32,23 +27,6 @@ PairMap MapOf(const Evidence& evidence, std::size_t i, std::size_t j, int num_ce
           .x_edges = Along(evidence.parameters[i], num_cells, 0),
           .y_edges = Along(evidence.parameters[j], num_cells, 0),
           .value = {}};
-}
-
-// The mean chance over the sampled points of each cell.
-std::vector<double> CellMeans(const Eigen::MatrixXd& sample, const Eigen::VectorXd& chance) {
-  const auto cell_of = [](double unit) {
-    return static_cast<std::size_t>(
-        std::clamp(static_cast<int>(unit * kTieCells), 0, kTieCells - 1));
-  };
-  std::vector<double> sums(kTieCells * kTieCells, 0.0);
-  std::vector<int> counts(sums.size(), 0);
-  for (Eigen::Index row = 0; row < sample.rows(); ++row) {
-    const std::size_t cell = cell_of(sample(row, 1)) * kTieCells + cell_of(sample(row, 0));
-    sums[cell] += chance[row];
-    ++counts[cell];
-  }
-  for (std::size_t cell = 0; cell < sums.size(); ++cell) sums[cell] /= std::max(1, counts[cell]);
-  return sums;
 }
 
 // Every pair of columns, as a map whose values `fill` works out.
@@ -141,21 +119,6 @@ std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
   return EachPair(evidence, evidence.model->draws, kRegionCells, [&](const Eigen::MatrixXd& two) {
     return ProjectedLevels(two, levels, kRegionCells);
   });
-}
-
-std::vector<PairMap> TiePairs(const Evidence& evidence) {
-  const ModelEvidence& model = *evidence.model;
-  if (evidence.parameters.size() < 2 || std::isnan(model.expected_sd)) return {};
-  const auto dimension = static_cast<Eigen::Index>(evidence.parameters.size());
-  const Eigen::MatrixXd sample = EvenSample(kTieSample, dimension);
-  const optimizer::Moments predicted = model.predict(sample);
-  const double limit = model.expected + std::max(0.0, model.noise_sd);
-  Eigen::VectorXd chance(sample.rows());
-  for (Eigen::Index i = 0; i < chance.size(); ++i) {
-    chance[i] = NormalCdf((limit - predicted.mean[i]) / std::max(predicted.sd[i], 1e-300));
-  }
-  return EachPair(evidence, sample, kTieCells,
-                  [&](const Eigen::MatrixXd& two) { return CellMeans(two, chance); });
 }
 
 }  // namespace talus::analysis

@@ -26,9 +26,8 @@ struct Marginal {
   std::vector<double> density;
 };
 
-// Over two parameters, by cell, x fastest. With a posterior: the share of it in denser cells, so
-// that cells below 0.5 and 0.9 are the joint regions. Without: the chance that a set is within one
-// simulation's scatter of the best, averaged over the other parameters.
+// Over two parameters, by cell, x fastest: the share of the posterior in denser cells, so that
+// cells below 0.5 and 0.9 are the joint regions.
 struct PairMap {
   std::size_t i = 0;
   std::size_t j = 0;
@@ -45,6 +44,5 @@ std::vector<Marginal> Marginals(const Evidence& evidence);
 
 // Every pair of parameters.
 std::vector<PairMap> PosteriorPairs(const Evidence& evidence);
-std::vector<PairMap> TiePairs(const Evidence& evidence);
 
 }  // namespace talus::analysis

@@ -7,9 +7,9 @@
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
-#include "experiments/campaign/answer/result_warning.h"
+#include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/trials/simulate/run_log.h"
-#include "optimizer/answer/credible_ranges.h"
+#include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::analysis {
 namespace {
@@ -23,11 +23,14 @@ constexpr double kNoNarrower = 0.95;      // of a range's width: less is not tol
 std::string Number(double value) { return base::ShortNumber(value, 3); }
 
 // As the page shows them, "0.1 to 0.2".
-std::string RangeText(const RecommendedValue& v) { return Number(v.low) + " to " + Number(v.high); }
+std::string RangeText(const campaign::ResultParameter& v) {
+  return Number(v.credible_low) + " to " + Number(v.credible_high);
+}
 
 // Of the unit cube, on the parameter's own scale.
-double WidthOf(const ParameterInfo& parameter, const RecommendedValue& v) {
-  const double width = parameter.range.ToUnit(v.high) - parameter.range.ToUnit(v.low);
+double WidthOf(const ParameterInfo& parameter, const campaign::ResultParameter& v) {
+  const double width =
+      parameter.range.ToUnit(v.credible_high) - parameter.range.ToUnit(v.credible_low);
   return std::max(width, 1e-3);
 }
 
@@ -43,17 +46,22 @@ Eigen::MatrixXd OthersNear(const Eigen::MatrixXd& draws, Eigen::Index column, do
   return draws(rows, others);
 }
 
+// A tilted plate tells the friction between powder and wall; nothing tells that of two grains.
+bool CanBeMeasured(const std::string& parameter) {
+  return parameter == "plate_sliding_friction" || parameter == "tube_sliding_friction";
+}
+
 // Another test tells this parameter: where do the others lie, given it? As the ranges that the page
 // shows, these hold 90 % of the draws all together.
 void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>& steps) {
   const ParameterInfo& parameter = evidence.parameters[k];
-  const RecommendedValue& measured = evidence.conclusion->values[k];
+  const campaign::ResultParameter& measured = evidence.answer->parameters[k];
   const double width = WidthOf(parameter, measured);
   if (!(width > kMeasured)) return;
   const Eigen::MatrixXd given = OthersNear(evidence.model->draws, static_cast<Eigen::Index>(k),
                                            parameter.range.ToUnit(measured.value));
   if (given.rows() < kFewestNear) return;
-  NextStep step{.what = "Measure " + parameter.symbol + " directly and set it in the spec",
+  NextStep step{.what = "Measure " + parameter.symbol + " on a tilted plate and set it in the spec",
                 .cost = "one measurement to ± " + Number(50 * kMeasured) +
                         " % of its searched range; no simulation",
                 .leaves = {},
@@ -62,10 +70,10 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
   for (std::size_t j = 0, left = 0; j < evidence.parameters.size(); ++j) {
     if (j == k) continue;
     const ParameterInfo& other = evidence.parameters[j];
-    const RecommendedValue& now = evidence.conclusion->values[j];
+    const campaign::ResultParameter& now = evidence.answer->parameters[j];
     const optimizer::Range& range = ranges[left++];
-    const RecommendedValue then{.low = other.range.ToNative(range.low),
-                                .high = other.range.ToNative(range.high)};
+    const campaign::ResultParameter then{.credible_low = other.range.ToNative(range.low),
+                                         .credible_high = other.range.ToNative(range.high)};
     const double share = std::min(1.0, WidthOf(other, then) / WidthOf(other, now));
     step.remaining *= share;
     step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol;
@@ -95,11 +103,14 @@ void AddPhotographing(const Evidence& evidence, std::vector<NextStep>& steps) {
 
 void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
   if (evidence.parameters.size() < 2) return;
+  // A point needs none; what the measurements leave open, no more of the same closes.
+  if (evidence.answer->verdict && evidence.answer->verdict->kind == campaign::VerdictKind::kPoint)
+    return;
   steps.push_back({.what = "Add a different kind of test",
                    .cost = "its measurement, and about as many simulations again",
                    .leaves = "what this command works out and this page then shows: talus next " +
                              base::ShellWord(evidence.folder.string()) + " --simulate",
-                   .remaining = 0.9});
+                   .remaining = 0});
 }
 
 // Processor time of a simulation at the finest scale factor [s].
@@ -115,12 +126,12 @@ double TimeOfOne(const Evidence& evidence) {
 
 // First where an alarm asks for it.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
-  const Conclusion& conclusion = *evidence.conclusion;
-  const bool asked = conclusion.asks_for_simulations;
+  const campaign::Answer& answer = *evidence.answer;
+  const bool asked = AsksForSimulations(answer);
   // It stopped because more simulations would hardly tell more.
-  if (!asked && evidence.stop_reason.find("surrogate's variance") != std::string::npos) return;
-  const double count = std::isfinite(conclusion.more_simulations) ? conclusion.more_simulations
-                                                                  : campaign::kMoreSimulations;
+  if (!asked && answer.stop.kind == campaign::StopKind::kRule) return;
+  const double num_more = answer.unsettled ? answer.unsettled->num_more : kUndefined;
+  const double count = std::isfinite(num_more) ? num_more : campaign::kMoreSimulations;
   const std::string more = std::to_string(std::llround(count));
   NextStep step{.what = "Simulate more: talus resume " + base::ShellWord(evidence.folder.string()) +
                         " --add-simulations " + more,
@@ -128,11 +139,9 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
                         trials::DurationText(count * TimeOfOne(evidence)) + " of core time",
                 .leaves = "not more than what the measurements themselves leave open",
                 .remaining = 0.95};
-  if (std::isfinite(conclusion.width_then)) {
-    step.leaves =
-        "ranges about " + base::ShortNumber(conclusion.width_then, 2) + " times as wide as now";
-    step.remaining =
-        std::pow(conclusion.width_then, static_cast<double>(evidence.parameters.size()));
+  if (const double width = WidthThen(answer); std::isfinite(width)) {
+    step.leaves = "ranges about " + base::ShortNumber(width, 2) + " times as wide as now";
+    step.remaining = std::pow(width, static_cast<double>(evidence.parameters.size()));
   }
   if (asked) {
     step.leaves = "an answer that the warnings above do not hang on";
@@ -194,18 +203,18 @@ void AddCandidates(const Evidence& evidence, const NextTableView& table,
 std::vector<NextStep> NextSteps(const Evidence& evidence,
                                 const std::optional<NextTableView>& table) {
   std::vector<NextStep> steps;
-  const bool has_draws = evidence.conclusion && evidence.model && evidence.model->draws.rows() > 0;
+  const bool has_draws = evidence.answer && evidence.model;
   if (has_draws) {
     for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
-      AddMeasuring(evidence, k, steps);
+      if (CanBeMeasured(evidence.parameters[k].range.name)) AddMeasuring(evidence, k, steps);
     }
   }
   if (table) {
     AddCandidates(evidence, *table, steps);
-    if (has_draws && evidence.conclusion->asks_for_simulations) AddSimulating(evidence, steps);
+    if (has_draws && AsksForSimulations(*evidence.answer)) AddSimulating(evidence, steps);
   } else if (has_draws) {
-    AddPhotographing(evidence, steps);
     AddSecondTest(evidence, steps);
+    AddPhotographing(evidence, steps);
     AddSimulating(evidence, steps);
   }
   std::stable_sort(steps.begin(), steps.end(),

@@ -17,7 +17,7 @@ constexpr KernelWidth kRegion{.neighbour_share = 0.01, .least = 0.71};  // its o
 
 constexpr double kReach = 4;  // of a kernel, in its widths
 
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double UnitNormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 // Of each draw's kernel.
 Eigen::VectorXd Widths(const Eigen::MatrixXd& draws, const KernelWidth& kernel, int num_cells) {
@@ -44,7 +44,7 @@ Eigen::VectorXd Shares(double x, double width, int num_cells) {
     const int last = std::min(num_cells - 1, cell_of(centre + kReach * width));
     for (int cell = first; cell <= last; ++cell) {
       const double low = (static_cast<double>(cell) / num_cells - centre) / width;
-      shares[cell] += NormalCdf(low + 1 / (num_cells * width)) - NormalCdf(low);
+      shares[cell] += UnitNormalCdf(low + 1 / (num_cells * width)) - UnitNormalCdf(low);
     }
   }
   return shares / shares.sum();

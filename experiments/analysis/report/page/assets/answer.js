@@ -10,7 +10,7 @@ function valueTile(p, v) {
     element("div", {class: "what"}, p.symbol + " ", element("span", {}, p.title)),
     element("div", {class: "number"}, format(v.value), " ", element("small", {}, p.unit)),
     element("div", {class: "range"}, ranged ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit)
-      : "no range: the strategy has no model"),
+      : "no range: too few trials for a model"),
     element("div", {class: "track", "aria-hidden": "true"},
       ranged ? element("div", {class: "band", style: `left:${from}%;width:${to - from}%`}) : null,
       element("div", {class: "dot", style: `left:${clamp(place(v.value))}%`})),
@@ -48,8 +48,8 @@ const kindText = {
 
 // What kind of answer it is, before any number, and how well it fits.
 function verdict(h) {
-  const lines = [h.verdict ? element("p", {}, element("strong", {}, h.verdict)) : null,
-    h.verdict ? element("p", {class: "gloss"}, kindText[h.verdict_kind]) : null,
+  const lines = [...h.sentences.map((sentence) => element("p", {}, element("strong", {}, sentence))),
+    h.verdict_kind && h.fits ? element("p", {class: "gloss"}, kindText[h.verdict_kind]) : null,
     h.unsettled ? element("p", {class: "gloss"}, h.unsettled) : null,
     h.trade_off ? element("p", {class: "gloss"}, h.trade_off) : null,
     h.fit_sentence ? element("p", {class: "gloss"}, h.fit_sentence) : null,
@@ -109,7 +109,7 @@ function facts(h) {
   if (h.predicted !== null) {
     list.push(fact("Predicted " + h.objective_title, formatUnit(h.predicted, h.objective_unit) +
       (h.predicted_sd ? " ± " + format(h.predicted_sd, 2) : ""),
-      h.posterior ? "of the mean heap, by the model that answers" : "by the model that answers"));
+      "of the mean heap, by the model that answers"));
   }
   if (h.noise_sd !== null) {
     list.push(fact("Scatter of one simulation", formatUnit(h.noise_sd, h.objective_unit),
@@ -118,11 +118,9 @@ function facts(h) {
   if (o.is_sad && o.noise_floor === null) {
     list.push(fact("Noise floor of the experiment", "unknown", "needs more than one run of photographs"));
   }
-  if (h.tied_volume !== null) {
-    list.push(h.posterior
-      ? fact("Joint 90\u00a0% region", percent(h.tied_volume), "of the searched volume; the ranges are the box round it")
-      : fact("Sets within the scatter", percent(h.tied_volume), "of the searched volume: a thin region may still " +
-          "span each range alone"));
+  if (h.region_volume !== null) {
+    list.push(fact("Joint 90\u00a0% region", percent(h.region_volume),
+      "of the searched volume; the ranges are the box round it"));
   }
   if (!list.length && !h.model) return null;
   return element("div", {class: "card"}, element("h3", {}, "Of the model"), element("dl", {class: "facts first"}, list),
@@ -186,7 +184,7 @@ function answerSection() {
   const h = D.headline;
   if (!h) return [notYet(), alarms(), ...soFar()];
   const closest = closestPair();
-  const region = closest && D.model.posterior ? card(pairChart(closest, 0, "region", "")) : null;
+  const region = closest ? card(pairChart(closest, 0, "region", "")) : null;
   const values = element("div", {class: "card"},
     element("div", {class: "answer"}, D.parameters.map((p, k) => valueTile(p, h.values[k]))));
   const next = nextSteps(h), heaps = representativeHeaps(h);

@@ -10,7 +10,7 @@ function readTheme() {
     .map((name) => style.getPropertyValue("--" + name).trim());
 }
 readTheme();
-const {palette, chance: chanceShades, regions: regionShades, light_ink: lightInk} = D.colors;
+const {palette, regions: regionShades, light_ink: lightInk} = D.colors;
 const sequence = ["#fde725", "#7ad151", "#22a884", "#2a788e", "#414487", "#440154"];  // best is dark
 const star = "path://M0,-10 L2.6,-3.2 L9.8,-3.1 L4,1.3 L6.2,8.2 L0,4.1 L-6.2,8.2 L-4,1.3 " +
     "L-9.8,-3.1 L-2.6,-3.2 Z";
@@ -44,10 +44,12 @@ const hasWebGl = (() => {
   }
 })();
 
-// All that the next frames would draw, now. The canvases are numbered among everything that was drawn since.
+// All that the next frames would draw, now. The canvases are numbered among everything that was drawn since: a new
+// one has the last number.
 function drawSpace(made) {
-  const first = made.getZr().id + 1, canvases = [];
-  for (let id = first; id < first + 100000; ++id) canvases.push(echarts.zrender.getInstance(id));
+  const last = echarts.zrender.init(document.createElement("div")), canvases = [];
+  for (let id = made.getZr().id + 1; id < last.id; ++id) canvases.push(echarts.zrender.getInstance(id));
+  last.dispose();
   for (let frame = 0; frame < 3; ++frame) {
     canvases.filter(Boolean).forEach((canvas) => canvas.flush());
     made.getZr().animation.update();

@@ -8,15 +8,11 @@ function section(id, title, lead, parts) {
 }
 const card = (figure) => element("div", {class: "card"}, figure);
 
-// What the section shows, in the words of the kind of model there is.
-const modelLead = () => "All from the model that gives the answer" +
-  (D.model.posterior ? ": the posterior of the parameters, given every simulation and what was measured. "
-    : ": what it expects between the simulations. ") +
+const modelLead = () => "All from the model that gives the answer: the posterior of the parameters, given every " +
+  "simulation and what was measured. " +
   (D.slices.length ? "The slices show the expected " + D.campaign.objective.title + " through the " +
     (D.headline ? "recommended set" : "best set so far") +
-    (D.slices[0].high[0] === null ? "." : ", with 90\u00a0% bands.") : "") +
-  (D.model.posterior || !D.pairs.length ? "" : " The pairs show the chance that a set is within one simulation's " +
-    "scatter of the best, averaged over the other parameters.");
+    ", with 90\u00a0% bands." : "");
 
 function modelSection() {
   if (!D.model) {

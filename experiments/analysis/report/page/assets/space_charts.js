@@ -173,31 +173,23 @@ function zoomed(inside, edges) {
 
 const regionShade = (level) => regionShades[level < .5 ? 0 : 1];
 
-// Cells between the edges pair.x and pair.y, drawn on the true axes: the joint regions of a
-// posterior, or the chance to tie where the strategy works out none.
+// Cells between the edges pair.x and pair.y, drawn on the true axes: the posterior's joint regions.
 function pairChart(pair, k, id = "pair-" + k, size = "small") {
   const [px, py] = [D.parameters[pair.i], D.parameters[pair.j]];
-  const nx = pair.x.length - 1, posterior = D.model.posterior;
-  const top = Math.max(...pair.value);
-  const shade = (v) => posterior ? regionShade(v)
-    : echarts.color.lerp(top > 0 ? v / top : 0, [paper, ...chanceShades]);
-  const meaning = (v) => posterior
-    ? "inside the joint 90 % region; the smallest region that holds it is that of " +
-      percent(Math.max(v, .001))
-    : percent(v) + " chance to tie with the best";
-  const zooms = posterior && id === "region";
+  const nx = pair.x.length - 1, zooms = id === "region";
+  const meaning = (v) => "inside the joint 90 % region; the smallest region that holds it is that of " +
+    percent(Math.max(v, .001));
   const inside = pair.value.filter((v) => v < .9).length / pair.value.length;
   const [zoomX, zoomY] = !zooms ? [{}, {}] : [
     zoomed(pair.x.slice(1).map((_, c) => pair.y.slice(1).some((_y, r) => pair.value[r * nx + c] < .9)), pair.x),
     zoomed(pair.y.slice(1).map((_, r) => pair.x.slice(1).some((_x, c) => pair.value[r * nx + c] < .9)), pair.y)];
   const sets = D.headline ? D.headline.representatives.filter((set) => !set.recommended) : [];
-  return chart(id, (posterior ? "Joint region of " : "") + px.symbol + " and " + py.symbol,
-      (posterior ? (D.parameters.length > 2 ? "The shadow of the joint region on this plane: dark 50\u00a0%, light 90\u00a0%."
-          : "Dark: 50\u00a0% of the posterior, light: 90\u00a0%.") + " Blank: ruled out at that level."
-        : "Blank: no chance to tie with the best. Darkest: " + percent(top) + ".") +
+  return chart(id, "Joint region of " + px.symbol + " and " + py.symbol,
+      (D.parameters.length > 2 ? "The shadow of the joint region on this plane: dark 50\u00a0%, light 90\u00a0%."
+        : "Dark: 50\u00a0% of the posterior, light: 90\u00a0%.") + " Blank: ruled out at that level." +
       (D.headline ? " Star: recommended." : "") +
       (sets.length ? " Numbers: sets that fit equally." : "") +
-      (posterior && D.parameters.length > 2 ? " The light area is " + percent(inside) + " of the searched plane: all that these " +
+      (D.parameters.length > 2 ? " The light area is " + percent(inside) + " of the searched plane: all that these " +
         "two may be, whatever the others are." : "") +
       (zooms ? (D.parameters.length > 2 ? "" : " The patch is for both together.") + " Searched: " + [px, py].map((p) => p.symbol + " " + tick(p.low) + " to " +
         tick(p.high)).join(", ") + "." : ""), () => ({
@@ -209,13 +201,13 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
     xAxis: {...parameterAxis(px), ...zoomX}, yAxis: {...parameterAxis(py, true), ...zoomY},
     series: [
       {type: "custom", progressive: 0, data: pair.value.map((v, c) => [c % nx, Math.floor(c / nx), v])
-         .filter((cell) => !posterior || cell[2] < .9),
+         .filter((cell) => cell[2] < .9),
        encode: {x: -1, y: -1}, clip: true,
        renderItem: (params, api) => {
          const cx = api.value(0), cy = api.value(1);
          const a = api.coord([pair.x[cx], pair.y[cy]]), b = api.coord([pair.x[cx + 1], pair.y[cy + 1]]);
          return {type: "rect", shape: {x: a[0], y: b[1], width: b[0] - a[0] + .5, height: a[1] - b[1] + .5},
-           style: {fill: shade(api.value(2))}};
+           style: {fill: regionShade(api.value(2))}};
        }},
       ...(D.headline ? [{type: "scatter", symbol: star, symbolSize: 14, z: 5,
         itemStyle: {color: starColor, borderColor: "#fff", borderWidth: 1},

@@ -1,0 +1,60 @@
+// The walls of a running simulation: where they are, how they move, and what the kernels see.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/problems.h"
+#include "engine/bodies/wall.h"
+#include "engine/kernel/kernel.h"
+
+namespace talus::engine {
+
+// Bad sizes, directions that are none, times that do not increase, a material that is not there, a
+// plane that turns.
+void ValidateWall(const Wall& wall, int num_materials, base::Problems& problems);
+
+class WallSet {
+ public:
+  WallSet() = default;
+  explicit WallSet(std::vector<Wall> walls);  // makes the directions unit vectors
+
+  // Sets the mean velocities over the step that begins at `time`. In a step whose motion changes at
+  // one of its ends only, that is the velocity of the entry.
+  void SetTime(double time, double time_step);
+  void Move(double time_step);  // at the velocities set
+
+  // Takes away the walls whose time is up at the step nearest to it; true when there were any.
+  bool RemoveDue(double time, double time_step);
+
+  void SetMotion(int wall, std::vector<MotionStep> motion) {
+    walls_[wall].motion = std::move(motion);
+  }
+  void Remove(int wall) { removed_[wall] = 1; }
+  bool Removed(int wall) const { return removed_[wall] != 0; }
+
+  // Largest speed at which the place of any wall's surface changes now [m/s]. A drum that turns
+  // about its own axis stays where it is.
+  double MaxSpeed() const;
+
+  // Largest speed that a wall's surface is to have at any time [m/s].
+  double MaxPrescribedSpeed() const;
+
+  int size() const { return static_cast<int>(walls_.size()); }
+  const std::vector<Wall>& walls() const { return walls_; }
+  const std::vector<WallView>& views() const { return views_; }
+
+  // For the checkpoint.
+  const std::vector<std::uint8_t>& removed() const { return removed_; }
+  void Restore(std::vector<Wall> walls, std::vector<std::uint8_t> removed);
+
+ private:
+  void Refresh();  // the views from the walls
+  void Turn(std::size_t wall, double time_step);
+
+  std::vector<Wall> walls_;
+  std::vector<WallView> views_;
+  std::vector<std::uint8_t> removed_;
+};
+
+}  // namespace talus::engine

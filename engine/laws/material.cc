@@ -1,0 +1,29 @@
+#include "engine/laws/material.h"
+
+namespace talus::engine {
+
+void Material::Validate(base::Problems& problems) const {
+  problems.Require(density > 0, "density", density, "must be positive");
+  problems.Require(youngs_modulus > 0, "youngs_modulus", youngs_modulus, "must be positive");
+  problems.Require(poisson_ratio > -1 && poisson_ratio <= 0.5, "poisson_ratio", poisson_ratio,
+                   "must be in (-1, 0.5]");
+  problems.Require(restitution > 0 && restitution <= 1, "restitution", restitution,
+                   "must be in (0, 1]");
+  problems.Require(sliding_friction >= 0, "sliding_friction", sliding_friction,
+                   "must not be negative");
+  problems.Require(rolling_friction >= 0, "rolling_friction", rolling_friction,
+                   "must not be negative");
+  problems.Require(rolling_damping >= 0, "rolling_damping", rolling_damping,
+                   "must not be negative");
+  problems.Require(surface_energy >= 0, "surface_energy", surface_energy, "must not be negative");
+  problems.Require(hamaker_constant > 0, "hamaker_constant", hamaker_constant, "must be positive");
+}
+
+void ContactModels::Validate(base::Problems& problems) const {
+  problems.Require(full_mobilisation_damping >= 0 && full_mobilisation_damping <= 1,
+                   "full_mobilisation_damping", full_mobilisation_damping, "must be in [0, 1]");
+  problems.Require(adhesion_cutoff > 0 && adhesion_cutoff < 1, "adhesion_cutoff", adhesion_cutoff,
+                   "must be in (0, 1)");
+}
+
+}  // namespace talus::engine

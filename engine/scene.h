@@ -1,0 +1,42 @@
+// A scene: everything the solver needs, and nothing of what it is for.
+#pragma once
+
+#include <vector>
+
+#include "base/problems.h"
+#include "base/vec3.h"
+#include "engine/bodies/particle.h"
+#include "engine/bodies/wall.h"
+#include "engine/laws/material.h"
+#include "engine/laws/material_pair.h"
+
+namespace talus::engine {
+
+struct Scene {
+  std::vector<Material> materials;
+  std::vector<MaterialPair> pairs{};  // each pair once
+  ContactModels models;
+  std::vector<Particle> particles;
+  std::vector<Wall> walls;
+  Vec3 gravity{0, 0, -9.81};            // [m/s²]
+  std::vector<TurnStep> gravity_turns;  // how it turns; times increasing
+  double time_step = 0;                 // Δt [s]; 0: rayleigh_fraction decides
+  double rayleigh_fraction = 0.15;      // Δt / t_R of the smallest sphere [-] (M4), in (0, 0.4]
+  int num_threads = 1;                  // of one simulation; the result does not depend on it
+
+  // Everything that would make the run meaningless: NaN, materials out of range or absent, spheres
+  // that overlap too much, Δt beyond 0.40 t_R.
+  void Validate(base::Problems& problems) const;
+};
+
+// Shares of Δt in t_R (M4): a scene is warned of beyond the first, and refused beyond the second.
+inline constexpr double kWarnRayleighFraction = 0.20;
+inline constexpr double kMaxRayleighFraction = 0.40;
+
+// The shortest Rayleigh time of a scene's spheres [s], infinite without any.
+double SmallestRayleighTime(const Scene& scene);
+
+// Δt that the scene asks for [s]: `time_step`, or `rayleigh_fraction` of the smallest t_R.
+double TimeStep(const Scene& scene);
+
+}  // namespace talus::engine

@@ -1,0 +1,91 @@
+#include "experiments/analysis/compare/labels.h"
+
+#include <array>
+#include <utility>
+
+#include "experiments/journal/objective.h"
+#include "experiments/rigs/observables/observable.h"
+
+namespace talus::analysis {
+namespace {
+
+using Entry = std::pair<std::string_view, std::string_view>;
+
+template <std::size_t N>
+std::string Find(const std::array<Entry, N>& list, std::string_view key) {
+  for (const auto& [name, text] : list) {
+    if (name == key) return std::string(text);
+  }
+  return std::string(key);
+}
+
+}  // namespace
+
+std::string SymbolOf(std::string_view parameter) {
+  static constexpr std::array kSymbols{
+      Entry{"sliding_friction", "μ_t"},
+      Entry{"rolling_friction", "μ_r"},
+      Entry{"surface_energy", "γ"},
+      Entry{"restitution", "e"},
+      Entry{"youngs_modulus", "Y"},
+      Entry{"poisson_ratio", "ν"},
+      Entry{"rolling_damping", "η_r"},
+      Entry{"plate_sliding_friction", "μ_t plate"},
+      Entry{"plate_rolling_friction", "μ_r plate"},
+      Entry{"plate_surface_energy", "γ plate"},
+      Entry{"tube_sliding_friction", "μ_t tube"},
+      Entry{"tube_rolling_friction", "μ_r tube"},
+      Entry{"tube_surface_energy", "γ tube"},
+  };
+  return Find(kSymbols, parameter);
+}
+
+std::string MetricTitle(std::string_view metric) {
+  for (const journal::ObjectiveInfo& info : journal::kObjectives) {
+    if (info.metric == metric) return std::string(info.title);
+  }
+  static constexpr std::array kTitles{
+      Entry{"sad_relative", "SAD / NEBP"},
+      Entry{"sad_px", "SAD"},
+      Entry{"iou", "IoU"},
+      Entry{"nebp_px", "NEBP"},
+      Entry{"nebp_mm2", "NEBP"},
+      Entry{"triangle_angle_deg", "Triangle angle"},
+      Entry{"static_cohesive_index", "Static cohesive index"},
+      Entry{"repose_angle_1_left_deg", "AOR 1 left"},
+      Entry{"repose_angle_1_right_deg", "AOR 1 right"},
+      Entry{"repose_angle_2_left_deg", "AOR 2 left"},
+      Entry{"repose_angle_2_right_deg", "AOR 2 right"},
+      Entry{"repose_angle_3_left_deg", "AOR 3 left"},
+      Entry{"repose_angle_3_right_deg", "AOR 3 right"},
+  };
+  if (const rigs::ObservableInfo* info = rigs::FindObservable(metric)) return info->title;
+  return Find(kTitles, metric);
+}
+
+std::string PrettyUnit(std::string_view unit) {
+  static constexpr std::array kUnits{
+      Entry{"mm2", "mm²"},          Entry{"deg", "°"},      Entry{"-", ""},
+      Entry{"gray", "grey levels"}, Entry{"J/m^2", "J/m²"}, Entry{"kg/m^3", "kg/m³"},
+      Entry{"kg/m3", "kg/m³"},
+  };
+  return Find(kUnits, unit);
+}
+
+ShownUnit ShownUnitOf(std::string_view unit) {
+  if (unit == "kg") return {"mg", 1e6};
+  if (unit == "m") return {"mm", 1e3};
+  if (unit == "kg/s") return {"g/s", 1e3};
+  return {PrettyUnit(unit), 1};
+}
+
+std::string ShownName(const std::string& metric) {
+  const rigs::ObservableInfo* info = rigs::FindObservable(metric);
+  if (info == nullptr) return metric;
+  static constexpr std::array kEndings{Entry{"_kg", "_mg"}, Entry{"_m", "_mm"},
+                                       Entry{"_kg_per_s", "_g_per_s"}};
+  const std::string ending = rigs::MetricUnitOf(info->dimension).ending;
+  return info->key + Find(kEndings, ending);
+}
+
+}  // namespace talus::analysis

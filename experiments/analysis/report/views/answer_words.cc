@@ -1,0 +1,144 @@
+#include "experiments/analysis/report/views/answer_words.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text/number_text.h"
+#include "experiments/campaign/answer/headline.h"
+#include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/folder/folder_in_text.h"
+#include "optimizer/posterior/experiment_model.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::AlarmKind;
+using campaign::Answer;
+
+// "sliding friction μ_t"
+std::string LongName(const ParameterInfo& parameter) {
+  std::string name = parameter.range.name;
+  if (name == parameter.symbol) return name;
+  std::ranges::replace(name, '_', ' ');
+  return name + " " + parameter.symbol;
+}
+
+// A range's width is the root of a variance: what the measurements leave open, and the surrogate's
+// share of it beside, which more simulations take away.
+double WidthWithoutSurrogate(double share, int num_finest) {
+  const double caution = optimizer::SurrogateCaution(num_finest);
+  return 1 / std::sqrt(1 + caution * caution * share);
+}
+
+}  // namespace
+
+std::vector<std::string> HeadlineWords(const Evidence& evidence) {
+  std::vector<std::string> names;
+  for (const ParameterInfo& parameter : evidence.parameters) names.push_back(LongName(parameter));
+  return campaign::Headline(*evidence.answer, names);
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const Answer& answer) {
+  constexpr double kClear = 0.5;
+  std::optional<std::pair<std::size_t, std::size_t>> pair;
+  double most = kClear;
+  for (std::size_t i = 0; i < answer.correlation.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!(std::abs(answer.correlation[i][j]) >= most)) continue;
+      most = std::abs(answer.correlation[i][j]);
+      pair = {j, i};
+    }
+  }
+  return pair;
+}
+
+std::string TradeOffWords(const Evidence& evidence) {
+  const auto pair = TradedPair(*evidence.answer);
+  if (!pair) return "";
+  const bool falls = evidence.answer->correlation[pair->second][pair->first] < 0;
+  return "Higher " + evidence.parameters[pair->first].symbol + " goes with " +
+         (falls ? "lower " : "higher ") + evidence.parameters[pair->second].symbol +
+         ": change them together.";
+}
+
+double WidthThen(const Answer& answer) {
+  if (!answer.unsettled || !answer.posterior) return kUndefined;
+  return WidthWithoutSurrogate(answer.unsettled->share, answer.posterior->fewest_at_finest);
+}
+
+std::string UnsettledWords(const Answer& answer) {
+  if (!answer.unsettled) return "";
+  std::string text = "The budget ended the search before its stopping rule did";
+  if (std::isfinite(answer.unsettled->num_more)) {
+    text += ": about " + std::to_string(std::llround(answer.unsettled->num_more)) +
+            " more simulations would meet it";
+    if (const double width = WidthThen(answer); std::isfinite(width)) {
+      text += " and leave ranges about " + base::ShortNumber(width, 2) + " times as wide";
+    }
+  }
+  return text + ".";
+}
+
+bool AsksForSimulations(const Answer& answer) {
+  return campaign::HasAlarm(
+      answer, {AlarmKind::kWorseThanPredicted, AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
+               AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
+}
+
+std::string UseWords(const Answer& answer) {
+  if (campaign::HasAlarm(answer, {AlarmKind::kImplausible})) {
+    return "No: no set fits every measurement. Check contact law, plate and set-up first.";
+  }
+  if (campaign::HasAlarm(answer, {AlarmKind::kDisagree})) {
+    return "No: the tests disagree. Check contact law, plate and set-up of each first.";
+  }
+  if (campaign::HasAlarm(answer, {AlarmKind::kMisses})) {
+    return "No: a simulation with it misses what was measured. Check contact law, plate and set-up "
+           "first.";
+  }
+  if (!answer.verdict) return "";
+  if (answer.verdict->kind != campaign::VerdictKind::kPoint) {
+    return "For trial runs only: other sets fit as well. Do the first of the next steps before you "
+           "rely on one.";
+  }
+  if (AsksForSimulations(answer)) {
+    return "For trial runs: more simulations should confirm it first, as the warnings say.";
+  }
+  if (campaign::HasAlarm(answer, {AlarmKind::kBound})) {
+    return "Not yet: a parameter lies on the end of its range.";
+  }
+  return "Yes, as one set, for what it holds for (below).";
+}
+
+std::vector<std::string> AlarmWords(const Evidence& evidence) {
+  std::vector<std::string> words;
+  for (const campaign::Alarm& alarm : evidence.answer->warnings) {
+    words.push_back(campaign::WithFolder(campaign::AlarmText(alarm), evidence.folder));
+  }
+  return words;
+}
+
+std::vector<std::string> ConditionWords(const campaign::ResultConditions& c) {
+  std::vector<std::string> words{
+      "Young's modulus of the grains " + base::ShortNumber(c.youngs_modulus / 1e6) + " MPa",
+      "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
+  if (c.lift_velocity) {
+    words.push_back("lift velocity " + base::ShortNumber(*c.lift_velocity * 100) + " cm/s");
+  }
+  words.push_back(c.scale_factor == 1
+                      ? "grains at their true size"
+                      : "grains " + base::ShortNumber(c.scale_factor) +
+                            " times their true size, surface energy scaled with exponent " +
+                            base::ShortNumber(c.surface_energy_exponent));
+  return words;
+}
+
+std::vector<std::string> HeldOutWords(const Answer& answer) {
+  if (!answer.held_out) return {};
+  std::vector<std::string> words = campaign::HeldOutFacts(*answer.held_out, answer.objective_unit);
+  words.insert(words.begin(),
+               "the answer is made without " + answer.held_out->name + " and predicts it");
+  return words;
+}
+
+}  // namespace talus::analysis

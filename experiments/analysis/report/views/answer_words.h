@@ -1,0 +1,38 @@
+// What the page says of an answer, in words.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/analysis/compare/evidence.h"
+
+namespace talus::analysis {
+
+// campaign::Headline with symbols beside the names: "sliding friction μ_t".
+std::vector<std::string> HeadlineWords(const Evidence& evidence);
+
+// The two parameters that change together most, where they do so clearly, and how.
+std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const campaign::Answer& answer);
+std::string TradeOffWords(const Evidence& evidence);
+
+// What more simulations would do where the budget ended the search; empty where it did not.
+std::string UnsettledWords(const campaign::Answer& answer);
+// The ranges' width after these simulations over today's [-]; undefined where that is not known.
+double WidthThen(const campaign::Answer& answer);
+
+// Whether an alarm asks for more simulations.
+bool AsksForSimulations(const campaign::Answer& answer);
+
+// Whether to use the recommended set now.
+std::string UseWords(const campaign::Answer& answer);
+
+// The alarms, with the campaign's folder in their commands.
+std::vector<std::string> AlarmWords(const Evidence& evidence);
+
+// What the calibrated set holds for; and what it predicts of an experiment that is held out.
+std::vector<std::string> ConditionWords(const campaign::ResultConditions& conditions);
+std::vector<std::string> HeldOutWords(const campaign::Answer& answer);
+
+}  // namespace talus::analysis

@@ -1,0 +1,130 @@
+#include "experiments/campaign/answer/alarm.h"
+
+#include <cmath>
+
+#include "base/text/number_text.h"
+#include "experiments/rigs/case/case_warnings.h"
+#include "optimizer/search/describe_minimum.h"
+
+namespace talus::campaign {
+namespace {
+
+// "`talus resume DIR --add-simulations 20`"
+std::string ResumeCommand(double num_more) {
+  return "`talus resume DIR --add-simulations " + std::to_string(std::llround(num_more)) + "`";
+}
+
+std::string BudgetText(const Alarm& a) {
+  const std::string remedy = a.value ? "about " + std::to_string(std::llround(*a.value)) +
+                                           " more simulations would meet it"
+                                     : "go on with more simulations";
+  return "the budget ended the search before its stopping rule did: " + a.reason.value_or("") +
+         "; " + remedy + " (" + ResumeCommand(a.value.value_or(kMoreSimulations)) + ")";
+}
+
+std::string Quoted(const std::optional<std::string>& name) {
+  return "\"" + name.value_or("") + "\"";
+}
+
+// "0.68 mm² (noise floor 0.7), 0.08 mm² more than the model predicted"
+std::string WorseThanPredictedText(const Alarm& a) {
+  const std::string unit = a.unit.value_or("").empty() ? "" : " " + *a.unit;
+  std::string text =
+      "simulated again with fresh seeds, the mean heap of the recommended set misses " +
+      Quoted(a.experiment) + " by " + base::ShortNumber(a.shown.value_or(0), 2) + unit;
+  if (a.noise_floor) text += " (noise floor " + base::ShortNumber(*a.noise_floor, 2) + ")";
+  return text + ", " + base::ShortNumber(a.value.value_or(0), 2) + unit +
+         " more than the model predicted; more simulations round this set would settle it (" +
+         ResumeCommand(kMoreSimulations) + ")";
+}
+
+// "… misses the shape of "drum" by 5.1 times the noise floor, 11 % of the powder's area"
+std::string MissesText(const Alarm& a) {
+  std::string text = "the recommended set misses ";
+  if (a.number) {
+    text += *a.number + " of " + Quoted(a.experiment) + " by " +
+            base::ShortNumber(a.value.value_or(0), 2) + " standard errors";
+  } else {
+    text += "the shape of " + Quoted(a.experiment) + " by ";
+    if (a.value) text += base::ShortNumber(*a.value, 2) + " times the noise floor";
+    if (a.share) {
+      text +=
+          (a.value ? ", " : "") + base::ShortNumber(100 * *a.share, 2) + " % of the powder's area";
+    }
+  }
+  return text +
+         ": nothing stands on this answer before the contact law, the plate and the set-up "
+         "are checked";
+}
+
+}  // namespace
+
+std::string AlarmText(const Alarm& a) {
+  const std::string factor = "scale factor " + base::ShortNumber(a.scale_factor.value_or(1));
+  const std::string experiment = Quoted(a.experiment);
+  const std::string value = base::ShortNumber(a.value.value_or(0), 2);
+  switch (a.kind) {
+    case AlarmKind::kBound:
+      return optimizer::BoundText(a.parameter.value_or(""), a.side == "upper");
+    case AlarmKind::kFewGrains:
+      return rigs::FewGrainsText(a.value.value_or(0), a.scale_factor.value_or(1),
+                                 a.experiment.value_or(""));
+    case AlarmKind::kImplausible:
+      return "no set fits " + experiment + ": the recommended one is " + value +
+             " standard deviations off; the contact law, the plate material or the set-up is wrong";
+    case AlarmKind::kDisagree:
+      return "the experiments disagree: each is met by sets that the others rule out (tension " +
+             value + " standard deviations, " + experiment +
+             " most); the contact law, the plate material or the set-up of one is wrong (`talus "
+             "consider DIR --alone`)";
+    case AlarmKind::kExtrapolated:
+      return "nothing was simulated at " + factor +
+             ", which the answer is for: it is an extrapolation, and a few trials there would "
+             "check it";
+    case AlarmKind::kUnlearntScaleFactor:
+      return "too few trials at " + factor +
+             " tell its bias, and the ranges are wider for it; more simulations there would "
+             "settle it (" +
+             ResumeCommand(kMoreSimulations) + ")";
+    case AlarmKind::kFewSimulations:
+      return "an experiment has only " + value +
+             " simulations at the smallest scale factor: so few are trusted less, and the joint "
+             "region is wider for it; more would narrow it (" +
+             ResumeCommand(kMoreSimulations) + ")";
+    case AlarmKind::kWorseThanPredicted:
+      return WorseThanPredictedText(a);
+    case AlarmKind::kMisses:
+      return MissesText(a);
+    case AlarmKind::kWorseThanObserved:
+      return "trial " + std::to_string(a.trial.value_or(0)) +
+             " came out better than the recommended set, by " + value +
+             " of the objective: look at its set before you use this one";
+    case AlarmKind::kBudgetEnded:
+      return BudgetText(a);
+    case AlarmKind::kCorrelated:
+      return a.parameter.value_or("") + " and " + a.other_parameter.value_or("") +
+             " are known together only (correlation " +
+             base::ShortNumber(std::round(100 * a.value.value_or(0)) / 100) +
+             "): use them as a pair, or measure one of them in another test";
+    case AlarmKind::kPoorModel:
+      return "the model is not sure of itself: of the simulations left out of the fit one by "
+             "one, " +
+             base::ShortNumber(std::round(100 * a.value.value_or(0))) +
+             " % lay within its 90 % regions; the ranges are widened by " +
+             base::ShortNumber(a.widened.value_or(1), 2) +
+             " for it; more simulations would sharpen it (" + ResumeCommand(kMoreSimulations) + ")";
+    default:  // a photograph's, in the words of its measurement
+      return a.reason.value_or("");
+  }
+}
+
+Alarm PhotographAlarm(const journal::PhotoWarningRecord& warning, const std::string& experiment) {
+  Alarm alarm{.experiment = experiment, .value = warning.value, .reason = warning.text};
+  if (!warning.photo.empty()) alarm.photo = warning.photo;
+  for (const auto& [name, kind] : base::Names<AlarmKind>::kList) {
+    if (name == warning.kind) alarm.kind = kind;
+  }
+  return alarm;
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,126 @@
+// What a user should know before trusting a result: facts as data, put in words in one place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/field.h"
+#include "experiments/journal/records.h"
+
+namespace talus::campaign {
+
+// Those of photographs have the names that measure.json gives them (imaging::PhotoDoubt).
+// The gravest first: alarms stand in this order.
+enum class AlarmKind {
+  kImplausible,  // no set fits `experiment`: the best is `value` standard deviations off
+  kDisagree,     // the experiments pull apart by `value`, `experiment` most
+  kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
+                 // `share` of its powder's area, or its `number` by `value` standard errors
+  kWorseThanPredicted,   // `shown` is worse than predicted, by `value` of the objective
+  kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`
+  kPoorModel,            // a share `value` of the trials left out lay in their 90 % regions
+  kExtrapolated,         // nothing was simulated at the target `scale_factor`
+  kUnlearntScaleFactor,  // the bias of `scale_factor` is not known
+  kBudgetEnded,          // … the search before its stopping rule, for `reason`; about `value`
+                         // simulations more
+  kFewSimulations,       // `value` at the smallest scale factor: the region may be too small
+  kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
+  kBound,                // `parameter` of the recommended set lies on its `side`
+  kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
+  kLeftOut,              // from here on photographs of `experiment`, one of them or all
+  kRunDisagrees,
+  kFrontLit,
+  kMixedLight,
+  kHiddenTop,
+  kNoPowder,
+  kTouchesFrame,
+  kBesidePlate,
+  kViewDisagrees,
+  kOverexposed
+};
+
+struct Alarm;
+
+// In words. Commands in it name the campaign's folder DIR (folder_in_text.h).
+std::string AlarmText(const Alarm& alarm);
+
+struct Alarm {
+  AlarmKind kind = AlarmKind::kImplausible;
+  std::optional<std::string> parameter{};
+  std::optional<std::string> other_parameter{};
+  std::optional<std::string> side{};  // "lower" or "upper"
+  std::optional<std::string> experiment{};
+  std::optional<double> scale_factor{};
+  std::optional<std::int64_t> trial{};
+  std::optional<std::string> photo{};   // file
+  std::optional<std::string> number{};  // name of its metric
+  std::optional<std::string> unit{};    // of the objective, for people
+  std::optional<double> value{};
+  std::optional<double> share{};
+  std::optional<double> shown{};        // objective of the recommended set's mean heap
+  std::optional<double> noise_floor{};  // of the experiment [mm²]
+  std::optional<double> widened{};      // factor on the ranges
+  std::optional<std::string> reason{};  // in the words of who found it: the rule, the photographs
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind);
+    visit("parameter", self.parameter);
+    visit("other_parameter", self.other_parameter);
+    visit("side", self.side);
+    visit("experiment", self.experiment);
+    visit("scale_factor", self.scale_factor);
+    visit("trial", self.trial);
+    visit("photo", self.photo);
+    visit("number", self.number);
+    visit("unit", self.unit);
+    visit("value", self.value);
+    visit("share", self.share);
+    visit("shown", self.shown);
+    visit("noise_floor_mm2", self.noise_floor);
+    visit("widened", self.widened);
+    visit("reason", self.reason);
+    std::string text = AlarmText(self);  // for people; made anew wherever it is read
+    visit("text", text);
+  }
+};
+
+inline constexpr int kMoreSimulations = 20;  // to go on with where no better number is known
+
+// What was doubted of an experiment's photographs, under the name that it has there.
+Alarm PhotographAlarm(const journal::PhotoWarningRecord& warning, const std::string& experiment);
+
+}  // namespace talus::campaign
+
+template <>
+struct talus::base::Names<talus::campaign::AlarmKind> {
+  using K = talus::campaign::AlarmKind;
+  static constexpr std::array kList{
+      std::pair{"implausible", K::kImplausible},
+      std::pair{"disagree", K::kDisagree},
+      std::pair{"misses", K::kMisses},
+      std::pair{"worse_than_predicted", K::kWorseThanPredicted},
+      std::pair{"worse_than_observed", K::kWorseThanObserved},
+      std::pair{"poor_model", K::kPoorModel},
+      std::pair{"extrapolated", K::kExtrapolated},
+      std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},
+      std::pair{"budget_ended", K::kBudgetEnded},
+      std::pair{"few_simulations", K::kFewSimulations},
+      std::pair{"correlated", K::kCorrelated},
+      std::pair{"bound", K::kBound},
+      std::pair{"few_grains", K::kFewGrains},
+      std::pair{"left_out", K::kLeftOut},
+      std::pair{"run_disagrees", K::kRunDisagrees},
+      std::pair{"front_lit", K::kFrontLit},
+      std::pair{"mixed_light", K::kMixedLight},
+      std::pair{"hidden_top", K::kHiddenTop},
+      std::pair{"no_powder", K::kNoPowder},
+      std::pair{"touches_frame", K::kTouchesFrame},
+      std::pair{"beside_plate", K::kBesidePlate},
+      std::pair{"view_disagrees", K::kViewDisagrees},
+      std::pair{"overexposed", K::kOverexposed},
+  };
+};

@@ -1,0 +1,228 @@
+#include "experiments/campaign/answer/alarms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/campaign/answer/agreement.h"
+#include "experiments/campaign/answer/fit.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/rigs/case/case_warnings.h"
+#include "optimizer/search/describe_minimum.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr double kSurprise = 2;          // standard deviations that are no luck any more
+constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
+constexpr double kLeastOfFloor = 0.25;   // of the experiment's noise floor: neither is this
+constexpr int kFewestLeftOut = 10;       // evaluations that a coverage is judged from
+constexpr double kLeastCoverage = 0.75;  // of nominal 90 % regions
+constexpr int kEnoughAtFinest = 12;  // simulations of each experiment (bench/twins/dem_twins.py)
+
+double OrZero(double x) { return std::isfinite(x) ? x : 0; }
+
+// Error of the recommended set's confirmed mean. A few seeds that happen to agree say little of it.
+double ErrorOf(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
+  return std::max(OrZero(confirmed.standard_error),
+                  experiment.noise_sd.value_or(0) / std::sqrt(std::max(1, confirmed.num_trials)));
+}
+
+// The set without the scatter of its simulations, which is what a model of mean heaps predicts.
+double WithoutScatter(const ResultConfirmed& confirmed) {
+  if (!confirmed.profile_sad_mm2 || confirmed.num_trials < 2) return confirmed.mean;
+  return std::min(confirmed.mean, SadWithoutScatter(confirmed));
+}
+
+std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperiment& experiment) {
+  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultStanding* standing = StandingOf(answer, experiment.name);
+  if (confirmed == nullptr || standing == nullptr) return std::nullopt;
+  const double mean = WithoutScatter(*confirmed);
+  const double excess = mean - standing->predicted;
+  const double least = std::max(kLeastShare * standing->predicted,
+                                kLeastOfFloor * experiment.noise_floor.value_or(0));
+  const double error = std::hypot(ErrorOf(experiment, *confirmed), OrZero(standing->predicted_sd));
+  if (!(excess > kSurprise * error) || !(excess > least)) return std::nullopt;
+  return Alarm{.kind = AlarmKind::kWorseThanPredicted,
+               .experiment = experiment.name,
+               .unit = answer.objective_unit,
+               .value = excess,
+               .shown = mean,
+               .noise_floor = experiment.noise_floor};
+}
+
+// The best trial of the search for the experiment at the scale factor.
+const journal::TrialRecord* BestOfSearch(const std::vector<journal::TrialRecord>& trials,
+                                         const Reference& reference, int experiment,
+                                         double scale_factor) {
+  const journal::TrialRecord* best = nullptr;
+  for (const journal::TrialRecord& trial : trials) {
+    if (!IsOfSearch(trial) || trial.experiment != experiment || trial.scale_factor != scale_factor)
+      continue;
+    if (trial.status != journal::TrialStatus::kOk || !reference.Value(trial)) continue;
+    if (best == nullptr || *reference.Value(trial) < *reference.Value(*best)) best = &trial;
+  }
+  return best;
+}
+
+// At the finest scale factor, which decides: coarser ones only guide the search.
+void AddGrainWarnings(const CampaignSpec& spec, Answer& answer) {
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), finest);
+    if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
+    const double across = rigs::GrainsAcrossPlate(rig_case);
+    if (across >= rigs::kAdvisedAcross) continue;
+    answer.warnings.push_back({.kind = AlarmKind::kFewGrains,
+                               .experiment = experiments[e].name,
+                               .scale_factor = finest,
+                               .value = across});
+  }
+}
+
+void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
+  for (const journal::ExperimentRecord& experiment : campaign.experiments) {
+    for (const journal::PhotoWarningRecord& warning : experiment.warnings) {
+      answer.warnings.push_back(PhotographAlarm(warning, experiment.name));
+    }
+  }
+}
+
+void Append(const std::vector<Alarm>& more, std::vector<Alarm>& alarms) {
+  alarms.insert(alarms.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<Alarm> MissAlarms(const Answer& answer) {
+  std::vector<Alarm> alarms;
+  for (const MeasurementFit& fit : FitsOf(answer)) {
+    const ResultStanding* standing = StandingOf(answer, fit.experiment);
+    if (fit.meets != Meets::kNo || standing == nullptr) continue;  // the latter: it is held out
+    if (standing->implausibility > kImplausible) continue;
+    Alarm alarm{.kind = AlarmKind::kMisses, .experiment = fit.experiment};
+    if (!fit.number.empty()) alarm.number = fit.number;
+    if (std::isfinite(fit.off)) alarm.value = fit.off;
+    if (std::isfinite(fit.share)) alarm.share = fit.share;
+    alarms.push_back(alarm);
+  }
+  return alarms;
+}
+
+std::vector<Alarm> PredictionAlarms(const Answer& answer) {
+  std::vector<Alarm> alarms;
+  for (const ResultExperiment& experiment : answer.experiments) {
+    if (auto alarm = PredictionAlarm(answer, experiment)) alarms.push_back(std::move(*alarm));
+  }
+  return alarms;
+}
+
+std::vector<Alarm> SearchAlarms(const Answer& answer,
+                                const std::vector<journal::TrialRecord>& trials,
+                                const std::vector<Reference>& references) {
+  if (references.size() != 1) return {};
+  const ResultExperiment& experiment = answer.experiments.front();
+  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultStanding* standing = StandingOf(answer, experiment.name);
+  if (confirmed == nullptr && standing == nullptr) return {};
+  const double shown = confirmed != nullptr ? confirmed->mean : standing->predicted;
+  const double error =
+      confirmed != nullptr ? ErrorOf(experiment, *confirmed) : OrZero(standing->predicted_sd);
+  const double factor =
+      confirmed != nullptr ? answer.confirmed.front().scale_factor : answer.conditions.scale_factor;
+  const journal::TrialRecord* best = BestOfSearch(trials, references.front(), 0, factor);
+  if (best == nullptr || !std::isfinite(shown)) return {};
+  const double excess = shown - *references.front().Value(*best);
+  // The best of many trials owes something to luck: its own scatter counts.
+  if (!(excess > kSurprise * std::hypot(error, experiment.noise_sd.value_or(0))) ||
+      !(excess > kLeastShare * shown)) {
+    return {};
+  }
+  return {{.kind = AlarmKind::kWorseThanObserved,
+           .experiment = experiment.name,
+           .scale_factor = factor,
+           .trial = best->id,
+           .value = excess}};
+}
+
+std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
+  std::vector<Alarm> alarms;
+  if (!answer.posterior) return alarms;
+  const ResultPosterior& p = *answer.posterior;
+  for (const ResultStanding& e : p.experiments) {
+    if (!(e.implausibility > kImplausible)) continue;
+    alarms.push_back(
+        {.kind = AlarmKind::kImplausible, .experiment = e.name, .value = e.implausibility});
+  }
+  if (Disagree(p.tension, p.raw_coverage)) {
+    alarms.push_back({.kind = AlarmKind::kDisagree, .experiment = p.odd, .value = p.tension});
+  }
+  if (p.num_left_out >= kFewestLeftOut && p.raw_coverage < kLeastCoverage) {
+    alarms.push_back(
+        {.kind = AlarmKind::kPoorModel, .value = p.raw_coverage, .widened = std::sqrt(p.temper)});
+  }
+  if (p.is_extrapolated) {
+    alarms.push_back({.kind = AlarmKind::kExtrapolated, .scale_factor = p.target_scale_factor});
+  }
+  for (const double level : p.unlearnt_scale_factors) {
+    alarms.push_back({.kind = AlarmKind::kUnlearntScaleFactor, .scale_factor = level});
+  }
+  // The regions of several experiments are small, and the errors of their surrogates weigh more.
+  if (p.experiments.size() > 1 && !p.is_extrapolated && p.unlearnt_scale_factors.empty() &&
+      p.fewest_at_finest < kEnoughAtFinest) {
+    alarms.push_back({.kind = AlarmKind::kFewSimulations, .value = 1.0 * p.fewest_at_finest});
+  }
+  return alarms;
+}
+
+std::vector<Alarm> CorrelationAlarms(const Answer& answer) {
+  const auto pair = TiedPair(answer.correlation);
+  // Draws of a small region may correlate as strongly as they like.
+  const bool is_open = answer.verdict && (answer.verdict->kind == VerdictKind::kCurve ||
+                                          answer.verdict->kind == VerdictKind::kSeparate);
+  if (!pair || !is_open) return {};
+  return {{.kind = AlarmKind::kCorrelated,
+           .parameter = answer.parameters[pair->first].name,
+           .other_parameter = answer.parameters[pair->second].name,
+           .value = answer.correlation[pair->first][pair->second]}};
+}
+
+std::vector<Alarm> BoundAlarms(const Answer& answer) {
+  Eigen::VectorXd point(static_cast<Eigen::Index>(answer.parameters.size()));
+  for (std::size_t i = 0; i < answer.parameters.size(); ++i) {
+    const ResultParameter& p = answer.parameters[i];
+    point[static_cast<Eigen::Index>(i)] = p.Range().ToUnit(p.value);
+  }
+  std::vector<Alarm> alarms;
+  for (const optimizer::BoundWarning& bound : optimizer::BoundWarnings(point)) {
+    alarms.push_back(
+        {.kind = AlarmKind::kBound,
+         .parameter = answer.parameters[static_cast<std::size_t>(bound.parameter)].name,
+         .side = bound.is_upper ? "upper" : "lower"});
+  }
+  return alarms;
+}
+
+std::vector<Alarm> BudgetAlarms(const Answer& answer) {
+  if (!answer.unsettled) return {};
+  Alarm alarm{.kind = AlarmKind::kBudgetEnded, .reason = answer.unsettled->why};
+  if (std::isfinite(answer.unsettled->num_more)) alarm.value = answer.unsettled->num_more;
+  return {alarm};
+}
+
+void AddAlarms(const AlarmBasis& basis, Answer& answer) {
+  std::vector<Alarm>& alarms = answer.warnings;
+  Append(MissAlarms(answer), alarms);
+  Append(PredictionAlarms(answer), alarms);
+  Append(SearchAlarms(answer, basis.trials, basis.references), alarms);
+  Append(PosteriorAlarms(answer), alarms);
+  Append(BudgetAlarms(answer), alarms);
+  Append(CorrelationAlarms(answer), alarms);
+  Append(BoundAlarms(answer), alarms);
+  AddGrainWarnings(basis.spec, answer);
+  AddPhotographs(basis.campaign, answer);
+  std::ranges::stable_sort(alarms, {}, &Alarm::kind);
+}
+
+}  // namespace talus::campaign

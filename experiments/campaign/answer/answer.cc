@@ -1,0 +1,45 @@
+#include "experiments/campaign/answer/answer.h"
+
+#include <algorithm>
+
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
+#include "experiments/journal/objective.h"
+#include "experiments/journal/record_json.h"
+
+namespace talus::campaign {
+
+std::string AnswerJson(const Answer& answer) {
+  return base::JsonText(base::ToJson(answer), 2) + "\n";
+}
+
+Answer ParseAnswer(const std::string& text) {
+  return journal::ParseRecord<Answer>(text, "the result");
+}
+
+const ResultStanding* StandingOf(const Answer& answer, std::string_view experiment) {
+  if (!answer.posterior) return nullptr;
+  const auto& all = answer.posterior->experiments;
+  const auto found = std::ranges::find(all, experiment, &ResultStanding::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experiment) {
+  if (answer.confirmed.empty()) return nullptr;
+  const auto& all = answer.confirmed.front().experiments;
+  const auto found = std::ranges::find(all, experiment, &ResultConfirmed::name);
+  return found == all.end() || found->num_trials == 0 ? nullptr : &*found;
+}
+
+double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed) {
+  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
+  return is_sad && confirmed.profile_sad_mm2 ? *confirmed.profile_sad_mm2 : confirmed.mean;
+}
+
+bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds) {
+  return std::ranges::any_of(answer.warnings, [&](const Alarm& alarm) {
+    return std::ranges::find(kinds, alarm.kind) != kinds.end();
+  });
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,160 @@
+#include "experiments/campaign/answer/answer_summary.h"
+
+#include <cmath>
+
+#include "base/text/number_text.h"
+#include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/folder/folder_in_text.h"
+
+namespace talus::campaign {
+namespace {
+
+std::string Padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.append(width - text.size(), ' ');
+  return text;
+}
+
+std::string ParameterLines(const Answer& result) {
+  std::string text;
+  for (const ResultParameter& p : result.parameters) {
+    text += "  " + Padded(p.name, 18) + Padded(base::ShortNumber(p.value) + " " + p.unit, 18) +
+            "90 % in " + base::ShortNumber(p.credible_low) + " … " +
+            base::ShortNumber(p.credible_high) + "\n";
+  }
+  if (result.parameters.size() > 1) text += "  (90 % for all of them together)\n";
+  return text;
+}
+
+// "predicted 0.36 mm² ± 0.025, confirmed 0.398 mm²", both of the mean heap where there are images.
+std::string ObjectiveText(const Answer& answer, const ResultExperiment& experiment,
+                          const ResultConfirmed* confirmed) {
+  const std::string unit = " " + answer.objective_unit;
+  const ResultStanding* standing = StandingOf(answer, experiment.name);
+  std::string text;
+  if (standing != nullptr && std::isfinite(standing->predicted)) {
+    text = "predicted " + base::ShortNumber(standing->predicted) + unit + " ± " +
+           base::ShortNumber(standing->predicted_sd, 2);
+  }
+  if (confirmed == nullptr || !std::isfinite(confirmed->mean)) return text;
+  text += (text.empty() ? "" : ", ") + std::string("confirmed ") +
+          base::ShortNumber(ComparableOf(answer, *confirmed)) + unit;
+  if (confirmed->over_floor) {
+    text += " (" + base::ShortNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
+            base::ShortNumber(*experiment.noise_floor, 2) + ")";
+  }
+  return text;
+}
+
+std::string NumbersText(const ResultExperiment& experiment, const ResultConfirmed* confirmed) {
+  std::string text;
+  for (std::size_t i = 0; i < experiment.numbers.size(); ++i) {
+    const ResultNumber& n = experiment.numbers[i];
+    text += (text.empty() ? "" : "; ") + n.name;
+    if (confirmed != nullptr) text += " " + base::ShortNumber(confirmed->scalars.at(i).mean) + ",";
+    text += " measured " + base::ShortNumber(n.value) + " ± " + base::ShortNumber(n.standard_error);
+  }
+  return text;
+}
+
+// The recommended set at each experiment.
+std::string ExperimentLines(const Answer& answer) {
+  std::string text;
+  for (const ResultExperiment& e : answer.experiments) {
+    const ResultConfirmed* confirmed = ConfirmedOf(answer, e.name);
+    const std::string objective = ObjectiveText(answer, e, confirmed);
+    const std::string numbers = NumbersText(e, confirmed);
+    text += "  " + Padded(e.name, 18) + objective +
+            (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
+    if (const ResultStanding* standing = StandingOf(answer, e.name)) {
+      text += "; implausibility " + base::ShortNumber(standing->implausibility, 2);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string ConfirmedLines(const Answer& answer) {
+  std::string text;
+  for (std::size_t i = 0; i < answer.confirmed.size(); ++i) {
+    const ResultCandidate& c = answer.confirmed[i];
+    text += Padded(i == 0 ? "  confirmed" : "  candidate " + std::to_string(i + 1), 20) + "with " +
+            std::to_string(c.experiments.front().num_trials) + " fresh seeds at scale factor " +
+            base::ShortNumber(c.scale_factor);
+    for (std::size_t k = 0; i > 0 && k < c.values.size(); ++k) {
+      text += (k == 0 ? ": " : " ") + base::ShortNumber(c.values[k]);
+    }
+    for (const ResultConfirmed& e : c.experiments) {
+      const double value = ComparableOf(answer, e);
+      if (i > 0 && std::isfinite(value)) {
+        text += "; " + e.name + " " + base::ShortNumber(value) + " " + answer.objective_unit;
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string BranchLine(const ResultBranch& branch) {
+  std::string text = "    " + base::ShortNumber(100 * branch.share) + " % at";
+  for (const double value : branch.values) text += " " + base::ShortNumber(value);
+  return text + "\n";
+}
+
+std::string PosteriorLines(const Answer& result) {
+  const ResultPosterior& p = *result.posterior;
+  std::string text;
+  if (p.branches.size() > 1) {
+    for (const ResultBranch& branch : p.branches) text += BranchLine(branch);
+  }
+  if (p.experiments.size() > 1) {
+    text += "  tension           " + base::ShortNumber(p.tension, 2) +
+            " standard deviations between the experiments\n";
+  }
+  for (const ResultAlone& a : p.alone) {
+    text += "  " + a.name + " alone:";
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+      text += (i == 0 ? " " : ", ") + result.parameters[i].name + " " +
+              base::ShortNumber(a.values[i]) + " (" + base::ShortNumber(a.low[i]) + " to " +
+              base::ShortNumber(a.high[i]) + ")";
+    }
+    text += "\n";
+  }
+  return text + "  coverage          of 90 % regions, leave-one-out over " +
+         std::to_string(p.num_left_out) + " trials: " + base::ShortNumber(100 * p.raw_coverage) +
+         " % raw, " + base::ShortNumber(100 * p.tempered_coverage) + " % tempered\n";
+}
+
+}  // namespace
+
+std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) {
+  std::string text = r.name + ": recommended set\n" + ParameterLines(r);
+  if (r.verdict) text += "  verdict           " + r.verdict->text + "\n";
+  text += ExperimentLines(r) + ConfirmedLines(r);
+  if (r.posterior) text += PosteriorLines(r);
+  if (r.held_out) {
+    text += "  held out          " + r.held_out->name + ", which the answer is made without\n";
+    for (const std::string& fact : HeldOutFacts(*r.held_out, r.objective_unit)) {
+      text += "    " + fact + "\n";
+    }
+  }
+  text += "  stopped because   " + r.stop.Text() + "\n";
+  if (r.verdict && r.verdict->kind != VerdictKind::kPoint) {
+    text +=
+        "  next              `talus next DIR` ranks what would narrow it; `talus report DIR` shows "
+        "it\n";
+  }
+  text += "  holds for         scale factor " + base::ShortNumber(r.conditions.scale_factor) +
+          ", Y " + base::ShortNumber(r.conditions.youngs_modulus) + " Pa" +
+          (r.conditions.lift_velocity
+               ? ", lift velocity " + base::ShortNumber(*r.conditions.lift_velocity) + " m/s"
+               : "") +
+          ", adhesion " + r.conditions.adhesion + ", rolling " + r.conditions.rolling + "\n";
+  text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
+          std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
+          " core hours, " + base::ShortNumber(r.cost.elapsed / 60) + " min\n";
+  text += "  model             " + r.model + "\n";
+  for (const Alarm& alarm : r.warnings) text += "  warning: " + AlarmText(alarm) + "\n";
+  return WithFolder(text, folder);
+}
+
+}  // namespace talus::campaign

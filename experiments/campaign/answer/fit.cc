@@ -1,0 +1,85 @@
+#include "experiments/campaign/answer/fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::campaign {
+namespace {
+
+constexpr double kCloseRuns = 1.5;   // noise floors: a simulation scatters, too
+constexpr double kCloseNumber = 2;   // standard errors
+constexpr double kMostShare = 0.05;  // of the powder's area
+
+// The square of a mean profile's SAD falls as a² + b²/n with its n heaps: b, from one heap and all.
+double ScatterOfOne(const ResultConfirmed& confirmed) {
+  if (!confirmed.profile_sad_mm2 || !confirmed.sad_mm2 || confirmed.num_trials < 2) return 0;
+  const double n = confirmed.num_trials;
+  const double one = *confirmed.sad_mm2;
+  const double all = *confirmed.profile_sad_mm2;
+  return std::sqrt(std::max(0.0, (one * one - all * all) * n / (n - 1)));
+}
+
+bool IsImplausible(const Answer& answer, const std::string& experiment) {
+  const ResultStanding* standing = StandingOf(answer, experiment);
+  return standing != nullptr && standing->implausibility > kImplausible;
+}
+
+}  // namespace
+
+double SadWithoutScatter(const ResultConfirmed& confirmed) {
+  const double all = confirmed.profile_sad_mm2.value_or(confirmed.sad_mm2.value_or(kNotKnown));
+  const double scatter = ScatterOfOne(confirmed);
+  return std::sqrt(std::max(0.0, all * all - scatter * scatter / confirmed.num_trials));
+}
+
+MeasurementFit ImageFit(const Answer& answer, const ResultExperiment& experiment) {
+  MeasurementFit fit{.experiment = experiment.name};
+  if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
+  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  if (confirmed == nullptr || !confirmed->profile_sad_mm2) return fit;
+  if (experiment.powder_area) fit.share = *confirmed->profile_sad_mm2 / *experiment.powder_area;
+  if (confirmed->over_floor) {
+    fit.off = *confirmed->over_floor;
+    if (fit.meets != Meets::kNo) fit.meets = fit.off <= kCloseRuns ? Meets::kYes : Meets::kNo;
+    return fit;
+  }
+  const double own = SadWithoutScatter(*confirmed);
+  if (experiment.powder_area && own > kMostShare * *experiment.powder_area &&
+      own > kCloseRuns * ScatterOfOne(*confirmed)) {
+    fit.meets = Meets::kNo;
+  }
+  return fit;
+}
+
+MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experiment,
+                         std::size_t number) {
+  const ResultNumber& measured = experiment.numbers[number];
+  MeasurementFit fit{.experiment = experiment.name, .number = measured.name};
+  const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
+  const ResultStanding* standing = StandingOf(answer, experiment.name);
+  double simulated = kNotKnown;
+  double uncertain = 0;  // of a number that is predicted only
+  if (confirmed != nullptr && std::isfinite(confirmed->scalars.at(number).mean)) {
+    simulated = confirmed->scalars[number].mean;
+  } else if (standing != nullptr && number < standing->numbers.size()) {
+    simulated = standing->numbers[number].predicted;
+    uncertain = standing->numbers[number].predicted_sd;
+  }
+  fit.off = std::abs(simulated - measured.value) / std::hypot(measured.standard_error, uncertain);
+  if (std::isfinite(fit.off)) fit.meets = fit.off <= kCloseNumber ? Meets::kYes : Meets::kNo;
+  if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
+  return fit;
+}
+
+std::vector<MeasurementFit> FitsOf(const Answer& answer) {
+  std::vector<MeasurementFit> fits;
+  for (const ResultExperiment& experiment : answer.experiments) {
+    if (experiment.has_image) fits.push_back(ImageFit(answer, experiment));
+    for (std::size_t i = 0; i < experiment.numbers.size(); ++i) {
+      fits.push_back(NumberFit(answer, experiment, i));
+    }
+  }
+  return fits;
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,45 @@
+// Whether the recommended set gives what was measured: each image and number of each experiment, as
+// the confirming trials have it, or as the model predicts it where nothing was confirmed.
+//
+// An image is met when the mean profile of the confirming trials is no more than 1.5 times as far
+// from the experiment's as its runs are from the mean of the others (the noise floor). Without runs
+// it is missed when the set itself, the scatter of its pictures taken off, is more than 5 % of the
+// powder's area and 1.5 times that scatter away. A number is met within two standard errors.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/answer/answer.h"
+
+namespace talus::campaign {
+
+inline constexpr double kImplausible = 3;  // implausibility above which no set fits
+
+enum class Meets {
+  kYes,     // within what the measurement itself leaves open
+  kNo,      // farther off
+  kUnknown  // nothing to judge it by
+};
+
+struct MeasurementFit {
+  std::string experiment{};
+  std::string number{};  // name of its metric; empty: the image
+  Meets meets = Meets::kUnknown;
+  double off = kNotKnown;    // of an image in noise floors, of a number in standard errors
+  double share = kNotKnown;  // of an image: SAD of the mean profile over the powder's area
+};
+
+// The image of an experiment, or a number of it by its place in the list.
+MeasurementFit ImageFit(const Answer& answer, const ResultExperiment& experiment);
+MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experiment,
+                         std::size_t number);
+
+// Every measurement, in the campaign's order.
+std::vector<MeasurementFit> FitsOf(const Answer& answer);
+
+// The SAD that the set would have without the scatter of its simulations.
+double SadWithoutScatter(const ResultConfirmed& confirmed);
+
+}  // namespace talus::campaign

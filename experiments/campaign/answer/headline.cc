@@ -1,0 +1,180 @@
+#include "experiments/campaign/answer/headline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text/number_text.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr double kOpen = 0.8;  // … above which the parameter is not determined at all
+
+// The answer with what the sentences call its parameters.
+struct Told {
+  const Answer& answer;
+  const std::vector<std::string>& names;
+
+  const ResultParameter& at(std::size_t i) const { return answer.parameters[i]; }
+};
+
+// Three digits: a headline is no table.
+std::string Short(double value) { return base::ShortNumber(value, 3); }
+
+std::string Percent(double share) { return base::ShortNumber(100 * share, 2) + " %"; }
+
+// Of the searched range, on the parameter's own scale.
+double WidthOf(const ResultParameter& p) {
+  return p.Range().ToUnit(p.credible_high) - p.Range().ToUnit(p.credible_low);
+}
+
+// Wide, and no other parameter tells it.
+bool IsOpen(const Answer& answer, std::size_t i) {
+  const auto pair = TiedPair(answer.correlation);
+  return WidthOf(answer.parameters[i]) >= kOpen &&
+         !(pair && (pair->first == i || pair->second == i));
+}
+
+std::string RangeText(const Told& told, std::size_t i) {
+  return told.names[i] + " in " + Short(told.at(i).credible_low) + " to " +
+         Short(told.at(i).credible_high);
+}
+
+std::string SetText(const Told& told, const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i == 0 ? "(" : ", ") + told.names[i] + " " + Short(values[i]);
+  }
+  return text + ")";
+}
+
+std::string Listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  }
+  return text;
+}
+
+// The alarms that leave nothing to be said of ranges.
+std::string MissText(const Answer& answer) {
+  if (HasAlarm(answer, {AlarmKind::kImplausible})) {
+    return "No set fits every measurement: the ranges are of the sets that miss least.";
+  }
+  if (HasAlarm(answer, {AlarmKind::kDisagree})) {
+    return "The tests disagree: no set fits all of them as well as each alone is fitted.";
+  }
+  if (HasAlarm(answer, {AlarmKind::kMisses})) {
+    return "The recommended set misses a measurement: the ranges are of the sets that miss least.";
+  }
+  return "";
+}
+
+std::string OpenText(const Told& told) {
+  std::vector<std::string> open;
+  for (std::size_t i = 0; i < told.names.size(); ++i) {
+    if (IsOpen(told.answer, i)) open.push_back(told.names[i]);
+  }
+  if (open.empty()) return "";
+  return "The measurements do not determine " + Listed(open) +
+         ": nearly every searched value fits.";
+}
+
+std::string KnownText(const Told& told) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < told.names.size(); ++i) {
+    const ResultParameter& p = told.at(i);
+    if (WidthOf(p) >= kWideRange) continue;
+    known.push_back(told.names[i] + " " + Short(p.value) + " (90 %: " + Short(p.credible_low) +
+                    " to " + Short(p.credible_high) + ")");
+  }
+  return known.empty() ? "" : "They determine " + Listed(known) + ".";
+}
+
+std::string SeparateText(const Told& told) {
+  const std::vector<ResultBranch>& branches = told.answer.posterior->branches;
+  std::string text = "They allow " + std::to_string(branches.size()) + " separate answers";
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    text += (b == 0 ? ": " : ", ") + Percent(branches[b].share) + " of the posterior round " +
+            SetText(told, branches[b].values);
+  }
+  return text;
+}
+
+std::string CurveText(const Told& told) {
+  // What is known given the other: the narrower of the two.
+  auto [given, known] = *TiedPair(told.answer.correlation);
+  if (WidthOf(told.at(known)) > WidthOf(told.at(given))) std::swap(given, known);
+  const auto& sets = told.answer.representative;
+  std::string text =
+      "They determine " + told.names[known] + " given " + told.names[given] + ", not both: ";
+  if (sets.size() < 2) return text + RangeText(told, given) + ", " + RangeText(told, known);
+  return text + "sets from " + SetText(told, sets.front()) + " to " + SetText(told, sets.back()) +
+         " fit equally";
+}
+
+std::string RegionText(const Told& told) {
+  std::vector<std::string> wide;
+  for (std::size_t i = 0; i < told.names.size(); ++i) {
+    if (WidthOf(told.at(i)) < kWideRange || IsOpen(told.answer, i)) continue;
+    wide.push_back(RangeText(told, i) + " (" + Percent(std::min(1.0, WidthOf(told.at(i)))) +
+                   " of its searched range)");
+  }
+  return "They leave a region, not a point" + (wide.empty() ? "" : ": " + Listed(wide));
+}
+
+std::string KindText(const Told& told, VerdictKind kind) {
+  switch (kind) {
+    case VerdictKind::kSeparate:
+      return SeparateText(told);
+    case VerdictKind::kCurve:
+      return CurveText(told);
+    case VerdictKind::kRegion:
+      return RegionText(told);
+    case VerdictKind::kPoint:
+      break;
+  }
+  return "That is a point";
+}
+
+}  // namespace
+
+std::optional<VerdictKind> VerdictKindOf(const Answer& answer) {
+  if (!answer.posterior) return std::nullopt;
+  if (answer.posterior->branches.size() > 1) return VerdictKind::kSeparate;
+  const auto wide = [](const ResultParameter& p) { return WidthOf(p) >= kWideRange; };
+  if (std::ranges::none_of(answer.parameters, wide)) return VerdictKind::kPoint;
+  const auto pair = TiedPair(answer.correlation);
+  const bool is_curve =
+      pair && (wide(answer.parameters[pair->first]) || wide(answer.parameters[pair->second]));
+  return is_curve ? VerdictKind::kCurve : VerdictKind::kRegion;
+}
+
+std::vector<std::string> Headline(const Answer& answer, const std::vector<std::string>& names) {
+  const auto kind = VerdictKindOf(answer);
+  if (!kind) return {};
+  const Told told{.answer = answer, .names = names};
+  const std::string miss = MissText(answer);
+  std::vector<std::string> sentences{
+      miss.empty() ? "Sets are found that fit every measurement." : miss, OpenText(told),
+      KnownText(told)};
+  // Of sets that miss there is no kind of fit.
+  if (miss.empty()) {
+    sentences.push_back(KindText(told, *kind) + "; the joint 90 % region fills about " +
+                        Percent(answer.posterior->region_volume) + " of the searched ranges.");
+  }
+  std::erase(sentences, "");
+  return sentences;
+}
+
+std::string HeadlineText(const Answer& answer) {
+  std::vector<std::string> names;
+  for (const ResultParameter& p : answer.parameters) names.push_back(p.name);
+  std::string text;
+  for (const std::string& sentence : Headline(answer, names)) {
+    text += (text.empty() ? "" : " ") + sentence;
+  }
+  return text;
+}
+
+}  // namespace talus::campaign

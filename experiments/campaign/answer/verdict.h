@@ -1,0 +1,54 @@
+// What kind of answer the measurements give, before any number: a point, a curve, a region or
+// several separate sets. headline.h puts it in words.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+
+namespace talus::campaign {
+
+// Share of a searched range above which a 90 % range is no point.
+inline constexpr double kWideRange = 0.25;
+
+enum class VerdictKind {
+  kPoint,    // every 90 % range is narrow
+  kCurve,    // two parameters are known together only
+  kRegion,   // a range is wide, and no other parameter ties it
+  kSeparate  // several unconnected regions
+};
+
+struct ResultVerdict {
+  VerdictKind kind = VerdictKind::kPoint;
+  std::string text{};  // Headline, with the parameters' names
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind);
+    visit("text", self.text);
+  }
+};
+
+// The two parameters that are correlated most strongly, where by 0.8 or more in size.
+std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
+    const std::vector<std::vector<double>>& correlation);
+
+// Of points that fit equally (unit cube, one a row): the ends of their longest direction with the
+// recommended one between; the recommended one alone where they are close together.
+std::vector<Eigen::VectorXd> RepresentativeSets(const Eigen::MatrixXd& points,
+                                                const Eigen::VectorXd& recommended);
+
+}  // namespace talus::campaign
+
+template <>
+struct talus::base::Names<talus::campaign::VerdictKind> {
+  using K = talus::campaign::VerdictKind;
+  static constexpr std::array kList{std::pair{"point", K::kPoint}, std::pair{"curve", K::kCurve},
+                                    std::pair{"region", K::kRegion},
+                                    std::pair{"separate", K::kSeparate}};
+};

@@ -1,0 +1,28 @@
+#include "experiments/campaign/plan/stop.h"
+
+#include <cmath>
+
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::campaign {
+
+std::string Stop::Text() const {
+  switch (kind) {
+    case StopKind::kRule:
+      return rule;
+    case StopKind::kSimulations:
+      return "the budget of " + std::to_string(std::llround(value)) + " simulations is used";
+    case StopKind::kCoreTime:
+      return "the budget of " + trials::DurationText(value) + " core time is used";
+    case StopKind::kWallClock:
+      return "the time budget of " + trials::DurationText(value) + " is used";
+    case StopKind::kAllFailed:
+      return "the first " + std::to_string(std::llround(value)) +
+             " trials all failed, the last because it " + rule;
+    case StopKind::kNothingLeft:
+      break;
+  }
+  return "the strategy has no more to propose";
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,49 @@
+// Why a search ended: a kind with its data, put in words in one place.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "base/field.h"
+
+namespace talus::campaign {
+
+enum class StopKind {
+  kRule,         // the strategy's own rule is met, as `rule` says
+  kSimulations,  // the budget of `value` simulations is used
+  kCoreTime,     // … of `value` seconds of core time
+  kWallClock,    // … of `value` seconds of work
+  kAllFailed,    // the first `value` trials all failed; `rule` is what the last one did
+  kNothingLeft,  // the strategy has no more to propose
+};
+
+struct Stop {
+  StopKind kind = StopKind::kNothingLeft;
+  double value = 0;
+  std::string rule{};  // in the words of the strategy or of the trial
+
+  std::string Text() const;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind);
+    visit("value", self.value);
+    visit("rule", self.rule);
+    std::string text = self.Text();  // for people; made anew wherever it is read
+    visit("text", text);
+  }
+};
+
+}  // namespace talus::campaign
+
+template <>
+struct talus::base::Names<talus::campaign::StopKind> {
+  using K = talus::campaign::StopKind;
+  static constexpr std::array kList{std::pair{"rule", K::kRule},
+                                    std::pair{"simulations", K::kSimulations},
+                                    std::pair{"core_time", K::kCoreTime},
+                                    std::pair{"wall_clock", K::kWallClock},
+                                    std::pair{"all_failed", K::kAllFailed},
+                                    std::pair{"nothing_left", K::kNothingLeft}};
+};

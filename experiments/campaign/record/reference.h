@@ -1,0 +1,66 @@
+// The experiment as a campaign uses it: what every trial is compared with, and by what number.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/journal/objective.h"
+#include "experiments/journal/records.h"
+#include "imaging/heap/metrics.h"
+#include "optimizer/outputs/field_objective.h"
+
+namespace talus::campaign {
+
+struct ReferenceOptions {
+  imaging::MetricOptions metrics = {};
+  journal::Objective objective = journal::Objective::kSad;
+  int num_heaps = 1;                                // that the experiment's profile is the mean of
+  std::vector<journal::ScalarRecord> scalars = {};  // what else the experiment has measured
+};
+
+class Reference {
+ public:
+  // Without an image where the experiment has measured numbers only. Throws ConfigError when the
+  // experiment has no such angle of repose.
+  Reference(std::optional<imaging::Profile> aehp, ReferenceOptions options);
+
+  bool has_image() const { return has_image_; }
+  std::optional<imaging::Frame> frame() const {
+    return has_image_ ? std::optional(aehp_.profile.frame) : std::nullopt;
+  }
+  const std::vector<journal::ScalarRecord>& scalars() const { return options_.scalars; }
+
+  // Every metric of a trial's profile; none without an image.
+  std::vector<journal::MetricRecord> Measure(const imaging::GrayImage& profile) const;
+
+  // What is minimised, or nothing where it is not defined.
+  std::optional<double> Value(const journal::TrialRecord& trial) const;
+
+  // Whether the trial says anything of this experiment.
+  bool IsMeasured(const journal::TrialRecord& trial) const;
+
+  const journal::ObjectiveInfo& info() const {
+    return journal::InfoOf(options_.objective);
+  }  // of Value
+
+  // The part of a profile that matters, 1 = powder: where the experiment has powder, with a margin;
+  // never below the plate.
+  std::vector<float> Field(const imaging::GrayImage& profile) const;
+  // A whole image with this part, and no powder elsewhere.
+  imaging::GrayImage ImageOf(std::span<const float> field) const;
+  optimizer::FieldObjective MakeFieldObjective() const;
+
+ private:
+  double ValueOfField(std::span<const float> field) const;
+  imaging::Measured AngleOf(const imaging::GrayImage& image) const;  // in degrees
+
+  bool has_image_ = false;
+  imaging::HeapImages aehp_;  // empty without an image
+  ReferenceOptions options_;
+  imaging::Region region_;
+  double angle_ = 0;  // of the experiment, for an angle objective [deg]
+};
+
+}  // namespace talus::campaign

@@ -1,0 +1,15 @@
+// What no bench has: most often a number whose unit was left out, or one in another column.
+#pragma once
+
+#include <vector>
+
+#include "base/problems.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+
+namespace talus::campaign {
+
+// Adds a problem for every quantity that cannot be, with the slip that is likely behind it.
+void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>& experiments,
+                    base::Problems& problems);
+
+}  // namespace talus::campaign

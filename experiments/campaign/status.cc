@@ -1,0 +1,146 @@
+#include "experiments/campaign/status.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/text/number_text.h"
+#include "experiments/campaign/answer/answer_summary.h"
+#include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::campaign {
+namespace {
+
+struct Counts {
+  std::array<int, 4> by_kind{};  // as in TrialKind
+  int running = 0;
+  int failed = 0;
+  double seconds = 0;  // of the finished trials
+  int finished = 0;
+
+  explicit Counts(const std::vector<journal::TrialRecord>& trials) {
+    for (const journal::TrialRecord& trial : trials) {
+      ++by_kind[static_cast<std::size_t>(trial.kind)];
+      running += trial.status == journal::TrialStatus::kRunning;
+      failed += trial.status == journal::TrialStatus::kFailed;
+      if (trial.status == journal::TrialStatus::kRunning || !std::isfinite(trial.duration_s))
+        continue;
+      seconds += trial.duration_s;
+      ++finished;
+    }
+  }
+};
+
+// Trials of one experiment at one scale factor: only their objectives compare.
+struct Kind {
+  int experiment = 0;
+  double scale_factor = 1;
+
+  bool Is(const journal::TrialRecord& trial) const {
+    return trial.experiment == experiment && trial.scale_factor == scale_factor;
+  }
+};
+
+std::string BestLine(const std::vector<journal::TrialRecord>& trials,
+                     const journal::CampaignRecord& campaign, const Reference& reference,
+                     const Kind& kind) {
+  if (!reference.has_image()) return "none, it has numbers only\n";
+  const journal::TrialRecord* best = nullptr;
+  double best_value = 0;
+  for (const journal::TrialRecord& trial : trials) {
+    if (!kind.Is(trial) || !IsOfSearch(trial)) continue;
+    const auto value = reference.Value(trial);
+    if (!value || (best && *value >= best_value)) continue;
+    best = &trial;
+    best_value = *value;
+  }
+  if (best == nullptr) return "no trial has succeeded yet\n";
+  std::string text = base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
+                     ", trial " + std::to_string(best->id) + ":";
+  for (std::size_t i = 0; i < best->native.size(); ++i) {
+    text += (i == 0 ? " " : ", ") + campaign.parameters[i].name + " " +
+            base::ShortNumber(best->native[i]) +
+            (campaign.parameters[i].unit.empty() ? "" : " " + campaign.parameters[i].unit);
+  }
+  return text + "\n";
+}
+
+std::string BestLines(const std::vector<journal::TrialRecord>& trials,
+                      const journal::CampaignRecord& campaign, const CampaignSpec& spec) {
+  const std::vector<Reference> references = ReferencesOf(campaign, spec);
+  std::string text;
+  for (std::size_t e = 0; e < references.size(); ++e) {
+    for (const double factor : spec.coarse_graining.Levels()) {
+      const Kind kind{.experiment = static_cast<int>(e), .scale_factor = factor};
+      const auto count =
+          std::count_if(trials.begin(), trials.end(),
+                        [&](const journal::TrialRecord& t) { return kind.Is(t) && IsOfSearch(t); });
+      text += "  " + campaign.experiments[e].name + " at scale factor " +
+              base::ShortNumber(factor) + ": " + std::to_string(count) + " trials, best " +
+              BestLine(trials, campaign, references[e], kind);
+    }
+  }
+  return text;
+}
+
+std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
+  std::map<std::string, int> reasons;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status == journal::TrialStatus::kFailed) ++reasons[trial.reason];
+  }
+  std::string text;
+  for (const auto& [reason, count] : reasons) {
+    text += "    " + std::to_string(count) + " × " + reason + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string StatusText(const std::filesystem::path& root) {
+  const CampaignFolder folder{root};
+  journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder.root));
+  const journal::CampaignRecord campaign = journal.Campaign();
+  const journal::ProgressRecord progress = journal.Progress();
+  const std::vector<journal::TrialRecord> trials = journal.Trials();
+  const CampaignSpec spec = ParseSpecText(campaign.spec_json);
+  const Counts counts(trials);
+  const bool alive = IsWorkedOn(folder.root);
+
+  std::string state = progress.state;
+  if (state == "running" && !alive) state = "ended without a word; `talus resume DIR` goes on";
+  std::optional<Answer> answer;
+  if (!progress.result_json.empty()) answer = ParseAnswer(progress.result_json);
+  if (answer && answer->unsettled) state += ", ended by its budget";
+  const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
+  std::string text = campaign.name + ": " + WithFolder(state, root) + "\n";
+  if (!progress.stop_reason.empty()) text += "  because           " + progress.stop_reason + "\n";
+  text += "  trials            " + std::to_string(searched) +
+          (spec.budget.simulations > 0 ? " of " + std::to_string(spec.budget.simulations) : "") +
+          " (" + std::to_string(counts.by_kind[0]) + " for the noise, " +
+          std::to_string(counts.by_kind[1]) + " of the design, " +
+          std::to_string(counts.by_kind[2]) + " of the search), " +
+          std::to_string(counts.by_kind[3]) + " to confirm\n";
+  text += "  now               " + std::to_string(counts.running) +
+          (alive ? " running\n" : " to be run again\n");
+  text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
+  text += BestLines(trials, campaign, spec);
+  for (const journal::ExperimentRecord& e : campaign.experiments) {
+    if (!e.noise_mm2) continue;
+    text += "  noise floor       " + base::ShortNumber(*e.noise_mm2) + " mm² (" +
+            (campaign.experiments.size() > 1 ? e.name : "experiment") + ")\n";
+  }
+  if (counts.finished > 0) {
+    text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
+  }
+  text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
+  if (answer) text += "\n" + AnswerSummary(*answer, root);
+  return text;
+}
+
+}  // namespace talus::campaign

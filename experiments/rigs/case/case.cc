@@ -1,0 +1,69 @@
+#include "experiments/rigs/case/case.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene.h"
+#include "experiments/rigs/options/require.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::rigs {
+void Powder::Validate(base::Problems& problems) const { RequirePositive(problems, "mass", mass); }
+
+void CoarseGraining::Validate(base::Problems& problems) const {
+  problems.Require(scale_factor >= 1 && std::isfinite(scale_factor), "scale_factor", scale_factor,
+                   "must be 1 or more");
+  problems.Require(surface_energy_exponent >= 0 && surface_energy_exponent <= 3,
+                   "surface_energy_exponent", surface_energy_exponent, "must be in [0, 3]");
+}
+
+void CaseOutputs::Validate(base::Problems& problems) const {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    problems.Require(times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
+                     "times[" + std::to_string(i) + "]", times[i],
+                     "must not be negative, and above the one before");
+  }
+}
+
+void Case::Validate(base::Problems& problems) const {
+  RequirePositive(problems, "gravity", gravity);
+  problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
+                   rayleigh_fraction, "must be in (0, 0.4]");
+  problems.Require(num_views >= 1 && num_views <= imaging::kMostViews, "num_views", num_views,
+                   "must be from 1 to 1000");
+  problems.Require(threads >= 1, "threads", threads, "must be at least 1");
+  problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
+                   "checkpoint_interval", checkpoint_interval, "must not be negative");
+}
+
+Device Case::DeviceKey() const {
+  Device device;
+  static_cast<LiftedTubeOptions&>(device) = rig.lifted_tube;
+  device.tube_material = materials.walls;
+  device.plate_material = materials.floor;
+  return device;
+}
+
+void Case::SetDevice(const Device& device) {
+  rig.lifted_tube = device;
+  materials = {.walls = device.tube_material, .floor = device.plate_material};
+}
+
+PowderSize EstimatePowder(const Case& c) {
+  const engine::SizeCurve curve(c.powder.sizes);
+  const double f = c.coarse_graining.scale_factor;
+  const double volume = c.powder.mass / c.powder.material.density;
+  PowderSize size;
+  size.grains = volume / (f * f * f * curve.mean_volume());
+  size.num_grains = std::llround(std::min(size.grains, 1e18));
+  size.mean_diameter = f * curve.VolumeQuantile(0.5);
+  size.time_step =
+      c.rayleigh_fraction * engine::RayleighTime(c.powder.material, f * curve.smallest() / 2);
+  return size;
+}
+
+double LargestDiameter(const Case& c) {
+  return c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
+}
+
+}  // namespace talus::rigs

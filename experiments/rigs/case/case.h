@@ -1,0 +1,118 @@
+// One bulk test, by default the lifted-cylinder heap test (docs/physics.md, 7 and 8): all that is
+// needed to simulate it.
+//
+// A campaign's spec embeds the same structs, so that a powder is described in one way everywhere.
+// rig_list.h validates a case with its rig, load_case.h reads one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "engine/laws/material.h"
+#include "experiments/rigs/case/device.h"
+#include "experiments/rigs/case/powder.h"
+#include "experiments/rigs/options/filling_rule.h"
+#include "experiments/rigs/options/rig_options.h"
+#include "experiments/rigs/options/rules.h"
+#include "experiments/rigs/options/wall_material.h"
+#include "imaging/heap/profile.h"
+
+namespace talus::rigs {
+
+struct CaseOutputs {
+  bool vtp = true;              // heap.vtp
+  bool csv = false;             // heap.csv
+  std::vector<double> times{};  // [s], from the start: state_NNNN.vtp as well
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("vtp", self.vtp, {.doc = "write the heap as heap.vtp"});
+    visit("csv", self.csv, {.doc = "write the heap as heap.csv"});
+    visit("times", self.times,
+          {.dimension = base::Dimension::kTime,
+           .doc = "states written as state_0000.vtp, … at these times from the start"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+// Largest Δt / t_R at which heaps were seen to be the same as at 0.15 (docs/validation.md) [-].
+inline constexpr double kUsualRayleighFraction = 0.30;
+
+// The whole of a case.json. Running it gives the same grains anywhere with one build.
+struct Case {
+  Powder powder;
+  RigOptions rig;
+  WallMaterials materials;
+  engine::ContactModels models;
+  CoarseGraining coarse_graining;
+  FillingRule filling;
+  PhaseRules rules;
+  CaseOutputs outputs;
+  double gravity = 9.81;                              // [m/s²], > 0, downwards
+  double rayleigh_fraction = kUsualRayleighFraction;  // Δt / t_R of the smallest grain [-], <= 0.4
+  std::uint64_t seed = 1;
+  std::optional<imaging::Frame> frame{};  // of the profile; without it none is written
+  int num_views = 16;                     // of the profile over 180°, > 0
+  int threads = 1;                        // the result does not depend on it
+  double checkpoint_interval = 60;        // wall-clock [s], >= 0; 0: only when interrupted
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    using base::Dimension;
+    visit("powder", self.powder, {.required = true});
+    visit("rig", self.rig, {.doc = "kind of bulk test (docs/rigs.md); default: the lifted tube"});
+    Device device = self.DeviceKey();
+    visit(
+        "device", device,
+        {.doc = "of the lifted tube; other rigs take the materials: tube_material for their walls, "
+                "plate_material for their floor"});
+    if constexpr (!std::is_const_v<Self>) self.SetDevice(device);
+    visit("models", self.models);
+    visit("coarse_graining", self.coarse_graining);
+    visit("filling", self.filling, {.doc = "how the powder gets into the tube"});
+    visit("rules", self.rules, {.doc = "when each phase ends"});
+    visit("outputs", self.outputs);
+    visit("gravity", self.gravity,
+          {.dimension = Dimension::kAcceleration, .doc = "downwards, > 0"});
+    visit("rayleigh_fraction", self.rayleigh_fraction,
+          {.doc = "time step over Rayleigh time of the smallest grain, in (0, 0.4]"});
+    visit("seed", self.seed);
+    visit("frame", self.frame, {.doc = "of profile.png; without it none is written"});
+    visit("num_views", self.num_views, {.doc = "silhouettes of the profile over 180 deg, > 0"});
+    visit("threads", self.threads, {.doc = "the result does not depend on it, > 0"});
+    visit("checkpoint_interval", self.checkpoint_interval,
+          {.dimension = Dimension::kTime,
+           .doc = "wall-clock time between checkpoints; 0: only when interrupted"});
+  }
+  // What needs no knowledge of the rig.
+  void Validate(base::Problems& problems) const;
+
+  // The tube and the materials, which share the key `device`.
+  Device DeviceKey() const;
+  void SetDevice(const Device& device);
+};
+
+// The silhouettes of its image over 180°: one from the front where the heap is not round.
+inline int NumViewsOf(const Case& rig_case) {
+  const bool round =
+      rig_case.rig.kind == RigKind::kLiftedTube || rig_case.rig.kind == RigKind::kFunnelHeap;
+  return round ? rig_case.num_views : 1;
+}
+
+// What the powder means for the cost, before anything is simulated.
+struct PowderSize {
+  std::int64_t num_grains = 0;
+  double grains = 0;         // the same, however many
+  double mean_diameter = 0;  // by volume of the scaled grains (D50) [m]
+  double time_step = 0;      // [s]
+};
+PowderSize EstimatePowder(const Case& rig_case);
+
+// The diameter of the largest scaled grain [m].
+double LargestDiameter(const Case& rig_case);
+
+}  // namespace talus::rigs

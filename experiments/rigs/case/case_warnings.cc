@@ -1,0 +1,82 @@
+#include "experiments/rigs/case/case_warnings.h"
+
+#include <utility>
+
+#include "base/text/number_text.h"
+#include "engine/laws/pair_constants.h"
+#include "engine/scene/scene_warnings.h"
+#include "experiments/rigs/case/materials.h"
+
+namespace talus::rigs {
+namespace {
+
+// Below it a heap is a pile of boulders.
+constexpr double kBoulders = 15;
+
+// Cohesive stress over the weight of a bed as high as the tube is wide, F_po / (d² ρ g D_i) (A1).
+// With γ_used = f γ (C1) it does not depend on the scale factor.
+double Cohesion(const Case& c) {
+  if (c.models.adhesion == engine::Adhesion::kNone) return 0;
+  const engine::Material powder = MaterialsOf(c).front();
+  const double pull_off = engine::MakePairConstants(powder, powder, c.models).pull_off / 4;
+  return pull_off / (EstimatePowder(c).mean_diameter * powder.density * c.gravity *
+                     c.rig.lifted_tube.tube_inner_diameter);
+}
+
+// Below 0.1 wet sand makes one heap however it is filled, from 0.3 on its dense bed may stand
+// (docs/validation.md, How the powder got there).
+std::string FillingWarning(const Case& c) {
+  if (c.filling.kind != FillingKind::kDense || Cohesion(c) < 0.2) return {};
+  return "COHESIVE: placed densely, such a powder may keep the shape of its tube where it slumps "
+         "when poured; fill it as the experiment was filled, most likely with filling.kind "
+         "\"pour\"";
+}
+
+}  // namespace
+
+double GrainsAcrossPlate(const Case& c) {
+  return c.rig.lifted_tube.plate_diameter / EstimatePowder(c).mean_diameter;
+}
+
+std::string FewGrainsText(double across, double scale_factor, const std::string& plate) {
+  const std::string remedy =
+      scale_factor == 1
+          ? " at their true size: single grains show in its outline, and a wider tube and plate"
+          : " at scale factor " + base::ShortNumber(scale_factor) + ": a smaller scale factor";
+  return "only " + base::ShortNumber(across, 3) + " grains across the plate" +
+         (plate.empty() ? "" : " of \"" + plate + "\"") + remedy + " would say more (" +
+         base::ShortNumber(kAdvisedAcross) + " or more are advised)";
+}
+
+std::vector<std::string> CaseWarnings(const Case& c) {
+  std::vector<std::string> warnings;
+  const double across = GrainsAcrossPlate(c);
+  if (c.rig.kind == RigKind::kLiftedTube && across < kAdvisedAcross) {
+    warnings.push_back((across < kBoulders ? "COARSE: " : "") +
+                       FewGrainsText(across, c.coarse_graining.scale_factor, ""));
+  }
+  for (std::string& text : SetUpWarnings(c)) warnings.push_back(std::move(text));
+  return warnings;
+}
+
+std::vector<std::string> SetUpWarnings(const Case& c) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string text) {
+    if (!text.empty()) warnings.push_back(std::move(text));
+  };
+  if (c.rig.kind == RigKind::kLiftedTube) warn(FillingWarning(c));
+  if (c.rayleigh_fraction > kUsualRayleighFraction) {
+    warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
+  }
+  for (std::string& text : engine::AdhesionWarnings(c.models, MaterialsOf(c))) {
+    warn(std::move(text));
+  }
+  if (c.models.rolling == engine::Rolling::kConstant && c.rayleigh_fraction > 0.15) {
+    warn(
+        "constant rolling resistance creeps in proportion to the time step: set rayleigh_fraction "
+        "to 0.15 or less");
+  }
+  return warnings;
+}
+
+}  // namespace talus::rigs

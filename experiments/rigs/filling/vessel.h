@@ -1,0 +1,45 @@
+// What a test's powder is filled into, and the scene with the powder in it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/scene.h"
+#include "engine/scene/filling.h"
+#include "experiments/rigs/case/case.h"
+
+namespace talus::rigs {
+
+// A funnel that stands still; others rise with what they have poured.
+struct Funnel {
+  double height = 0;  // of its outlet above the vessel's floor [m]
+  double outlet = 0;  // its diameter [m]
+};
+
+// An upright tube or box, or a plate.
+struct Vessel {
+  engine::FillRegion region;
+  double area = 0;    // of its cross-section [m²]
+  double across = 0;  // the diameter, or the shorter edge [m]
+  std::optional<Funnel> funnel{};
+};
+
+// `foot` is the centre of its floor; along x and y [m].
+Vessel BoxVessel(const engine::Vec3& foot, double length, double width);
+
+struct FilledScene {
+  engine::Scene scene;      // without walls
+  engine::Filling filling;  // without the positions, which are in the scene
+};
+
+// At time 0; without grains where the powder is to be poured.
+FilledScene FillVessel(const Case& rig_case, const Vessel& vessel);
+
+// The volume of the first grains of a filling, in their order [m³].
+double FilledVolume(const Case& rig_case, std::int64_t num_grains);
+
+// How high the powder fills the vessel at the solid fraction of a dense filling [m].
+double FilledHeight(const Case& rig_case, const Vessel& vessel);
+
+}  // namespace talus::rigs

@@ -1,0 +1,99 @@
+#include "experiments/rigs/load_case.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/json/json_reader.h"
+#include "base/text/number_text.h"
+#include "engine/scene/filling.h"
+#include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/phased/pace.h"
+#include "experiments/rigs/rig_list.h"
+
+namespace talus::rigs {
+namespace {
+
+// A grain that sinks too deeply into what it falls on would be pressed through the floor.
+void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems) {
+  const double mouth = MouthDiameter(c, vessel);
+  problems.Require(mouth < vessel.across, "filling.mouth_diameter", mouth,
+                   c.rig.kind == RigKind::kLiftedTube ? "must be below device.tube_inner_diameter"
+                                                      : "must be below the width of the vessel");
+  problems.Require(!c.filling.mouth_diameter || mouth > 2 * LargestDiameter(c),
+                   "filling.mouth_diameter", mouth, "must be above two (scaled) grain diameters");
+  constexpr double kLongest = 60;  // what no funnel needs for a laboratory's powder [s]
+  const engine::Pour pour = MakePour(c, vessel);
+  problems.Require(pour.Duration() <= kLongest, "filling.rate", pour.plan().rate,
+                   "kg/s pours for " + base::ShortNumber(pour.Duration()) +
+                       " s, above the 60 s that are simulated; raise it to " +
+                       base::ShortNumber(c.powder.mass / kLongest) + " or more");
+  if (!problems.empty()) return;
+  const double share = ImpactShare(c, vessel);
+  if (share <= kMaxImpactShare) return;
+  // (δ/R)^(5/2) goes with v²/E, and v² nearly with the height.
+  const double ratio = std::pow(share / kMaxImpactShare, 2.5);
+  problems.Add("filling.drop_height",
+               "lets grains sink " + base::ShortNumber(share) +
+                   " of their radius into each other or into a wall, above the " +
+                   base::ShortNumber(kMaxImpactShare) + " that holds; raise youngs_modulus " +
+                   base::ShortNumber(ratio) + " times, lower drop_height, or fill with kind dense");
+}
+
+// A bed that falls comes down on its floor as its lowest grains do, or harder.
+void ValidateTaps(const Case& c, const TapRule& taps, const char* path, base::Problems& problems) {
+  const double share = BlowShare(c, 2 * c.gravity * taps.height);
+  const double ratio = std::pow(share / kMaxImpactShare, 2.5);
+  problems.Require(
+      share <= kMaxImpactShare, path, taps.height,
+      "m lets grains sink " + base::ShortNumber(share) +
+          " of their radius into the floor, above the " + base::ShortNumber(kMaxImpactShare) +
+          " that holds; tap from " + base::ShortNumber(1e3 * taps.height / ratio) +
+          " mm at most, or raise youngs_modulus " + base::ShortNumber(ratio) + " times");
+}
+
+void ValidateWithRig(const Case& c, base::Problems& problems) {
+  const PowderSize size = EstimatePowder(c);
+  const std::string too_many = engine::TooManyGrains(size.grains);
+  problems.Require(too_many.empty(), "powder.mass", too_many);
+  problems.Require(size.num_grains >= 1, "powder.mass", c.powder.mass,
+                   "is less than one grain; the coarse graining may be too strong");
+  const RigEntry& entry = EntryOf(c);
+  const Vessel vessel = entry.vessel(c);
+  problems.Require(3 * LargestDiameter(c) < vessel.across,
+                   c.rig.kind == RigKind::kLiftedTube ? "device.tube_inner_diameter" : "rig",
+                   vessel.across, "must be above three (scaled) grain diameters");
+  entry.validate(c, problems);
+  if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps.height", problems);
+  if (c.rig.kind == RigKind::kTappedDensity) {
+    ValidateTaps(c, c.rig.tapped_density.taps, "rig.taps.height", problems);
+  }
+  if (problems.empty() && c.filling.kind == FillingKind::kPour) ValidatePour(c, vessel, problems);
+}
+
+}  // namespace
+
+CaseSize EstimateCase(const Case& c) {
+  const RigEntry& entry = EntryOf(c);
+  CaseSize size{EstimatePowder(c)};
+  size.filled_height = FilledHeight(c, entry.vessel(c));
+  size.simulated_time = SimulatedTime(c, entry.test_time(c, size.filled_height));
+  return size;
+}
+
+void ValidateCase(const Case& c, base::Problems& problems) {
+  c.Validate(problems);
+  if (problems.empty()) ValidateWithRig(c, problems);
+}
+
+Case LoadCase(const std::filesystem::path& path) { return LoadCase(base::ReadJsonFile(path)); }
+
+Case LoadCase(const base::JsonFile& file) {
+  auto rig_case = base::LoadOptions<Case>(file);
+  engine::ReadSizeFile(rig_case.powder.sizes);
+  base::Problems problems(file.path.string(), file.places);
+  ValidateCase(rig_case, problems);
+  problems.ThrowIfAny();
+  return rig_case;
+}
+
+}  // namespace talus::rigs

@@ -1,0 +1,27 @@
+// A case with its rig: what it costs, whether it can be simulated, and its file.
+#pragma once
+
+#include <filesystem>
+
+#include "base/json/json_file.h"
+#include "base/problems.h"
+#include "experiments/rigs/case/case.h"
+
+namespace talus::rigs {
+
+// What the powder and the rig mean for the cost, before anything is simulated.
+struct CaseSize : PowderSize {
+  double filled_height = 0;   // of a loose filling [m]
+  double simulated_time = 0;  // expected, of all phases [s]
+};
+CaseSize EstimateCase(const Case& rig_case);
+
+// What no part of a case can see by itself, such as a tube that cannot hold the powder.
+void ValidateCase(const Case& rig_case, base::Problems& problems);
+
+// Reads, completes (a size file's content moves into the struct) and validates a case; throws one
+// ConfigError with everything that is wrong.
+Case LoadCase(const std::filesystem::path& path);
+Case LoadCase(const base::JsonFile& file);
+
+}  // namespace talus::rigs

@@ -1,0 +1,199 @@
+// What bulk tests measure: one table, which the spec, the results, `next` and the report read.
+//
+// A new number is a value of the enum and a line of the table.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "base/units.h"
+
+namespace talus::rigs {
+
+enum class Observable {
+  kMassOnPlate,
+  kMassFallen,
+  kNumFallen,
+  kMassLeft,
+  kBulkDensity,
+  kPouredDensity,
+  kTappedDensity,
+  kHausnerRatio,
+  kTappedSolidFraction,
+  kRunout,
+  kHeight,
+  kColumnHeight,
+  kAspectRatio,
+  kDischargeTime,
+  kDischargeRate,
+  kAngle,
+  kAngleSd,
+  kShearAngle,
+  kFlows,
+  kReposeAngle1,
+  kReposeAngle2,
+  kReposeAngle3,
+  kReposeTriangle
+};
+
+// The error that a careful laboratory reaches: of the value, or in the observable's unit.
+struct UsualError {
+  double relative = 0;  // [-]
+  double absolute = 0;  // angles in degrees, the others in SI
+};
+
+struct ObservableInfo {
+  Observable observable;
+  const char* key = "";  // in a spec; the name in results has the unit, too
+  base::Dimension dimension = base::Dimension::kNone;
+  const char* title = "";  // in tables and figures
+  const char* doc = "";    // how it is read
+  UsualError usual_error{};
+};
+
+inline constexpr std::array kObservables = [] {
+  using base::Dimension;
+  using O = Observable;
+  return std::to_array<ObservableInfo>({
+      {O::kMassOnPlate, "mass_on_plate", Dimension::kMass, "Mass on the plate",
+       "of the heap that stays on the plate"},
+      {O::kMassFallen, "mass_fallen", Dimension::kMass, "Mass fallen",
+       "of the powder that fell over the rim, or through the slot"},
+      {O::kNumFallen, "num_fallen", Dimension::kNone, "Grains fallen",
+       "number of the grains that fell over the rim"},
+      {O::kMassLeft, "mass_left", Dimension::kMass, "Mass left",
+       "of the powder that stayed above the slot, or left the tilted box"},
+      {O::kBulkDensity,
+       "bulk_density",
+       Dimension::kDensity,
+       "Bulk density",
+       "of the powder in the tube before the lift",
+       {.relative = 0.01}},
+      {O::kPouredDensity,
+       "poured_density",
+       Dimension::kDensity,
+       "Poured density",
+       "bulk density as poured",
+       {.relative = 0.01}},
+      {O::kTappedDensity,
+       "tapped_density",
+       Dimension::kDensity,
+       "Tapped density",
+       "bulk density after the taps",
+       {.relative = 0.005}},
+      {O::kHausnerRatio,
+       "hausner_ratio",
+       Dimension::kNone,
+       "Hausner ratio",
+       "tapped over poured density",
+       {.relative = 0.01}},
+      {O::kTappedSolidFraction, "tapped_solid_fraction", Dimension::kNone, "Tapped solid fraction",
+       "share of the volume that the grains fill after the taps"},
+      {O::kRunout,
+       "runout",
+       Dimension::kLength,
+       "Runout",
+       "of the collapsed column, from its front",
+       {.relative = 0.02}},
+      {O::kHeight,
+       "height",
+       Dimension::kLength,
+       "Height",
+       "of the heap or the collapsed column",
+       {.relative = 0.02}},
+      {O::kColumnHeight, "column_height", Dimension::kLength, "Height of the column",
+       "of the column before its gate opens"},
+      {O::kAspectRatio, "aspect_ratio", Dimension::kNone, "Aspect ratio",
+       "height over length of the column"},
+      {O::kDischargeTime,
+       "discharge_time",
+       Dimension::kTime,
+       "Discharge time",
+       "until 95 % of what runs out has passed",
+       {.relative = 0.02}},
+      {O::kDischargeRate,
+       "discharge_rate",
+       Dimension::kMassRate,
+       "Discharge rate",
+       "through the slot or orifice",
+       {.relative = 0.02}},
+      {O::kAngle,
+       "angle",
+       Dimension::kAngle,
+       "Angle",
+       "of repose, sliding or the drum's surface (docs/rigs.md)",
+       {.absolute = 1}},
+      {O::kAngleSd, "angle_sd", Dimension::kAngle, "Angle, standard deviation",
+       "of the drum's surface over time"},
+      {O::kShearAngle,
+       "shear_angle",
+       Dimension::kAngle,
+       "Shear angle",
+       "of the slopes above the slot",
+       {.absolute = 1}},
+      {O::kFlows, "flows", Dimension::kNone, "Flows",
+       "1 where powder runs through the orifice, 0 where an arch stands"},
+      {O::kReposeAngle1,
+       "angle_of_repose_1",
+       Dimension::kAngle,
+       "AOR 1",
+       "of a round heap's silhouette by method 1 (docs/measure.md)",
+       {.absolute = 1}},
+      {O::kReposeAngle2,
+       "angle_of_repose_2",
+       Dimension::kAngle,
+       "AOR 2",
+       "the same by method 2",
+       {.absolute = 1}},
+      {O::kReposeAngle3,
+       "angle_of_repose_3",
+       Dimension::kAngle,
+       "AOR 3",
+       "the same by method 3",
+       {.absolute = 1}},
+      {O::kReposeTriangle,
+       "angle_of_repose_triangle",
+       Dimension::kAngle,
+       "AOR, triangle",
+       "of the triangle of the silhouette's area on the plate's diameter",
+       {.absolute = 1}},
+  });
+}();
+
+constexpr const ObservableInfo& InfoOf(Observable observable) {
+  return kObservables[static_cast<std::size_t>(observable)];
+}
+
+// How results write a dimension.
+struct MetricUnit {
+  const char* ending = "";  // of a metric's name: "_kg_per_m3"
+  const char* text = "-";   // "kg/m3"
+  double scale = 1;         // number in it / SI
+};
+MetricUnit MetricUnitOf(base::Dimension dimension);
+
+// "mass_fallen_kg", its name in results.
+std::string MetricName(Observable observable);
+
+// The line of a name in results; none where another engine gave it a name of its own.
+const ObservableInfo* FindObservable(std::string_view metric);
+
+// "kg/m3" of "tapped_density_kg_per_m3", "-" of a ratio and of what is not in the table.
+std::string UnitOfObservable(std::string_view metric);
+
+// A number that a run has given.
+struct Reading {
+  Observable observable;
+  double value = std::numeric_limits<double>::quiet_NaN();  // in the metric's unit
+  std::string undefined{};                                  // why it has no value; else empty
+};
+
+// A rig's observable; the usual ones are what `next` expects to be measured.
+struct RigObservable {
+  Observable observable;
+  bool usual = false;
+};
+
+}  // namespace talus::rigs

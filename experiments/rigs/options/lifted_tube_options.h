@@ -1,0 +1,63 @@
+// A tube full of powder that is lifted off a plate (docs/physics.md, 7). Its keys stand under
+// `device`.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "experiments/rigs/options/require.h"
+
+namespace talus::rigs {
+
+enum class PlateKind { kSolidCylinder, kDisc };
+
+struct LiftedTubeOptions {
+  double tube_inner_diameter = 0.01;    // D_i [m], > 0
+  std::optional<double> tube_length{};  // [m]; default: what the mass needs when loosely poured
+  double plate_diameter = 0.01;         // D_b [m], > 0
+  PlateKind plate = PlateKind::kSolidCylinder;
+  double plate_height = 0.005;  // of the solid cylinder [m], > 0
+  double lift_velocity = 0.01;  // v_l [m/s], > 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    using base::Dimension;
+    visit("tube_inner_diameter", self.tube_inner_diameter,
+          {.dimension = Dimension::kLength, .doc = "of the lifted tube, > 0"});
+    visit("tube_length", self.tube_length,
+          {.dimension = Dimension::kLength, .doc = "default: what the mass needs"});
+    visit("plate_diameter", self.plate_diameter,
+          {.dimension = Dimension::kLength, .doc = "that the heap stands on, > 0"});
+    visit("plate", self.plate,
+          {.doc = "solid_cylinder: its rim and side are walls too; disc: no thickness"});
+    visit("plate_height", self.plate_height,
+          {.dimension = Dimension::kLength, .doc = "of the solid cylinder, > 0"});
+    visit("lift_velocity", self.lift_velocity,
+          {.dimension = Dimension::kVelocity, .doc = "of the tube, > 0"});
+  }
+  void Validate(base::Problems& problems) const {
+    RequirePositive(problems, "tube_inner_diameter", tube_inner_diameter);
+    RequirePositive(problems, "plate_diameter", plate_diameter);
+    problems.Require(!(plate_diameter > kLargestLength), "plate_diameter", plate_diameter,
+                     "must be at most 2 m; write \"10 mm\" for 10 mm");
+    RequirePositive(problems, "plate_height", plate_height);
+    RequirePositive(problems, "lift_velocity", lift_velocity);
+    if (tube_length) RequirePositive(problems, "tube_length", *tube_length);
+    problems.Require(!(tube_inner_diameter > plate_diameter), "tube_inner_diameter",
+                     tube_inner_diameter,
+                     "must not be above plate_diameter: the tube stands on it");
+  }
+};
+
+}  // namespace talus::rigs
+
+template <>
+struct talus::base::Names<talus::rigs::PlateKind> {
+  using P = talus::rigs::PlateKind;
+  static constexpr std::array kList{std::pair{"solid_cylinder", P::kSolidCylinder},
+                                    std::pair{"disc", P::kDisc}};
+};

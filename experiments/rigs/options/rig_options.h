@@ -1,0 +1,94 @@
+// Which bulk test a case is of, and what that test is made with.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/field.h"
+#include "base/problems.h"
+#include "experiments/rigs/options/column_collapse_options.h"
+#include "experiments/rigs/options/draw_down_options.h"
+#include "experiments/rigs/options/drum_options.h"
+#include "experiments/rigs/options/funnel_heap_options.h"
+#include "experiments/rigs/options/lifted_tube_options.h"
+#include "experiments/rigs/options/orifice_flow_options.h"
+#include "experiments/rigs/options/tapped_density_options.h"
+#include "experiments/rigs/options/tilting_box_options.h"
+
+namespace talus::rigs {
+
+enum class RigKind {
+  kLiftedTube,
+  kTappedDensity,
+  kColumnCollapse,
+  kTiltingBox,
+  kDrawDown,
+  kDrum,
+  kOrificeFlow,
+  kFunnelHeap
+};
+
+// The keys of one kind only are there: those of `kind`. The lifted tube's stand under `device`.
+struct RigOptions {
+  RigKind kind = RigKind::kLiftedTube;
+  LiftedTubeOptions lifted_tube;
+  TappedDensityOptions tapped_density;
+  ColumnCollapseOptions column_collapse;
+  TiltingBoxOptions tilting_box;
+  DrawDownOptions draw_down;
+  DrumOptions drum;
+  OrificeFlowOptions orifice_flow;
+  FunnelHeapOptions funnel_heap;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("kind", self.kind,
+          {.required = true, .doc = "of bulk test; the keys beside it are that test's"});
+    OfKind(self, [&](auto& options) { options.Visit(options, visit); });
+  }
+  void Validate(base::Problems& problems) const {
+    OfKind(*this, [&](const auto& options) { options.Validate(problems); });
+  }
+
+  // One of each kind, for the schema.
+  static std::vector<RigOptions> Alternatives();
+
+ private:
+  // Calls `body` with the options of the kind, if it has any.
+  template <class Self, class Body>
+  static void OfKind(Self& self, Body&& body) {
+    switch (self.kind) {
+      case RigKind::kLiftedTube:
+        return;
+      case RigKind::kTappedDensity:
+        return body(self.tapped_density);
+      case RigKind::kColumnCollapse:
+        return body(self.column_collapse);
+      case RigKind::kTiltingBox:
+        return body(self.tilting_box);
+      case RigKind::kDrawDown:
+        return body(self.draw_down);
+      case RigKind::kDrum:
+        return body(self.drum);
+      case RigKind::kOrificeFlow:
+        return body(self.orifice_flow);
+      case RigKind::kFunnelHeap:
+        return body(self.funnel_heap);
+    }
+  }
+};
+
+}  // namespace talus::rigs
+
+template <>
+struct talus::base::Names<talus::rigs::RigKind> {
+  using R = talus::rigs::RigKind;
+  static constexpr std::array kList{std::pair{"lifted_tube", R::kLiftedTube},
+                                    std::pair{"tapped_density", R::kTappedDensity},
+                                    std::pair{"column_collapse", R::kColumnCollapse},
+                                    std::pair{"tilting_box", R::kTiltingBox},
+                                    std::pair{"draw_down", R::kDrawDown},
+                                    std::pair{"drum", R::kDrum},
+                                    std::pair{"orifice_flow", R::kOrificeFlow},
+                                    std::pair{"funnel_heap", R::kFunnelHeap}};
+};

@@ -1,0 +1,111 @@
+#include "experiments/rigs/orifice_flow/orifice_flow_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "experiments/rigs/case/materials.h"
+
+namespace talus::rigs {
+namespace {
+
+constexpr int kGate = 0;
+constexpr const char* kDischarging = "discharging";
+constexpr double kFlowing = 0.1;  // of the powder that must run out
+
+// The cone's height [m]; 0 of a flat floor.
+double ConeHeight(const OrificeFlowOptions& options) {
+  if (!options.cone_angle) return 0;
+  return (options.diameter - options.orifice) / 2 / std::tan(*options.cone_angle / 2);
+}
+
+engine::WallShape FloorOf(const OrificeFlowOptions& options) {
+  const double inner = options.orifice / 2;
+  const double outer = options.diameter / 2;
+  if (!options.cone_angle) return engine::Annulus{.inner_radius = inner, .radius = outer};
+  return engine::Cone{.radius = inner, .top_radius = outer, .length = ConeHeight(options)};
+}
+
+}  // namespace
+
+// What has run out falls for some diameters before it leaves the scene.
+OrificeFlowRig::OrificeFlowRig(const Case& c, State state, engine::Simulation simulation)
+    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
+      leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
+  const double test_time = TestTime(c, FilledHeight(c, vessel()));
+  Phase discharging = Resting(kDischarging, c.rules.heap);
+  discharging.hold_time = c.rig.orifice_flow.arch_time;
+  discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
+  discharging.begin = [this] { scene().RemoveWall(kGate); };
+  SetPhases({discharging}, test_time);
+}
+
+Vessel OrificeFlowRig::VesselOf(const Case& c) {
+  engine::FillRegion region;
+  region.diameter = c.rig.orifice_flow.diameter;
+  region.base = {0, 0, ConeHeight(c.rig.orifice_flow)};
+  return {.region = region, .area = region.Area(), .across = c.rig.orifice_flow.diameter};
+}
+
+std::vector<engine::Wall> OrificeFlowRig::Walls(const Case& c, double height) {
+  const OrificeFlowOptions& options = c.rig.orifice_flow;
+  const engine::OpenCylinder cylinder{
+      .base = {0, 0, ConeHeight(options)}, .radius = options.diameter / 2, .length = 1.2 * height};
+  return {
+      {.name = "gate", .shape = engine::Disc{.radius = options.orifice / 2}, .material = kFloor},
+      {.name = "floor", .shape = FloorOf(options), .material = kFloor},
+      {.name = "cylinder", .shape = cylinder, .material = kWalls}};
+}
+
+void OrificeFlowRig::Validate(const Case& c, base::Problems& problems) {
+  problems.Require(c.rig.orifice_flow.orifice > LargestDiameter(c), "rig.orifice",
+                   c.rig.orifice_flow.orifice,
+                   "must be above one (scaled) grain diameter, or nothing can run through it");
+}
+
+double OrificeFlowRig::Width(const Case& c) { return c.rig.orifice_flow.diameter; }
+
+// As Beverloo's law has it, 0.58 ρ_b √g (D - 1.5 d)^2.5, for the larger part of it.
+double OrificeFlowRig::TestTime(const Case& c, double filled_height) {
+  const OrificeFlowOptions& options = c.rig.orifice_flow;
+  const double rate = 0.58 * std::sqrt(c.gravity) * std::pow(0.7 * options.orifice, 2.5);  // [m³/s]
+  return filled_height * VesselOf(c).area / rate + options.arch_time;
+}
+
+double OrificeFlowRig::MassBelow(GrainSpan grains) const {
+  double mass = memory().mass_gone;
+  for (const engine::Particle& p : grains) {
+    if (p.position.z < 0) mass += MassOf({&p, 1});
+  }
+  return mass;
+}
+
+std::optional<PhaseEnd> OrificeFlowRig::Look() {
+  if (phase_name() != kDischarging) return std::nullopt;
+  std::vector<std::int64_t> gone;
+  for (const engine::Particle& p : view().particles) {
+    if (p.position.z + p.radius >= leave_height_) continue;
+    memory().mass_gone += MassOf({&p, 1});
+    gone.push_back(p.id);
+  }
+  Remove(gone);
+  memory().flow.push_back(
+      {.time = simulation().time() - phase_start(), .mass = MassBelow(view().particles)});
+  if (view().particles.empty()) return PhaseEnd::kEmpty;
+  return std::nullopt;
+}
+
+std::vector<Reading> OrificeFlowRig::Readings(GrainSpan grains) const {
+  const double filled = FilledMass();
+  const double passed = MassBelow(grains);
+  const bool flows = passed > kFlowing * filled;
+  std::vector<Reading> all =
+      FlowReadings(memory().flow, flows ? passed : 0, "an arch stands above the orifice");
+  if (!flows) all[1] = {Observable::kDischargeRate, 0};
+  all.push_back({Observable::kFlows, flows ? 1.0 : 0.0});
+  all.push_back({Observable::kMassFallen, passed});
+  all.push_back({Observable::kMassLeft, std::max(0.0, filled - passed)});
+  return all;
+}
+
+}  // namespace talus::rigs

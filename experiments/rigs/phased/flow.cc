@@ -1,0 +1,36 @@
+#include "experiments/rigs/phased/flow.h"
+
+#include <algorithm>
+
+namespace talus::rigs {
+namespace {
+
+// When so much had passed [s]; between two looks it is interpolated.
+double TimeOf(double mass, std::span<const Passed> flow) {
+  Passed before;
+  for (const Passed& now : flow) {
+    if (now.mass >= mass) {
+      const double share = (mass - before.mass) / std::max(now.mass - before.mass, 1e-300);
+      return before.time + share * (now.time - before.time);
+    }
+    before = now;
+  }
+  return flow.back().time;
+}
+
+}  // namespace
+
+std::vector<Reading> FlowReadings(std::span<const Passed> flow, double passed,
+                                  const std::string& none) {
+  Reading time{Observable::kDischargeTime};
+  Reading rate{Observable::kDischargeRate};
+  if (passed > 0 && !flow.empty()) {
+    time.value = TimeOf(0.95 * passed, flow);
+    rate.value = 0.4 * passed / (TimeOf(0.6 * passed, flow) - TimeOf(0.2 * passed, flow));
+  } else {
+    time.undefined = rate.undefined = none;
+  }
+  return {time, rate};
+}
+
+}  // namespace talus::rigs

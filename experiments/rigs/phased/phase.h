@@ -1,0 +1,56 @@
+// A phase of a bulk test: a change of the scene at its start, a criterion or a cap for its end.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "base/field.h"
+
+namespace talus::rigs {
+
+// How a phase ended.
+enum class PhaseEnd { kNone, kPoured, kTapped, kAtRest, kCleared, kTimeCap, kEmpty, kDone };
+
+struct Phase {
+  std::string name;
+  PhaseEnd ends_with = PhaseEnd::kDone;  // by its criterion
+  std::function<bool()> criterion{};     // asked at each look; none: it lasts until its cap
+  double hold_time = 0;                  // that the criterion must hold for [s]
+  std::function<double()> cap{};         // how long it lasts at most [s]
+  PhaseEnd at_cap = PhaseEnd::kTimeCap;
+  std::string cap_warning{};      // where a cap is worth one; default: a general sentence
+  std::function<void()> begin{};  // what changes in the scene
+  std::function<void()> end{};    // what is measured
+};
+
+struct PhaseRecord {
+  PhaseEnd reason = PhaseEnd::kNone;
+  double start_time = 0;    // [s]
+  double end_time = 0;      // [s]
+  std::int64_t steps = 0;   // of the phase
+  double energy_ratio = 0;  // mean kinetic energy of a grain / (m g d) at its last check [-]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("reason", self.reason);
+    visit("start_time_s", self.start_time);
+    visit("end_time_s", self.end_time);
+    visit("steps", self.steps);
+    visit("energy_ratio", self.energy_ratio);
+  }
+};
+
+}  // namespace talus::rigs
+
+template <>
+struct talus::base::Names<talus::rigs::PhaseEnd> {
+  using E = talus::rigs::PhaseEnd;
+  static constexpr std::array kList{
+      std::pair{"none", E::kNone},       std::pair{"poured", E::kPoured},
+      std::pair{"tapped", E::kTapped},   std::pair{"at_rest", E::kAtRest},
+      std::pair{"cleared", E::kCleared}, std::pair{"time_cap", E::kTimeCap},
+      std::pair{"empty", E::kEmpty},     std::pair{"done", E::kDone}};
+};

@@ -1,0 +1,66 @@
+#include "experiments/rigs/phased/repose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/sphere.h"
+#include "imaging/heap/metrics.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::rigs {
+namespace {
+
+constexpr double kPixelsPerGrain = 5;
+constexpr int kMostPixels = 2000;  // across
+
+// The whole plate and as much above it as the heap is high, with a margin.
+imaging::Frame FrameOf(std::span<const engine::Particle> heap, const RoundPlate& plate) {
+  constexpr double kMargin = 0.1;  // of the plate's diameter, on each side
+  const double width = (1 + 2 * kMargin) * plate.diameter;
+  double top = 0;
+  for (const engine::Particle& p : heap) top = std::max(top, p.position.z + p.radius);
+  imaging::Frame frame{
+      .pixel_size = std::max(plate.grain_diameter / kPixelsPerGrain, width / kMostPixels),
+      .plate_diameter = plate.diameter};
+  frame.width = static_cast<int>(std::ceil(width / frame.pixel_size));
+  frame.height = static_cast<int>(std::ceil((top + kMargin * plate.diameter) / frame.pixel_size));
+  frame.center_x = 0.5 * frame.width;
+  frame.baseline = frame.height - 1;
+  return frame;
+}
+
+Reading ReadingOf(Observable observable, const imaging::Metric& metric) {
+  Reading reading{observable};
+  if (std::isfinite(metric.value.value)) {
+    reading.value = metric.value.value;
+  } else {
+    reading.undefined = metric.value.not_defined;
+  }
+  return reading;
+}
+
+}  // namespace
+
+std::vector<Reading> ReposeReadings(std::span<const engine::Particle> heap,
+                                    const RoundPlate& plate) {
+  std::vector<base::Sphere> spheres;
+  for (const engine::Particle& p : heap) spheres.push_back({p.position, p.radius});
+  const imaging::Frame frame = FrameOf(heap, plate);
+  imaging::HeapImages images;
+  images.parts = imaging::ProjectViews(spheres, frame, imaging::kDefaultViews);
+  images.profile = {.image = imaging::MeanImage(images.parts), .frame = frame};
+  const std::vector<imaging::Metric> metrics = imaging::DescribeProfile(images);
+  const std::pair<Observable, const char*> kMethods[] = {
+      {Observable::kReposeAngle1, "repose_angle_1_mean_deg"},
+      {Observable::kReposeAngle2, "repose_angle_2_mean_deg"},
+      {Observable::kReposeAngle3, "repose_angle_3_mean_deg"},
+      {Observable::kReposeTriangle, "triangle_angle_deg"}};
+  std::vector<Reading> readings;
+  for (const auto& [observable, name] : kMethods) {
+    readings.push_back(ReadingOf(observable, imaging::FindMetric(metrics, name)));
+  }
+  return readings;
+}
+
+}  // namespace talus::rigs

@@ -1,0 +1,107 @@
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/files/output_folder.h"
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
+#include "base/text/number_text.h"
+#include "experiments/trials/measure/measure_request.h"
+#include "imaging/drums/drum_overlay.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/profile_file.h"
+#include "imaging/photos/photo_set.h"
+
+namespace talus::trials {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr double kDrumDegree = std::numbers::pi / 180;  // [rad]
+
+ordered_json DrumJson(const imaging::MeasuredDrum& drum, std::size_t num_photos) {
+  const imaging::DrumCircle& circle = drum.map.circle;
+  ordered_json json{{"num_photos", num_photos},
+                    {"center_x_px", circle.center_x},
+                    {"center_y_px", circle.center_y},
+                    {"radius_px", circle.radius},
+                    {"inner_radius_px", drum.map.inner_radius},
+                    {"pixel_size_m", drum.pixel_size},
+                    {"turning", base::NameOf(drum.turning)},
+                    {"angle_deg", base::ToJson(drum.angle.value / kDrumDegree)},
+                    {"fill", drum.surface.fill}};
+  if (!drum.angle.defined()) json["not_defined"] = drum.angle.not_defined;
+  if (num_photos < 2) return json;
+  json["angle_standard_error_deg"] = base::ToJson(drum.angle.standard_error / kDrumDegree);
+  json["surface_sd_m"] = drum.surface_sd;
+  return json;
+}
+
+std::string SurfaceCsv(const imaging::MeasuredDrum& drum) {
+  std::ostringstream csv;
+  csv << "x_m,height_m\n";
+  for (const imaging::DrumPoint& p : drum.surface.points) {
+    csv << base::ShortNumber(p.x * drum.pixel_size, 8) << ','
+        << base::ShortNumber(p.height * drum.pixel_size, 8) << '\n';
+  }
+  return csv.str();
+}
+
+void WriteFiles(const MeasureRequest& request, const imaging::MeasuredDrum& drum) {
+  const fs::path& out = request.out;
+  base::ClaimOutputFolder(out, "measure", request.drum->photos);
+  imaging::WriteProfile(out / "drum.png", imaging::DrumProfile(drum));
+  imaging::WritePng(out / "overlay.png",
+                    imaging::DrawDrum(imaging::ReadGrayImage(request.drum->photos.front()), drum));
+  base::WriteFileAtomically(out / "surface.csv", SurfaceCsv(drum));
+  base::WriteFileAtomically(out / "measure.json",
+                            base::JsonText(DrumJson(drum, request.drum->photos.size()), 2) + "\n");
+}
+
+void PrintSummary(const imaging::MeasuredDrum& drum, std::size_t num_photos, std::ostream& print) {
+  const imaging::DrumCircle& circle = drum.map.circle;
+  print << "drum from " << num_photos << " photograph(s)\n  circle of " << 2 * circle.radius
+        << " px around (" << circle.center_x << ", " << circle.center_y << "), "
+        << drum.pixel_size * 1e6 << " um a pixel; " << 2 * drum.map.inner_radius
+        << " px of it count, the ring left out\n  turning " << base::NameOf(drum.turning)
+        << ", powder higher on the "
+        << (drum.turning == imaging::Turning::kClockwise ? "left" : "right") << '\n';
+  if (drum.angle.defined()) {
+    print << "  dynamic angle " << drum.angle.value / kDrumDegree << " deg";
+    if (num_photos > 1) print << " +- " << drum.angle.standard_error / kDrumDegree;
+    print << '\n';
+  } else {
+    print << "  no dynamic angle: " << drum.angle.not_defined << '\n';
+  }
+  print << "  fill " << drum.surface.fill << " of what counts\n";
+  if (num_photos > 1) print << "  surface sd " << drum.surface_sd * 1e3 << " mm\n";
+}
+
+}  // namespace
+
+void MeasureDrums(const MeasureRequest& request, std::ostream& print) {
+  MeasureRequest complete = request;
+  complete.drum->photos.clear();
+  for (const fs::path& input : request.inputs) {
+    const std::vector<fs::path> images =
+        fs::is_directory(input) ? imaging::ImagesIn(input) : std::vector<fs::path>{input};
+    complete.drum->photos.insert(complete.drum->photos.end(), images.begin(), images.end());
+  }
+  if (complete.drum->photos.empty()) {
+    throw base::ConfigError(request.inputs.front().string() + ": holds no photographs");
+  }
+  const imaging::MeasuredDrum drum = imaging::MeasureDrum(*complete.drum);
+  PrintSummary(drum, complete.drum->photos.size(), print);
+  if (request.out.empty()) return;
+  WriteFiles(complete, drum);
+  print << "written to " << request.out.string() << "/ (look at overlay.png)\n";
+}
+
+}  // namespace talus::trials

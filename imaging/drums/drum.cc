@@ -1,0 +1,211 @@
+#include "imaging/drums/drum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/photos/backlight.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kLeastLight = 0.25;   // share of a circle that is light: the ring hides it no more
+constexpr double kBeyondRing = 0.01;   // farther in, as the lens blurs the ring / radius
+constexpr double kThickestRing = 0.1;  // / radius
+constexpr double kLeastContrast = 40;  // of powder and light [grey levels]
+constexpr double kSameCircle = 0.01;   // how far circles of one series may differ / radius
+
+GrayImage Mean(const std::vector<GrayImage>& photos) {
+  GrayImage mean = photos.front();
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    double sum = 0;
+    for (const GrayImage& photo : photos) sum += photo.pixels[i];
+    mean.pixels[i] = static_cast<std::uint8_t>(sum / static_cast<double>(photos.size()) + 0.5);
+  }
+  return mean;
+}
+
+double Radius(const DrumCircle& circle, int x, int y) {
+  return std::hypot(x + 0.5 - circle.center_x, y + 0.5 - circle.center_y);
+}
+
+// Levels of powder and light within the drum; the ring is too thin to count.
+TwoClasses Levels(const GrayImage& photo, const DrumCircle& circle, const std::string& name) {
+  std::vector<float> levels;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      if (Radius(circle, x, y) < 0.95 * circle.radius) levels.push_back(photo.at(x, y));
+    }
+  }
+  const TwoClasses classes = SplitByOtsu(levels);
+  if (classes.light - classes.dark >= kLeastContrast) return classes;
+  throw base::ConfigError(name +
+                          ": shows no powder before a light background in the drum; light it from "
+                          "behind");
+}
+
+double LightShare(const GrayImage& photo, const DrumCircle& circle, double r, double level) {
+  constexpr int kSteps = 720;
+  int light = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSteps;
+    const int x = static_cast<int>(circle.center_x + r * std::cos(angle));
+    const int y = static_cast<int>(circle.center_y + r * std::sin(angle));
+    if (x < 0 || y < 0 || x >= photo.width || y >= photo.height) continue;
+    light += photo.at(x, y) > level;
+  }
+  return static_cast<double>(light) / kSteps;
+}
+
+// From the circle inwards through the dark ring to where the light side is seen.
+double InnerRadius(const GrayImage& photo, const DrumCircle& circle, const TwoClasses& levels) {
+  constexpr double kStep = 0.5;  // [px]
+  const auto light = [&](double r) {
+    return LightShare(photo, circle, r, levels.middle()) >= kLeastLight;
+  };
+  const double least = circle.radius * (1 - kThickestRing);
+  double r = circle.radius;
+  while (r > least && light(r)) r -= kStep;
+  if (r <= least) r = circle.radius;  // no ring
+  while (r > least && !light(r)) r -= kStep;
+  return r - kBeyondRing * circle.radius;
+}
+
+// Powder and light become 0 and 255; what the ring hides is white.
+DrumMap MapOf(const GrayImage& photo, const DrumCircle& circle, const std::string& name) {
+  const TwoClasses levels = Levels(photo, circle, name);
+  DrumMap map{.image = photo, .circle = circle, .inner_radius = 0};
+  map.inner_radius = InnerRadius(photo, circle, levels);
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const double share = (photo.at(x, y) - levels.dark) / (levels.light - levels.dark);
+      const bool known = Radius(circle, x, y) <= map.inner_radius;
+      map.image.at(x, y) =
+          known ? static_cast<std::uint8_t>(255 * std::clamp(share, 0.0, 1.0) + 0.5) : 255;
+    }
+  }
+  return map;
+}
+
+struct Photographs {
+  std::vector<GrayImage> images;
+  std::vector<DrumCircle> circles;
+};
+
+Photographs Read(const std::vector<std::filesystem::path>& files) {
+  Photographs photos;
+  for (const std::filesystem::path& file : files) {
+    photos.images.push_back(ReadGrayImage(file));
+    const GrayImage& image = photos.images.back();
+    photos.circles.push_back(FindDrumCircle(image, file.string()));
+    const DrumCircle& first = photos.circles.front();
+    const DrumCircle& last = photos.circles.back();
+    const bool same = image.width == photos.images.front().width &&
+                      image.height == photos.images.front().height &&
+                      std::hypot(last.center_x - first.center_x, last.center_y - first.center_y) +
+                              std::abs(last.radius - first.radius) <=
+                          kSameCircle * first.radius;
+    if (!same) {
+      throw base::ConfigError(
+          file.string() +
+          ": its drum is not where that of the first photograph is; a series is "
+          "taken by one camera that stands still");
+    }
+  }
+  return photos;
+}
+
+// Standard deviation over the photographs of the surface's height, mean over its columns [px].
+double SurfaceSd(const std::vector<DrumSurface>& surfaces) {
+  std::map<double, std::vector<double>> heights;  // by place
+  for (const DrumSurface& surface : surfaces) {
+    for (const DrumPoint& p : surface.points) heights[p.x].push_back(p.height);
+  }
+  double sum = 0, columns = 0;
+  for (const auto& [x, column] : heights) {
+    if (column.size() < std::max<std::size_t>(2, surfaces.size())) continue;
+    double mean = 0, squares = 0;
+    for (const double h : column) mean += h / static_cast<double>(column.size());
+    for (const double h : column) squares += (h - mean) * (h - mean);
+    sum += std::sqrt(squares / static_cast<double>(column.size() - 1));
+    columns += 1;
+  }
+  return columns > 0 ? sum / columns : 0;
+}
+
+double AngleError(const std::vector<DrumSurface>& surfaces) {
+  std::vector<double> angles;
+  for (const DrumSurface& surface : surfaces) {
+    if (surface.slope_angle.defined()) angles.push_back(surface.slope_angle.value);
+  }
+  return StandardError(angles);
+}
+
+// The powder climbs where it is carried up, so that a surface that falls to the right turns
+// clockwise.
+void ReadTurning(const DrumPhotos& options, MeasuredDrum& drum) {
+  const Measured& slope = drum.surface.slope_angle;
+  drum.angle = slope;
+  if (!slope.defined()) return;
+  drum.turning = slope.value >= 0 ? Turning::kClockwise : Turning::kCounterClockwise;
+  drum.angle.value = std::abs(slope.value);
+  if (!options.turning || *options.turning == drum.turning) return;
+  throw base::ConfigError(options.photos.front().string() + ": the powder is higher on the " +
+                          (slope.value >= 0 ? "left" : "right") +
+                          ", so that the drum turns the other way than was said; mirror the "
+                          "photographs, or leave the direction out");
+}
+
+}  // namespace
+
+void DrumPhotos::Validate(base::Problems& problems) const {
+  problems.Require(!photos.empty(), "photos", "are missing");
+  problems.Require(diameter > 0 && diameter <= 5, "diameter", diameter,
+                   "must be positive and at most 5 m; write \"84 mm\" for 84 mm");
+}
+
+MeasuredDrum MeasureDrum(const DrumPhotos& options) {
+  base::Problems problems;
+  options.Validate(problems);
+  problems.ThrowIfAny();
+  const Photographs photos = Read(options.photos);
+  MeasuredDrum drum;
+  const std::string name = options.photos.front().string();
+  const GrayImage mean = Mean(photos.images);
+  const DrumCircle circle = FindDrumCircle(mean, name);
+  drum.map = MapOf(mean, circle, name);
+  drum.pixel_size = options.diameter / (2 * circle.radius);
+  drum.surface = MeasureSurface(drum.map);
+  ReadTurning(options, drum);
+  if (photos.images.size() < 2) return drum;
+  std::vector<DrumSurface> each;
+  for (const GrayImage& image : photos.images)
+    each.push_back(MeasureSurface(MapOf(image, circle, name)));
+  drum.angle.standard_error = AngleError(each);
+  drum.surface_sd = SurfaceSd(each) * drum.pixel_size;
+  return drum;
+}
+
+Profile DrumProfile(const MeasuredDrum& drum) {
+  const DrumCircle& circle = drum.map.circle;
+  const int width = drum.map.image.width;
+  Profile profile{.image = drum.map.image,
+                  .frame = {.width = width,
+                            .height = drum.map.image.height,
+                            .pixel_size = drum.pixel_size,
+                            .center_x = circle.center_x,
+                            .baseline = std::min(circle.center_y + circle.radius,
+                                                 static_cast<double>(drum.map.image.height)),
+                            .plate_diameter = 2 * circle.radius * drum.pixel_size}};
+  if (drum.turning == Turning::kClockwise) return profile;
+  profile.frame.center_x = width - circle.center_x;
+  for (auto row = profile.image.pixels.begin(); row != profile.image.pixels.end(); row += width) {
+    std::reverse(row, row + width);
+  }
+  return profile;
+}
+
+}  // namespace talus::imaging

@@ -1,0 +1,99 @@
+#include "imaging/drums/drum_circle.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr int kNumRays = 720;
+constexpr double kLeastStep = 60;       // of an edge [grey levels over kEdge]
+constexpr int kEdge = 3;                // length over which an edge is looked for [px]
+constexpr double kOnCircle = 0.01;      // how far a point may lie off the circle / its radius
+constexpr double kLeastOn = 0.5;        // share of the rays whose point lies on it
+constexpr double kSmallestShare = 0.2;  // radius / shorter side of the picture
+
+struct Point {
+  double x = 0;  // [px]
+  double y = 0;
+};
+
+// The outermost edge along a ray from the middle, where the level is half-way.
+std::optional<Point> OutermostEdge(const GrayImage& photo, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double x0 = photo.width / 2.0, y0 = photo.height / 2.0;
+  const auto level = [&](double way) {
+    return static_cast<double>(
+        photo.at(static_cast<int>(x0 + way * c), static_cast<int>(y0 + way * s)));
+  };
+  const double reach = std::min(x0 / std::max(std::abs(c), 1e-9), y0 / std::max(std::abs(s), 1e-9));
+  for (double way = reach - 1; way > kEdge; way -= 1) {
+    const double outside = level(way);
+    const double inside = level(way - kEdge);
+    if (std::abs(inside - outside) < kLeastStep) continue;
+    const double half = (inside + outside) / 2;
+    double at = way;
+    while (at > way - kEdge && (level(at) > half) == (outside > half)) at -= 0.25;
+    return Point{.x = x0 + at * c, .y = y0 + at * s};
+  }
+  return std::nullopt;
+}
+
+// Least squares of x² + y² = 2 a x + 2 b y + c, which is linear in a, b, c.
+DrumCircle FitCircle(const std::vector<Point>& points) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Point& p : points) {
+    const Eigen::Vector3d row(2 * p.x, 2 * p.y, 1);
+    normal += row * row.transpose();
+    right += row * (p.x * p.x + p.y * p.y);
+  }
+  const Eigen::Vector3d abc = normal.ldlt().solve(right);
+  return {.center_x = abc[0],
+          .center_y = abc[1],
+          .radius = std::sqrt(abc[2] + abc[0] * abc[0] + abc[1] * abc[1])};
+}
+
+std::vector<Point> OnCircle(const std::vector<Point>& points, const DrumCircle& circle,
+                            double tolerance) {
+  std::vector<Point> on;
+  for (const Point& p : points) {
+    const double off = std::hypot(p.x - circle.center_x, p.y - circle.center_y) - circle.radius;
+    if (std::abs(off) <= tolerance * circle.radius) on.push_back(p);
+  }
+  return on;
+}
+
+}  // namespace
+
+DrumCircle FindDrumCircle(const GrayImage& photo, const std::string& name) {
+  std::vector<Point> points;
+  for (int ray = 0; ray < kNumRays; ++ray) {
+    const auto point = OutermostEdge(photo, 2 * std::numbers::pi * ray / kNumRays);
+    if (point) points.push_back(*point);
+  }
+  DrumCircle circle;
+  std::vector<Point> on = points;
+  for (const double tolerance : {0.1, 0.05, 0.02, kOnCircle, kOnCircle}) {
+    if (on.size() < kLeastOn * kNumRays) break;
+    circle = FitCircle(on);
+    on = OnCircle(points, circle, tolerance);
+  }
+  const bool found = on.size() >= kLeastOn * kNumRays &&
+                     circle.radius >= kSmallestShare * std::min(photo.width, photo.height);
+  if (!found) {
+    throw base::ConfigError(name +
+                            ": no drum found: no circle around most of the picture's middle; the "
+                            "whole ring must be in the picture, near its middle, and differ from "
+                            "what is around it");
+  }
+  return circle;
+}
+
+}  // namespace talus::imaging

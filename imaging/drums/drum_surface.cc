@@ -1,0 +1,93 @@
+#include "imaging/drums/drum_surface.h"
+
+#include <cmath>
+#include <optional>
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kHalf = 127.5;
+constexpr double kFringe = 0.02;          // share of the powder beyond the bed's ends
+constexpr std::size_t kFewestPoints = 8;  // of a line
+
+// The powder of each column [px], in the disc.
+std::vector<double> ColumnPowder(const GrayImage& image) {
+  std::vector<double> powder(static_cast<std::size_t>(image.width), 0.0);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      powder[static_cast<std::size_t>(x)] += (255 - image.at(x, y)) / 255.0;
+    }
+  }
+  return powder;
+}
+
+// The column below which `share` of the powder lies.
+double Quantile(const std::vector<double>& powder, double share) {
+  double total = 0;
+  for (const double column : powder) total += column;
+  double sum = 0;
+  for (std::size_t x = 0; x < powder.size(); ++x) {
+    sum += powder[x];
+    if (sum >= share * total) return static_cast<double>(x) + 0.5;
+  }
+  return 0;
+}
+
+// From the disc's top down, where it becomes powder; nothing for a column that is all one.
+std::optional<double> SurfaceRow(const DrumMap& map, int x) {
+  const double across = x + 0.5 - map.circle.center_x;
+  const double half = map.inner_radius * map.inner_radius - across * across;
+  if (half <= 1) return std::nullopt;
+  const int top = static_cast<int>(std::ceil(map.circle.center_y - std::sqrt(half))) + 1;
+  const int bottom = static_cast<int>(map.circle.center_y + std::sqrt(half)) - 1;
+  if (top < 0 || bottom >= map.image.height || map.image.at(x, top) < kHalf) return std::nullopt;
+  for (int y = top + 1; y <= bottom; ++y) {
+    const double dark = map.image.at(x, y);
+    const double light = map.image.at(x, y - 1);
+    if (dark < kHalf) return y + 0.5 - (kHalf - dark) / (light - dark);
+  }
+  return std::nullopt;
+}
+
+Measured LineAngle(const std::vector<DrumPoint>& points, double from, double to) {
+  double n = 0, sx = 0, sh = 0, sxx = 0, sxh = 0;
+  for (const DrumPoint& p : points) {
+    if (p.x < from || p.x > to) continue;
+    n += 1;
+    sx += p.x;
+    sh += p.height;
+    sxx += p.x * p.x;
+    sxh += p.x * p.height;
+  }
+  if (n < kFewestPoints) return {.not_defined = "the surface is too short"};
+  return {.value = -std::atan((n * sxh - sx * sh) / (n * sxx - sx * sx))};
+}
+
+}  // namespace
+
+DrumSurface MeasureSurface(const DrumMap& map) {
+  DrumSurface surface;
+  for (int x = 0; x < map.image.width; ++x) {
+    const std::optional<double> row = SurfaceRow(map, x);
+    if (!row) continue;
+    surface.points.push_back(
+        {.x = x + 0.5 - map.circle.center_x, .height = map.circle.center_y - *row});
+  }
+  const std::vector<double> powder = ColumnPowder(map.image);
+  const double low = Quantile(powder, kFringe) - map.circle.center_x;
+  const double high = Quantile(powder, 1 - kFringe) - map.circle.center_x;
+  surface.slope_angle = LineAngle(surface.points, low + (high - low) / 4, high - (high - low) / 4);
+  double total = 0, pixels = 0;
+  for (int y = 0; y < map.image.height; ++y) {
+    for (int x = 0; x < map.image.width; ++x) {
+      const double r = std::hypot(x + 0.5 - map.circle.center_x, y + 0.5 - map.circle.center_y);
+      if (r > map.inner_radius) continue;
+      pixels += 1;
+      total += (255 - map.image.at(x, y)) / 255.0;
+    }
+  }
+  surface.fill = total / pixels;
+  return surface;
+}
+
+}  // namespace talus::imaging

@@ -1,0 +1,17 @@
+#include "imaging/heap/measured.h"
+
+#include <cmath>
+
+namespace talus::imaging {
+
+double StandardError(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  double mean = 0;
+  for (const double value : values) mean += value / n;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / (n - 1) / n);
+}
+
+}  // namespace talus::imaging

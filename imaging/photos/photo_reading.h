@@ -1,0 +1,36 @@
+// What each photograph shows by itself: its light taken out, and where its plate or table is.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "imaging/photos/backlight.h"
+#include "imaging/photos/experiment.h"
+#include "imaging/photos/photo_set.h"
+#include "imaging/photos/plate/plate_edges.h"
+#include "imaging/photos/table_line.h"
+
+namespace talus::imaging {
+
+struct Photo {
+  std::filesystem::path path;
+  std::size_t run = 0;
+  int width = 0;           // [px]; 0: unreadable
+  int height = 0;          // [px]
+  PlateEdges edges;        // unless the frame or a scale is given
+  TableLine table;         // with a scale
+  bool front_lit = false;  // powder is brighter than its background
+  double overexposed = 0;  // as in BacklitPhoto [-]
+  std::string fault;       // why it cannot be used, with the file's name; "": it can
+  BacklitPhoto flat;       // empty where all of them together would take too much memory
+};
+
+// All of the set, run by run, each read once; one that cannot be used says so in `fault`.
+std::vector<Photo> ReadPhotos(const ExperimentOptions& options, const PhotoSet& set);
+
+// What base::ParallelFor is told of one photograph: worth a thread of its own.
+inline constexpr double kPhotoWork = 1e9;
+
+}  // namespace talus::imaging

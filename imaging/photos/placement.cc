@@ -1,0 +1,97 @@
+#include "imaging/photos/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "imaging/photos/scale_mark.h"
+
+namespace talus::imaging {
+namespace {
+
+std::string Size(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
+double MeanOver(const std::vector<PlatePose>& poses, double PlatePose::*part) {
+  double sum = 0;
+  for (const PlatePose& pose : poses) sum += pose.*part;
+  return sum / static_cast<double>(poses.size());
+}
+
+// Centre and baseline on pixel borders, near where the photographs have them.
+Frame FrameFor(const ExperimentOptions& options, const PhotoCollection& collection,
+               const Placement& placement) {
+  const double pixel = options.pixel_size.value_or(placement.photo_pixel);
+  const double scale = pixel / placement.photo_pixel;
+  return {.width = std::max(1, static_cast<int>(std::lround(collection.width / scale))),
+          .height = std::max(1, static_cast<int>(std::lround(collection.height / scale))),
+          .pixel_size = pixel,
+          .center_x = std::round(MeanOver(placement.poses, &PlatePose::center_x) / scale),
+          .baseline = std::round(MeanOver(placement.poses, &PlatePose::baseline) / scale),
+          .plate_diameter = options.plate_diameter};
+}
+
+Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& collection) {
+  const Frame& given = *options.frame;
+  if (given.width != collection.width || given.height != collection.height) {
+    throw base::ConfigError("frame: is " + Size(given.width, given.height) +
+                            ", the photographs are " + Size(collection.width, collection.height) +
+                            "; give width_px and height_px of the photographs");
+  }
+  Placement placement{.frame = given, .photo_pixel = given.pixel_size, .poses = {}};
+  placement.poses.assign(collection.photos.size(),
+                         {.width = given.plate_diameter / given.pixel_size,
+                          .center_x = given.center_x,
+                          .baseline = given.baseline,
+                          .tilt = options.tilt});
+  if (options.pixel_size) placement.frame = FrameFor(options, collection, placement);
+  return placement;
+}
+
+// A heap on a table: its middle is where a plate's would be, and the table counts as far as
+// `plate_diameter` says, or a little farther than the heap reaches.
+Placement PlaceByScale(ExperimentOptions options, const PhotoCollection& collection,
+                       double photo_pixel) {
+  constexpr double kBeyondHeap = 1.1;
+  Placement placement{.frame = {}, .photo_pixel = photo_pixel, .poses = {}};
+  double reach = 0;  // [px]
+  for (const Photo& photo : collection.photos) reach = std::max(reach, photo.table.reach);
+  if (options.plate_diameter == 0) {
+    options.plate_diameter = 1e-3 * std::ceil(1e3 * 2 * kBeyondHeap * reach * photo_pixel);
+  }
+  for (const Photo& photo : collection.photos) {
+    placement.poses.push_back({.width = options.plate_diameter / photo_pixel,
+                               .center_x = photo.table.center_x,
+                               .baseline = photo.table.baseline,
+                               .tilt = photo.table.tilt});
+  }
+  placement.frame = FrameFor(options, collection, placement);
+  return placement;
+}
+
+Placement PlaceByPlate(const ExperimentOptions& options, const PhotoCollection& collection) {
+  std::vector<PhotographedPlate> plates;
+  for (const Photo& photo : collection.photos) {
+    plates.push_back({.edges = photo.edges, .run = photo.run});
+  }
+  PlateFit fit = FitPlates(plates);
+  Placement placement{.frame = {},
+                      .photo_pixel = options.plate_diameter / fit.width,
+                      .poses = std::move(fit.poses),
+                      .hidden_top = !fit.sharp_corners};
+  placement.frame = FrameFor(options, collection, placement);
+  return placement;
+}
+
+}  // namespace
+
+Placement Place(const ExperimentOptions& options, const PhotoCollection& collection) {
+  if (options.frame) return PlaceByFrame(options, collection);
+  if (options.scale.empty()) return PlaceByPlate(options, collection);
+  return PlaceByScale(options, collection, ParseScale(options.scale).pixel_size());
+}
+
+}  // namespace talus::imaging

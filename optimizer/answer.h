@@ -1,0 +1,45 @@
+// What the evaluations so far say of the parameters.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimizer/posterior_summary.h"
+
+namespace talus::optimizer {
+
+// Credible range of one parameter, in the unit cube.
+struct Range {
+  double low = 0;
+  double high = 1;
+};
+
+// A parameter that lies on a bound of its range.
+struct BoundWarning {
+  int parameter = 0;  // by its place in the point
+  bool is_upper = false;
+};
+
+struct Answer {
+  Eigen::VectorXd point;               // minimiser of the posterior mean, unit cube
+  double predicted_value = 0;          // posterior mean there
+  double predicted_sd = 0;             // posterior standard deviation of that mean
+  double noise_sd = 0;                 // noise sd of one evaluation there; 0 when deterministic
+  std::vector<Range> credible;         // one a parameter, 90 % for all of them together
+  Eigen::MatrixXd correlation;         // between parameters, of the posterior of the minimiser
+  std::vector<Eigen::VectorXd> tied;   // points that tie with `point` within the noise
+  double tied_volume = 0;              // their share of the unit cube, in [0, 1]
+  std::vector<double> sobol_first;     // first-order Sobol index, one a parameter
+  std::vector<double> sobol_total;     // total Sobol index, one a parameter
+  std::vector<BoundWarning> warnings;  // of `point`
+  bool is_guess = false;               // no evaluation has succeeded
+  // Leave-one-out error of the model / standard deviation of what it predicts [-]; NaN: not known.
+  double left_out_share = std::numeric_limits<double>::quiet_NaN();
+  std::string model;  // which surrogate answered and how well it predicts, in words
+  std::optional<PosteriorSummary> posterior = {};  // of strategies that work one out
+};
+
+}  // namespace talus::optimizer

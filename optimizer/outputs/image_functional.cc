@@ -1,0 +1,54 @@
+#include "optimizer/outputs/image_functional.h"
+
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/outputs/mirrored_normals.h"
+#include "surrogate/standard_deviation.h"
+
+namespace talus::optimizer {
+
+ImageFunctional::ImageFunctional(std::shared_ptr<const surrogate::FieldCode> code,
+                                 const FieldObjective& objective,
+                                 const surrogate::PrincipalModes& modes, Eigen::VectorXd blur)
+    : code_(std::move(code)),
+      objective_(objective),
+      modes_(modes),
+      blur_(std::move(blur)),
+      normals_(MirroredNormals(kNumDraws, modes.basis.cols(),
+                               base::Random(1, base::Stream("objective draws")))) {}
+
+Eigen::VectorXd ImageFunctional::OneHeap(const Eigen::VectorXd& coefficients) const {
+  return modes_.mean + modes_.basis * coefficients;
+}
+
+Eigen::VectorXd ImageFunctional::MeanImage(const Eigen::VectorXd& coefficients) const {
+  const Eigen::VectorXd vector = OneHeap(coefficients);
+  return blur_.size() == 0 ? vector : code_->MeanOfImages(vector, blur_);
+}
+
+double ImageFunctional::Value(const Eigen::VectorXd& vector) const {
+  if (objective_.metric) return objective_.metric(code_->Decode(vector));
+  return objective_.sad_scale * code_->Sad(vector);
+}
+
+double ImageFunctional::Expected(const Coefficients& at) const {
+  if (objective_.metric) return Draws(at).mean();
+  return objective_.sad_scale *
+         code_->ExpectedSad(MeanImage(at.mean), modes_.basis.cwiseAbs2() * at.variance);
+}
+
+Eigen::VectorXd ImageFunctional::Draws(const Coefficients& at) const {
+  const Eigen::VectorXd sd = at.variance.cwiseSqrt();
+  Eigen::VectorXd values(kNumDraws);
+  for (Eigen::Index i = 0; i < kNumDraws; ++i) {
+    values[i] = Value(MeanImage(at.mean + sd.cwiseProduct(normals_.row(i).transpose())));
+  }
+  return values;
+}
+
+double ImageFunctional::SdOfDraws(const Coefficients& at) const {
+  return surrogate::StandardDeviation(Draws(at));
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,118 @@
+#include "optimizer/posterior/branches.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "base/median.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kDraws = 300;
+constexpr double kReach = 0.35;       // between draws that are tried to be joined, unit cube
+constexpr int kMostTries = 2000;      // of midpoints, each a density
+constexpr double kLeastShare = 0.02;  // of the draws
+constexpr double kDip = 1.0;  // in ln density: a dip by less is the surrogate's own unevenness
+
+class Components {
+ public:
+  explicit Components(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t Root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void Join(std::size_t a, std::size_t b) { parent_[Root(a)] = Root(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+struct Pair {
+  double distance = 0;
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+
+std::vector<Pair> NearPairs(const Eigen::MatrixXd& draws) {
+  std::vector<Pair> pairs;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double distance = (draws.row(i) - draws.row(j)).norm();
+      if (distance < kReach) {
+        pairs.push_back({distance, static_cast<std::size_t>(i), static_cast<std::size_t>(j)});
+      }
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+  return pairs;
+}
+
+// Whether the region holds a quarter, half and three quarters of the way.
+bool IsJoined(const Posterior& posterior, const Eigen::MatrixXd& draws, const Pair& pair,
+              double least) {
+  Eigen::MatrixXd between(3, draws.cols());
+  const Eigen::RowVectorXd a = draws.row(static_cast<Eigen::Index>(pair.a));
+  const Eigen::RowVectorXd b = draws.row(static_cast<Eigen::Index>(pair.b));
+  for (int i = 0; i < 3; ++i) between.row(i) = a + 0.25 * (i + 1) * (b - a);
+  return posterior.LogDensity(between).minCoeff() > least - kDip;
+}
+
+PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::VectorXd& density,
+                         Eigen::Index num_draws) {
+  const double dense = base::Median(density);
+  Eigen::Index middle = 0;
+  double least = -1;
+  for (Eigen::Index i = 0; i < members.rows(); ++i) {
+    if (density[i] < dense) continue;
+    const double sum = (members.rowwise() - members.row(i)).rowwise().norm().sum();
+    if (least < 0 || sum < least) {
+      least = sum;
+      middle = i;
+    }
+  }
+  return {.share = static_cast<double>(members.rows()) / static_cast<double>(num_draws),
+          .point = members.row(middle),
+          .low = members.colwise().minCoeff(),
+          .high = members.colwise().maxCoeff()};
+}
+
+}  // namespace
+
+std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const PosteriorSample& sample,
+                                          std::uint64_t seed) {
+  Eigen::MatrixXd draws = sample.Draws(kDraws, seed);
+  Eigen::VectorXd density = posterior.LogDensity(draws);
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    if (density[i] >= sample.region_log_density) inside.push_back(i);
+  }
+  draws = Eigen::MatrixXd(draws(inside, Eigen::all));
+  density = Eigen::VectorXd(density(inside));
+  Components components(inside.size());
+  int tries = 0;
+  for (const Pair& pair : NearPairs(draws)) {
+    if (components.Root(pair.a) == components.Root(pair.b)) continue;
+    if (++tries > kMostTries) break;
+    if (IsJoined(posterior, draws, pair, sample.region_log_density)) {
+      components.Join(pair.a, pair.b);
+    }
+  }
+  std::map<std::size_t, std::vector<Eigen::Index>> members;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    members[components.Root(i)].push_back(static_cast<Eigen::Index>(i));
+  }
+  std::vector<PosteriorBranch> branches;
+  for (const auto& [root, rows] : members) {
+    PosteriorBranch branch = Describe(draws(rows, Eigen::all), density(rows), draws.rows());
+    if (branch.share >= kLeastShare) branches.push_back(std::move(branch));
+  }
+  std::stable_sort(branches.begin(), branches.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  return branches;
+}
+
+}  // namespace talus::optimizer

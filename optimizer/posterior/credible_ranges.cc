@@ -1,0 +1,44 @@
+#include "optimizer/posterior/credible_ranges.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::optimizer {
+namespace {
+
+// Each column by itself in ascending order.
+Eigen::MatrixXd SortedColumns(Eigen::MatrixXd sample) {
+  for (auto column : sample.colwise()) std::sort(column.begin(), column.end());
+  return sample;
+}
+
+// How many draws of a sorted column are not beyond x, from the nearer end: 1 for the outermost. Of
+// equal draws each is as deep as the innermost.
+Eigen::Index Depth(const auto& sorted, double x) {
+  const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), x);
+  return std::min(last - sorted.begin(), sorted.end() - first);
+}
+
+}  // namespace
+
+std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confidence) {
+  const Eigen::Index size = sample.rows();
+  const Eigen::MatrixXd sorted = SortedColumns(sample);
+  std::vector<Eigen::Index> depths(static_cast<std::size_t>(size), (size + 1) / 2);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    Eigen::Index& depth = depths[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < sample.cols(); ++k) {
+      depth = std::min(depth, Depth(sorted.col(k), sample(i, k)));
+    }
+  }
+  std::sort(depths.rbegin(), depths.rend());
+  const auto inside = static_cast<std::size_t>(std::ceil(confidence * static_cast<double>(size)));
+  const Eigen::Index depth = depths[inside - 1];
+  std::vector<Range> ranges;
+  for (const auto& column : sorted.colwise()) {
+    ranges.push_back({.low = column[depth - 1], .high = column[size - depth]});
+  }
+  return ranges;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,16 @@
+// Ranges that hold the truth all together, from a sample of what it may be.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "optimizer/answer.h"
+
+namespace talus::optimizer {
+
+// One range a column of `sample` (one draw a row, at least one), such that a share `confidence` in
+// (0, 1) of the draws lies inside all of them at once. Each range leaves out as many draws below as
+// above [besag1995]. With one column these are the usual quantiles.
+std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confidence);
+
+}  // namespace talus::optimizer

@@ -1,0 +1,99 @@
+#include "optimizer/posterior/expected_learning.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/random.h"
+#include "optimizer/posterior/credible_ranges.h"
+#include "optimizer/posterior/robust_misfit.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kConfidence = 0.9;
+
+// Means in the measurement's standard deviations.
+Eigen::MatrixXd Standardised(const PredictedMeasurement& m) {
+  return m.mean.array().rowwise() / m.variance.array().sqrt().transpose();
+}
+
+double Bits(const Eigen::MatrixXd& z) {
+  const Eigen::MatrixXd centred = z.rowwise() - z.colwise().mean();
+  const Eigen::MatrixXd covariance =
+      centred.transpose() * centred / static_cast<double>(z.rows() - 1);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance, Eigen::EigenvaluesOnly);
+  return 0.5 * (1 + solver.eigenvalues().array().max(0)).log().sum() / std::log(2.0);
+}
+
+// Systematic resampling: as many rows as `draws`, each in proportion to its weight.
+Eigen::MatrixXd Resampled(const Eigen::MatrixXd& draws, const Eigen::VectorXd& weight) {
+  const Eigen::Index size = draws.rows();
+  Eigen::MatrixXd sample(size, draws.cols());
+  const double step = weight.sum() / static_cast<double>(size);
+  double at = weight[0];
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double aim = step * (static_cast<double>(i) + 0.5);
+    while (at < aim && row + 1 < size) at += weight[++row];
+    sample.row(i) = draws.row(row);
+  }
+  return sample;
+}
+
+Eigen::VectorXd Widths(const Eigen::MatrixXd& draws) {
+  const std::vector<Range> ranges = CredibleRanges(draws, kConfidence);
+  Eigen::VectorXd width(draws.cols());
+  for (Eigen::Index i = 0; i < width.size(); ++i) {
+    width[i] = ranges[static_cast<std::size_t>(i)].high - ranges[static_cast<std::size_t>(i)].low;
+  }
+  return width;
+}
+
+// Of each draw, when `seen` was measured.
+Eigen::VectorXd Weights(const Eigen::MatrixXd& z, const Eigen::RowVectorXd& seen) {
+  const Eigen::ArrayXd squared = (z.rowwise() - seen).rowwise().squaredNorm().array();
+  const Eigen::ArrayXd log_weight = -0.5 * RobustMisfit(squared, z.cols());
+  return (log_weight - log_weight.maxCoeff()).exp();
+}
+
+std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
+  constexpr Eigen::Index kLooked = 300;
+  std::pair<Eigen::Index, Eigen::Index> pair{0, 0};
+  double most = -1;
+  for (Eigen::Index i = 0; i < std::min(z.rows(), kLooked); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double apart = (z.row(i) - z.row(j)).squaredNorm();
+      if (apart <= most) continue;
+      most = apart;
+      pair = {j, i};
+    }
+  }
+  return pair;
+}
+
+}  // namespace
+
+ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
+                       std::uint64_t seed) {
+  constexpr Eigen::Index kTruths = 64;
+  ExpectedLearning learning{.bits = 0, .width = Widths(draws)};
+  if (measurement.mean.cols() == 0) return learning;
+  const Eigen::MatrixXd z = Standardised(measurement);
+  learning.bits = Bits(z);
+  std::tie(learning.first, learning.second) = MostApart(z);
+  base::Random random(seed, base::Stream("measurements to come"));
+  const Eigen::Index count = std::min(kTruths, draws.rows());
+  learning.width.setZero();
+  for (Eigen::Index t = 0; t < count; ++t) {
+    Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
+    for (double& value : seen) value += random.Normal();
+    learning.width += Widths(Resampled(draws, Weights(z, seen))) / static_cast<double>(count);
+  }
+  return learning;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,209 @@
+#include "optimizer/posterior/experiment_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+double CompressionSlope(const ScalarTarget& target) {
+  const double scale = CompressionScale(target);
+  return 1 / std::sqrt(scale * scale + target.value * target.value);
+}
+
+}  // namespace
+
+double SurrogateCaution(int num_finest) {
+  constexpr double kOfMany = 2;
+  constexpr double kFew = 15;  // evaluations of which the variance counts twice
+  return kOfMany * std::sqrt(1 + kFew / std::max(1, num_finest));
+}
+
+ExperimentModel::ExperimentModel(const Setup& setup, const OutputData& data,
+                                 const OutputState* frozen)
+    : setup_(setup),
+      outputs_({.levels = *setup.levels, .scalars = setup.target->scalars}, data, frozen) {
+  const auto num_finest = std::ranges::count(data.level, setup_.levels->finest());
+  caution_ = SurrogateCaution(static_cast<int>(num_finest));
+  measured_ = Eigen::VectorXd::Zero(num_outputs());
+  error_ = Eigen::VectorXd::Ones(num_outputs());
+  open_ = Eigen::VectorXd::Ones(num_outputs());
+  if (has_image()) MeasureImages();
+  MeasureScalars();
+}
+
+// The experiment's heaps vary as simulated ones do along each mode, times one factor that its runs
+// tell: a few runs say little of each mode by itself.
+void ExperimentModel::MeasureImages() {
+  constexpr double kPriorRuns = 8;  // evidence, in squared deviations, for a factor of 1
+  const ExperimentTarget& target = *setup_.target;
+  const surrogate::PrincipalModes& modes = outputs_.modes();
+  const Eigen::Index num_modes = outputs_.num_modes();
+  const Eigen::VectorXd noise = outputs_.ModeNoise();
+  const auto num_runs = static_cast<double>(target.runs.size());
+  double heaps = std::max(1, target.image.num_target_heaps);
+  double factor = 1;
+  if (target.runs.size() < 2) {
+    // The mean image of several heaps has wider edges than each of them.
+    const Eigen::VectorXd among_heaps =
+        (1 - 1 / heaps) * (modes.basis.cwiseAbs2() * noise + modes.discarded);
+    measured_.head(num_modes) = modes.Coefficients(
+        setup_.code->OneOfMean(setup_.code->Encode(target.image.target), among_heaps));
+  } else {
+    Eigen::MatrixXd runs(target.runs.size(), num_modes);
+    for (std::size_t r = 0; r < target.runs.size(); ++r) {
+      runs.row(static_cast<Eigen::Index>(r)) =
+          modes.Coefficients(setup_.code->Encode(target.runs[r]));
+    }
+    const Eigen::RowVectorXd mean = runs.colwise().mean();
+    measured_.head(num_modes) = mean.transpose();
+    const Eigen::VectorXd squares = (runs.rowwise() - mean).colwise().squaredNorm().transpose();
+    const double deviations = squares.cwiseQuotient(noise).sum();
+    const double freedom = static_cast<double>(num_modes) * (num_runs - 1);
+    factor = (deviations + kPriorRuns) / (freedom + kPriorRuns);
+    heaps = num_runs;
+  }
+  const double model_error = setup_.model_error * setup_.model_error;
+  error_.head(num_modes) = std::max(0.25, factor) / heaps * noise;
+  open_.head(num_modes) = (1 / heaps + model_error) * std::max(0.25, factor) * noise;
+  // Of n heaps, a share 1 - 1/n of the variance lies among them and 1/n is their mean's.
+  const Eigen::VectorXd element = modes.basis.cwiseAbs2() * noise;
+  objective_.emplace(setup_.code, target.image, modes, (1 - 1 / heaps) * element);
+}
+
+void ExperimentModel::MeasureScalars() {
+  const Eigen::Index num_modes = outputs_.num_modes();
+  const auto& scalars = setup_.target->scalars;
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);
+    const double error = CompressionSlope(scalars[s]) * scalars[s].standard_error;
+    const double model_error = setup_.model_error * setup_.model_error;
+    measured_[k] = Compress(scalars[s], scalars[s].value);
+    error_[k] = error * error;
+    open_[k] = error * error + model_error * outputs_.TargetNoise(k);
+  }
+}
+
+OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points, double caution) const {
+  OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
+                      .log_sd = Eigen::VectorXd::Zero(points.rows())};
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::Predictions all = outputs_.output(k).PredictAll(points);
+    const Eigen::ArrayXd cautious = caution * caution * all.variance.array() + open_[k];
+    misfit.residual.col(k) = (measured_[k] - all.mean.array()) / cautious.sqrt();
+    misfit.log_sd.array() += 0.5 * (all.variance.array() + open_[k]).log();
+  }
+  return misfit;
+}
+
+OutputPredictions ExperimentModel::Predict(const Eigen::MatrixXd& points) const {
+  OutputPredictions predictions{.mean = Eigen::MatrixXd(points.rows(), num_outputs()),
+                                .variance = Eigen::MatrixXd(points.rows(), num_outputs()),
+                                .measured = error_,
+                                .model = open_ - error_,
+                                .single = Eigen::VectorXd(num_outputs())};
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::Predictions all = outputs_.output(k).PredictAll(points);
+    predictions.mean.col(k) = all.mean;
+    predictions.variance.col(k) = caution_ * caution_ * all.variance;
+    predictions.single[k] = outputs_.TargetNoise(k);
+  }
+  return predictions;
+}
+
+double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
+  const Eigen::RowVectorXd residual = MisfitOf(x.transpose()).residual.row(0);
+  const Eigen::Index num_modes = outputs_.num_modes();
+  double most = 0;
+  if (num_modes > 0) most = std::sqrt(residual.head(num_modes).array().square().mean());
+  for (Eigen::Index k = num_modes; k < residual.size(); ++k) {
+    most = std::max(most, std::abs(residual[k]));
+  }
+  return most;
+}
+
+Eigen::VectorXd ExperimentModel::SquaredMisfit(const Eigen::MatrixXd& points) const {
+  return MisfitOf(points, 1).residual.rowwise().squaredNorm();
+}
+
+Eigen::MatrixXd ExperimentModel::Gains(const Eigen::MatrixXd& draws,
+                                       const Eigen::MatrixXd& sites) const {
+  Eigen::MatrixXd gains = Eigen::MatrixXd::Zero(sites.rows(), setup_.levels->size());
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::GaussianProcess& output = outputs_.output(k);
+    const surrogate::AnchorPoints anchors = output.Anchor(draws);
+    const Eigen::ArrayXd before = anchors.variance.array() + open_[k];
+    for (int level = 0; level < setup_.levels->size(); ++level) {
+      const double noise = output.noise_variance(level);
+      const surrogate::Covariances at =
+          output.PosteriorCovariances(anchors, sites, setup_.levels->growth(level));
+      for (Eigen::Index i = 0; i < sites.rows(); ++i) {
+        const Eigen::ArrayXd taken = at.between.col(i).array().square() / (at.variance[i] + noise);
+        const Eigen::ArrayXd after = (anchors.variance.array() - taken).max(0.0) + open_[k];
+        gains(i, level) += 0.5 * (before / after).log().mean();
+      }
+    }
+  }
+  return gains;
+}
+
+Eigen::VectorXd ExperimentModel::GainOfAll(const Eigen::MatrixXd& points) const {
+  Eigen::VectorXd gain = Eigen::VectorXd::Zero(points.rows());
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::Predictions all = outputs_.output(k).PredictAll(points);
+    gain.array() += 0.5 * (1 + all.variance.array() / open_[k]).log();
+  }
+  return gain;
+}
+
+Moments ExperimentModel::Objective(const Eigen::MatrixXd& points) const {
+  const ModeMoments modes = outputs_.PredictModes(points);
+  Moments moments{.mean = Eigen::VectorXd(points.rows()), .sd = Eigen::VectorXd(points.rows())};
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Coefficients at{modes.mean.row(i), modes.variance.row(i)};
+    moments.mean[i] = objective_->Expected(at);
+    moments.sd[i] = objective_->SdOfDraws(at);
+  }
+  return moments;
+}
+
+double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
+  return objective_->SdOfDraws(
+      {outputs_.PredictModes(x.transpose()).mean.row(0), outputs_.ModeNoise()});
+}
+
+ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
+  ExperimentStanding standing{
+      .name = setup_.target->name, .predicted_objective = kUndefined, .predicted_sd = kUndefined};
+  if (has_image()) {
+    const Moments moments = Objective(x.transpose());
+    standing.predicted_objective = moments.mean[0];
+    standing.predicted_sd = moments.sd[0];
+  }
+  for (const Moments& number : Scalars(x.transpose())) {
+    standing.numbers.push_back({.predicted = number.mean[0], .predicted_sd = number.sd[0]});
+  }
+  return standing;
+}
+
+std::vector<Moments> ExperimentModel::Scalars(const Eigen::MatrixXd& points) const {
+  const auto& scalars = setup_.target->scalars;
+  std::vector<Moments> all;
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    const auto output = outputs_.num_modes() + static_cast<Eigen::Index>(s);
+    const surrogate::Predictions at = outputs_.output(output).PredictAll(points);
+    const double scale = CompressionScale(scalars[s]);
+    all.push_back({.mean = scale * at.mean.array().sinh(),
+                   .sd = scale * at.mean.array().cosh() * at.variance.array().sqrt()});
+  }
+  return all;
+}
+
+std::vector<float> ExperimentModel::MeanImage(const Eigen::VectorXd& x) const {
+  return setup_.code->Decode(
+      objective_->MeanImage(outputs_.PredictModes(x.transpose()).mean.row(0).transpose()));
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,105 @@
+// How well parameter sets match what one experiment has measured, by the model of its outputs at
+// the target scale factor.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "optimizer/moments.h"
+#include "optimizer/outputs/experiment_target.h"
+#include "optimizer/outputs/image_functional.h"
+#include "optimizer/outputs/levels.h"
+#include "optimizer/outputs/output_model.h"
+#include "optimizer/posterior_summary.h"
+#include "surrogate/images/field_code.h"
+
+namespace talus::optimizer {
+
+// The surrogate's sd is taken for so many times as large in the misfit: point-estimated
+// hyper-parameters and constant noise make it overconfident where the posterior selects, the more
+// the fewer evaluations there are at the finest scale factor (bench/optimizers/README.md).
+double SurrogateCaution(int num_finest);
+
+// Misfit of the predicted outputs from the measured ones, one point a row.
+struct OutputMisfit {
+  Eigen::MatrixXd residual;  // (measured - predicted mean) / sd, one output a column; sd with the
+                             // surrogate's part inflated
+  Eigen::VectorXd log_sd;    // Σ ln sd over the outputs, not inflated
+};
+
+// The outputs at the target scale factor, and every variance that hides the truth from them.
+struct OutputPredictions {
+  Eigen::MatrixXd mean;      // one point a row, one output a column
+  Eigen::MatrixXd variance;  // the surrogate's, inflated as in OutputMisfit
+  Eigen::VectorXd measured;  // variance of what the experiment has measured, of each output
+  Eigen::VectorXd model;     // what no simulation can match (PosteriorStrategyOptions::model_error)
+  Eigen::VectorXd single;    // of one heap about the mean of many
+};
+
+class ExperimentModel {
+ public:
+  struct Setup {
+    const ExperimentTarget* target = nullptr;          // outlives the model
+    std::shared_ptr<const surrogate::FieldCode> code;  // null without images
+    const Levels* levels = nullptr;
+    double model_error = 1;  // PosteriorStrategyOptions
+  };
+  // `frozen`, where not null, is taken instead of fitting.
+  ExperimentModel(const Setup& setup, const OutputData& data, const OutputState* frozen);
+
+  int num_outputs() const { return outputs_.num_outputs(); }
+  OutputState state() const { return outputs_.state(); }
+
+  OutputMisfit MisfitOf(const Eigen::MatrixXd& points) const { return MisfitOf(points, caution_); }
+  OutputPredictions Predict(const Eigen::MatrixXd& points) const;
+  // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
+  double Misfit(const Eigen::VectorXd& x) const;
+  // Sum of the squared residuals of all outputs, one point a row; without caution: a region may be
+  // too wide, but no disagreement may hide in that.
+  Eigen::VectorXd SquaredMisfit(const Eigen::MatrixXd& points) const;
+
+  // As OutputModel's.
+  Eigen::MatrixXd LeaveOneOut() const { return outputs_.LeaveOneOut(); }
+
+  // How much one more simulation at a site (a row) and a level (a column) narrows the misfit's sd
+  // at the points `draws`: the mean over them of Σ over outputs of ½ ln((V + B)/(V' + B)), V and V'
+  // the surrogate's variance at the target before and after, B what the experiment itself leaves
+  // open. A simulation at the target teaches the discrepancy far around, a coarse one does not.
+  Eigen::MatrixXd Gains(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& sites) const;
+  // The same for perfect knowledge at each point (V' = 0): where something is left to learn.
+  Eigen::VectorXd GainOfAll(const Eigen::MatrixXd& points) const;
+
+  void AddFantasy(const Eigen::VectorXd& x, int level) { outputs_.AddFantasy(x, level); }
+
+  double weight() const { return setup_.target->weight; }
+  bool has_image() const { return setup_.code != nullptr; }
+  // The objective of the mean image at the target; wants an image.
+  Moments Objective(const Eigen::MatrixXd& points) const;
+  double ObjectiveNoise(const Eigen::VectorXd& x) const;  // sd of one heap's at the target
+
+  // Without the implausibility, which wants the posterior's temper.
+  ExperimentStanding StandingAt(const Eigen::VectorXd& x) const;
+
+  // Each scalar at the target, expected and its surrogate's sd, in its own unit; one a column.
+  std::vector<Moments> Scalars(const Eigen::MatrixXd& points) const;
+
+  // The mean image at the target, as FieldObjective's; wants an image.
+  std::vector<float> MeanImage(const Eigen::VectorXd& x) const;
+
+ private:
+  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution) const;
+  void MeasureImages();
+  void MeasureScalars();
+
+  Setup setup_;
+  double caution_ = 1;  // SurrogateCaution
+  OutputModel outputs_;
+  Eigen::VectorXd measured_;  // each output
+  Eigen::VectorXd error_;     // variance of `measured_`
+  Eigen::VectorXd open_;      // B: variance that experiment and model leave, of each output
+  std::optional<ImageFunctional> objective_;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,236 @@
+#include "optimizer/posterior/posterior.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/random.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/point_rows.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kRegion = 0.9;  // probability of the joint region
+
+// Outputs that the likelihood is made of: none of an experiment that is held out.
+int NumCounted(const ExperimentModel& model) {
+  return model.weight() > 0 ? model.num_outputs() : 0;
+}
+
+// Residuals of all experiments side by side: a row for each set and scale factor, NaN where an
+// experiment was not simulated there. Replicates go to rows of their own.
+Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
+                      const std::vector<OutputData>& data) {
+  Eigen::Index width = 0;
+  for (const ExperimentModel& model : models) width += NumCounted(model);
+  struct Place {
+    Eigen::VectorXd point;
+    int level;
+    std::vector<bool> has;
+  };
+  std::vector<Place> places;
+  Eigen::MatrixXd stacked(0, width);
+  Eigen::Index left = 0;
+  for (std::size_t e = 0; e < models.size(); ++e) {
+    if (NumCounted(models[e]) == 0) continue;
+    const Eigen::MatrixXd z = models[e].LeaveOneOut();
+    for (int i = 0; i < data[e].size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      auto place = std::find_if(places.begin(), places.end(), [&](const Place& p) {
+        return p.level == data[e].level[k] && !p.has[e] && SamePoint(p.point, data[e].points[k]);
+      });
+      if (place == places.end()) {
+        places.push_back({data[e].points[k], data[e].level[k], std::vector<bool>(models.size())});
+        place = places.end() - 1;
+        stacked.conservativeResize(stacked.rows() + 1, Eigen::NoChange);
+        stacked.bottomRows(1).setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
+      place->has[e] = true;
+      stacked.row(place - places.begin()).segment(left, z.cols()) = z.row(i);
+    }
+    left += models[e].num_outputs();
+  }
+  return stacked;
+}
+
+// The experiment that each output is of.
+std::vector<int> TestOfOutputs(const std::vector<ExperimentModel>& models) {
+  std::vector<int> test;
+  for (std::size_t e = 0; e < models.size(); ++e) {
+    test.insert(test.end(), static_cast<std::size_t>(models[e].num_outputs()), static_cast<int>(e));
+  }
+  return test;
+}
+
+double LogSumExp(const Eigen::VectorXd& x) {
+  const double most = x.maxCoeff();
+  return most + std::log((x.array() - most).exp().sum());
+}
+
+// Draws round weighted points: a mixture of normal kernels, whose density can be asked.
+class KernelMixture {
+ public:
+  KernelMixture(Eigen::MatrixXd centres, const Eigen::MatrixXd& covariance)
+      : centres_(std::move(centres)), factor_(covariance) {}
+
+  Eigen::MatrixXd Draw(Eigen::Index count, base::Random& random) const {
+    Eigen::MatrixXd points(count, centres_.cols());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      Eigen::VectorXd z(centres_.cols());
+      for (double& one : z) one = random.Normal();
+      points.row(i) = centres_.row(i % centres_.rows()) + (factor_.matrixL() * z).transpose();
+    }
+    return points;
+  }
+
+  // One a row.
+  Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const {
+    const double log_root = Eigen::MatrixXd(factor_.matrixL()).diagonal().array().log().sum();
+    const double constant = -log_root - 0.9189385332046727 * static_cast<double>(centres_.cols()) -
+                            std::log(static_cast<double>(centres_.rows()));
+    const Eigen::MatrixXd white = factor_.matrixL().solve(points.transpose());
+    const Eigen::MatrixXd centres = factor_.matrixL().solve(centres_.transpose());
+    Eigen::VectorXd density(points.rows());
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const Eigen::VectorXd squared =
+          (centres.colwise() - white.col(i)).colwise().squaredNorm().transpose();
+      density[i] = constant + LogSumExp(-0.5 * squared);
+    }
+    return density;
+  }
+
+ private:
+  Eigen::MatrixXd centres_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+// Rows drawn in proportion to their weight, evenly through the sum of weights.
+std::vector<Eigen::Index> Resample(const Eigen::VectorXd& weight, int count, base::Random& random) {
+  std::vector<Eigen::Index> rows;
+  const double offset = random.Uniform();
+  double sum = 0;
+  Eigen::Index i = 0;
+  for (int k = 0; k < count; ++k) {
+    const double goal = (k + offset) / count;
+    while (i + 1 < weight.size() && sum + weight[i] < goal) sum += weight[i++];
+    rows.push_back(i);
+  }
+  return rows;
+}
+
+KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& weight,
+                        base::Random& random) {
+  constexpr int kCentres = 120;
+  constexpr double kWidth = 0.25;  // of the sample's own sd: a curved valley stays thin
+  const Eigen::RowVectorXd mean = weight.transpose() * points;
+  const Eigen::MatrixXd centred = points.rowwise() - mean;
+  Eigen::MatrixXd covariance =
+      kWidth * kWidth * centred.transpose() * weight.asDiagonal() * centred;
+  covariance.diagonal().array() += 1e-6;
+  return {points(Resample(weight, kCentres, random), Eigen::all), covariance};
+}
+
+}  // namespace
+
+Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data)
+    : models_(std::move(models)), misfit_(Stack(models_, data), TestOfOutputs(models_)) {}
+
+Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double softness) const {
+  Eigen::MatrixXd residual(points.rows(), misfit_.num_outputs());
+  Eigen::VectorXd log_sd = Eigen::VectorXd::Zero(points.rows());
+  Eigen::Index left = 0;
+  for (const ExperimentModel& model : models_) {
+    if (NumCounted(model) == 0) continue;
+    const OutputMisfit misfit = model.MisfitOf(points);
+    const double weight = model.weight();
+    residual.middleCols(left, misfit.residual.cols()) = std::sqrt(weight) * misfit.residual;
+    log_sd += weight * misfit.log_sd;
+    left += misfit.residual.cols();
+  }
+  return misfit_.LogDensity(misfit_.Squared(residual), log_sd, softness);
+}
+
+PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,
+                                  std::uint64_t seed) const {
+  constexpr int kRounds = 4;
+  constexpr double kEnough = 600;  // effective draws
+  base::Random random(seed, base::Stream("posterior"));
+  PosteriorSample sample;
+  sample.points = Inside(domain, RSequence(num_start, domain.num_parameters, seed));
+  const double share_inside = static_cast<double>(sample.points.rows()) / num_start;
+  sample.log_density = LogDensity(sample.points, softness);
+  std::vector<KernelMixture> mixtures;
+  std::vector<double> counts;
+  const auto first = static_cast<double>(sample.points.rows());
+  for (int round = 0;; ++round) {
+    // Balance heuristic: the proposal is the mixture of all rounds.
+    Eigen::MatrixXd logs(sample.points.rows(), static_cast<Eigen::Index>(mixtures.size()) + 1);
+    logs.col(0).setConstant(std::log(first / share_inside));
+    for (std::size_t m = 0; m < mixtures.size(); ++m) {
+      logs.col(static_cast<Eigen::Index>(m) + 1) =
+          mixtures[m].LogDensity(sample.points).array() + std::log(counts[m]);
+    }
+    Eigen::VectorXd log_volume(sample.points.rows());
+    for (Eigen::Index i = 0; i < logs.rows(); ++i) log_volume[i] = -LogSumExp(logs.row(i));
+    const Eigen::VectorXd log_weight = sample.log_density + log_volume;
+    sample.volume = log_volume.array().exp();
+    sample.weight = (log_weight.array() - LogSumExp(log_weight)).exp();
+    if (round == kRounds || 1 / sample.weight.squaredNorm() > kEnough) break;
+    mixtures.push_back(MixtureOf(sample.points, sample.weight, random));
+    const Eigen::MatrixXd drawn = mixtures.back().Draw(num_start / 2, random);
+    counts.push_back(static_cast<double>(drawn.rows()));
+    const Eigen::MatrixXd more = Inside(domain, drawn);
+    const Eigen::Index before = sample.points.rows();
+    sample.points.conservativeResize(before + more.rows(), Eigen::NoChange);
+    sample.points.bottomRows(more.rows()) = more;
+    sample.log_density.conservativeResize(before + more.rows());
+    sample.log_density.tail(more.rows()) = LogDensity(more, softness);
+  }
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(sample.weight.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return sample.log_density[a] > sample.log_density[b];
+  });
+  double sum = 0;
+  for (const Eigen::Index i : order) {
+    sample.region_log_density = sample.log_density[i];
+    if ((sum += sample.weight[i]) >= kRegion) break;
+  }
+  return sample;
+}
+
+double PosteriorSample::CredibleLevel(double at) const {
+  return std::min(1.0, (log_density.array() > at).select(weight, 0).sum());
+}
+
+double PosteriorSample::RegionVolume() const {
+  return std::min(1.0, (log_density.array() >= region_log_density).select(volume, 0).sum());
+}
+
+Eigen::MatrixXd PosteriorSample::Draws(int count, std::uint64_t seed) const {
+  base::Random random(seed, base::Stream("equally likely draws"));
+  return points(Resample(weight, count, random), Eigen::all);
+}
+
+double Posterior::Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const {
+  return models_[experiment].Misfit(x) / std::sqrt(temper());
+}
+
+Eigen::VectorXd Posterior::SquaredMisfit(std::size_t experiment,
+                                         const Eigen::MatrixXd& points) const {
+  return models_[experiment].SquaredMisfit(points) / temper();
+}
+
+std::vector<ExperimentStanding> Posterior::StandingsAt(const Eigen::VectorXd& x) const {
+  std::vector<ExperimentStanding> standings;
+  for (std::size_t e = 0; e < models_.size(); ++e) {
+    standings.push_back(models_[e].StandingAt(x));
+    standings.back().implausibility = Implausibility(e, x);
+  }
+  return standings;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,88 @@
+#include "optimizer/posterior/residual_correlation.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace talus::optimizer {
+namespace {
+
+// Of two tests' residuals in sum, where nothing tells it: they correlate by so much over K outputs.
+constexpr double kSharedError = 0.5;
+constexpr double kLeastEigenvalue = 0.05;
+
+// What pairs of outputs show of their correlation, and how much of it chance alone would show.
+struct PairSums {
+  double squares = 0;
+  double variances = 0;
+
+  void Add(double r, double count) {
+    squares += r * r;
+    variances += (1 - r * r) * (1 - r * r) / std::max(1.0, count - 1);
+  }
+  // Of least expected squared error, in [0, 1].
+  double Shrinkage() const { return squares > 0 ? std::min(1.0, variances / squares) : 1; }
+};
+
+struct Pair {
+  double correlation = 0;
+  double count = 0;
+};
+
+Pair CorrelationOf(const Eigen::MatrixXd& stacked, Eigen::Index a, Eigen::Index b) {
+  double ab = 0;
+  double aa = 1e-12;
+  double bb = 1e-12;
+  double count = 0;
+  for (Eigen::Index i = 0; i < stacked.rows(); ++i) {
+    const double u = stacked(i, a);
+    const double v = stacked(i, b);
+    if (!std::isfinite(u) || !std::isfinite(v)) continue;
+    ab += u * v;
+    aa += u * u;
+    bb += v * v;
+    count += 1;
+  }
+  return {.correlation = ab / std::sqrt(aa * bb), .count = count};
+}
+
+void KeepPositive(Eigen::MatrixXd& correlation) {
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly)
+          .eigenvalues()[0];
+  if (least >= kLeastEigenvalue) return;
+  const double share = (kLeastEigenvalue - least) / (1 - least);
+  correlation *= 1 - share;
+  correlation.diagonal().setOnes();
+}
+
+}  // namespace
+
+Eigen::MatrixXd ResidualCorrelation(const Eigen::MatrixXd& stacked, const std::vector<int>& test) {
+  const Eigen::Index size = stacked.cols();
+  const auto same = [&](Eigen::Index a, Eigen::Index b) {
+    return test[static_cast<std::size_t>(a)] == test[static_cast<std::size_t>(b)];
+  };
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(size, size);
+  PairSums within;
+  PairSums between;
+  for (Eigen::Index a = 0; a < size; ++a) {
+    for (Eigen::Index b = 0; b < a; ++b) {
+      const Pair pair = CorrelationOf(stacked, a, b);
+      correlation(a, b) = pair.correlation;
+      (same(a, b) ? within : between).Add(pair.correlation, pair.count);
+    }
+  }
+  for (Eigen::Index a = 0; a < size; ++a) {
+    for (Eigen::Index b = 0; b < a; ++b) {
+      const double prior = same(a, b) ? 0 : kSharedError / static_cast<double>(size);
+      const double share = (same(a, b) ? within : between).Shrinkage();
+      correlation(a, b) = (1 - share) * correlation(a, b) + share * prior;
+      correlation(b, a) = correlation(a, b);
+    }
+  }
+  KeepPositive(correlation);
+  return correlation;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,30 @@
+// What a strategy was told, as matrices for fitting.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "optimizer/observation.h"
+
+namespace talus::optimizer {
+
+struct History {
+  Eigen::MatrixXd points;  // n × d, one evaluation a row, in order of telling; failed ones left out
+  Eigen::VectorXd values;
+  Eigen::MatrixXd failed;  // failed points, one a row
+
+  int size() const { return static_cast<int>(values.size()); }
+};
+
+History MakeHistory(std::span<const Observation> told, int num_parameters);
+
+// What repeated points say of the noise.
+struct Repeats {
+  int num_repeats = 0;         // evaluations at a point evaluated before
+  bool deterministic = false;  // there are repeats, and all gave the same value
+};
+
+Repeats FindRepeats(const History& history);
+
+}  // namespace talus::optimizer

@@ -1,0 +1,123 @@
+#include "optimizer/search/model_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "optimizer/search/acquisition.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kNumCenters = 5;
+
+// A function of one point that is computed for many at once, without gradient.
+CheapFunction WithoutGradient(
+    const ModelView& view, const std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>& values) {
+  return {values,
+          [values](const Eigen::VectorXd& x, Eigen::VectorXd*) { return values(x.transpose())[0]; },
+          view.model.PredictionWork()};
+}
+
+// Minus an acquisition, a function of mean and standard deviation, plus the penalty for the risk to
+// fail. With gradient.
+template <class Score>
+CheapFunction Negative(const ModelView& view, const Score& score, double feasibility_weight) {
+  const auto values = [&view, score, feasibility_weight](const Eigen::MatrixXd& points) {
+    const Moments moments = view.model.Predict(points);
+    Eigen::VectorXd result = -feasibility_weight * view.feasibility.Penalty(points);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      result[i] -= score(moments.mean[i], moments.sd[i]).value;
+    }
+    return result;
+  };
+  const auto value_and_gradient = [&view, score, feasibility_weight](const Eigen::VectorXd& x,
+                                                                     Eigen::VectorXd* gradient) {
+    const MomentsGradient at = view.model.PredictWithGradient(x);
+    const Acquisition acquisition = score(at.mean, at.sd);
+    Eigen::VectorXd slope;
+    const double penalty = view.feasibility.Penalty(x, &slope);
+    if (gradient != nullptr) {
+      *gradient = -acquisition.mean_slope * at.mean_slope - acquisition.sd_slope * at.sd_slope -
+                  feasibility_weight * slope;
+    }
+    return -acquisition.value - feasibility_weight * penalty;
+  };
+  return {values, value_and_gradient, view.model.PredictionWork()};
+}
+
+// Of what one evaluation of each point gives, chance included.
+CheapFunction NegativeOwnImprovement(const ModelView& view, const Incumbent& incumbent) {
+  return WithoutGradient(view, [&view, incumbent](const Eigen::MatrixXd& points) {
+    const Moments moments = view.model.Predict(points);
+    Eigen::VectorXd result = -view.feasibility.Penalty(points);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const double sd = std::hypot(moments.sd[i], incumbent.noise);
+      result[i] -= LogExpectedImprovement(moments.mean[i], sd, incumbent.value).value;
+    }
+    return result;
+  });
+}
+
+Eigen::VectorXd Search(const ModelView& view, const CheapFunction& function,
+                       const Eigen::MatrixXd& centers, SearchOptions options) {
+  options.seed = view.seed;
+  return SearchCube(function, view.domain, centers, options).point;
+}
+
+}  // namespace
+
+Eigen::MatrixXd BestEvaluated(const ModelView& view) {
+  const Eigen::VectorXd mean = view.model.Means(view.points);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(mean.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return mean[a] < mean[b]; });
+  order.resize(std::min<std::size_t>(order.size(), kNumCenters));
+  return view.points(order, Eigen::all);
+}
+
+Eigen::VectorXd MostExpectedImprovement(const ModelView& view, const Incumbent& incumbent,
+                                        const Eigen::MatrixXd& centers) {
+  if (incumbent.is_own_value) {
+    return Search(view, NegativeOwnImprovement(view, incumbent), centers,
+                  view.searches.improvement);
+  }
+  if (view.searches.improvement.kinked) {
+    const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+      return -view.model.LogImprovement(points, incumbent.value, incumbent.noise) -
+             view.feasibility.Penalty(points);
+    };
+    return Search(view, WithoutGradient(view, values), centers, view.searches.improvement);
+  }
+  const auto score = [&](double mean, double sd) {
+    return AugmentedLogExpectedImprovement(mean, sd, incumbent.value, incumbent.noise);
+  };
+  return Search(view, Negative(view, score, 1), centers, view.searches.improvement);
+}
+
+Eigen::VectorXd LowestMean(const ModelView& view) { return LowestMean(view, BestEvaluated(view)); }
+
+// The mean has a unit, the logarithm of a probability has none: a failure costs `failure_cost`.
+Eigen::VectorXd LowestMean(const ModelView& view, const Eigen::MatrixXd& centers) {
+  if (view.searches.mean.kinked) {
+    const auto values = [&](const Eigen::MatrixXd& points) -> Eigen::VectorXd {
+      return view.model.Means(points) - view.failure_cost * view.feasibility.Penalty(points);
+    };
+    return Search(view, WithoutGradient(view, values), centers, view.searches.mean);
+  }
+  const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, 0); };
+  return Search(view, Negative(view, score, view.failure_cost), centers, view.searches.mean);
+}
+
+double LowestBound(const ModelView& view, const Eigen::MatrixXd& centers) {
+  SearchOptions options = view.searches.bound;
+  options.seed = view.seed;
+  const auto score = [](double mean, double sd) { return NegativeLowerBound(mean, sd, kBoundSds); };
+  CheapFunction function = Negative(view, score, 0);
+  if (options.kinked) function = WithoutGradient(view, function.values);
+  return SearchCube(function, view.domain, centers, options).value;
+}
+
+}  // namespace talus::optimizer

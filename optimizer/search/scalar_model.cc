@@ -1,0 +1,139 @@
+#include "optimizer/search/scalar_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/median.h"
+
+namespace talus::optimizer {
+namespace {
+
+// The largest of 8, 11, 16, 23, 32, … (factors of √2) up to n; n itself below 8.
+int MilestoneBefore(int n) {
+  if (n < 8) return n;
+  const double steps = std::floor(2 * std::log2(n / 8.0) + 1e-9);
+  const int size = static_cast<int>(std::lround(8 * std::exp2(steps / 2)));
+  return std::min(size, n);
+}
+
+ValueTransform TransformOf(const Eigen::VectorXd& values, double delta_share) {
+  const double least = values.minCoeff();
+  return {.least = least, .delta = delta_share * (base::Median(values) - least)};
+}
+
+surrogate::GaussianProcessOptions ProcessOptions(bool deterministic, std::uint64_t seed) {
+  return {.trend = surrogate::Trend::kQuadratic,
+          .warp_inputs = true,
+          .deterministic = deterministic,
+          .seed = seed};
+}
+
+surrogate::GaussianProcess FitTransformed(const Eigen::MatrixXd& points,
+                                          const Eigen::VectorXd& values,
+                                          const ValueTransform& transform,
+                                          const surrogate::GaussianProcessOptions& options) {
+  return surrogate::GaussianProcess::Fit(
+      {.points = points,
+       .values = values.unaryExpr([&](double v) { return transform.Forward(v); })},
+      options);
+}
+
+}  // namespace
+
+double ValueTransform::Forward(double value) const {
+  return delta > 0 ? std::log(value - least + delta) : value;
+}
+double ValueTransform::Backward(double transformed) const {
+  return delta > 0 ? std::exp(transformed) + least - delta : transformed;
+}
+double ValueTransform::BackwardSlope(double transformed) const {
+  return delta > 0 ? std::exp(transformed) : 1;
+}
+
+ScalarFit ScalarFitter::Fit(const History& history, bool deterministic) {
+  const int size = MilestoneBefore(history.size());
+  if (milestone_.num_evaluations != size || milestone_.deterministic != deterministic) {
+    ReachMilestone(history, size, deterministic);
+  }
+  const ValueTransform transform = TransformOf(history.values, milestone_.delta_share);
+  surrogate::GaussianProcessOptions options = ProcessOptions(deterministic, seed_);
+  options.start = milestone_.hyper;
+  options.effort.num_starts = 1;
+  options.effort.num_searches = 1;
+  return {transform, FitTransformed(history.points, history.values, transform, options)};
+}
+
+void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, bool deterministic) {
+  const Eigen::MatrixXd points = history.points.topRows(num_evaluations);
+  const Eigen::VectorXd values = history.values.head(num_evaluations);
+  milestone_ = {.num_evaluations = num_evaluations, .deterministic = deterministic};
+  surrogate::GaussianProcessOptions options = ProcessOptions(deterministic, seed_);
+  if (deterministic) options.effort.num_searches = 1;  // four transforms to fit
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double share : {0.0, 1.0, 0.1, 0.01}) {
+    if (share > 0 && !deterministic) break;
+    const ValueTransform transform = TransformOf(values, share);
+    if (share > 0 && transform.delta == 0) break;  // constant values
+    const auto process = FitTransformed(points, values, transform, options);
+    // The density of the values, not of their transforms: ln|dt/dv| = -t.
+    const double jacobian = share > 0 ? -process.values().sum() : 0;
+    if (process.LogPosterior() + jacobian > best) {
+      best = process.LogPosterior() + jacobian;
+      milestone_.delta_share = share;
+      milestone_.hyper = process.state().hyper;
+    }
+  }
+}
+
+Moments ScalarModel::Predict(const Eigen::MatrixXd& points) const {
+  const surrogate::Predictions raw = fit_.process.PredictAll(points);
+  Moments moments{raw.mean, raw.variance.cwiseSqrt()};
+  for (Eigen::Index i = 0; i < raw.mean.size(); ++i) {
+    moments.mean[i] = fit_.transform.Backward(raw.mean[i]);
+    moments.sd[i] *= inflation_ * fit_.transform.BackwardSlope(raw.mean[i]);
+  }
+  return moments;
+}
+
+Eigen::MatrixXd ScalarModel::Draw(const Eigen::MatrixXd& points, int num_draws,
+                                  base::Random random) const {
+  Eigen::MatrixXd draws = fit_.process.Draw(points, num_draws, random);
+  const Eigen::RowVectorXd mean = fit_.process.PredictAll(points).mean.transpose();
+  draws = (inflation_ * (draws.rowwise() - mean)).rowwise() + mean;
+  return draws.unaryExpr([this](double t) { return fit_.transform.Backward(t); });
+}
+
+double ScalarModel::NoiseSd(const Eigen::VectorXd& x) const {
+  return std::sqrt(fit_.process.noise_variance()) *
+         fit_.transform.BackwardSlope(fit_.process.Predict(x).mean);
+}
+
+Moments TransformedModel::Predict(const Eigen::MatrixXd& points) const {
+  const surrogate::Predictions raw = process_.PredictAll(points);
+  return {raw.mean, raw.variance.cwiseSqrt()};
+}
+
+MomentsGradient TransformedModel::PredictWithGradient(const Eigen::VectorXd& x) const {
+  const surrogate::PredictionGradient raw = process_.PredictWithGradient(x);
+  const double sd = std::sqrt(raw.value.variance);
+  const Eigen::VectorXd sd_slope =
+      sd > 0 ? Eigen::VectorXd(raw.variance / (2 * sd)) : Eigen::VectorXd::Zero(x.size());
+  return {.mean = raw.value.mean, .sd = sd, .mean_slope = raw.mean, .sd_slope = sd_slope};
+}
+
+Eigen::MatrixXd TransformedModel::Draw(const Eigen::MatrixXd& points, int num_draws,
+                                       base::Random random) const {
+  return process_.Draw(points, num_draws, random);
+}
+
+double TransformedModel::PredictionWork() const {
+  const auto size = static_cast<double>(process_.num_points());
+  return size * (size + 40);  // two triangular solutions, and a row of covariances
+}
+
+double TransformedModel::NoiseSd(const Eigen::VectorXd&) const {
+  return std::sqrt(process_.noise_variance());
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,155 @@
+#include "optimizer/search/search_record.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/designs/design.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/search/stopping_rule.h"
+#include "optimizer/space/point_rows.h"
+
+namespace talus::optimizer {
+namespace {
+
+// Two evaluations this close to each other teach under noise what a replicate would.
+constexpr double kReplicateDistance = 0.005;
+
+// A row of a table that is evaluated once has been spent on the design.
+int DesignSize(const Domain& domain, const SurrogateOptions& options) {
+  if (options.num_initial > 0) return options.num_initial;
+  const bool spends_rows = domain.IsList() && options.exact;
+  return (spends_rows ? 1 : 2) * domain.num_parameters + 3;
+}
+
+}  // namespace
+
+SearchRecord::SearchRecord(Domain domain, const SurrogateOptions& options)
+    : domain_(std::move(domain)),
+      options_(options),
+      design_(domain_,
+              LatinHypercube(DesignSize(domain_, options), domain_.num_parameters, options.seed)),
+      history_(MakeHistory(told_, domain_.num_parameters)) {}
+
+void SearchRecord::Tell(const Observation& observation) {
+  told_.push_back(WithoutImage(observation));
+  design_.MarkEvaluated(observation.point);
+  history_ = MakeHistory(told_, domain_.num_parameters);
+  repeats_ = FindRepeats(history_);
+  feasibility_ = Feasibility(history_);
+}
+
+// Enough points from elsewhere, such as the trials of another campaign, make the design needless.
+std::optional<Proposal> SearchRecord::BeforeModel(std::span<const Eigen::VectorXd> asked) const {
+  if (told_.size() + asked.size() < static_cast<std::size_t>(design_.size())) {
+    if (const auto point = design_.Next(asked)) return Proposal{*point, Origin::kDesign};
+  }
+  if (const auto point = FirstRepeat(asked)) return Proposal{*point, Origin::kRepeat};
+  return std::nullopt;
+}
+
+// The best point, since near it the noise matters; not one that has failed meanwhile.
+std::optional<Eigen::VectorXd> SearchRecord::FirstRepeat(
+    std::span<const Eigen::VectorXd> asked) const {
+  if (options_.exact || repeats_.num_repeats > 0 || history_.size() == 0) return std::nullopt;
+  for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
+    if (IsAmong(history_.points.row(i), asked)) return std::nullopt;  // the repeat is under way
+  }
+  std::optional<Eigen::Index> best;
+  for (Eigen::Index i = 0; i < history_.values.size(); ++i) {
+    if (best && history_.values[i] >= history_.values[*best]) continue;
+    if (!HasFailed(history_.points.row(i))) best = i;
+  }
+  if (!best) return std::nullopt;
+  return history_.points.row(*best);
+}
+
+bool SearchRecord::HasFailed(const Eigen::VectorXd& point) const {
+  return std::any_of(told_.begin(), told_.end(), [&](const Observation& seen) {
+    return seen.failed && SamePoint(seen.point, point);
+  });
+}
+
+bool SearchRecord::WasEvaluated(const Eigen::VectorXd& point,
+                                std::span<const Eigen::VectorXd> asked) const {
+  return IsAmong(point, asked) ||
+         std::any_of(told_.begin(), told_.end(),
+                     [&](const Observation& seen) { return SamePoint(seen.point, point); });
+}
+
+Domain SearchRecord::OpenDomain(std::span<const Eigen::VectorXd> asked) const {
+  if (!domain_.IsList()) return domain_;
+  const int most = deterministic() ? 1 : std::max(1, options_.max_replicates);
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < domain_.candidates.rows(); ++i) {
+    const Eigen::VectorXd point = domain_.candidates.row(i);
+    const auto is_here = [&](const Eigen::VectorXd& other) { return SamePoint(point, other); };
+    const auto num_asked = std::count_if(asked.begin(), asked.end(), is_here);
+    const auto num_told = std::count_if(
+        told_.begin(), told_.end(), [&](const Observation& seen) { return is_here(seen.point); });
+    if (num_asked + num_told < most && !HasFailed(point)) open.push_back(i);
+  }
+  Domain domain = domain_;
+  domain.candidates = domain_.candidates(open, Eigen::all);
+  return domain;
+}
+
+Eigen::VectorXd SearchRecord::MostFeasible(std::span<const Eigen::VectorXd> asked) const {
+  constexpr int kNumCandidates = 1000;
+  const Domain domain = OpenDomain(asked);
+  Eigen::VectorXd best = Eigen::VectorXd::Constant(domain_.num_parameters, 0.5);
+  double highest = -1;
+  const Eigen::MatrixXd candidates =
+      domain.IsList()
+          ? domain.candidates
+          : Inside(domain, RSequence(kNumCandidates, domain_.num_parameters, StepSeed(asked)));
+  for (Eigen::Index i = 0; i < candidates.rows(); ++i) {
+    const double probability = feasibility_.Probability(candidates.row(i));
+    if (probability <= highest) continue;
+    highest = probability;
+    best = candidates.row(i);
+  }
+  return best;
+}
+
+Proposal SearchRecord::ReplicateOrPerturb(const Eigen::VectorXd& point,
+                                          std::span<const Eigen::VectorXd> asked) const {
+  if (domain_.IsList()) {
+    return {point, WasEvaluated(point, asked) ? Origin::kRepeat : Origin::kModel};
+  }
+  if (!deterministic() && repeats_.num_repeats < 1 + options_.max_replicates) {
+    for (Eigen::Index i = 0; i < history_.points.rows(); ++i) {
+      const Eigen::VectorXd near = history_.points.row(i);
+      if ((near - point).norm() < kReplicateDistance && !IsAmong(near, asked) && !HasFailed(near)) {
+        return {near, Origin::kRepeat};
+      }
+    }
+  }
+  base::Random random(options_.seed, base::Stream("not the same point"), told_.size());
+  Eigen::VectorXd moved = point;
+  for (double reach = 1e-3; WasEvaluated(moved, asked) || !domain_.Contains(moved); reach *= 1.2) {
+    for (Eigen::Index k = 0; k < moved.size(); ++k) {
+      moved[k] = std::clamp(point[k] + reach * random.Normal(), 0.0, 1.0);
+    }
+    if (!domain_.IsContinuous()) moved = domain_.Snap(moved);
+  }
+  return {moved, Origin::kModel};
+}
+
+std::uint64_t SearchRecord::StepSeed(std::span<const Eigen::VectorXd> asked) const {
+  return options_.seed + 7919 * (told_.size() + asked.size());
+}
+
+bool SearchRecord::MayStop(int num_evaluations) const {
+  return options_.stop_multiple > 0 && (options_.exact || repeats_.num_repeats > 0) &&
+         num_evaluations >= 2 * design_.size();
+}
+
+std::optional<std::string> SearchRecord::ReasonToStop(double gain, double noise) const {
+  if (noise_free()) {
+    return StopByExactGain(gain, history_.values.mean() - history_.values.minCoeff());
+  }
+  return StopByGain(gain, noise, options_.stop_multiple);
+}
+
+}  // namespace talus::optimizer

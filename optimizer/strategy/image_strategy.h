@@ -1,0 +1,50 @@
+// The strategy for evaluations that bring a whole image: the images' modes are modelled instead of
+// the objective, and the objective is worked out on predicted images.
+//
+// While the images predict worse than the values alone (image_history.h) it steps by the values.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "optimizer/search/image_history.h"
+#include "optimizer/search/model_step.h"
+#include "optimizer/search/scalar_search.h"
+#include "optimizer/strategy/surrogate_strategy.h"
+
+namespace talus::optimizer {
+
+class ImageStrategy : public SurrogateStrategy {
+ public:
+  // `always`: never fall back to the values.
+  ImageStrategy(const Domain& domain, const FieldObjective& objective,
+                const SurrogateOptions& options);
+
+  std::optional<std::string> StopReason() override;
+  Answer Recommend() override;
+  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
+
+ private:
+  Proposal ByModel(const Points& asked) override;
+  void Update(const Observation& observation) override;
+
+  const std::optional<ImageModel>& Model();
+  ModelView ViewOf(const ImageModel& model, const Domain& domain, std::uint64_t seed) const;
+  // A seed for the next search of the model, another one for each image.
+  std::uint64_t ImageSeed(const Points& asked) const;
+  Eigen::VectorXd Step(const ImageModel& model, const Points& asked) const;
+  Eigen::VectorXd ByKnowledge(const ImageModel& model, const Points& asked) const;
+  Eigen::VectorXd ByImprovement(const ImageModel& model, const Points& asked) const;
+  double LowestOwnValue(const ImageModel& model) const;
+  Eigen::VectorXd ByDraw(const ImageModel& model, const Points& asked) const;
+  Eigen::VectorXd Best(const ImageModel& model, const Domain& domain) const;
+  Answer RecommendByValues();
+
+  ImageHistory fields_;
+  ScalarSearch by_values_;
+  bool has_exact_target_ = true;
+  std::optional<ImageModel> model_;
+  bool is_current_ = false;  // model_ knows all that was told
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,140 @@
+#include "optimizer/strategy/make_strategy.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "optimizer/strategy/design_strategy.h"
+#include "optimizer/strategy/image_strategy.h"
+#include "optimizer/strategy/ranked_strategy.h"
+#include "optimizer/strategy/rbf_strategy.h"
+#include "optimizer/strategy/replayed_search.h"
+#include "optimizer/strategy/scalar_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kMaxDesign = 10000;
+constexpr int kUsualLevels = 8;
+
+std::vector<int> LevelsFor(const StrategyOptions& options, int num_parameters) {
+  if (!options.levels.empty()) return options.levels;
+  return std::vector<int>(static_cast<std::size_t>(num_parameters), kUsualLevels);
+}
+
+// As many points of the sequence as it takes until num_points are in the domain.
+Points SobolInside(const Domain& domain, int num_points, std::uint64_t seed) {
+  Points inside;
+  for (int n = num_points; static_cast<int>(inside.size()) < num_points && n < (1 << 20); n *= 2) {
+    inside.clear();
+    for (const Eigen::VectorXd& point : Sobol(n, domain.num_parameters, seed)) {
+      if (domain.Contains(point)) inside.push_back(point);
+      if (static_cast<int>(inside.size()) == num_points) break;
+    }
+  }
+  return inside;
+}
+
+bool HasModel(StrategyKind kind) {
+  using enum StrategyKind;
+  return kind == kAuto || kind == kGp || kind == kRbf;
+}
+
+bool TakesLists(StrategyKind kind) {
+  return HasModel(kind) || kind == StrategyKind::kLhs || kind == StrategyKind::kSobol;
+}
+
+std::unique_ptr<Strategy> MakeModelStrategy(const StrategyOptions& options, const Domain& domain,
+                                            const FieldObjective* field, std::uint64_t seed) {
+  const SurrogateOptions surrogate{.num_initial = options.num_initial,
+                                   .stop_multiple = options.stop_multiple,
+                                   .max_replicates = options.max_replicates,
+                                   .exact = options.exact,
+                                   .seed = seed};
+  if (options.kind == StrategyKind::kRbf) return std::make_unique<RbfStrategy>(domain, surrogate);
+  if (options.kind == StrategyKind::kGp || field == nullptr) {
+    return std::make_unique<ScalarStrategy>(domain, surrogate);
+  }
+  return std::make_unique<ImageStrategy>(domain, *field, surrogate);
+}
+
+ReplayOptions SearchOf(StrategyKind kind) {
+  using surrogate::SearchAlgorithm;
+  switch (kind) {
+    case StrategyKind::kDirectL:
+      return {.algorithm = SearchAlgorithm::kDirectL, .name = "DIRECT-L"};
+    case StrategyKind::kBobyqa:
+      return {.algorithm = SearchAlgorithm::kBobyqa, .name = "multi-start BOBYQA", .local = true};
+    case StrategyKind::kNelderMead:
+      return {.algorithm = SearchAlgorithm::kNelderMead,
+              .name = "multi-start Nelder-Mead",
+              .local = true};
+    default:
+      throw base::Error("this kind of strategy is no search");
+  }
+}
+
+}  // namespace
+
+void StrategyOptions::Validate(base::Problems& problems) const {
+  problems.Require(num_points >= 1 && num_points <= kMaxDesign, "num_points", num_points,
+                   "must be from 1 to 10000");
+  problems.Require(num_initial >= 0 && num_initial <= 100, "num_initial", num_initial,
+                   "must be from 0 to 100");
+  problems.Require(stop_multiple >= 0, "stop_multiple", stop_multiple, "must not be negative");
+  problems.Require(max_replicates >= 0 && max_replicates <= 1000, "max_replicates", max_replicates,
+                   "must be from 0 to 1000");
+  problems.Require(refine_best >= 0, "refine_best", refine_best, "must not be negative");
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    problems.Require(levels[i] >= 1 && levels[i] <= kMaxDesign, "levels[" + std::to_string(i) + "]",
+                     levels[i], "must be from 1 to 10000");
+  }
+}
+
+void StrategyOptions::ValidateFor(int num_parameters, base::Problems& problems) const {
+  if (kind != StrategyKind::kGrid) return;
+  problems.Require(levels.empty() || static_cast<int>(levels.size()) == num_parameters, "levels",
+                   "has " + std::to_string(levels.size()) + " numbers for " +
+                       std::to_string(num_parameters) + " parameters: give one for each");
+  const std::vector<int> all = LevelsFor(*this, num_parameters);
+  const double size = std::accumulate(all.begin(), all.end(), 1.0, std::multiplies<>());
+  problems.Require(size <= kMaxDesign, "levels", size,
+                   "points of the grid, must be at most 10000: give fewer levels");
+}
+
+std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
+                                       const FieldObjective* field, std::uint64_t seed) {
+  base::Problems problems;
+  options.Validate(problems);
+  options.ValidateFor(domain.num_parameters, problems);
+  problems.Require(domain.IsContinuous() || TakesLists(options.kind), "kind",
+                   "is a search over continuous parameters: with levels or candidates use "
+                   "\"auto\", \"gp\", \"rbf\", \"lhs\" or \"sobol\"");
+  problems.ThrowIfAny();
+  switch (options.kind) {
+    case StrategyKind::kAuto:
+    case StrategyKind::kGp:
+    case StrategyKind::kRbf: {
+      const auto make = [&](const Domain& space) {
+        return MakeModelStrategy(options, space, field, seed);
+      };
+      if (domain.IsList()) return std::make_unique<RankedStrategy>(domain, make);
+      return make(domain);
+    }
+    case StrategyKind::kLhs:
+      return std::make_unique<DesignStrategy>(
+          domain, LatinHypercube(options.num_points, domain.num_parameters, seed),
+          "the Latin hypercube");
+    case StrategyKind::kSobol:
+      return std::make_unique<DesignStrategy>(domain, SobolInside(domain, options.num_points, seed),
+                                              "the Sobol sequence");
+    case StrategyKind::kGrid:
+      return std::make_unique<GridStrategy>(
+          domain, GridStrategy::Sweep{.levels = LevelsFor(options, domain.num_parameters),
+                                      .refine_best = options.refine_best});
+    default:
+      return std::make_unique<ReplayedSearch>(domain, SearchOf(options.kind), seed);
+  }
+}
+
+}  // namespace talus::optimizer

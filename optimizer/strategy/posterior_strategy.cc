@@ -1,0 +1,344 @@
+#include "optimizer/strategy/posterior_strategy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/designs/design.h"
+#include "optimizer/search/feasibility.h"
+#include "optimizer/search/history.h"
+#include "optimizer/search/size_to_fit.h"
+#include "optimizer/search/stopping_rule.h"
+#include "optimizer/strategy/make_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kFewest = 6;       // evaluations of an experiment that a model can stand on
+constexpr int kOfAddedTest = 8;  // of the design, for an experiment that is added later
+constexpr int kFewestFiner = 3;  // of a finer scale factor, before gain alone decides
+constexpr double kEdgeError =
+    0.1;                          // of the powder: above it, heaps overhang and pixels serve better
+constexpr double kExploring = 4;  // softness of every other sample of candidates
+constexpr int kCandidates = 48;
+
+OutputData FirstOf(const OutputData& data, int count) {
+  const auto n = static_cast<std::ptrdiff_t>(count);
+  OutputData first;
+  first.points.assign(data.points.begin(), data.points.begin() + n);
+  first.level.assign(data.level.begin(), data.level.begin() + n);
+  if (!data.vectors.empty()) {
+    first.vectors.assign(data.vectors.begin(), data.vectors.begin() + n);
+  }
+  first.scalars.assign(data.scalars.begin(), data.scalars.begin() + n);
+  return first;
+}
+
+// Σ |image - what its column edges make of it| / Σ image.
+double EdgeError(const surrogate::FieldCode& code, const std::vector<float>& field,
+                 const Eigen::VectorXd& vector) {
+  const std::vector<float> decoded = code.Decode(vector);
+  double error = 0;
+  double powder = 1e-9;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    error += std::abs(static_cast<double>(field[i]) - static_cast<double>(decoded[i]));
+    powder += field[i];
+  }
+  return error / powder;
+}
+
+}  // namespace
+
+std::size_t PosteriorStrategy::Told::code() const {
+  return codes.empty() || edge_error <= kEdgeError * size() ? 0 : 1;
+}
+
+PosteriorStrategy::PosteriorStrategy(const PosteriorStrategyOptions& options, const Domain& domain,
+                                     std::vector<ExperimentTarget> targets)
+    : options_(options),
+      domain_(domain),
+      levels_(options.scale_factors, options.target),
+      targets_(std::move(targets)) {
+  const int d = domain_.num_parameters;
+  const int size = options_.num_initial > 0 ? options_.num_initial : 4 * d + 4;
+  Points points = domain_.guesses;
+  for (const Eigen::VectorXd& point : LatinHypercube(size, d, options_.seed)) {
+    if (domain_.Contains(point) && static_cast<int>(points.size()) < size) points.push_back(point);
+  }
+  design_.resize(static_cast<Eigen::Index>(points.size()), d);
+  for (Eigen::Index i = 0; i < design_.rows(); ++i) {
+    design_.row(i) = points[static_cast<std::size_t>(i)];
+  }
+  for (const ExperimentTarget& target : targets_) {
+    Told told;
+    if (target.image.width > 0) {
+      const surrogate::FieldSize field{.width = target.image.width, .height = target.image.height};
+      told.codes = {std::make_shared<surrogate::EdgeCode>(field, target.image.target),
+                    std::make_shared<surrogate::PixelCode>(field, target.image.target)};
+    }
+    told.by_code.resize(std::max<std::size_t>(1, told.codes.size()));
+    told.cost.resize(static_cast<std::size_t>(levels_.size()));
+    told.count.resize(static_cast<std::size_t>(levels_.size()));
+    told_.push_back(std::move(told));
+  }
+}
+
+void PosteriorStrategy::Tell(const Observation& observation) {
+  posterior_.reset();
+  sample_.reset();
+  observations_.push_back(WithoutImage(observation));
+  Told& told = told_[static_cast<std::size_t>(observation.experiment)];
+  const int level = levels_.LevelOf(observation.scale_factor);
+  if (observation.cost > 0) {
+    told.cost[static_cast<std::size_t>(level)] += observation.cost;
+    ++told.count[static_cast<std::size_t>(level)];
+  }
+  // An image that was lost leaves nothing to learn from.
+  if (observation.failed || (!told.codes.empty() && observation.field.empty())) return;
+  for (std::size_t c = 0; c < told.by_code.size(); ++c) {
+    OutputData& data = told.by_code[c];
+    data.points.push_back(observation.point);
+    data.level.push_back(level);
+    data.scalars.push_back(observation.scalars);
+    if (!told.codes.empty()) data.vectors.push_back(told.codes[c]->Encode(observation.field));
+  }
+  if (!told.codes.empty()) {
+    told.edge_error +=
+        EdgeError(*told.codes.front(), observation.field, told.by_code.front().vectors.back());
+  }
+}
+
+bool PosteriorStrategy::CanModel() const {
+  return std::all_of(told_.begin(), told_.end(),
+                     [](const Told& told) { return told.size() >= kFewest; });
+}
+
+Posterior PosteriorStrategy::MakePosterior() {
+  std::vector<ExperimentModel> models;
+  std::vector<OutputData> data;
+  for (std::size_t e = 0; e < told_.size(); ++e) {
+    Told& told = told_[e];
+    const std::size_t code = told.code();
+    const ExperimentModel::Setup setup{.target = &targets_[e],
+                                       .code = told.codes.empty() ? nullptr : told.codes[code],
+                                       .levels = &levels_,
+                                       .model_error = options_.model_error};
+    data.push_back(told.by_code[code]);
+    const int count = SizeToFit(told.size(), kFewest);
+    if (!told.state || told.num_fitted != count || told.fitted_code != code) {
+      const ExperimentModel fitted(setup, FirstOf(data.back(), count), nullptr);
+      told.state = fitted.state();
+      told.num_fitted = count;
+      told.fitted_code = code;
+    }
+    models.emplace_back(setup, data.back(), &*told.state);
+  }
+  return {std::move(models), data};
+}
+
+const Posterior& PosteriorStrategy::Model() {
+  if (!posterior_) posterior_.emplace(MakePosterior());
+  return *posterior_;
+}
+
+const PosteriorSample& PosteriorStrategy::Sample() {
+  if (!sample_) {
+    const int start = domain_.num_parameters <= 2 ? 3000 : 6000;
+    sample_ = Model().Sample(domain_, start, 1, options_.seed);
+  }
+  return *sample_;
+}
+
+double PosteriorStrategy::CostOf(std::size_t experiment, int level) const {
+  const auto l = static_cast<std::size_t>(level);
+  const Told& told = told_[experiment];
+  if (told.count[l] > 0) return told.cost[l] / told.count[l];
+  const std::vector<double>& estimates = targets_[experiment].costs;
+  if (l < estimates.size() && estimates[l] > 0) return estimates[l];
+  return std::pow(levels_.factor(level), -4);
+}
+
+std::vector<Proposal> PosteriorStrategy::Ask(int count, std::span<const Eigen::VectorXd> pending) {
+  std::vector<Proposal> asked;
+  for (const Eigen::VectorXd& point : pending) {
+    asked.push_back({.point = point, .scale_factor = levels_.factor(0)});
+  }
+  return AskAt(count, asked);
+}
+
+std::vector<Proposal> PosteriorStrategy::AskAt(int count, std::span<const Proposal> pending) {
+  std::vector<Proposal> asked(pending.begin(), pending.end());
+  for (int i = 0; i < count; ++i) asked.push_back(Next(asked));
+  return {asked.begin() + static_cast<std::ptrdiff_t>(pending.size()), asked.end()};
+}
+
+Proposal PosteriorStrategy::Next(std::span<const Proposal> asked) {
+  if (auto first = FromDesign(asked)) return *first;
+  if (CanModel()) return ByGain(asked);
+  // Most of the design has failed: more of the same.
+  const int index = static_cast<int>(observations_.size() + asked.size());
+  const Eigen::VectorXd point = Sobol(index + 1, domain_.num_parameters, options_.seed).back();
+  return {.point = point,
+          .origin = Origin::kDesign,
+          .experiment = index % static_cast<int>(targets_.size()),
+          .scale_factor = levels_.factor(0)};
+}
+
+// Whether the model has chosen a simulation already. An experiment without its design was added
+// later then: a few evaluations all over the ranges are enough, since what the others say tells
+// where more of them matter.
+bool PosteriorStrategy::IsUnderWay() const {
+  return std::any_of(observations_.begin(), observations_.end(), [&](const Observation& told) {
+    return std::none_of(design_.rowwise().begin(), design_.rowwise().end(),
+                        [&](const auto& row) { return SamePoint(told.point, row.transpose()); });
+  });
+}
+
+// Every experiment at the same points: what their residuals share is part of the posterior.
+std::optional<Proposal> PosteriorStrategy::FromDesign(std::span<const Proposal> asked) const {
+  const bool under_way = IsUnderWay();
+  const Eigen::Index size =
+      under_way ? std::min<Eigen::Index>(kOfAddedTest, design_.rows()) : design_.rows();
+  // Any evaluations at the coarsest scale factor will do for an added one.
+  const auto has_enough = [&](int e) {
+    const auto is_it = [&](const auto& other) {
+      return other.experiment == e && levels_.LevelOf(other.scale_factor) == 0;
+    };
+    return under_way && std::count_if(asked.begin(), asked.end(), is_it) +
+                                std::count_if(observations_.begin(), observations_.end(), is_it) >=
+                            size;
+  };
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Eigen::VectorXd point = design_.row(i);
+    for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
+      const auto is_it = [&](const auto& other) {
+        return other.experiment == e && SamePoint(other.point, point);
+      };
+      if (has_enough(e) || std::any_of(asked.begin(), asked.end(), is_it) ||
+          std::any_of(observations_.begin(), observations_.end(), is_it)) {
+        continue;
+      }
+      return Proposal{.point = point,
+                      .origin = Origin::kDesign,
+                      .experiment = e,
+                      .scale_factor = levels_.factor(0)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Proposal> PosteriorStrategy::TooFewAt(const Eigen::VectorXd& point,
+                                                    std::span<const Proposal> asked) const {
+  for (int level = 1; level < levels_.size(); ++level) {
+    for (int e = 0; e < static_cast<int>(targets_.size()); ++e) {
+      const auto is_it = [&](const auto& other) {
+        return other.experiment == e && levels_.LevelOf(other.scale_factor) == level;
+      };
+      const auto count = std::count_if(asked.begin(), asked.end(), is_it) +
+                         std::count_if(observations_.begin(), observations_.end(), is_it);
+      if (count >= kFewestFiner) continue;
+      return Proposal{.point = point,
+                      .origin = Origin::kModel,
+                      .experiment = e,
+                      .scale_factor = levels_.factor(level)};
+    }
+  }
+  return std::nullopt;
+}
+
+Proposal PosteriorStrategy::ByGain(std::span<const Proposal> asked) {
+  const std::size_t turn = observations_.size() + asked.size();
+  const std::uint64_t seed = options_.seed + 7919 * turn;
+  Posterior with_fantasies = Model();
+  for (const Proposal& p : asked) {
+    with_fantasies.models()[static_cast<std::size_t>(p.experiment)].AddFantasy(
+        p.point, levels_.LevelOf(p.scale_factor));
+  }
+  const double softness = turn % 2 == 0 ? 1 : kExploring;
+  const int start = domain_.num_parameters <= 2 ? 1000 : 2000;
+  const PosteriorSample sample = Model().Sample(domain_, start, softness, seed);
+  const Eigen::MatrixXd draws = sample.Draws(kCandidates, seed);
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(draws.rows());
+  for (const ExperimentModel& model : with_fantasies.models()) {
+    score += model.weight() * model.GainOfAll(draws);
+  }
+  const Feasibility feasibility(MakeHistory(observations_, domain_.num_parameters));
+  score += feasibility.Penalty(draws);
+  constexpr Eigen::Index kBest = 6;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.rows()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return score[a] > score[b]; });
+  order.resize(std::min<std::size_t>(order.size(), kBest));
+  const Eigen::MatrixXd sites = draws(order, Eigen::all);
+  if (auto few = TooFewAt(sites.row(0), asked)) return *few;
+  return MostPerCost(with_fantasies, draws, sites);
+}
+
+Proposal PosteriorStrategy::MostPerCost(const Posterior& with_fantasies,
+                                        const Eigen::MatrixXd& draws,
+                                        const Eigen::MatrixXd& sites) const {
+  Proposal best;
+  double most = -1;
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    const double weight = with_fantasies.models()[e].weight();
+    const Eigen::MatrixXd gains = with_fantasies.models()[e].Gains(draws, sites);
+    for (Eigen::Index i = 0; i < sites.rows(); ++i) {
+      for (int level = 0; level < levels_.size(); ++level) {
+        const double rate = weight * gains(i, level) / CostOf(e, level);
+        if (rate <= most) continue;
+        most = rate;
+        best = {.point = sites.row(i),
+                .origin = Origin::kModel,
+                .experiment = static_cast<int>(e),
+                .scale_factor = levels_.factor(level)};
+      }
+    }
+  }
+  return best;
+}
+
+bool PosteriorStrategy::HasDesign() {
+  return CanModel() && !FromDesign({}) && !TooFewAt(Eigen::VectorXd(), {});
+}
+
+SurrogateShare PosteriorStrategy::ShareNow() {
+  constexpr int kDraws = 64;
+  const Eigen::MatrixXd draws = Sample().Draws(kDraws, options_.seed);
+  double gain = 0;
+  double outputs = 0;
+  for (const ExperimentModel& model : Model().models()) {
+    gain += model.GainOfAll(draws).mean();
+    outputs += model.num_outputs();
+  }
+  // V/B of the typical output.
+  return {.share = std::expm1(2 * gain / outputs), .temper = Model().temper()};
+}
+
+std::optional<std::string> PosteriorStrategy::StopReason() {
+  if (options_.stop_share == 0 || !HasDesign()) return std::nullopt;
+  return StopByShare(ShareNow(), options_.stop_share);
+}
+
+std::optional<StopShortfall> PosteriorStrategy::Shortfall() {
+  if (options_.stop_share == 0) return std::nullopt;
+  if (!HasDesign())
+    return StopShortfall{.text = "the first trials at each scale factor are missing"};
+  return ShortOfShare(ShareNow(), options_.stop_share, static_cast<int>(observations_.size()));
+}
+
+std::optional<Moments> PosteriorStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {
+  if (!CanModel()) return std::nullopt;
+  const ExperimentModel& model = Model().models()[static_cast<std::size_t>(experiment)];
+  if (!model.has_image()) return std::nullopt;
+  return model.Objective(points);
+}
+
+std::unique_ptr<Strategy> MakePosteriorStrategy(const PosteriorStrategyOptions& options,
+                                                const Domain& domain,
+                                                std::vector<ExperimentTarget> targets) {
+  return std::make_unique<PosteriorStrategy>(options, domain, std::move(targets));
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,91 @@
+// The search over several scale factors and several experiments: which set to simulate next, for
+// which experiment, and with how coarse grains.
+//
+// First a design at the coarsest scale factor. Then the next set is a posterior draw where the
+// outputs at the target are known worst, and the scale factor and experiment are what narrows the
+// misfit there most a core second. The answer is the posterior's (posterior.h).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimizer/outputs/experiment_target.h"
+#include "optimizer/outputs/levels.h"
+#include "optimizer/posterior/posterior.h"
+#include "optimizer/space/domain.h"
+#include "optimizer/strategy/posterior_strategy_options.h"
+#include "optimizer/strategy/strategy.h"
+
+namespace talus::optimizer {
+
+class PosteriorStrategy : public Strategy {
+ public:
+  PosteriorStrategy(const PosteriorStrategyOptions& options, const Domain& domain,
+                    std::vector<ExperimentTarget> targets);
+
+  std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
+  std::vector<Proposal> AskAt(int count, std::span<const Proposal> pending) override;
+  void Tell(const Observation& observation) override;
+  std::optional<std::string> StopReason() override;
+  std::optional<StopShortfall> Shortfall() override;
+  Answer Recommend() override;
+  std::optional<Standing> Consider(const Eigen::VectorXd& point) override;
+  std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) override;
+  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
+
+  // Whether enough was told for the two below.
+  bool CanModel() const;
+  // Of all that was told.
+  const Posterior& Model();
+  const PosteriorSample& Sample();
+
+ private:
+  // What was told of one experiment; images in both codes until it shows which one serves.
+  struct Told {
+    std::vector<std::shared_ptr<const surrogate::FieldCode>> codes;
+    std::vector<OutputData> by_code;  // one a code; one without code where there is no image
+    double edge_error = 0;            // Σ |image - its column edges| / Σ image
+    std::vector<double> cost;         // Σ over told evaluations [core s], one a level
+    std::vector<int> count;           // of these
+    std::optional<OutputState> state;
+    int num_fitted = 0;
+    std::size_t fitted_code = 0;
+
+    std::size_t code() const;
+    int size() const { return by_code.front().size(); }
+  };
+
+  Proposal Next(std::span<const Proposal> asked);
+  // Whether the stopping rule has something to judge.
+  bool HasDesign();
+  SurrogateShare ShareNow();
+  bool IsUnderWay() const;
+  std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
+  Proposal ByGain(std::span<const Proposal> asked);
+  // Which of the points, for which experiment and how coarse, narrows the misfit most a core
+  // second.
+  Proposal MostPerCost(const Posterior& with_fantasies, const Eigen::MatrixXd& draws,
+                       const Eigen::MatrixXd& sites) const;
+  // A finer scale factor that has too few evaluations to tell its discrepancy.
+  std::optional<Proposal> TooFewAt(const Eigen::VectorXd& point,
+                                   std::span<const Proposal> asked) const;
+  double CostOf(std::size_t experiment, int level) const;
+  Posterior MakePosterior();
+  std::vector<double> UnlearntScaleFactors() const;
+  int FewestAtFinest() const;
+  void Summarise(Answer& answer);
+
+  PosteriorStrategyOptions options_;
+  Domain domain_;
+  Levels levels_;
+  std::vector<ExperimentTarget> targets_;
+  std::vector<Told> told_;
+  std::vector<Observation> observations_;  // without their images
+  Eigen::MatrixXd design_;                 // one point a row
+  std::optional<Posterior> posterior_;     // of all that was told
+  std::optional<PosteriorSample> sample_;  // of it
+};
+
+}  // namespace talus::optimizer

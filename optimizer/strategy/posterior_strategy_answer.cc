@@ -1,0 +1,113 @@
+// What the search over scale factors answers.
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "optimizer/posterior/branches.h"
+#include "optimizer/posterior/credible_ranges.h"
+#include "optimizer/posterior/rank_correlation.h"
+#include "optimizer/posterior/sobol_indices.h"
+#include "optimizer/search/best_observed.h"
+#include "optimizer/search/describe_minimum.h"
+#include "optimizer/strategy/posterior_strategy.h"
+
+namespace talus::optimizer {
+
+std::vector<double> PosteriorStrategy::UnlearntScaleFactors() const {
+  constexpr int kEnough = 2;
+  std::vector<double> unlearnt;
+  for (int level = 0; level < levels_.size(); ++level) {
+    for (const Told& told : told_) {
+      const std::vector<int>& levels = told.by_code.front().level;
+      const bool few = std::count(levels.begin(), levels.end(), level) < kEnough;
+      const bool is_target = level == levels_.finest() && !levels_.is_extrapolated();
+      if (few && (is_target || level == 0)) unlearnt.push_back(levels_.factor(level));
+    }
+  }
+  unlearnt.erase(std::unique(unlearnt.begin(), unlearnt.end()), unlearnt.end());
+  return unlearnt;
+}
+
+int PosteriorStrategy::FewestAtFinest() const {
+  std::ptrdiff_t fewest = std::numeric_limits<int>::max();
+  for (const Told& told : told_) {
+    fewest = std::min(fewest, std::ranges::count(told.by_code.front().level, levels_.finest()));
+  }
+  return static_cast<int>(fewest);
+}
+
+void PosteriorStrategy::Summarise(Answer& answer) {
+  constexpr int kDraws = 2000;
+  const Posterior& posterior = Model();
+  const PosteriorSample& sample = Sample();
+  PosteriorSummary summary{.draws = sample.Draws(kDraws, options_.seed),
+                           .region_volume = sample.RegionVolume(),
+                           .branches = FindBranches(posterior, sample, options_.seed),
+                           .temper = posterior.temper(),
+                           .raw_coverage = posterior.coverage().raw,
+                           .tempered_coverage = posterior.coverage().tempered,
+                           .num_left_out = posterior.coverage().count,
+                           .target_scale_factor = levels_.target(),
+                           .is_extrapolated = levels_.is_extrapolated(),
+                           .unlearnt_scale_factors = UnlearntScaleFactors(),
+                           .fewest_at_finest = FewestAtFinest(),
+                           .experiments = {}};
+  answer.point = summary.branches.front().point;
+  summary.experiments = posterior.StandingsAt(answer.point);
+  answer.posterior = std::move(summary);
+}
+
+Answer PosteriorStrategy::Recommend() {
+  if (!CanModel()) return BestObserved(observations_, domain_, "the search over scale factors");
+  constexpr int kMostTied = 200;
+  Answer answer;
+  Summarise(answer);
+  const PosteriorSummary& summary = *answer.posterior;
+  answer.credible = CredibleRanges(summary.draws, 0.9);
+  answer.correlation = RankCorrelation(summary.draws);
+  for (int i = 0; i < kMostTied; ++i) {
+    answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));
+  }
+  answer.tied_volume = summary.region_volume;
+  answer.warnings = BoundWarnings(answer.point);
+  const std::vector<ExperimentModel>& models = Model().models();
+  const auto image = std::find_if(models.begin(), models.end(),
+                                  [](const ExperimentModel& m) { return m.has_image(); });
+  if (image != models.end()) {
+    const Moments at = image->Objective(answer.point.transpose());
+    answer.predicted_value = at.mean[0];
+    answer.predicted_sd = at.sd[0];
+    answer.noise_sd = image->ObjectiveNoise(answer.point);
+    const SobolIndices sobol = EstimateSobolIndices(
+        [&](const Eigen::MatrixXd& points) { return image->Objective(points).mean; },
+        {.dimension = domain_.num_parameters, .num_base = 128, .seed = options_.seed});
+    answer.sobol_first = sobol.first;
+    answer.sobol_total = sobol.total;
+  }
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "posterior of %zu evaluations at %d scale factors; leave-one-out coverage of 90 %% "
+                "regions %.0f %%, %.0f %% after tempering by %.2f",
+                observations_.size(), levels_.size(), 100 * summary.raw_coverage,
+                100 * summary.tempered_coverage, summary.temper);
+  answer.model = text;
+  return answer;
+}
+
+std::optional<Eigen::VectorXd> PosteriorStrategy::CredibleLevels(const Eigen::MatrixXd& points) {
+  if (!CanModel()) return std::nullopt;
+  const PosteriorSample& sample = Sample();
+  return Model().LogDensity(points).unaryExpr(
+      [&](double log_density) { return sample.CredibleLevel(log_density); });
+}
+
+std::optional<Standing> PosteriorStrategy::Consider(const Eigen::VectorXd& point) {
+  if (!CanModel()) return std::nullopt;
+  Standing standing;
+  standing.credible_level = (*CredibleLevels(point.transpose()))[0];
+  standing.experiments = Model().StandingsAt(point);
+  return standing;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,19 @@
+// How a search over several scale factors works.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace talus::optimizer {
+
+struct PosteriorStrategyOptions {
+  std::vector<double> scale_factors = {1};  // distinct, >= 1, in any order
+  double target = 0;       // the scale factor that the answer is for, <= all of them; 0: the least
+  int num_initial = 0;     // evaluations of the design at the coarsest level; 0: 4 d + 4
+  double model_error = 1;  // sd of what no simulation can match, in run-to-run sds of the images
+  double stop_share = 0.02;  // stop when the surrogate's variance is below this share of what the
+                             // experiment leaves open, over the posterior; 0: never
+  std::uint64_t seed = 1;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,34 @@
+// The strategy for objectives that are numbers: a small design, one repeat, then steps by a
+// Gaussian process of the values (scalar_search.h).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "optimizer/search/scalar_search.h"
+#include "optimizer/strategy/surrogate_strategy.h"
+
+namespace talus::optimizer {
+
+class ScalarStrategy : public SurrogateStrategy {
+ public:
+  ScalarStrategy(const Domain& domain, const SurrogateOptions& options)
+      : SurrogateStrategy(domain, options), search_(options.seed) {}
+
+  std::optional<std::string> StopReason() override {
+    if (!record().MayStop(static_cast<int>(record().told().size()))) return std::nullopt;
+    return search_.StopReason(record());
+  }
+  Answer Recommend() override { return search_.Recommend(record()); }
+  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int /*experiment*/) override {
+    return search_.Predict(record(), points);
+  }
+
+ private:
+  Proposal ByModel(const Points& asked) override { return search_.Next(record(), asked); }
+  void Update(const Observation&) override { search_.Update(); }
+
+  ScalarSearch search_;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,180 @@
+#include "experiments/rigs/case/case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/json/json_schema.h"
+#include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
+#include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
+#include "experiments/rigs/load_case.h"
+
+namespace talus::rigs {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+FilledScene FillTube(const Case& c) {
+  FilledScene made = FillVessel(c, LiftedTubeRig::VesselOf(c));
+  made.scene.walls = LiftedTubeRig::Walls(c, 1.1 * made.filling.height);
+  return made;
+}
+
+constexpr const char* kExample = TALUS_SOURCE_DIR "/examples/scenes/heap_case.json";
+
+std::filesystem::path Write(const std::string& name, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string ErrorOf(const std::string& text) {
+  try {
+    LoadCase(Write("heap_case_error.json", text));
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Case, TheCompleteTextIsTheSameCase) {
+  const Case rig_case = LoadCase(kExample);
+  const std::string text = CaseText(rig_case);
+  const Case again = LoadCase(Write("heap_case_complete.json", text));
+  EXPECT_EQ(CaseText(again), text);
+  EXPECT_EQ(CaseHash(again), CaseHash(rig_case));
+}
+
+TEST(Case, ASizeFileMovesIntoTheCase) {
+  Write("heap_case_sizes.csv", "diameter (um),% under\n400,0\n500,50\n600,100\n");
+  const Case rig_case = LoadCase(Write("heap_case_file.json", R"({"powder": {
+    "sizes": {"kind": "file", "file": "heap_case_sizes.csv"}, "mass": "0.5 g"}})"));
+  EXPECT_EQ(rig_case.powder.sizes.kind, engine::SizeKind::kCumulative);
+  EXPECT_THAT(CaseText(rig_case), ::testing::Not(HasSubstr("heap_case_sizes")));
+}
+
+TEST(Case, HashIgnoresWhatDoesNotChangeTheHeap) {
+  Case rig_case = LoadCase(kExample);
+  const std::uint64_t hash = CaseHash(rig_case);
+  rig_case.threads = 2;
+  rig_case.checkpoint_interval = 1;
+  EXPECT_EQ(CaseHash(rig_case), hash);
+  rig_case.seed = 2;
+  EXPECT_NE(CaseHash(rig_case), hash);
+}
+
+TEST(Case, EveryProblemIsListed) {
+  EXPECT_THAT(ErrorOf(R"({"powder": {"material": {"poisson_ratio": 0.6},
+                          "sizes": {"kind": "mono"}, "mass": -1},
+                          "device": {"tube_inner_diameter": "12 mm"},
+                          "rules": {"heap": {"hold_time": 0}}, "num_views": 0, "sead": 1})"),
+              AllOf(HasSubstr("powder.material.poisson_ratio"),
+                    HasSubstr("powder.sizes.diameter: is missing"),
+                    HasSubstr("powder.mass: is -1, must be positive"),
+                    HasSubstr("device.tube_inner_diameter: is 0.012, must not be above"),
+                    HasSubstr("rules.heap.hold_time"), HasSubstr("num_views"),
+                    HasSubstr("sead: is not known here; did you mean \"seed\"?")));
+}
+
+TEST(Case, ADeviceThatCannotHoldTheMassIsRefused) {
+  const std::string powder =
+      R"("powder": {"sizes": {"kind": "mono", "diameter": "0.5 mm"}, "mass": "1 g"})";
+  EXPECT_EQ(ErrorOf("{" + powder + "}"), "");
+  EXPECT_THAT(ErrorOf("{" + powder + R"(, "device": {"tube_length": "2 mm"}})"),
+              HasSubstr("device.tube_length: is 0.002, cannot hold the mass"));
+  EXPECT_THAT(ErrorOf("{" + powder + R"(, "coarse_graining": {"scale_factor": 8}})"),
+              HasSubstr("must be above three (scaled) grain diameters"));
+}
+
+TEST(HeapScene, CoarseGrainingScalesDiametersAndSurfaceEnergyAndKeepsTheMass) {
+  Case rig_case = LoadCase(kExample);
+  rig_case.powder.material.surface_energy = 1e-4;
+  const FilledScene fine = FillTube(rig_case);
+  rig_case.coarse_graining.scale_factor = 2;
+  const FilledScene coarse = FillTube(rig_case);
+  const auto mass = [&](const FilledScene& made) {
+    double volume = 0;
+    for (const engine::Particle& p : made.scene.particles) volume += std::pow(p.radius, 3);
+    return 4.0 / 3 * std::numbers::pi * volume * rig_case.powder.material.density;
+  };
+  EXPECT_NEAR(static_cast<double>(fine.scene.particles.size()) /
+                  static_cast<double>(coarse.scene.particles.size()),
+              8, 0.1);  // a few hundred grains: one of them is 0.3 %
+  EXPECT_NEAR(mass(fine) / mass(coarse), 1, 0.005);
+  EXPECT_EQ(coarse.scene.materials[0].surface_energy, 2e-4);
+  rig_case.coarse_graining.surface_energy_exponent = 2;
+  EXPECT_EQ(UsedMaterial(rig_case).surface_energy, 4e-4);
+  EXPECT_EQ(fine.scene.materials[0].youngs_modulus, coarse.scene.materials[0].youngs_modulus);
+}
+
+TEST(HeapScene, WallsTakeThePowdersMaterialWhereTheyHaveNoneOfTheirOwn) {
+  Case rig_case = LoadCase(kExample);
+  rig_case.materials.floor = WallMaterial{.sliding_friction = 0.9};
+  const engine::Scene scene = FillTube(rig_case).scene;
+  const auto& tube = scene.materials[static_cast<std::size_t>(scene.walls[kTube].material)];
+  const auto& plate = scene.materials[static_cast<std::size_t>(scene.walls[kPlate].material)];
+  EXPECT_EQ(tube.sliding_friction, rig_case.powder.material.sliding_friction);
+  EXPECT_EQ(plate.sliding_friction, 0.9);
+  EXPECT_EQ(plate.rolling_friction, rig_case.powder.material.rolling_friction);
+}
+
+TEST(HeapScene, WarnsWhenTheGrainsAreTooFewAcrossThePlate) {
+  Case rig_case = LoadCase(kExample);
+  rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.3e-3};  // 33 across
+  EXPECT_TRUE(CaseWarnings(rig_case).empty());
+  rig_case.coarse_graining.scale_factor = 2;  // 17 across
+  EXPECT_THAT(CaseWarnings(rig_case).at(0),
+              HasSubstr("only 16.7 grains across the plate at scale factor 2: a smaller scale "
+                        "factor would say more (30 or more are advised)"));
+  rig_case.coarse_graining.scale_factor = 3;  // 11 across
+  EXPECT_THAT(CaseWarnings(rig_case).at(0), HasSubstr("COARSE"));
+  EXPECT_TRUE(SetUpWarnings(rig_case).empty());
+  rig_case.coarse_graining.scale_factor = 1;
+  rig_case.powder.sizes.diameter = 0.5e-3;  // nothing finer can be simulated
+  EXPECT_THAT(CaseWarnings(rig_case).at(0), HasSubstr("a wider tube and plate would say more"));
+}
+
+// Grains of 0.3 mm, 2000 kg/m³, in a tube of 10 mm: F_po / (d² ρ g D) = πγ/(d ρ g D) is 0.2 at
+// γ = 3.75e-3 J/m², whatever the scale factor.
+TEST(HeapScene, WarnsWhenACohesivePowderIsPlacedDensely) {
+  Case rig_case = LoadCase(kExample);
+  rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.3e-3};
+  rig_case.powder.material.density = 2000;
+  rig_case.models.adhesion = engine::Adhesion::kJkr;
+  for (const double scale_factor : {1.0, 1.1}) {
+    rig_case.coarse_graining.scale_factor = scale_factor;
+    rig_case.powder.material.surface_energy = 3.6e-3;
+    EXPECT_TRUE(CaseWarnings(rig_case).empty());
+    rig_case.powder.material.surface_energy = 3.9e-3;
+    EXPECT_THAT(CaseWarnings(rig_case).at(0), HasSubstr("COHESIVE"));
+  }
+  rig_case.filling.kind = FillingKind::kPour;
+  EXPECT_TRUE(CaseWarnings(rig_case).empty());
+  rig_case.filling.kind = FillingKind::kDense;
+  rig_case.models.adhesion = engine::Adhesion::kNone;
+  EXPECT_THAT(CaseWarnings(rig_case), Not(Contains(HasSubstr("COHESIVE"))));
+}
+
+// After a change, run with TALUS_UPDATE_SCHEMAS=1 and commit what it writes.
+TEST(Case, TheShippedSchemaIsTheParsers) {
+  const std::string path = TALUS_SOURCE_DIR "/docs/case.schema.json";
+  const std::string schema = base::FileSchema<Case>("talus heap case").dump(2) + "\n";
+  if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
+  EXPECT_EQ(base::ReadFile(path), schema);
+}
+
+}  // namespace
+}  // namespace talus::rigs

@@ -1,0 +1,357 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/run/bed.h"
+#include "engine/run/resisted_spins.h"
+#include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/lifted_tube/fallen.h"
+#include "experiments/rigs/lifted_tube/landing.h"
+#include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
+#include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
+#include "experiments/rigs/load_case.h"
+#include "experiments/rigs/phased/rest.h"
+#include "experiments/rigs/rig_list.h"
+
+namespace talus::rigs {
+namespace {
+
+// About 150 grains of 1 mm, soft so that a test takes a second.
+Case Coarse(double sliding_friction, double rolling_friction) {
+  Case c;
+  c.powder.material = {.density = 2500,
+                       .youngs_modulus = 1e6,
+                       .restitution = 0.5,
+                       .sliding_friction = sliding_friction,
+                       .rolling_friction = rolling_friction};
+  c.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-3};
+  c.powder.mass = 0.2e-3;
+  c.rig.lifted_tube.lift_velocity = 0.05;
+  c.rules.heap.max_time = 0.3;
+  return c;
+}
+
+// At time 0.
+engine::Scene SceneOf(const Case& c) {
+  FilledScene made = FillVessel(c, LiftedTubeRig::VesselOf(c));
+  made.scene.walls = LiftedTubeRig::Walls(c, 1.1 * made.filling.height);
+  return made.scene;
+}
+
+struct Outcome {
+  std::unique_ptr<Rig> rig;
+  std::vector<engine::Particle> heap;
+  double height = 0;  // [m]
+
+  PhaseEnd EndOf(const char* phase) const { return rig->RecordOf(phase).reason; }
+  std::int64_t Count(const char* name) const {
+    return nlohmann::json::parse(rig->ResultText(heap, {}))["counts"][name];
+  }
+};
+
+Outcome RunToTheEnd(const Case& c) {
+  Outcome outcome{.rig = MakeRig(c), .heap = {}};
+  while (outcome.rig->Advance()) {
+  }
+  outcome.heap = outcome.rig->Grains();
+  for (const engine::Particle& p : outcome.heap) {
+    outcome.height = std::max(outcome.height, p.position.z + p.radius);
+  }
+  return outcome;
+}
+
+TEST(LiftedTube, RoughGrainsHeapUpAndSlipperyOnesRunOff) {
+  const Outcome rough = RunToTheEnd(Coarse(0.8, 0.5));
+  const Outcome slippery = RunToTheEnd(Coarse(0.02, 0));
+  // 150 grains on a plate ten grains wide: a cone of three layers against, at most, one.
+  EXPECT_GT(rough.heap.size(), 2 * slippery.heap.size());
+  EXPECT_GT(rough.height, 2.4e-3);
+  EXPECT_LT(slippery.height, 1.6e-3);
+  EXPECT_EQ(rough.EndOf("settling"), PhaseEnd::kAtRest);
+  EXPECT_EQ(rough.EndOf("lifting"), PhaseEnd::kCleared);
+  EXPECT_EQ(rough.Count("carried_by_tube"), 0);
+}
+
+// A balance sees every grain once: on the plate, or fallen; this powder sticks to no tube.
+TEST(LiftedTube, WhatLiesOnThePlateAndWhatFellIsWhatWasFilled) {
+  const Case c = Coarse(0.3, 0.05);
+  const Outcome run = RunToTheEnd(c);
+  const auto result = nlohmann::json::parse(run.rig->ResultText(run.heap, {}));
+  const auto& observables = result["observables"];
+  const double on_plate = observables["mass_on_plate_kg"];
+  const double fallen = observables["mass_fallen_kg"];
+  const auto num_fallen = observables["num_fallen"].get<std::int64_t>();
+  EXPECT_GT(num_fallen, 0);
+  // Grains of one size: masses are in the ratio of the counts.
+  const double grain = (on_plate + fallen) / static_cast<double>(run.rig->state().num_filled);
+  EXPECT_NEAR(fallen, grain * static_cast<double>(num_fallen), 1e-9 * fallen);
+  EXPECT_NEAR(on_plate + fallen, c.powder.mass, grain);  // to a whole number of grains
+}
+
+TEST(LiftedTube, NothingFallsBeforeTheTubeIsLifted) {
+  const auto made = MakeRig(Coarse(0.5, 0.1));
+  Rig& rig = *made;
+  while (rig.phase_name() == "settling") rig.Advance();
+  EXPECT_EQ(rig.simulation().num_particles(), rig.state().num_filled);
+  // Dense enough a filling that settling is a small change.
+  double top = 0;
+  for (const engine::Particle& p : rig.simulation().Particles()) {
+    top = std::max(top, p.position.z + p.radius);
+  }
+  EXPECT_GT(top, 0.8 * rig.state().filled_height);
+  EXPECT_LT(rig.RecordOf("settling").end_time, 0.15);  // a drop over the whole height takes 0.03 s
+}
+
+TEST(LiftedTube, ACapEndsAPhaseAndIsReported) {
+  Case c = Coarse(0.5, 0.1);
+  c.rules.settling.max_time = 0.01;
+  c.rules.settling.hold_time = 0.01;
+  c.rules.heap.max_time = 0.012;
+  c.rules.heap.hold_time = 0.012;
+  c.rules.heap.energy_fraction = 1e-30;
+  c.rules.lift_max_time = 0.02;
+  const Outcome capped = RunToTheEnd(c);
+  EXPECT_EQ(capped.EndOf("settling"), PhaseEnd::kTimeCap);
+  EXPECT_EQ(capped.EndOf("lifting"), PhaseEnd::kTimeCap);
+  EXPECT_EQ(capped.EndOf("coming to rest"), PhaseEnd::kTimeCap);
+  // A criterion is looked at every few milliseconds.
+  EXPECT_NEAR(capped.rig->RecordOf("lifting").end_time - capped.rig->RecordOf("lifting").start_time,
+              0.02, 0.006);
+}
+
+TEST(LiftedTube, WhatSticksToTheTubeIsCarriedAwayAndCounted) {
+  Case c = Coarse(0.8, 0.5);
+  c.models.adhesion = engine::Adhesion::kDmt;
+  // Pull-off over weight: 4πγR/(mg) = 240 with itself and the tube; the plate does not hold it.
+  c.powder.material.surface_energy = 0.5;
+  c.materials.floor = WallMaterial{.surface_energy = 0};
+  const Outcome sticky = RunToTheEnd(c);
+  EXPECT_GT(sticky.Count("carried_by_tube"), sticky.Count("filled") / 2);
+  EXPECT_EQ(sticky.EndOf("lifting"), PhaseEnd::kCleared);
+}
+
+// Nothing may drive the grains of a heap at rest. Those with one contact keep the twist that the
+// collapse left them, here up to 109 rad/s, a free fall over a diameter gives 280 rad/s. Without
+// the projection in (R2) single grains gain hundreds of rad/s in this time.
+TEST(LiftedTube, NoGrainOfACohesiveHeapAtRestSpinsUp) {
+  Case c = Coarse(0.5, 0.4);
+  c.models.adhesion = engine::Adhesion::kJkr;
+  c.powder.material.surface_energy = 0.02;
+  const Outcome run = RunToTheEnd(c);
+  ASSERT_EQ(run.EndOf("coming to rest"), PhaseEnd::kAtRest);
+  engine::Simulation later = engine::Simulation::Restore(run.rig->simulation().Checkpoint());
+  later.Advance(std::llround(0.1 / later.time_step()));
+  for (const engine::Particle& p : GrainsOfHeap(later)) {
+    EXPECT_LT(base::Norm(p.angular_velocity), 150) << p.id;
+  }
+}
+
+TEST(Connectivity, FollowsContactsToThePlateAndElseToTheTube) {
+  std::vector<engine::Particle> grains(6);
+  for (int i = 0; i < 6; ++i) grains[static_cast<std::size_t>(i)].id = 10 * i;
+  constexpr std::int64_t kOnTube = -1 - kTube;
+  constexpr std::int64_t kOnPlate = -1 - kPlate;
+  const auto touch = [](std::int64_t first, std::int64_t second) {
+    return engine::ContactInfo{
+        .first = first, .second = second, .overlap = 1e-6, .normal = {}, .force = {}};
+  };
+  // 0 on the plate, 10 on 0; 20 on the tube, 30 on 20; 40 in the air; 50 on plate and tube.
+  std::vector<engine::ContactInfo> contacts{touch(0, kOnPlate), touch(0, 10), touch(20, kOnTube),
+                                            touch(20, 30), touch(50, kOnTube)};
+  Connectivity connected = Connect(grains, contacts);
+  EXPECT_EQ(connected.on_plate, (std::vector<bool>{true, true, false, false, false, false}));
+  EXPECT_EQ(connected.on_tube, (std::vector<bool>{false, false, true, true, false, true}));
+  EXPECT_FALSE(connected.tube_touches_heap);
+  contacts.push_back(touch(50, kOnPlate));
+  connected = Connect(grains, contacts);
+  EXPECT_TRUE(connected.on_plate[5]);
+  EXPECT_FALSE(connected.on_tube[5]);
+  EXPECT_TRUE(connected.tube_touches_heap);
+}
+
+engine::Particle Grain(engine::Vec3 position, engine::Vec3 velocity) {
+  static std::int64_t id = 0;
+  return {.id = id++,
+          .material = 0,
+          .radius = 0.5e-3,
+          .position = position,
+          .velocity = velocity,
+          .angular_velocity = {}};
+}
+
+// On a plate and in a tube of 10 mm, with a heap that reaches 5.5 mm out and hangs 0.5 mm over.
+TEST(CanOnlyFall, NamesWhatNothingCanBringBack) {
+  const double fast = -0.15;  // a free fall over the diameter of 1 mm ends at 0.14 m/s
+  const std::vector<engine::Particle> grains{
+      Grain({5e-3, 0, 0}, {}),                    // of the heap, over the rim
+      Grain({0, 0, 4e-3}, {0, 0, fast}),          // falls onto the heap
+      Grain({5.6e-3, 0, -0.8e-3}, {}),            // under the rim, beside what hangs there
+      Grain({5.6e-3, 0, -1.1e-3}, {}),            // lower than all that hangs
+      Grain({5.6e-3, 0, -1.1e-3}, {0, 0, 1}),     // the same, but 1 m/s takes it up by 51 mm
+      Grain({5.6e-3, 0, -0.6e-3}, {0, 0, fast}),  // touches the heap, but falls: nothing holds it
+      Grain({6.2e-3, 0, 3e-3}, {1e-3, 0, 0}),     // beyond all, moving outwards
+      Grain({6.2e-3, 0, 3e-3}, {-1e-3, 0, 0}),    // beyond all, moving back
+  };
+  Connectivity connected{.on_plate = std::vector<bool>(grains.size()),
+                         .on_tube = std::vector<bool>(grains.size())};
+  connected.on_plate[0] = connected.on_plate[5] = true;
+  const std::int64_t first = grains[0].id;
+  EXPECT_EQ(CanOnlyFall(grains, connected, LiftedTubeOptions(), 9.81),
+            (std::vector<std::int64_t>{first + 3, first + 5, first + 6}));
+}
+
+TEST(EnergyRatio, LeavesTheFastestGrainsOutAndCountsSpin) {
+  EnergyRatio energy(9.81);
+  const double fall = std::sqrt(2 * 9.81 * 1e-3);  // over a diameter: an energy of m g d
+  for (int k = 0; k < 399; ++k) energy.Add(Grain({}, {}), {}, {});
+  energy.Add(Grain({}, {}), {fall, 0, 0}, {});
+  EXPECT_NEAR(energy.Value(), 1.0 / 400, 1e-12);
+  EXPECT_EQ(energy.ValueWithoutFastest(0.005), 0);  // two grains of 400
+  EnergyRatio rolling(9.81);
+  rolling.Add(Grain({}, {}), {fall, 0, 0}, {0, fall / 0.5e-3, 0});
+  EXPECT_NEAR(rolling.Value(), 1.4, 1e-12);
+}
+
+TEST(ResistedSpins, LeaveOutTheTwistOfASingleContact) {
+  std::vector<engine::Particle> grains;
+  for (int k = 0; k < 3; ++k) grains.push_back(Grain({}, {}));
+  for (engine::Particle& p : grains) p.angular_velocity = {1, 2, 3};
+  const auto touch = [&](int i, int j) {
+    return engine::ContactInfo{.first = grains[i].id,
+                               .second = grains[j].id,
+                               .overlap = 1e-6,
+                               .normal = {0, 0, 1},
+                               .force = {}};
+  };
+  const std::vector<engine::ContactInfo> contacts{touch(0, 1), touch(1, 2)};
+  const std::vector<engine::Vec3> spins = engine::ResistedSpins(grains, contacts);
+  EXPECT_EQ(spins[0], (engine::Vec3{1, 2, 0}));
+  EXPECT_EQ(spins[1], (engine::Vec3{1, 2, 3}));
+  EXPECT_EQ(spins[2], (engine::Vec3{1, 2, 0}));
+}
+
+Case Poured(double sliding_friction, double rolling_friction) {
+  Case c = Coarse(sliding_friction, rolling_friction);
+  c.filling.kind = FillingKind::kPour;
+  return c;
+}
+
+TEST(PouredHeap, ItsGrainsAreAllThereAndItsBedIsMeasured) {
+  const Outcome dense = RunToTheEnd(Coarse(0.5, 0.2));
+  const Outcome poured = RunToTheEnd(Poured(0.5, 0.2));
+  EXPECT_EQ(poured.EndOf("pouring"), PhaseEnd::kPoured);
+  EXPECT_EQ(poured.EndOf("settling"), PhaseEnd::kAtRest);
+  EXPECT_EQ(poured.rig->state().num_filled, dense.rig->state().num_filled);
+  for (const Outcome* outcome : {&dense, &poured}) {
+    // Grains a tenth of the tube's diameter pack at 0.45 to 0.58 in it.
+    EXPECT_GT(outcome->rig->state().bed.solid_fraction, 0.42);
+    EXPECT_LT(outcome->rig->state().bed.solid_fraction, 0.60);
+    EXPECT_GT(outcome->rig->state().bed.coordination, 2.5);
+    EXPECT_LT(outcome->rig->state().bed.coordination, 6);
+  }
+}
+
+TEST(PouredHeap, AGrainThatFellOutIsNotOfTheBed) {
+  engine::Scene scene = SceneOf(Coarse(0.5, 0.2));
+  const engine::Vessel vessel{.area = 1e-4, .floor = 0};
+  const engine::Bed whole = engine::MeasureBed(engine::Simulation(scene), vessel);
+  engine::Particle lost = scene.particles.front();
+  lost.id = static_cast<std::int64_t>(scene.particles.size());
+  lost.position = {0.02, 0, -0.1};
+  scene.particles.push_back(lost);
+  const engine::Bed bed = engine::MeasureBed(engine::Simulation(scene), vessel);
+  EXPECT_EQ(bed.height, whole.height);
+  EXPECT_EQ(bed.solid_fraction, whole.solid_fraction);
+}
+
+// What the powder weighs over what it fills; a bed of a tenth of the tube's width packs loosely.
+TEST(LiftedTube, TheBulkDensityIsThatOfTheBedBeforeTheLift) {
+  const Outcome run = RunToTheEnd(Coarse(0.5, 0.2));
+  const auto result = nlohmann::json::parse(run.rig->ResultText(run.heap, {}));
+  const double area = std::numbers::pi / 4 * 0.01 * 0.01;
+  const double volume = area * result["bed"]["height_m"].get<double>();
+  EXPECT_NEAR(result["observables"]["bulk_density_kg_per_m3"].get<double>(), 0.2e-3 / volume,
+              0.01 * 0.2e-3 / volume);  // a whole number of grains
+}
+
+TEST(LiftedTube, AFunnelThatWouldPourForHoursIsRefused) {
+  Case c = Poured(0.5, 0.2);
+  c.filling.rate = 3e-11;
+  base::Problems problems;
+  ValidateCase(c, problems);
+  ASSERT_EQ(problems.list().size(), 1);
+  EXPECT_EQ(problems.list().front().path, "filling.rate");
+  EXPECT_THAT(problems.list().front().message, ::testing::HasSubstr("raise it to"));
+}
+
+TEST(PouredHeap, TapsMakeTheBedDenser) {
+  Case c = Poured(0.5, 0.2);
+  c.filling.taps = TapRule{.count = 5, .height = 1e-3, .interval = 0.08};
+  const Outcome tapped = RunToTheEnd(c);
+  const Outcome poured = RunToTheEnd(Poured(0.5, 0.2));
+  EXPECT_EQ(tapped.EndOf("tapping"), PhaseEnd::kTapped);
+  EXPECT_GT(tapped.rig->state().bed.solid_fraction, poured.rig->state().bed.solid_fraction + 0.005);
+}
+
+TEST(PouredHeap, ARestartWhilePouringGoesOnWithTheSameBits) {
+  const Case c = Poured(0.5, 0.2);
+  const auto whole = MakeRig(c);
+  const auto first = MakeRig(c);
+  for (int k = 0; k < 8; ++k) first->Advance();
+  ASSERT_EQ(first->phase_name(), "pouring");
+  ASSERT_GT(first->simulation().num_particles(), 0);
+  const auto second = RestoreRig(c, first->StateLine(),
+                                 engine::Simulation::Restore(first->simulation().Checkpoint()));
+  while (second->phase_name() != "lifting") second->Advance();
+  while (whole->phase_name() != "lifting") whole->Advance();
+  EXPECT_EQ(whole->StateLine(), second->StateLine());
+  EXPECT_TRUE(whole->simulation().Checkpoint() == second->simulation().Checkpoint());
+}
+
+// (δ/R)^(5/2) = (5π/4) ρ v²/E* on a wall.
+TEST(PouredHeap, SoftGrainsFromAHeightAreRefusedWithWhatHolds) {
+  const auto problems_of = [](const Case& c) {
+    base::Problems problems;
+    ValidateCase(c, problems);
+    std::string text;
+    for (const base::Problem& p : problems.list()) text += p.path + ": " + p.message + "\n";
+    return text;
+  };
+  Case c = Poured(0.5, 0.2);
+  c.filling.drop_height = 67e-3;
+  EXPECT_EQ(problems_of(c), "");
+  c.powder.material.youngs_modulus = 2e4;
+  EXPECT_GT(ImpactShare(c, LiftedTubeRig::VesselOf(c)), kMaxImpactShare);
+  EXPECT_NE(problems_of(c).find("filling.drop_height: lets grains sink"), std::string::npos);
+  const double share = ImpactShare(c, LiftedTubeRig::VesselOf(c));
+  c.powder.material.youngs_modulus *= 32;
+  EXPECT_NEAR(ImpactShare(c, LiftedTubeRig::VesselOf(c)) / share, 0.25, 1e-6);
+  c.filling.mouth_diameter = 10e-3;
+  EXPECT_NE(problems_of(c).find("must be below device.tube_inner_diameter"), std::string::npos);
+  c.filling.kind = FillingKind::kDense;
+  base::Problems problems;
+  c.filling.Validate(problems);
+  EXPECT_FALSE(problems.empty());  // a drop height belongs to pouring
+}
+
+TEST(Landing, WithinADiameterOfTheHeapAGrainBelongsToIt) {
+  const double r = 1e-3;
+  const auto at = [&](double x, double z) {
+    return engine::Particle{.radius = r, .position = {x, 0, z}};
+  };
+  // On the plate; just above it; two diameters above the plate; above the second, which lands;
+  // beside the plate; above the first by more than a diameter.
+  const std::vector<engine::Particle> grains{at(0, r),           at(4e-3, 1.5 * r),
+                                             at(8e-3, 5.5 * r),  at(4e-3, 3.6 * r),
+                                             at(20e-3, 1.2 * r), at(0, 5.1 * r)};
+  std::vector<bool> on_heap{true, false, false, false, false, false};
+  AddLanding(grains, 10e-3, on_heap);
+  EXPECT_EQ(on_heap, (std::vector<bool>{true, true, false, true, false, false}));
+}
+
+}  // namespace
+}  // namespace talus::rigs

@@ -1,0 +1,153 @@
+#include "imaging/drums/drum.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "imaging/drums/drum_overlay.h"
+#include "imaging/formats/images/image_file.h"
+#include "tests/imaging/photo_folder.h"
+
+namespace talus::imaging {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kSide = 300;          // of the picture [px]
+constexpr double kCenterX = 152.3;  // of the drum [px]
+constexpr double kCenterY = 147.6;
+constexpr double kRadius = 140;
+
+// A drum lit from behind, with a dark ring, before a wall that is neither; its powder lies below a
+// plane that is `depth` radii below the axis and falls to the right by `angle`.
+struct Drawn {
+  double angle = 0;    // [rad]
+  double depth = 0.2;  // [-]
+};
+
+double Level(const Drawn& drawn, double x, double y) {
+  const double right = x - kCenterX, up = kCenterY - y;
+  const double r = std::hypot(right, up);
+  if (r > kRadius) return 170;
+  if (r > kRadius - 4) return 15;
+  const double above = up * std::cos(drawn.angle) + right * std::sin(drawn.angle);
+  return above < -drawn.depth * kRadius ? 25 : 240;
+}
+
+// Each pixel is the mean of 4 × 4 points, as a camera's is.
+GrayImage Draw(const Drawn& drawn) {
+  GrayImage image{.width = kSide, .height = kSide, .pixels = {}};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      double sum = 0;
+      for (int i = 0; i < 16; ++i) {
+        sum += Level(drawn, x + (i % 4 + 0.5) / 4, y + (i / 4 + 0.5) / 4);
+      }
+      image.pixels.push_back(static_cast<std::uint8_t>(sum / 16 + 0.5));
+    }
+  }
+  return image;
+}
+
+fs::path Write(const std::string& name, const GrayImage& image) {
+  const fs::path file = fs::path(testing::TempDir()) / ("drum_" + name + ".png");
+  WritePng(file, image);
+  return file;
+}
+
+MeasuredDrum Measure(const Drawn& drawn) {
+  return MeasureDrum({.photos = {Write("one", Draw(drawn))}, .diameter = 0.084});
+}
+
+// The share of a disc below a chord that is `depth` radii of `radius` from its centre.
+double Segment(double depth) {
+  return (std::acos(depth) - depth * std::sqrt(1 - depth * depth)) / std::numbers::pi;
+}
+
+class DrumAngles : public testing::TestWithParam<double> {};
+
+// A line through some 70 columns, each known to a tenth of a pixel: 0.1 degrees. The ring's blur
+// moves the circle by less than half a pixel in 140.
+TEST_P(DrumAngles, AngleFillCircleAndTurningComeBack) {
+  const double angle = GetParam() * kDegree;
+  const MeasuredDrum drum = Measure({.angle = angle});
+  EXPECT_NEAR(drum.map.circle.center_x, kCenterX, 0.5);
+  EXPECT_NEAR(drum.map.circle.center_y, kCenterY, 0.5);
+  EXPECT_NEAR(drum.map.circle.radius, kRadius, 0.7);
+  EXPECT_NEAR(drum.angle.value / kDegree, std::abs(GetParam()), 0.2);
+  EXPECT_EQ(drum.turning, angle > 0 ? Turning::kClockwise : Turning::kCounterClockwise);
+  const double depth = 0.2 * kRadius / drum.map.inner_radius;
+  EXPECT_NEAR(drum.surface.fill, Segment(depth), 0.005);
+  EXPECT_LT(drum.map.inner_radius, kRadius - 4);  // the ring is left out
+  EXPECT_GT(drum.map.inner_radius, kRadius - 8);
+}
+INSTANTIATE_TEST_SUITE_P(BothWays, DrumAngles, testing::Values(-50, -20, 5, 33, 60));
+
+// Angles of 32, 33 and 34 degrees: their mean, a standard error of 1/√3, and a surface that moves.
+TEST(Drum, SeriesHasErrors) {
+  std::vector<fs::path> photos;
+  for (const double angle : {32.0, 33.0, 34.0}) {
+    photos.push_back(Write(std::to_string(angle), Draw({.angle = angle * kDegree})));
+  }
+  const MeasuredDrum drum = MeasureDrum({.photos = photos, .diameter = 0.084});
+  EXPECT_NEAR(drum.angle.value / kDegree, 33, 0.2);
+  EXPECT_NEAR(drum.angle.standard_error / kDegree, 1 / std::sqrt(3.0), 0.05);
+  EXPECT_GT(drum.surface_sd, 0);
+}
+
+// A drum that turns the other way is the mirror image of one that turns as the rig does.
+TEST(Drum, ProfileTurnsClockwise) {
+  for (const double angle : {33 * kDegree, -33 * kDegree}) {
+    const Profile profile = DrumProfile(Measure({.angle = angle}));
+    const int x = static_cast<int>(profile.frame.center_x);
+    const int y = static_cast<int>(profile.frame.baseline - kRadius);  // of the axis
+    EXPECT_EQ(profile.image.at(x - 80, y), 0) << angle;  // 80 px left of it: 15 px below the plane
+    EXPECT_EQ(profile.image.at(x + 80, y), 255) << angle;
+    EXPECT_NEAR(profile.frame.plate_diameter, 0.084, 1e-12);
+    base::Problems problems;
+    profile.frame.Validate(problems);
+    EXPECT_TRUE(problems.empty());
+  }
+}
+
+TEST(Drum, WhatWasFoundIsDrawn) {
+  const Drawn drawn{.angle = 33 * kDegree};
+  const ColorImage picture = DrawDrum(Draw(drawn), Measure(drawn));
+  for (const Color& color : {Color{230, 30, 30}, Color{40, 90, 240}, Color{0, 170, 60}}) {
+    EXPECT_TRUE(std::ranges::find(picture.pixels, color) != picture.pixels.end());
+  }
+}
+
+std::string ErrorOf(const DrumPhotos& options) {
+  try {
+    MeasureDrum(options);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Drum, ErrorsSayWhatToDo) {
+  const fs::path good = Write("good", Draw({.angle = 33 * kDegree}));
+  EXPECT_THAT(ErrorOf({.photos = {good}, .diameter = 84}), HasSubstr("84 mm"));
+  EXPECT_THAT(ErrorOf({.photos = {good}, .diameter = 0.084, .turning = Turning::kCounterClockwise}),
+              HasSubstr("higher on the left"));
+  const GrayImage blank{.width = 50, .height = 50, .pixels = std::vector<std::uint8_t>(2500, 99)};
+  EXPECT_THAT(ErrorOf({.photos = {Write("blank", blank)}, .diameter = 0.084}),
+              HasSubstr("no drum found"));
+  const fs::path empty = Write("empty", Draw({.depth = 2}));
+  EXPECT_THAT(ErrorOf({.photos = {empty}, .diameter = 0.084}), HasSubstr("shows no powder"));
+  GrayImage moved = Draw({.angle = 33 * kDegree});
+  std::rotate(moved.pixels.begin(), moved.pixels.begin() + 5, moved.pixels.end());
+  EXPECT_THAT(ErrorOf({.photos = {good, Write("moved", moved)}, .diameter = 0.084}),
+              HasSubstr("stands still"));
+}
+
+}  // namespace
+}  // namespace talus::imaging

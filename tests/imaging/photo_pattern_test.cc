@@ -1,0 +1,74 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "imaging/photos/photo_set.h"
+#include "tests/imaging/photo_folder.h"
+
+namespace talus::imaging {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+void Touch(const fs::path& file) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << "x";
+}
+
+// "3 runs: 1 of 2 views, …" as far as a test needs it.
+std::string Read(const fs::path& folder, const std::string& pattern) {
+  std::string text;
+  for (const PhotoFiles& run : FindPhotos(folder, pattern).runs) {
+    text += (text.empty() ? "" : " ") + run.run + ":" + std::to_string(run.views.size());
+  }
+  return text;
+}
+
+TEST(PhotoPattern, FolderIsAHeap) {
+  const fs::path folder = EmptyFolder("folders");
+  for (const char* name : {"monday 1/IMG_7.jpg", "monday 1/IMG_8.jpg", "monday 2/IMG_9.JPG",
+                           "monday 2/IMG_12.JPG", "monday 2/notes.txt"}) {
+    Touch(folder / name);
+  }
+  EXPECT_EQ(Read(folder, "{run}/*.jpg"), "monday 1:2 monday 2:2");
+  EXPECT_EQ(Read(folder, "{run}/{view}.jpg").size(), std::string("monday 1:2 monday 2:2").size());
+  EXPECT_EQ(Read(folder, "{run}/*"), "monday 1:2 monday 2:2");
+  EXPECT_EQ(RecognisePattern(folder), "{run}/*");
+}
+
+TEST(PhotoPattern, NoPartReachesIntoAFolder) {
+  const fs::path folder = EmptyFolder("reach");
+  Touch(folder / "a/b_1.jpg");
+  EXPECT_THROW(FindPhotos(folder, "*"), base::ConfigError);
+  EXPECT_THROW(FindPhotos(folder, "{run}_{view}.jpg"), base::ConfigError);
+  EXPECT_EQ(Read(folder, "{run}/*_{view}.jpg"), "a:1");
+}
+
+TEST(PhotoPattern, NamesTellOfRuns) {
+  const auto recognise = [](std::vector<fs::path> files) { return RecognisePattern(files); };
+  EXPECT_EQ(recognise({"run1_view1.jpg", "run1_view2.jpg"}), kUsualPattern);
+  EXPECT_EQ(recognise({"h1_01.jpg", "h1_02.jpg", "h2_01.jpg", "h2_02.jpg"}), "{run}_{view}.*");
+  EXPECT_EQ(recognise({"h1-01.jpg", "h1-02.jpg", "h2-01.jpg", "h2-02.jpg"}), "{run}-{view}.*");
+  EXPECT_EQ(recognise({"a/1.jpg", "b/1.jpg"}), "{run}/*");
+  // A phone's names: views of one heap.
+  EXPECT_EQ(recognise({"IMG_20240101_1201.jpg", "IMG_20240101_1202.jpg"}), "*");
+}
+
+TEST(PhotoPattern, ErrorSaysWhatIsThereAndWhatMayFit) {
+  const fs::path folder = EmptyFolder("there");
+  for (const char* name : {"one/a.jpg", "two/a.jpg"}) Touch(folder / name);
+  try {
+    FindPhotos(folder, kUsualPattern);
+    FAIL() << "no error";
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("there are one/, two/"));
+    EXPECT_THAT(error.what(), HasSubstr("\"{run}/*\""));
+  }
+}
+
+}  // namespace
+}  // namespace talus::imaging

@@ -1,0 +1,109 @@
+#include "optimizer/outputs/output_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr int kPoints = 25;
+constexpr int kElements = 30;
+
+// Curves along 30 places that depend on two parameters in three smooth ways.
+Eigen::VectorXd Curve(const Eigen::VectorXd& x) {
+  Eigen::VectorXd curve(kElements);
+  for (Eigen::Index i = 0; i < curve.size(); ++i) {
+    const double s = static_cast<double>(i) / kElements;
+    curve[i] = 3 * std::sin(2 * x[0]) * s + x[0] * x[1] * std::cos(3 * s) + x[1] * x[1] * s * s;
+  }
+  return curve;
+}
+
+// The first `count` of kPoints evaluations.
+OutputData MakeData(double noise, int count = kPoints) {
+  base::Random random(5, base::Stream("output model test"));
+  OutputData data;
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Vector2d x(random.Uniform(), random.Uniform());
+    Eigen::VectorXd vector = Curve(x);
+    for (double& element : vector) element += noise * random.Normal();
+    if (i >= count) continue;
+    data.points.push_back(x);
+    data.level.push_back(0);
+    data.vectors.push_back(vector);
+    data.scalars.emplace_back();
+  }
+  return data;
+}
+
+TEST(OutputModel, PredictsCurvesItHasNotSeen) {
+  const OutputModel model({.deterministic = true}, MakeData(0), nullptr);
+  const Eigen::Vector2d x(0.4, 0.6);
+  const Eigen::VectorXd predicted =
+      model.modes().mean +
+      model.modes().basis * model.PredictModes(x.transpose()).mean.row(0).transpose();
+  // The curves differ by about 1; 25 points in two dimensions leave a few thousandths.
+  EXPECT_LT((predicted - Curve(x)).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_EQ(model.ElementNoise(), Eigen::VectorXd::Zero(kElements));
+}
+
+TEST(OutputModel, NoiseOfElementsIsThatOfTheData) {
+  const OutputModel model({}, MakeData(0.1), nullptr);
+  // 25 points tell a variance to within √(2/25) ≈ 30 % a mode. Noise that is the same along every
+  // mode is not what heaps have (output_noise.h): the prior takes it for more along the strongest.
+  EXPECT_NEAR(std::sqrt(model.ElementNoise().mean()) / 0.1, 1, 0.3);
+}
+
+TEST(OutputModel, LeaveOneOutIsFittingWithoutTheEvaluation) {
+  const OutputData all = MakeData(0.05);
+  const OutputModel model({}, all, nullptr);
+  const OutputState frozen = model.state();
+  const ModeMoments left_out = model.LeaveModesOut();
+  const OutputModel fewer({}, MakeData(0.05, kPoints - 1), &frozen);
+  const ModeMoments refitted = fewer.PredictModes(all.points.back().transpose());
+  const Eigen::RowVectorXd mean = left_out.mean.row(kPoints - 1);
+  const Eigen::RowVectorXd variance = left_out.variance.row(kPoints - 1);
+  // One is a formula, the other an elimination: rounding times the condition of the matrices.
+  EXPECT_LT((mean - refitted.mean).norm(), 1e-8);
+  EXPECT_LT((variance - refitted.variance - fewer.ModeNoise().transpose()).norm(), 1e-8);
+}
+
+TEST(OutputModel, LeavesReplicatesOutTogether) {
+  OutputData data = MakeData(0.05);
+  data.points[4] = data.points[1];
+  const OutputModel model({}, data, nullptr);
+  const Eigen::MatrixXd z = model.LeaveOneOut();
+  EXPECT_TRUE(z.row(1).allFinite());
+  EXPECT_TRUE(z.row(4).array().isNaN().all());
+}
+
+TEST(OutputModel, AFantasyLeavesTheMeanAndTakesVariance) {
+  OutputModel model({}, MakeData(0.05), nullptr);
+  const Eigen::RowVector2d x(0.3, 0.8);
+  const ModeMoments before = model.PredictModes(x);
+  model.AddFantasy(x.transpose());
+  const ModeMoments after = model.PredictModes(x);
+  EXPECT_LT((after.mean - before.mean).norm(), 1e-8);
+  EXPECT_TRUE((after.variance.array() < before.variance.array()).all());
+}
+
+// A number that some evaluations do not have is modelled by the others.
+TEST(OutputModel, SkipsUndefinedNumbers) {
+  OutputData data = MakeData(0.05);
+  for (int i = 0; i < kPoints; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    data.scalars[k] = {i % 5 == 0 ? NAN : 3 + data.points[k][0]};
+  }
+  const ScalarTarget target{.name = "mass", .value = 3.5, .standard_error = 0.1};
+  const OutputModel model({.scalars = {target}}, data, nullptr);
+  const Eigen::RowVector2d x(0.5, 0.5);
+  const Eigen::Index number = model.num_modes();
+  EXPECT_NEAR(model.output(number).PredictAll(x).mean[0], Compress(target, 3.5), 0.02);
+  EXPECT_TRUE(std::isnan(model.LeaveOneOut()(5, number)));
+}
+
+}  // namespace
+}  // namespace talus::optimizer

@@ -1,0 +1,216 @@
+#include "optimizer/strategy/posterior_strategy.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "optimizer/posterior/branches.h"
+
+namespace talus::optimizer {
+namespace {
+
+using testing::ElementsAre;
+
+// A powder whose test has two numbers: sliding and rolling friction together, and their balance.
+// Coarse grains change both.
+std::vector<double> Measure(const Eigen::VectorXd& x, double factor, int run) {
+  base::Random random(11, base::Stream("numbers"), static_cast<std::uint64_t>(run));
+  const double coarse = factor - 1;
+  const double noise = 0.02 * std::pow(factor, 1.5);
+  return {1 + x[0] + x[1] + 0.4 * coarse * x[1] + noise * random.Normal(),
+          2 + 0.5 * (x[0] - x[1]) - 0.2 * coarse + noise * random.Normal()};
+}
+
+struct Twin {
+  Eigen::Vector2d truth{0.45, 0.3};
+  std::vector<double> factors{2, 1};
+  double target = 0;
+  bool balance = true;  // whether the second number is measured
+  std::uint64_t seed = 1;
+  double weight = 1;
+
+  ExperimentTarget MakeTarget() const {
+    const double sum = 1 + truth[0] + truth[1];
+    ExperimentTarget made{.name = "twin", .scalars = {{"sum", sum, 0.01}}};
+    if (balance) made.scalars.push_back({"balance", 2 + 0.5 * (truth[0] - truth[1]), 0.01});
+    made.weight = weight;
+    return made;
+  }
+  std::unique_ptr<PosteriorStrategy> Make() const {
+    return std::make_unique<PosteriorStrategy>(
+        PosteriorStrategyOptions{.scale_factors = factors, .target = target, .seed = seed},
+        Domain{.num_parameters = 2}, std::vector{MakeTarget()});
+  }
+  Observation Simulate(const Proposal& p, int run) const {
+    Observation observation{
+        .point = p.point,
+        .scale_factor = p.scale_factor,
+        .cost = std::pow(p.scale_factor, -4),
+        .scalars = Measure(p.point, p.scale_factor, run + 1000 * static_cast<int>(seed))};
+    if (!balance) observation.scalars.resize(1);
+    return observation;
+  }
+  std::unique_ptr<PosteriorStrategy> Search(int count) const {
+    auto strategy = Make();
+    for (int i = 0; i < count; ++i) strategy->Tell(Simulate(strategy->AskAt(1, {}).front(), i));
+    return strategy;
+  }
+};
+
+TEST(PosteriorStrategy, AnswersForTheTargetThatCoarseGrainsMiss) {
+  const Twin twin;
+  const Answer answer = twin.Search(24)->Recommend();
+  // At scale factor 2 the same numbers belong to (0.52, 0.17): 0.15 away.
+  EXPECT_LT((answer.point - twin.truth).norm(), 0.06);
+  ASSERT_TRUE(answer.posterior);
+  EXPECT_EQ(answer.posterior->target_scale_factor, 1);
+  EXPECT_FALSE(answer.posterior->is_extrapolated);
+  EXPECT_TRUE(answer.posterior->unlearnt_scale_factors.empty());
+}
+
+TEST(PosteriorStrategy, JointRegionsHoldTheTruthAsOftenAsTheySay) {
+  constexpr int kTwins = 12;
+  int covered = 0;
+  for (int seed = 1; seed <= kTwins; ++seed) {
+    Twin twin{.seed = static_cast<std::uint64_t>(seed)};
+    twin.truth = {0.2 + 0.05 * seed, 0.85 - 0.05 * seed};
+    const auto standing = twin.Search(18)->Consider(twin.truth);
+    covered += standing->credible_level <= 0.9 ? 1 : 0;
+  }
+  // 90 % expected: fewer than 8 of 12 has a probability of 0.4 %.
+  EXPECT_GE(covered, 8);
+}
+
+// A Gaussian to the power 4 has half the standard deviation: a quarter of the area in two
+// parameters. The tails are heavier than that, and the region's edge is drawn from a sample.
+TEST(PosteriorStrategy, AWeightIsThePowerOfTheLikelihood) {
+  Twin twin;
+  std::vector<Observation> told;
+  const auto strategy = twin.Make();
+  for (int i = 0; i < 24; ++i) {
+    told.push_back(twin.Simulate(strategy->AskAt(1, {}).front(), i));
+    strategy->Tell(told.back());
+  }
+  const double once = strategy->Recommend().posterior.value().region_volume;
+  twin.weight = 4;
+  const auto weighted = twin.Make();
+  for (const Observation& observation : told) weighted->Tell(observation);
+  const double four = weighted->Recommend().posterior.value().region_volume;
+  EXPECT_GT(four, 0.12 * once);
+  EXPECT_LT(four, 0.5 * once);
+  // Whether a set fits is another question than how much it counts.
+  EXPECT_EQ(weighted->Consider(twin.truth)->experiments[0].implausibility,
+            strategy->Consider(twin.truth)->experiments[0].implausibility);
+}
+
+TEST(PosteriorStrategy, OneNumberLeavesAValleyInOnePiece) {
+  const Twin twin{.balance = false};
+  const Answer answer = twin.Search(40)->Recommend();
+  const PosteriorBranch& branch = answer.posterior->branches.front();
+  EXPECT_EQ(answer.posterior->branches.size(), 1U);
+  // Of x + y = 0.75 all is left, from one edge of the box to the other.
+  EXPECT_GT(branch.high[0] - branch.low[0], 0.5);
+  EXPECT_LT(answer.correlation(0, 1), -0.9);
+  EXPECT_NEAR(answer.point.sum(), 0.75, 0.1);
+}
+
+TEST(PosteriorStrategy, SpendsMostSimulationsOnCheapGrainsButLearnsTheDiscrepancy) {
+  const Twin twin;
+  auto strategy = twin.Make();
+  int fine = 0;
+  for (int i = 0; i < 24; ++i) {
+    const Proposal p = strategy->AskAt(1, {}).front();
+    fine += p.scale_factor == 1 ? 1 : 0;
+    strategy->Tell(twin.Simulate(p, i));
+  }
+  EXPECT_GE(fine, 3);
+  EXPECT_LE(fine, 12);
+}
+
+TEST(PosteriorStrategy, ToldTheSameItProposesTheSame) {
+  const Twin twin;
+  auto first = twin.Make();
+  std::vector<Observation> told;
+  for (int i = 0; i < 17; ++i) {
+    told.push_back(twin.Simulate(first->AskAt(1, {}).front(), i));
+    first->Tell(told.back());
+  }
+  auto second = twin.Make();
+  for (const Observation& observation : told) second->Tell(observation);
+  const Proposal a = first->AskAt(1, {}).front();
+  const Proposal b = second->AskAt(1, {}).front();
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.scale_factor, b.scale_factor);
+  EXPECT_EQ(first->Recommend().point, second->Recommend().point);
+}
+
+TEST(PosteriorStrategy, BatchesDoNotRepeatThemselves) {
+  const Twin twin;
+  auto strategy = twin.Search(16);
+  const auto batch = strategy->AskAt(4, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GT((batch[i].point - batch[j].point).norm(), 1e-6) << i << " and " << j;
+    }
+  }
+}
+
+TEST(PosteriorStrategy, SaysThatItExtrapolates) {
+  const Twin twin{.factors = {3, 2, 1.5}, .target = 1};
+  const auto strategy = twin.Search(30);
+  const Answer answer = strategy->Recommend();
+  EXPECT_TRUE(answer.posterior->is_extrapolated);
+  EXPECT_EQ(answer.posterior->target_scale_factor, 1);
+  // The region is as wide as the growth of the discrepancy leaves it, and holds the truth.
+  EXPECT_LE(strategy->Consider(twin.truth)->credible_level, 0.9);
+  EXPECT_LT((answer.point - twin.truth).norm(), 0.15);
+}
+
+TEST(PosteriorStrategy, NamesScaleFactorsWithoutEvaluations) {
+  const Twin twin;
+  auto strategy = twin.Make();
+  for (int i = 0; i < 12; ++i) strategy->Tell(twin.Simulate(strategy->AskAt(1, {}).front(), i));
+  EXPECT_THAT(strategy->Recommend().posterior->unlearnt_scale_factors, ElementsAre(1));
+}
+
+TEST(PosteriorStrategy, FailedSimulationsAreNotProposedAgain) {
+  const Twin twin;
+  auto strategy = twin.Make();
+  for (int i = 0; i < 20; ++i) {
+    const Proposal p = strategy->AskAt(1, {}).front();
+    if (p.point[0] > 0.7) {
+      strategy->Tell({.point = p.point, .scale_factor = p.scale_factor, .failed = true});
+    } else {
+      strategy->Tell(twin.Simulate(p, i));
+    }
+  }
+  EXPECT_LT(strategy->Recommend().point[0], 0.7);
+}
+
+TEST(PosteriorStrategy, TwoExperimentsAreEachSimulatedAndDecideTogether) {
+  const Twin one{.balance = false};
+  std::vector<ExperimentTarget> targets{one.MakeTarget()};
+  targets.push_back({.name = "second", .scalars = {{"balance", 2.075, 0.01}}});
+  PosteriorStrategy strategy({.scale_factors = {2, 1}, .seed = 3}, {.num_parameters = 2}, targets);
+  std::array<int, 2> count{};
+  for (int i = 0; i < 44; ++i) {
+    const Proposal p = strategy.AskAt(1, {}).front();
+    ++count.at(static_cast<std::size_t>(p.experiment));
+    const std::vector<double> both = Measure(p.point, p.scale_factor, i);
+    strategy.Tell({.point = p.point,
+                   .experiment = p.experiment,
+                   .scale_factor = p.scale_factor,
+                   .cost = std::pow(p.scale_factor, -4),
+                   .scalars = {both[static_cast<std::size_t>(p.experiment)]}});
+  }
+  EXPECT_GE(std::min(count[0], count[1]), 12);
+  const Answer answer = strategy.Recommend();
+  EXPECT_LT((answer.point - one.truth).norm(), 0.1);
+  EXPECT_THAT(answer.posterior->experiments, testing::SizeIs(2));
+}
+
+}  // namespace
+}  // namespace talus::optimizer
