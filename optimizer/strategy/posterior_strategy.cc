@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "optimizer/designs/design.h"
+#include "optimizer/outputs/modelled.h"
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"
 #include "optimizer/search/size_to_fit.h"
@@ -22,18 +23,6 @@ constexpr double kEdgeError =
     0.1;                          // of the powder: above it, heaps overhang and pixels serve better
 constexpr double kExploring = 4;  // softness of every other sample of candidates
 constexpr int kCandidates = 48;
-
-OutputData FirstOf(const OutputData& data, int count) {
-  const auto n = static_cast<std::ptrdiff_t>(count);
-  OutputData first;
-  first.points.assign(data.points.begin(), data.points.begin() + n);
-  first.level.assign(data.level.begin(), data.level.begin() + n);
-  if (!data.vectors.empty()) {
-    first.vectors.assign(data.vectors.begin(), data.vectors.begin() + n);
-  }
-  first.scalars.assign(data.scalars.begin(), data.scalars.begin() + n);
-  return first;
-}
 
 // Σ |image - what its column edges make of it| / Σ image.
 double EdgeError(const surrogate::FieldCode& code, const std::vector<float>& field,
@@ -96,6 +85,7 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   }
   // An image that was lost leaves nothing to learn from.
   if (observation.failed || (!told.codes.empty() && observation.field.empty())) return;
+  told.values.push_back(observation.value);
   for (std::size_t c = 0; c < told.by_code.size(); ++c) {
     OutputData& data = told.by_code[c];
     data.points.push_back(observation.point);
@@ -124,10 +114,11 @@ Posterior PosteriorStrategy::MakePosterior() {
                                        .code = told.codes.empty() ? nullptr : told.codes[code],
                                        .levels = &levels_,
                                        .model_error = options_.model_error};
-    data.push_back(told.by_code[code]);
+    const OutputData& all = told.by_code[code];
+    data.push_back(Modelled(all, told.values, all.size()));
     const int count = SizeToFit(told.size(), kFewest);
     if (!told.state || told.num_fitted != count || told.fitted_code != code) {
-      const ExperimentModel fitted(setup, FirstOf(data.back(), count), nullptr);
+      const ExperimentModel fitted(setup, Modelled(all, told.values, count), nullptr);
       told.state = fitted.state();
       told.num_fitted = count;
       told.fitted_code = code;

@@ -46,6 +46,7 @@ class PosteriorStrategy : public Strategy {
   struct Told {
     std::vector<std::shared_ptr<const surrogate::FieldCode>> codes;
     std::vector<OutputData> by_code;  // one a code; one without code where there is no image
+    std::vector<double> values;       // objectives
     double edge_error = 0;            // Σ |image - its column edges| / Σ image
     std::vector<double> cost;         // Σ over told evaluations [core s], one a level
     std::vector<int> count;           // of these

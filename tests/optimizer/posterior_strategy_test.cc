@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "optimizer/designs/design.h"
 #include "optimizer/posterior/branches.h"
 
 namespace talus::optimizer {
@@ -69,6 +70,19 @@ TEST(PosteriorStrategy, AnswersForTheTargetThatCoarseGrainsMiss) {
   EXPECT_EQ(answer.posterior->target_scale_factor, 1);
   EXPECT_FALSE(answer.posterior->is_extrapolated);
   EXPECT_TRUE(answer.posterior->unlearnt_scale_factors.empty());
+}
+
+// A model of all of them would take hours.
+TEST(PosteriorStrategy, OfManyEvaluationsAPartIsModelled) {
+  const Twin twin;
+  const auto strategy = twin.Make();
+  const Points points = Sobol(3000, 2, 1);
+  for (int i = 0; i < 3000; ++i) {
+    strategy->Tell(twin.Simulate(
+        {.point = points[static_cast<std::size_t>(i)], .scale_factor = i % 2 == 0 ? 2.0 : 1.0}, i));
+  }
+  // A tenth of the noise of one simulation would be .002; what a part leaves of it is below .03.
+  EXPECT_LT((strategy->Recommend().point - twin.truth).norm(), 0.03);
 }
 
 TEST(PosteriorStrategy, JointRegionsHoldTheTruthAsOftenAsTheySay) {

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/parallel_for.h"
 #include "tests/experiments/fake_heap.h"
 
 namespace talus::campaign {
@@ -45,6 +46,9 @@ inline pid_t StartSession(const std::filesystem::path& folder, const FakeEngineO
                           const SessionLimits& limits = {}) {
   const pid_t child = ::fork();
   if (child != 0) return child;
+  // Threads do not survive a fork: the first parallel loop of the child would wait for them for
+  // ever.
+  base::SetMostLoopThreads(1);
   if (limits.lifetime > 0) DieAfter(limits.lifetime);
   if (limits.largest_file != RLIM_INFINITY) {
     ::signal(SIGXFSZ, SIG_IGN);

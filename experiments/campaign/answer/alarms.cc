@@ -131,9 +131,10 @@ std::vector<Alarm> SearchAlarms(const Answer& answer,
       confirmed != nullptr ? ErrorOf(experiment, *confirmed) : OrZero(standing->predicted_sd);
   const double factor =
       confirmed != nullptr ? answer.confirmed.front().scale_factor : answer.conditions.scale_factor;
-  const journal::TrialRecord* best = BestOfSearch(trials, references.front(), 0, factor);
+  const Reference& reference = references[0];  // of `experiment`, the first
+  const journal::TrialRecord* best = BestOfSearch(trials, reference, 0, factor);
   if (best == nullptr || !std::isfinite(shown)) return {};
-  const double excess = shown - *references.front().Value(*best);
+  const double excess = shown - *reference.Value(*best);
   // The best of many trials owes something to luck: its own scatter counts.
   if (!(excess > kSurprise * std::hypot(error, experiment.noise_sd.value_or(0))) ||
       !(excess > kLeastShare * shown)) {

@@ -11,6 +11,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::campaign {
 namespace {
@@ -84,13 +85,14 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
   const JointView view = ReadJointView(root);
   const Eigen::VectorXd point = ReadSet(view.space, set);
   const auto strategy = StrategyOf(view, view.Answered());
-  ConsideredSet considered{.parameters = view.record.parameters,
-                           .values = FreeValues(view.space, point),
-                           .target_scale_factor = view.spec.coarse_graining.Target(),
-                           .credible_level = {},
-                           .experiments = {},
-                           .nearest = NearestTrials(view.trials, view.references, point),
-                           .objective_unit = std::string(view.references.front().info().unit)};
+  ConsideredSet considered{
+      .parameters = view.record.parameters,
+      .values = FreeValues(view.space, point),
+      .target_scale_factor = view.spec.coarse_graining.Target(),
+      .credible_level = {},
+      .experiments = {},
+      .nearest = NearestTrials(view.trials, view.references, point),
+      .objective_unit = std::string(journal::InfoOf(view.spec.objective).unit)};
   if (const auto standing = strategy->Consider(point)) {
     considered.credible_level = standing->credible_level;
     considered.experiments = StandingsOf(standing->experiments);

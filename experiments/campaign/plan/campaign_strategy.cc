@@ -60,7 +60,8 @@ std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategy(
 std::unique_ptr<optimizer::Strategy> MakeProposer(const CampaignSpec& spec,
                                                   const std::vector<Reference>& references) {
   if (!spec.HasOwnProposer()) return nullptr;
-  const optimizer::FieldObjective field = references.front().MakeFieldObjective();
+  // A proposer of its own knows one experiment only.
+  const optimizer::FieldObjective field = references.at(0).MakeFieldObjective();
   return optimizer::MakeStrategy(spec.strategy, SpaceOf(spec).MakeDomain(), &field, spec.seed);
 }
 
