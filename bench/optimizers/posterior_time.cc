@@ -20,7 +20,7 @@
 #include "base/random.h"
 #include "bench/optimizers/scale_factor_heaps.h"
 #include "bench/optimizers/stopwatch.h"
-#include "optimizer/strategy/make_strategy.h"
+#include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::bench {
 namespace {
@@ -44,8 +44,9 @@ class Campaign {
       }
       targets.push_back(TargetOf(heaps));
     }
-    strategy_ = optimizer::MakePosteriorStrategy({.scale_factors = {2, 1.5, 1}, .seed = 1},
-                                                 {.num_parameters = D}, std::move(targets));
+    strategy_ = std::make_unique<optimizer::PosteriorStrategy>(
+        optimizer::PosteriorStrategyOptions{.scale_factors = {2, 1.5, 1}, .seed = 1},
+        optimizer::Domain{.num_parameters = D}, std::move(targets));
   }
 
   // The trials of the initial design.
@@ -84,7 +85,7 @@ class Campaign {
   std::unique_ptr<Problem> problem_;
   Size size_;
   Vec truth_ = TwinTruth(1);
-  std::unique_ptr<optimizer::Strategy> strategy_;
+  std::unique_ptr<optimizer::PosteriorStrategy> strategy_;
 };
 
 double MemoryMegabytes() {

@@ -16,7 +16,7 @@
 
 #include "bench/optimizers/problems.h"
 #include "bench/optimizers/scale_factor_heaps.h"
-#include "optimizer/strategy/make_strategy.h"
+#include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::bench {
 namespace {
@@ -86,28 +86,28 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
   const Vec truth = TwinTruth(instance);
   const optimizer::ExperimentTarget target = Photographed(*problem, truth, instance);
   const auto seed = static_cast<std::uint64_t>(instance);
-  const auto strategy = optimizer::MakePosteriorStrategy(
+  optimizer::PosteriorStrategy strategy(
       {.scale_factors = options.factors, .target = options.target, .seed = seed},
       {.num_parameters = D}, {target});
   double spent = 0;
   int told = 0;
   std::map<double, double> spent_at;  // core seconds, by scale factor
   for (; spent < options.core_time; ++told) {
-    const optimizer::Proposal p = strategy->AskAt(1, {}).front();
+    const optimizer::Proposal p = strategy.AskAt(1, {}).front();
     const double cost = HeapCost(p.scale_factor);
     spent += cost;
     spent_at[p.scale_factor] += cost;
     const Image image = Heap(*problem, {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
                              1000 * seed + static_cast<std::uint64_t>(told), options.useless);
-    strategy->Tell({.point = p.point,
-                    .scale_factor = p.scale_factor,
-                    .cost = cost,
-                    .value = target.image.Value(image.px),
-                    .field = image.px});
+    strategy.Tell({.point = p.point,
+                   .scale_factor = p.scale_factor,
+                   .cost = cost,
+                   .value = target.image.Value(image.px),
+                   .field = image.px});
   }
-  const optimizer::Answer answer = strategy->Recommend();
+  const optimizer::Answer answer = strategy.Recommend();
   const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(truth.data(), D);
-  const auto standing = strategy->Consider(at);
+  const auto standing = strategy.Consider(at);
   const double distance = (answer.point - at).norm();
   std::printf(
       "%3d: level %.2f, volume %.4f, distance %.3f, branches %zu, temper %.2f, raw %.2f, "

@@ -162,10 +162,4 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
   return answer;
 }
 
-std::optional<Moments> ScalarSearch::Predict(const SearchRecord& record,
-                                             const Eigen::MatrixXd& points) {
-  if (record.history().size() < 2) return std::nullopt;
-  return ScalarModel(Fit(record), kInflation).Predict(points);
-}
-
 }  // namespace talus::optimizer

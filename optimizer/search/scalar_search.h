@@ -29,8 +29,6 @@ class ScalarSearch {
   Proposal Next(const SearchRecord& record, std::span<const Eigen::VectorXd> asked);
   std::optional<std::string> StopReason(const SearchRecord& record);
   Answer Recommend(const SearchRecord& record);
-  // As Strategy::Predict.
-  std::optional<Moments> Predict(const SearchRecord& record, const Eigen::MatrixXd& points);
 
  private:
   const ScalarFit& Fit(const SearchRecord& record);

@@ -203,9 +203,4 @@ Answer ImageStrategy::Recommend() {
   return answer;
 }
 
-std::optional<Moments> ImageStrategy::Predict(const Eigen::MatrixXd& points, int /*experiment*/) {
-  if (!Model()) return by_values_.Predict(record(), points);
-  return model_->Predict(points);
-}
-
 }  // namespace talus::optimizer

@@ -22,7 +22,6 @@ class ImageStrategy : public SurrogateStrategy {
 
   std::optional<std::string> StopReason() override;
   Answer Recommend() override;
-  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 
  private:
   Proposal ByModel(const Points& asked) override;

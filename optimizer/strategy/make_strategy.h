@@ -8,10 +8,8 @@
 
 #include "base/field.h"
 #include "base/problems.h"
-#include "optimizer/outputs/experiment_target.h"
 #include "optimizer/outputs/field_objective.h"
 #include "optimizer/space/domain.h"
-#include "optimizer/strategy/posterior_strategy_options.h"
 #include "optimizer/strategy/strategy.h"
 
 namespace talus::optimizer {
@@ -70,11 +68,6 @@ struct StrategyOptions {
 // observations make equal proposals.
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Domain& domain,
                                        const FieldObjective* field, std::uint64_t seed);
-
-// The strategy over several scale factors or several experiments (posterior_strategy.h).
-std::unique_ptr<Strategy> MakePosteriorStrategy(const PosteriorStrategyOptions& options,
-                                                const Domain& domain,
-                                                std::vector<ExperimentTarget> targets);
 
 }  // namespace talus::optimizer
 

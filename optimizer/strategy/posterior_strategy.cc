@@ -11,7 +11,6 @@
 #include "optimizer/search/history.h"
 #include "optimizer/search/size_to_fit.h"
 #include "optimizer/search/stopping_rule.h"
-#include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
 namespace {
@@ -324,12 +323,6 @@ std::optional<Moments> PosteriorStrategy::Predict(const Eigen::MatrixXd& points,
   const ExperimentModel& model = Model().models()[static_cast<std::size_t>(experiment)];
   if (!model.has_image()) return std::nullopt;
   return model.Objective(points);
-}
-
-std::unique_ptr<Strategy> MakePosteriorStrategy(const PosteriorStrategyOptions& options,
-                                                const Domain& domain,
-                                                std::vector<ExperimentTarget> targets) {
-  return std::make_unique<PosteriorStrategy>(options, domain, std::move(targets));
 }
 
 }  // namespace talus::optimizer

@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "optimizer/moments.h"
 #include "optimizer/outputs/experiment_target.h"
 #include "optimizer/outputs/levels.h"
 #include "optimizer/posterior/posterior.h"
+#include "optimizer/posterior_summary.h"
 #include "optimizer/space/domain.h"
 #include "optimizer/strategy/posterior_strategy_options.h"
 #include "optimizer/strategy/strategy.h"
@@ -31,12 +33,16 @@ class PosteriorStrategy : public Strategy {
   std::optional<std::string> StopReason() override;
   std::optional<StopShortfall> Shortfall() override;
   Answer Recommend() override;
-  std::optional<Standing> Consider(const Eigen::VectorXd& point) override;
-  std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) override;
-  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 
-  // Whether enough was told for the two below.
+  // Whether enough was told for all below; the first three have nothing to say before.
   bool CanModel() const;
+  // Where a set stands in the posterior.
+  std::optional<Standing> Consider(const Eigen::VectorXd& point);
+  // Its credible level alone, of many: one point a row.
+  std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points);
+  // The objective of an experiment with an image by the model that Recommend answers with, at the
+  // target scale factor: one point a row.
+  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment);
   // Of all that was told.
   const Posterior& Model();
   const PosteriorSample& Sample();

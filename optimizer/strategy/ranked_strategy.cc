@@ -63,10 +63,4 @@ Answer RankedStrategy::Recommend() {
   return answer;
 }
 
-std::optional<Moments> RankedStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {
-  Eigen::MatrixXd ranked(points.rows(), points.cols());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) ranked.row(i) = ranks_.ToRanks(points.row(i));
-  return inner_->Predict(ranked, experiment);
-}
-
 }  // namespace talus::optimizer

@@ -26,7 +26,6 @@ class RankedStrategy : public Strategy {
   std::optional<std::string> StopReason() override { return inner_->StopReason(); }
   std::optional<StopShortfall> Shortfall() override { return inner_->Shortfall(); }
   Answer Recommend() override;
-  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 
  private:
   // The candidate itself, without the rounding of the way to its ranks and back.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "optimizer/search/best_observed.h"
 #include "optimizer/search/describe_minimum.h"
@@ -92,18 +91,6 @@ Answer RbfStrategy::Recommend() {
   answer.predicted_value = basis.Predict(answer.point);
   answer.warnings = BoundWarnings(answer.point);
   return answer;
-}
-
-std::optional<Moments> RbfStrategy::Predict(const Eigen::MatrixXd& points, int /*experiment*/) {
-  if (record().history().size() < 2) return std::nullopt;
-  const surrogate::RadialBasis basis = Fit();
-  Moments moments{
-      .mean = Eigen::VectorXd(points.rows()),
-      .sd = Eigen::VectorXd::Constant(points.rows(), std::numeric_limits<double>::quiet_NaN())};
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    moments.mean[i] = basis.Predict(points.row(i).transpose());
-  }
-  return moments;
 }
 
 }  // namespace talus::optimizer

@@ -16,7 +16,6 @@ class RbfStrategy : public SurrogateStrategy {
   std::optional<std::string> StopReason() override { return std::nullopt; }
   std::optional<StopShortfall> Shortfall() override { return std::nullopt; }
   Answer Recommend() override;
-  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment) override;
 
  private:
   Proposal ByModel(const Points& asked) override;

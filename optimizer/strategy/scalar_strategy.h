@@ -20,9 +20,6 @@ class ScalarStrategy : public SurrogateStrategy {
     return search_.StopReason(record());
   }
   Answer Recommend() override { return search_.Recommend(record()); }
-  std::optional<Moments> Predict(const Eigen::MatrixXd& points, int /*experiment*/) override {
-    return search_.Predict(record(), points);
-  }
 
  private:
   Proposal ByModel(const Points& asked) override { return search_.Next(record(), asked); }

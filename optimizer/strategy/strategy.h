@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "optimizer/answer.h"
-#include "optimizer/moments.h"
 #include "optimizer/observation.h"
-#include "optimizer/posterior_summary.h"
 #include "optimizer/search/stopping_rule.h"
 
 namespace talus::optimizer {
@@ -38,21 +36,6 @@ class Strategy {
     std::vector<Eigen::VectorXd> points;
     for (const Proposal& p : pending) points.push_back(p.point);
     return Ask(count, points);
-  }
-  // Where a set stands in the posterior; nothing for strategies without one.
-  virtual std::optional<Standing> Consider(const Eigen::VectorXd& /*point*/) {
-    return std::nullopt;
-  }
-  // Its credible level alone, of many: one point a row.
-  virtual std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& /*points*/) {
-    return std::nullopt;
-  }
-  // The objective of an experiment by the model that Recommend answers with, one point a row; at
-  // the target scale factor where there are several. Nothing for strategies without a model, for
-  // experiments without an image, and before there are evaluations enough. A standard deviation
-  // that the model does not know is NaN.
-  virtual std::optional<Moments> Predict(const Eigen::MatrixXd& /*points*/, int /*experiment*/) {
-    return std::nullopt;
   }
 };
 

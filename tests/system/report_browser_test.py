@@ -116,14 +116,15 @@ class ReportInABrowser(unittest.TestCase):
     def test_finished_campaign_with_three_parameters(self):
         self.open_report("three", 60, 3, "finished")
         charts = self.check_charts()
-        self.assertEqual(len(charts), 4 + 3 + 3)  # convergence, space, outlines, times; slices; pairs
+        # Convergence, space, outlines, times; the region; marginals; slices; pairs.
+        self.assertEqual(len(charts), 4 + 1 + 3 + 3 + 3, charts)
         self.assertIn("three parameters", self.driver.find_element(By.ID, "space-section").text)
         self.check_log()
         self.keep_screenshot("three")
 
     def test_running_campaign_with_two_parameters(self):
         self.open_report("two", 40, 2, "running")
-        self.assertEqual(len(self.check_charts()), 4 + 2 + 1)
+        self.assertEqual(len(self.check_charts()), 4 + 1 + 2 + 2 + 1)
         self.assertIn("not concluded yet", self.driver.find_element(By.ID, "answer").text)
         so_far = self.driver.find_element(By.ID, "so-far").text
         self.assertRegex(so_far, r"Best so far\n[\d.]+ mm²")
@@ -211,7 +212,7 @@ class ReportInABrowser(unittest.TestCase):
         self.assertGreaterEqual(min(self.numbers_of("D.slices.flatMap((s) => s.mean)")), 0)
         self.assertGreaterEqual(min(self.numbers_of("D.slices.flatMap((s) => s.low)")), 0)
         text = self.driver.find_element(By.TAG_NAME, "main").text
-        self.assertIn("The measurements", self.driver.find_element(By.ID, "verdict").text)
+        self.assertIn("fit every measurement", self.driver.find_element(By.ID, "verdict").text)
         self.assertIn("What to do next", self.driver.find_element(By.ID, "next").text)
         self.assertNotIn("Gaussian process of SAD", text)
         self.assertIn("single runs", text)  # both figures of the confirmed SAD

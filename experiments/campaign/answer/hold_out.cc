@@ -9,6 +9,7 @@
 #include "base/json/json_writer.h"
 #include "base/random.h"
 #include "base/text/number_text.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::campaign {
 namespace {
@@ -80,7 +81,7 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   const auto of_others = StrategyOf(view, others);
   HeldOut result{.others = AnswerOf(view, *of_others, others),
                  .predicted = {.name = name},
-                 .objective_unit = std::string(view.references.front().info().unit)};
+                 .objective_unit = std::string(journal::InfoOf(view.spec.objective).unit)};
   const auto alone = StrategyOf(view, {held});
   if (!alone->CanModel()) throw base::Error("too few trials of \"" + name + "\" to predict it");
   const optimizer::Posterior& posterior = alone->Model();
