@@ -34,6 +34,23 @@ std::string FailureText(const runners::FinishedJob& job, const std::filesystem::
   return job.reason + (log.empty() ? "" : ": " + log);
 }
 
+// A number that the engine does not leave at all is the set-up's fault: no other trial would have
+// it.
+void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
+                    const std::vector<journal::MetricRecord>& left) {
+  std::string names;
+  for (const journal::MetricRecord& number : left) {
+    names += (names.empty() ? "\"" : ", \"") + number.name + "\"";
+  }
+  for (const journal::ScalarRecord& measured : reference.scalars()) {
+    if (std::ranges::any_of(left, [&](const auto& l) { return l.name == measured.name; })) continue;
+    throw base::Error(
+        "trial " + std::to_string(trial.id) + " leaves no \"" + measured.name +
+        "\", which was measured; it leaves " + (names.empty() ? "no number" : names) +
+        ". Let the engine leave it under this name (docs/foreign_engines.md) and `talus resume`");
+  }
+}
+
 }  // namespace
 
 Campaign::Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal journal,
@@ -219,6 +236,7 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
     FailOrRetry(trial, error.what());
     return;
   }
+  RequireNumbers(trial, ReferenceOf(trial), output.scalars);
   trial.status = journal::TrialStatus::kOk;
   trial.reason = output.note;
   trial.num_steps = output.num_steps;

@@ -70,6 +70,8 @@ struct FakeEngineOptions {
   bool no_command = false;        // the program is not there
   bool vanish = false;            // every trial's folder is taken away while it runs
   int hang_at = 0;                // the trial with this id never ends; none if 0
+  bool no_numbers = false;        // the masses and densities are not there
+  bool undefined = false;         // … or have no value
   double mass_scatter = 1e-6;     // of the mass fallen, from seed to seed [kg]
   double density_scatter = 4;     // of the tapped density, from seed to seed [kg/m³]
 };
@@ -110,6 +112,15 @@ class FakeEngine : public trials::TrialEngine {
   }
   trials::TrialOutput Collect(const rigs::Case& rig_case,
                               const std::filesystem::path& folder) override {
+    trials::TrialOutput output = CollectAll(rig_case, folder);
+    if (options_.no_numbers) output.scalars.clear();
+    for (journal::MetricRecord& number : output.scalars) {
+      if (options_.undefined)
+        number = {.name = number.name, .unit = number.unit, .undefined = "it is stuck"};
+    }
+    return output;
+  }
+  trials::TrialOutput CollectAll(const rigs::Case& rig_case, const std::filesystem::path& folder) {
     const rigs::CaseSize size = rigs::EstimateCase(rig_case);
     const engine::Material& m = rig_case.powder.material;
     if (rig_case.rig.kind == rigs::RigKind::kTappedDensity) {

@@ -15,10 +15,10 @@
 namespace talus::campaign {
 namespace {
 
-constexpr int kMostAsked = 8;         // the strategies' limit
-constexpr double kDifferent = 0.05;   // between two candidates, in the unit cube
-constexpr double kSame = 1e-3;        // of a candidate that is confirmed already
-constexpr int kFailuresToGiveUp = 8;  // as the first trials of all: the set-up is wrong
+constexpr int kMostAsked = 8;                 // the strategies' limit
+constexpr double kDifferent = 0.05;           // between two candidates, in the unit cube
+constexpr double kSame = 1e-3;                // of a candidate that is confirmed already
+constexpr std::size_t kFailuresToGiveUp = 8;  // as the first trials of all: the set-up is wrong
 // Confirmations after different searches must not share numbers.
 constexpr std::int64_t kMostCandidates = 1000;
 
@@ -74,17 +74,37 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
   posterior_->Tell(observation);
   if (proposer_) proposer_->Tell(observation);
   CheckThatSomeSucceed();
+  CheckThatNumbersAreDefined(trial.experiment);
 }
 
 // A campaign whose first trials all fail has a mistake in its set-up; going on would only cost.
 void Planner::CheckThatSomeSucceed() {
-  int failed = 0;
+  std::size_t failed = 0;
   for (const journal::TrialRecord& trial : trials_) {
     if (trial.status == journal::TrialStatus::kOk) return;
     if (trial.status == journal::TrialStatus::kFailed) ++failed;
   }
   if (failed < kFailuresToGiveUp) return;
-  StopSearch({.kind = StopKind::kAllFailed, .value = 1.0 * failed, .rule = trials_.back().reason});
+  StopSearch({.kind = StopKind::kAllFailed,
+              .value = static_cast<double>(failed),
+              .rule = trials_.back().reason});
+}
+
+// Nor does a number teach anything that no set defines.
+void Planner::CheckThatNumbersAreDefined(int experiment) {
+  std::vector<const journal::TrialRecord*> done;
+  for (const journal::TrialRecord& trial : trials_) {
+    const bool ok = trial.status == journal::TrialStatus::kOk;
+    if (ok && trial.experiment == experiment) done.push_back(&trial);
+  }
+  if (done.size() < kFailuresToGiveUp) return;
+  for (const journal::ScalarRecord& scalar : ReferenceOf(*done.front()).scalars()) {
+    const auto has_it = [&](const auto* trial) { return trial->Metric(scalar.name).has_value(); };
+    if (std::ranges::any_of(done, has_it)) continue;
+    StopSearch({.kind = StopKind::kUndefined,
+                .value = static_cast<double>(done.size()),
+                .rule = scalar.name});
+  }
 }
 
 void Planner::StopSearch(Stop stop) {

@@ -87,6 +87,7 @@ class Planner {
   int Count(journal::TrialKind kind) const;
   int NumOfSearch() const;  // noise included
   void CheckThatSomeSucceed();
+  void CheckThatNumbersAreDefined(int experiment);
 
   const CampaignSpec spec_;
   const std::vector<Reference> references_;

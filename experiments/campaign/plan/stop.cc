@@ -19,6 +19,9 @@ std::string Stop::Text() const {
     case StopKind::kAllFailed:
       return "the first " + std::to_string(std::llround(value)) +
              " trials all failed, the last because it " + rule;
+    case StopKind::kUndefined:
+      return "none of the first " + std::to_string(std::llround(value)) + " trials defines \"" +
+             rule + "\", which was measured";
     case StopKind::kNothingLeft:
       break;
   }

@@ -15,6 +15,7 @@ enum class StopKind {
   kCoreTime,     // … of `value` seconds of core time
   kWallClock,    // … of `value` seconds of work
   kAllFailed,    // the first `value` trials all failed; `rule` is what the last one did
+  kUndefined,    // none of the first `value` trials defines the measured number `rule`
   kNothingLeft,  // the strategy has no more to propose
 };
 
@@ -45,5 +46,6 @@ struct talus::base::Names<talus::campaign::StopKind> {
                                     std::pair{"core_time", K::kCoreTime},
                                     std::pair{"wall_clock", K::kWallClock},
                                     std::pair{"all_failed", K::kAllFailed},
+                                    std::pair{"undefined", K::kUndefined},
                                     std::pair{"nothing_left", K::kNothingLeft}};
 };

@@ -47,14 +47,14 @@ struct NoiseOptions {
 
 // How the posterior reads the observations, and when it knows enough.
 struct PosteriorOptions {
-  double model_error = 1;    // sd of what no simulation can match, in run-to-run sds, >= 0
+  double model_error = 1;    // sd of what no simulation can match, in run-to-run sds, in [0, 1000]
   double stop_share = 0.02;  // the surrogate's variance over what the experiment leaves open [-]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("model_error", self.model_error,
           {.doc = "standard deviation of what no simulation can match, over that of the "
-                  "experiment's runs; >= 0"});
+                  "experiment's runs; in [0, 1000]"});
     visit("stop_share", self.stop_share,
           {.doc = "the search ends when, over the posterior, the surrogate's variance is below "
                   "this share of what the experiment itself leaves open; >= 0, 0 never"});

@@ -186,5 +186,29 @@ TEST_F(NumbersOnly, WhatDoesNotFitTogetherIsOneClearError) {
               HasSubstr("parameters.plate_sliding_friction: is searched as one number"));
 }
 
+// Misspelt or missing: said at the first trial, not after a search that learns nothing.
+TEST_F(NumbersOnly, ANumberThatTheEngineDoesNotLeaveStopsTheCampaignAtOnce) {
+  const fs::path folder = BeginWith("missing", std::string(kHeap) + "," + kTapped);
+  try {
+    RunFake(folder, {.no_numbers = true});
+    ADD_FAILURE() << "it went on";
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("leaves no \"tapped_density_kg_per_m3\""));
+    EXPECT_THAT(error.what(), HasSubstr("leaves no number"));
+  }
+  // Nothing is lost: an engine that leaves it goes on with the same trials.
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_TRUE(Result(folder).posterior);
+}
+
+TEST_F(NumbersOnly, ANumberThatNoTrialDefinesEndsTheSearchWithWords) {
+  const fs::path folder = BeginWith("undefined", std::string(kHeap) + "," + kTapped);
+  EXPECT_EQ(RunFake(folder, {.undefined = true}), CampaignEnd::kFinished);
+  const Answer answer = Result(folder);
+  EXPECT_EQ(answer.stop.kind, StopKind::kUndefined);
+  EXPECT_THAT(answer.stop.Text(),
+              HasSubstr("none of the first 8 trials defines \"tapped_density_kg_per_m3\""));
+}
+
 }  // namespace
 }  // namespace talus::campaign
