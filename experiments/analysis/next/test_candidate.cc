@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -24,6 +25,15 @@ struct CandidateFile {
   }
   void Validate(base::Problems& problems) const {
     problems.Require(!candidates.empty(), "candidates", "is empty: give one or more");
+    std::map<std::string, std::string> folders;  // and the name of the test that has it
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const std::string& name = candidates[i].name;
+      const auto [other, is_new] = folders.emplace(FileName(candidates[i]), name);
+      if (is_new) continue;
+      problems.Add("candidates[" + std::to_string(i) + "].name",
+                   "\"" + name + "\" and \"" + other->second + "\" would share the folder next/" +
+                       other->first + ": give each its own name");
+    }
   }
 };
 

@@ -162,6 +162,12 @@ TEST_F(NextTest, CandidatesComeFromAFile) {
   EXPECT_EQ(tests[0].device.value().lift_velocity, 0.2);
   std::ofstream(file) << R"({"candidates": [{"runs": 0}]})";
   EXPECT_THROW(LoadTests(file), base::ConfigError);
+  // Their simulations stand in folders of these names: one would be lost.
+  for (const char* other : {"fast lift", "fast-lift"}) {
+    std::ofstream(file) << R"({"candidates": [{"name": "fast lift"}, {"name": ")" << other
+                        << "\"}]}";
+    EXPECT_THROW(LoadTests(file), base::ConfigError) << other;
+  }
 }
 
 TEST_F(NextTest, TooFewTrialsForAPosteriorAreSaid) {
