@@ -201,8 +201,8 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (found == running_.end()) return;
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
-  trial.duration_s = job.duration;
-  trial.cpu_s = job.cpu_time;
+  if (job.duration > 0) trial.duration_s = job.duration;
+  if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
   trial.host = job.host;
   if (job.end ==
       runners::JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
@@ -273,6 +273,7 @@ void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reaso
 
 void Campaign::Close(journal::TrialRecord& trial, const imaging::GrayImage* profile) {
   trial.finished_utc = journal::UtcNow();
+  KeepCost(folder_, trial);
   journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
   NoteElapsed();
   planner_.Finished(trial,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -218,12 +219,17 @@ void Journal::Start(std::span<const TrialRecord> trials, base::Outlives outlives
 }
 
 void Journal::Insert(const TrialRecord& t) {
+  // Only of a trial that had ended in a journal that was lost.
+  const auto if_known = [](double seconds) {
+    return seconds > 0 ? seconds : std::numeric_limits<double>::quiet_NaN();
+  };
   database_
       .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
-               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', NULL, "
-               "NULL, 0, 0, '', ?11, ?12)")
+               ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', ?13, "
+               "?14, 0, 0, '', ?11, ?12)")
       .Bind(t.id, base::NameOf(t.kind), t.kind_index, t.set, t.origin, t.objective, t.seed,
-            t.scale_factor, t.attempts, t.started_utc, t.job, t.experiment)
+            t.scale_factor, t.attempts, t.started_utc, t.job, t.experiment, if_known(t.duration_s),
+            if_known(t.cpu_s))
       .Finish();
   for (std::size_t i = 0; i < t.unit.size(); ++i) {
     database_.Prepare("INSERT INTO points VALUES (?1, ?2, ?3, ?4)")

@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
-#include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/journal/record_json.h"
 
@@ -28,14 +27,9 @@ std::string TextWithChecksum(const Record& record) {
   return base::WithChecksum(base::JsonTextWriter::TextOf(record));
 }
 
-// The text without its checksum; nothing where it has none.
-std::optional<std::string> CheckedFile(const std::filesystem::path& path) {
-  return base::CheckedText(base::ReadFile(path), path.string());
-}
-
 template <class Record>
 Record ReadRecord(const std::filesystem::path& path) {
-  const std::optional<std::string> text = CheckedFile(path);
+  const std::optional<std::string> text = base::CheckedText(base::ReadFile(path), path.string());
   if (!text) throw base::Error(path.string() + ": is damaged: its checksum is not there");
   return journal::ParseRecord<Record>(*text, path.string());
 }
@@ -57,29 +51,8 @@ void PutAside(const std::filesystem::path& journal) {
   }
 }
 
-// Before schema 3 there was one experiment, whose keys stood beside the campaign's own, and no
-// checksum.
-std::string WithExperiments(const std::filesystem::path& path) {
-  if (const std::optional<std::string> checked = CheckedFile(path)) return *checked;
-  auto json = nlohmann::ordered_json::parse(base::ReadFile(path), nullptr, false);
-  if (!json.is_object() || json.contains("experiments")) {
-    throw base::Error(path.string() + ": is damaged: its checksum is not there");
-  }
-  nlohmann::ordered_json experiment;
-  experiment["name"] = "heap";
-  for (const char* key :
-       {"reference", "frame_json", "nebp_px", "num_heaps", "experimental_noise_floor_mm2"}) {
-    if (!json.contains(key)) continue;
-    experiment[key] = json[key];
-    json.erase(key);
-  }
-  json["experiments"] = nlohmann::ordered_json::array({experiment});
-  return base::JsonText(json);
-}
-
 journal::CampaignRecord KeptCampaign(const CampaignFolder& folder) {
-  auto record = journal::ParseRecord<journal::CampaignRecord>(WithExperiments(folder.campaign()),
-                                                              folder.campaign().string());
+  auto record = ReadRecord<journal::CampaignRecord>(folder.campaign());
   for (std::size_t e = 0; e < record.experiments.size(); ++e) {
     journal::ExperimentRecord& experiment = record.experiments[e];
     const std::filesystem::path place = folder.experiment(e);
@@ -131,6 +104,13 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
 void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) {
   base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, TextWithChecksum(trial),
                             base::Outlives::kProgram);
+}
+
+void KeepCost(const CampaignFolder& folder, journal::TrialRecord trial) {
+  trial.status = journal::TrialStatus::kRunning;
+  trial.reason.clear();
+  trial.metrics.clear();
+  if (std::filesystem::exists(folder.trial(trial.id))) KeepTrial(folder, trial);
 }
 
 journal::Journal RebuildJournal(const CampaignFolder& folder) {

@@ -12,7 +12,6 @@ namespace {
 
 // 0 where it is not known.
 double Measured(const journal::TrialRecord& trial, int num_cores) {
-  if (trial.status == journal::TrialStatus::kRunning) return 0;
   const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * num_cores;
   return std::isfinite(seconds) ? seconds : 0;
 }

@@ -163,7 +163,7 @@ bool IsAsMeasured(const fs::path& folder) {
   if (!fs::exists(folder / kResult)) return true;
   try {
     const auto text = base::CheckedText(base::ReadFile(folder / kResult), kResult);
-    if (!text) return true;  // of an earlier version
+    if (!text) return false;
     const auto result = nlohmann::json::parse(*text, nullptr, false);
     if (!result.is_object() || !result.contains("measured")) return true;
     for (const auto& [name, checksum] : result["measured"].items()) {

@@ -133,7 +133,6 @@ void OptimizeFolder::Load() {
 
 void OptimizeFolder::CheckImage(int number, const std::string& checksum, int line_number) const {
   const std::filesystem::path path = ImagePath(number);
-  if (checksum.empty()) return;  // of an earlier version
   if (std::filesystem::exists(path) && ChecksumOf(base::ReadFile(path)) == checksum) return;
   throw base::ConfigError(path.string() + ": is damaged or gone; take line " +
                           std::to_string(line_number) + " of " + (root_ / kLog).string() +

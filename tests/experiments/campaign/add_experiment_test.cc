@@ -123,6 +123,22 @@ TEST_F(AddExperimentTest, ItIsStillThereInAJournalThatIsMadeAnew) {
   EXPECT_EQ(TrialTable(folder), table);
 }
 
+// An estimate can be wrong by a factor of fifty, and the search with the new test would take as
+// much.
+TEST_F(AddExperimentTest, AJournalThatIsMadeAnewKnowsWhatItsTrialsHaveCost) {
+  const fs::path folder = Ended();
+  const auto cost = [&] {
+    double sum = 0;
+    for (const journal::TrialRecord& trial : Trials(folder)) sum += trial.cpu_s;
+    return sum;
+  };
+  const double before = cost();
+  EXPECT_GT(before, 0);
+  fs::resize_file(journal::JournalPath(folder), 5000);
+  RunFake(folder, {});
+  EXPECT_EQ(cost(), before);
+}
+
 TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
   const fs::path folder = Ended();
   const std::string spec =
