@@ -5,7 +5,7 @@
 
 namespace talus::optimizer {
 
-// Of the mean function, one point each.
+// Mean and sd of the mean function, one point each.
 struct Moments {
   Eigen::VectorXd mean;
   Eigen::VectorXd sd;

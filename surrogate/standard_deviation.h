@@ -6,7 +6,7 @@
 
 namespace talus::surrogate {
 
-// Of the whole population: divides by n, not n - 1. At least one value.
+// The whole population's: divides by n, not n - 1. At least one value.
 inline double StandardDeviation(const Eigen::VectorXd& values) {
   return std::sqrt((values.array() - values.mean()).square().mean());
 }

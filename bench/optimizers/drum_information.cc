@@ -122,7 +122,7 @@ double PowerOf(const Table& table, const Likelihood& likelihood, bool student, E
   return low;
 }
 
-// Of even and odd truths, each from the others.
+// Readings of even and odd truths, each from the others.
 using Readings = std::array<Reading, 2>;
 
 Readings Covering(const Table& table, const Likelihood& likelihood, bool student = false) {

@@ -71,7 +71,7 @@ struct CubeWarp {
   }
 };
 
-// Of levels 1, 2 and 3; README.md has the noise of simulated heaps.
+// The factor of levels 1, 2 and 3; README.md has the noise of simulated heaps.
 double NoiseFactor(int level) {
   static constexpr std::array<double, 3> kFactors{1, 3, 2.1};
   return kFactors.at(static_cast<std::size_t>(level - 1));

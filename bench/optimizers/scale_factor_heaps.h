@@ -17,7 +17,7 @@ inline constexpr int kHeaps = 5;  // the target is the mean of
 
 inline double HeapCost(double factor) { return std::pow(factor, -4); }
 
-// Of Problem::MakeImage.
+// The level that Problem::MakeImage takes.
 int NoiseLevel(double factor);
 
 Image HeapAt(const Problem& problem, const Vec& x, double factor, std::uint64_t run);

@@ -66,7 +66,7 @@ class Campaign {
   CampaignEnd End(base::Interrupt interrupt);
   void WriteResult(journal::ProgressRecord& progress);
   void NoteBest(const journal::TrialRecord& trial);
-  // Of its experiment, where trials differ by experiment or scale factor.
+  // Names the trial's experiment, where trials differ by experiment or scale factor.
   void Report(const journal::TrialRecord& trial);
   void ShowStatus();
   double Elapsed() const;  // [s], all sessions

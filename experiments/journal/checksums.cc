@@ -71,7 +71,7 @@ std::string DigestOfTrial(Database& database, std::int64_t id) {
   return base::Hex(base::Checksum(contents[id]));
 }
 
-// Of all trials, in one walk over each table.
+// Digests of all trials, in one walk over each table.
 Contents DigestsOfTrials(Database& database) {
   Contents contents;
   for (const Query& query : kOfTrials) {

@@ -1,4 +1,4 @@
-// What of the journal holds for the campaign as a whole.
+// What the journal says of the campaign as a whole.
 #include "base/error.h"
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/experiment_tables.h"

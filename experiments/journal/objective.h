@@ -28,7 +28,7 @@ struct ObjectiveInfo {
     return is_angle ? std::abs(quantity - reference) : quantity;
   }
 
-  // Of the value, with its unit: "sad_mm2", "aor2_difference_deg".
+  // The value's key, with its unit: "sad_mm2", "aor2_difference_deg".
   std::string ValueKey() const {
     return is_angle ? std::string(key) + "_difference_deg" : std::string(metric);
   }

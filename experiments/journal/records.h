@@ -68,7 +68,7 @@ struct MetricRecord {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string unit;       // "mm2", "deg", "-"
   std::string undefined;  // empty when the value is
-  // Of the value, from run to run: known of an experiment of several runs only.
+  // The value's, from run to run: known of an experiment of several runs only.
   double standard_error = std::numeric_limits<double>::quiet_NaN();
 
   template <class Self, class Visitor>

@@ -25,7 +25,7 @@ Verdict VerdictOf(const SlurmState& state, const std::string& log) {
   const auto is = [&](const char* name) { return state.name == name; };
   const std::string detail =
       state.reason.empty() || state.reason == "None" ? std::string() : " (" + state.reason + ")";
-  // Of a job that Slurm has forgotten its log is the only witness.
+  // The log is the only witness of a job that Slurm has forgotten.
   const bool by_log = is("FAILED") || is(kLost);
   if (is("OUT_OF_MEMORY") || (by_log && SaysOutOfMemory(log))) {
     return {.end = JobEnd::kOutOfMemory,

@@ -13,7 +13,7 @@ DesignQueue::DesignQueue(const Domain& domain, const Points& points) {
   }
 }
 
-// Of a list, the nearest candidate that is not in the queue yet.
+// From a list, the nearest candidate that is not in the queue yet.
 void DesignQueue::AppendSnapped(const Domain& domain, const Eigen::VectorXd& point) {
   if (domain.IsContinuous()) return Append(point, false);
   const auto is_queued = [&](const Eigen::VectorXd& other) {

@@ -53,7 +53,7 @@ Eigen::VectorXd Widths(const Eigen::MatrixXd& draws) {
   return width;
 }
 
-// Of each draw, when `seen` was measured.
+// The weight of each draw, when `seen` was measured.
 Eigen::VectorXd Weights(const Eigen::MatrixXd& z, const Eigen::RowVectorXd& seen) {
   const Eigen::ArrayXd squared = (z.rowwise() - seen).rowwise().squaredNorm().array();
   const Eigen::ArrayXd log_weight = -0.5 * RobustMisfit(squared, z.cols());

@@ -68,7 +68,7 @@ void ExperimentModel::MeasureImages() {
   const double model_error = setup_.model_error * setup_.model_error;
   error_.head(num_modes) = std::max(0.25, factor) / heaps * noise;
   open_.head(num_modes) = (1 / heaps + model_error) * std::max(0.25, factor) * noise;
-  // Of n heaps, a share 1 - 1/n of the variance lies among them and 1/n is their mean's.
+  // A share 1 - 1/n of the variance of n heaps lies among them and 1/n is their mean's.
   const Eigen::VectorXd element = modes.basis.cwiseAbs2() * noise;
   objective_.emplace(setup_.code, target.image, modes, (1 - 1 / heaps) * element);
 }

@@ -37,7 +37,7 @@ struct PosteriorSample {
 
 class Posterior {
  public:
-  // Of one experiment a model each; `places` groups evaluations of different experiments at one
+  // One model an experiment; `places` groups evaluations of different experiments at one
   // set and scale factor (see posterior.cc).
   Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data);
 
@@ -54,7 +54,7 @@ class Posterior {
   double Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const;
   // Σ r² of an experiment over T, one point a row, without the surrogate's caution.
   Eigen::VectorXd SquaredMisfit(std::size_t experiment, const Eigen::MatrixXd& points) const;
-  // Of each experiment at x.
+  // Where each experiment stands at x.
   std::vector<ExperimentStanding> StandingsAt(const Eigen::VectorXd& x) const;
 
   std::vector<ExperimentModel>& models() { return models_; }

@@ -7,7 +7,7 @@
 namespace talus::optimizer {
 namespace {
 
-// Of two tests' residuals in sum, where nothing tells it: they correlate by so much over K outputs.
+// The correlation of two tests' residuals in sum over K outputs, where nothing tells it.
 constexpr double kSharedError = 0.5;
 constexpr double kLeastEigenvalue = 0.05;
 
@@ -20,7 +20,7 @@ struct PairSums {
     squares += r * r;
     variances += (1 - r * r) * (1 - r * r) / std::max(1.0, count - 1);
   }
-  // Of least expected squared error, in [0, 1].
+  // The shrinkage of least expected squared error, in [0, 1].
   double Shrinkage() const { return squares > 0 ? std::min(1.0, variances / squares) : 1; }
 };
 

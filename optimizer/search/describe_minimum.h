@@ -26,7 +26,7 @@ struct AnswerOptions {
 Answer DescribeMinimum(const ObjectiveModel& model, const Domain& domain,
                        const Eigen::VectorXd& point, const AnswerOptions& options);
 
-// Of coordinates within 0.5 % of an end of their range.
+// Warnings of coordinates within 0.5 % of an end of their range.
 std::vector<BoundWarning> BoundWarnings(const Eigen::VectorXd& point);
 
 // The same in words: of a campaign's answer and of a plain search's.

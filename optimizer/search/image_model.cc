@@ -30,7 +30,7 @@ Eigen::MatrixXd Residuals(const CodedImages& data, const surrogate::PrincipalMod
   return residuals - (residuals * modes.basis) * modes.basis.transpose();
 }
 
-// Of n heaps, a share 1 - 1/n of the variance lies among them and 1/n is their mean's.
+// A share 1 - 1/n of the variance of n heaps lies among them and 1/n is their mean's.
 Eigen::VectorXd Blur(const OutputModel& outputs, int num_heaps) {
   if (num_heaps <= 1) return {};
   return (1 - 1.0 / num_heaps) * outputs.ElementNoise();

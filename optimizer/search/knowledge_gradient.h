@@ -30,7 +30,7 @@ Eigen::MatrixXd PossibleMinimisers(const ModelView& view);
 // KG of one more evaluation at each point, one a row; in units of the values, >= 0.
 using KnowledgeGains = std::function<Eigen::VectorXd(const Eigen::MatrixXd& points)>;
 
-// Of a process of the values. It must outlive the gains.
+// The gains by a process of the values. It must outlive the gains.
 KnowledgeGains GainsOfValues(const surrogate::GaussianProcess& process,
                              const Eigen::MatrixXd& minimisers);
 

@@ -19,7 +19,7 @@
 
 namespace talus::optimizer {
 
-// Of a deterministic objective. `pending` points are fantasised at their predicted mean. No
+// For a deterministic objective. `pending` points are fantasised at their predicted mean. No
 // point when there are too few evaluations.
 std::optional<Eigen::VectorXd> LocalStep(const History& history, const Domain& domain,
                                          std::span<const Eigen::VectorXd> pending,

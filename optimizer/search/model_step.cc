@@ -47,7 +47,7 @@ CheapFunction Negative(const ModelView& view, const Score& score, double feasibi
   return {values, value_and_gradient, view.model.PredictionWork()};
 }
 
-// Of what one evaluation of each point gives, chance included.
+// The improvement that one evaluation of each point gives, chance included.
 CheapFunction NegativeOwnImprovement(const ModelView& view, const Incumbent& incumbent) {
   return WithoutGradient(view, [&view, incumbent](const Eigen::MatrixXd& points) {
     const Moments moments = view.model.Predict(points);

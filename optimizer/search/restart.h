@@ -19,7 +19,7 @@ struct Elsewhere {
   Domain domain;    // the points nearer to them
 };
 
-// Of a deterministic objective, `num_before` evaluations of it from before the first step. Nothing
+// For a deterministic objective; `num_before` evaluations of it from before the first step. Nothing
 // while the search gets on, or where too few evaluations lie elsewhere for a step to stand on.
 std::optional<Elsewhere> RestartElsewhere(const History& history, const Domain& domain,
                                           int num_before);

@@ -26,7 +26,7 @@
 
 namespace talus::optimizer {
 
-// Of every strategy with a model.
+// Options of every strategy with a model.
 struct SurrogateOptions {
   int num_initial = 0;         // evaluations of the design; 0: as above
   double stop_multiple = 0.7;  // stop when the most left to gain is below this × noise sd

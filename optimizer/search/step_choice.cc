@@ -37,7 +37,7 @@ int MostPromising(const std::array<Record, kNumKinds>& records, int last) {
 
 }  // namespace
 
-// Of the first values alone, so that it stays the same.
+// Judged by the first values alone, so that it stays the same.
 double LeastGain(const Eigen::VectorXd& values, int num_before) {
   if (values.size() == 0) return 0;
   std::vector<double> first(values.begin(),

@@ -43,7 +43,7 @@ class PosteriorStrategy : public Strategy {
   // The objective of an experiment with an image by the model that Recommend answers with, at the
   // target scale factor: one point a row.
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment);
-  // Of all that was told.
+  // Model and sample of all that was told.
   const Posterior& Model();
   const PosteriorSample& Sample();
 

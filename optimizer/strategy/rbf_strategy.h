@@ -21,7 +21,7 @@ class RbfStrategy : public SurrogateStrategy {
   Proposal ByModel(const Points& asked) override;
   void Update(const Observation&) override {}
 
-  // Of the function whose values, left out one by one, are predicted better.
+  // Fits the function whose values, left out one by one, are predicted better.
   surrogate::RadialBasis Fit() const;
   Eigen::VectorXd Lowest(const surrogate::RadialBasis& basis) const;
 };

@@ -10,7 +10,7 @@ namespace talus::surrogate {
 struct PrincipalModes {
   Eigen::VectorXd mean;   // m
   Eigen::MatrixXd basis;  // m × k, orthonormal columns, the strongest first
-  // Of a vector of weight 1:
+  // For a vector of weight 1:
   Eigen::VectorXd discarded;  // m: variance of each element that the modes leave out
   double next_sd = 0;         // standard deviation of the strongest mode left out; 0 where none is
 

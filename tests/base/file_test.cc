@@ -59,7 +59,7 @@ TEST_F(FileTest, TailIsTheLastBytes) {
   EXPECT_EQ(ReadTail(folder_ / "absent", 9), "");
 }
 
-// Of the memory that this process has ever used.
+// The most memory that this process has ever used.
 long PeakMegabytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

@@ -203,7 +203,7 @@ campaign::Answer MakeAnswer(const analysis::Evidence& evidence, const Eigen::Vec
 constexpr double kAlong = 0.18;   // sd along the valley, unit cube
 constexpr double kAcross = 0.02;  // … across it, of each parameter
 
-// Of the second parameter, where the first is `along` from the truth.
+// The second parameter's distance, where the first is `along` from the truth.
 double Bend(double along) { return along * along - 0.8 * along; }
 
 // Draws of a bent valley through the truth: the first two parameters are known together only.

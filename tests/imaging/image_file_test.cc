@@ -131,7 +131,7 @@ TEST(ImageFile, PgmOfEveryWhite) {
   EXPECT_THROW(DecodeGrayImage("P2 1 1 9 10", "bright.pgm"), base::ConfigError);
 }
 
-// Of the memory that this process has ever used.
+// The most memory that this process has ever used.
 long PeakMegabytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

@@ -43,7 +43,7 @@ GrayImage MeanOfRuns(const std::vector<std::size_t>& runs) {
   return MeanImage(images);
 }
 
-// Of runs that scatter with standard deviation s, leaving one out differs by s √(1 + 1/4), halves
+// Where runs scatter with standard deviation s, leaving one out differs by s √(1 + 1/4), halves
 // of two and three runs by s √(1/2 + 1/3), 0.82 of it: each split must stay below the floor times
 // the scatter that five runs leave in it (their leave-one-out values reach 1.4 × the mean).
 TEST(PowderA, HalvesOfTheRunsDifferByNoMoreThanTheNoiseFloor) {

@@ -234,7 +234,7 @@ TEST_F(SphereFilesTest, ErrorsSayWhatIsWrongAndWhere) {
               HasSubstr("r has 1 values, not 2"));
 }
 
-// Of the memory that this process has ever used.
+// The most memory that this process has ever used.
 long PeakMegabytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

@@ -125,7 +125,7 @@ TEST(PosteriorStrategy, OneNumberLeavesAValleyInOnePiece) {
   const Answer answer = twin.Search(40)->Recommend();
   const PosteriorBranch& branch = answer.posterior->branches.front();
   EXPECT_EQ(answer.posterior->branches.size(), 1U);
-  // Of x + y = 0.75 all is left, from one edge of the box to the other.
+  // The whole line x + y = 0.75 is left, from one edge of the box to the other.
   EXPECT_GT(branch.high[0] - branch.low[0], 0.5);
   EXPECT_LT(answer.correlation(0, 1), -0.9);
   EXPECT_NEAR(answer.point.sum(), 0.75, 0.1);

@@ -23,8 +23,8 @@ TEST(RobustMisfit, GoesOnWithoutAStepAndEverMoreSlowly) {
   EXPECT_NEAR(Rho(2e6, 10) - Rho(1e6, 10), 18 * std::log(2.0), 1e-3);
 }
 
-// Of χ²: 2.71 for one output and 15.99 for ten. Of a Student-t, K F(K, 8): 3.46 and 25.4, from
-// tables; the same tail on a Gaussian middle lies a few percent beyond.
+// Quantiles of χ²: 2.71 for one output and 15.99 for ten. Those of a Student-t, K F(K, 8): 3.46
+// and 25.4, from tables; the same tail on a Gaussian middle lies a few percent beyond.
 TEST(RobustMisfit, QuantilesAreThoseOfAHeavyTail) {
   EXPECT_GT(RobustQuantile(1, 0.9), 2.71);
   EXPECT_NEAR(RobustQuantile(1, 0.9), 3.46, 0.1 * 3.46);

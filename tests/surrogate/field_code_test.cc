@@ -135,9 +135,9 @@ TEST(EdgeCode, PowderOnARoundFloorIsKnownByItsSurface) {
   for (const double slope : {-0.1, 0.05, 0.2, 0.3}) {
     const auto field = Drum(slope);
     const Eigen::VectorXd vector = code.Encode(field);
-    // Of 500 px of powder. Standing on the bottom of the image the same heights would be off by
-    // the floor, 150 px. The floor is not known where the target has no powder on it: 17 px at the
-    // first slope; what stands there adds to the sum of differences wherever it stands.
+    // The target has 500 px of powder. Standing on the bottom of the image the same heights would
+    // be off by the floor, 150 px. The floor is not known where the target has no powder on it: 17
+    // px at the first slope; what stands there adds to the sum of differences wherever it stands.
     EXPECT_LT(SumOfDifferences(code.Decode(vector), field), 20) << slope;
     EXPECT_NEAR(code.Sad(vector), SumOfDifferences(field, target), 12) << slope;
   }

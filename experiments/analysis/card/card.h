@@ -46,8 +46,8 @@ struct Card {
 
 Card CardOf(const rigs::Case& rig_case);
 
-// Of a campaign's folder (its recommended set, at the scale factor that it holds for) or of a
-// case.json. Throws ConfigError when the campaign has no result yet.
+// The card of a campaign's folder (its recommended set, at the scale factor that it holds for) or
+// of a case.json. Throws ConfigError when the campaign has no result yet.
 Card ReadCard(const std::filesystem::path& path);
 
 // Two grains of the powder, of the mean diameter, pressed together by ten times a grain's weight:

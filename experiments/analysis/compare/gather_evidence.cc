@@ -119,7 +119,7 @@ void AddTrials(Evidence& evidence, const journal::ExperimentRecord& record,
   evidence.scale_factor = FinestOfSearch(trials);
 }
 
-// Of all experiments.
+// The times of all experiments together.
 void AddTimes(Evidence& evidence, double elapsed) {
   double wall = 0;
   double cpu = 0;

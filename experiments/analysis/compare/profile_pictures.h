@@ -28,7 +28,7 @@ struct Picture {
   std::string png;
 };
 
-// Of a grey or a colour image, without a caption.
+// A picture of a grey or a colour image, without a caption.
 template <class Image>
 Picture MakePicture(const std::string& name, const std::string& title, const Image& image) {
   return {.name = name,

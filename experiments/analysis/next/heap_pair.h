@@ -7,7 +7,7 @@
 
 namespace talus::analysis {
 
-// Of equal size; makes the folder where it is missing.
+// Two images of equal size side by side; makes the folder where it is missing.
 void WriteHeapPair(const std::filesystem::path& path, const imaging::GrayImage& left,
                    const imaging::GrayImage& right);
 

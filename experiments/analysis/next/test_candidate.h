@@ -65,7 +65,7 @@ std::vector<ExpectedNumber> NumbersOf(const campaign::JointView& view, const Tes
 // The entry of `experiments` that the made test will be, all but its data.
 std::string ExperimentText(const campaign::JointView& view, const TestCandidate& test);
 
-// Of its files: letters, digits and dashes.
+// The stem of its files: letters, digits and dashes.
 std::string FileName(const TestCandidate& test);
 
 }  // namespace talus::analysis

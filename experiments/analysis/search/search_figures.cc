@@ -10,7 +10,7 @@
 namespace talus::analysis {
 namespace {
 
-// Of the values, a twentieth wider on each side.
+// The range of the values, a twentieth wider on each side.
 SvgAxis ValueAxis(const SearchFolder& search) {
   SvgAxis axis{.title = "value"};
   std::optional<double> low, high;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kDraws = 400;  // among which a least misfit is looked for
 
-// Of a chi-squared variable of `freedom` degrees.
+// The normal score of a chi-squared variable of `freedom` degrees.
 double NormalScore(double chi_squared, double freedom) {
   const double variance = 2 / (9 * freedom);
   return (std::cbrt(chi_squared / freedom) - (1 - variance)) / std::sqrt(variance);

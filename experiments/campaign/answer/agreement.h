@@ -24,7 +24,7 @@ struct Agreement {
   std::string odd{};  // the experiment with the largest part of Χ²; "" without tension
 };
 
-// Of the experiments that the campaign's answer meets.
+// The agreement of the experiments that the campaign's answer meets.
 Agreement AgreementOf(const JointView& view);
 
 // Whether the tension is an alarm. Surrogates that miss most of their own trials (`raw_coverage` of

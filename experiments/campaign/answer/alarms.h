@@ -1,4 +1,4 @@
-// What of an answer must be said aloud: every alarm in one list, the gravest first, the same on the
+// What must be said aloud of an answer: every alarm in one list, the gravest first, the same on the
 // terminal, in result.json, on the card and in the report.
 #pragma once
 

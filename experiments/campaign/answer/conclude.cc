@@ -106,7 +106,7 @@ ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& evid
   return candidate;
 }
 
-// Of the objective, from the trials at one set before the search.
+// The objective's noise sd, from the trials at one set before the search.
 std::optional<double> ReplicatesSd(const Planner& planner, const Reference& reference,
                                    int experiment) {
   std::vector<double> values;
@@ -179,7 +179,7 @@ void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
   }
 }
 
-// Of the joint 90 % region: a set outside it does not fit equally.
+// Draws in the joint 90 % region: a set outside it does not fit equally.
 Eigen::MatrixXd InRegion(const Eigen::MatrixXd& draws, const Planner& planner) {
   const auto levels = planner.CredibleLevels(draws);
   if (!levels) return draws;

@@ -23,7 +23,7 @@ std::string Short(double value) { return base::ShortNumber(value, 3); }
 
 std::string Percent(double share) { return base::ShortNumber(100 * share, 2) + " %"; }
 
-// Of the searched range, on the parameter's own scale.
+// The range's width as a share of what is searched, on the parameter's own scale.
 double WidthOf(const ResultParameter& p) {
   return p.Range().ToUnit(p.credible_high) - p.Range().ToUnit(p.credible_low);
 }
@@ -158,7 +158,7 @@ std::vector<std::string> Headline(const Answer& answer, const std::vector<std::s
   std::vector<std::string> sentences{
       miss.empty() ? "Sets are found that fit every measurement." : miss, OpenText(told),
       KnownText(told)};
-  // Of sets that miss there is no kind of fit.
+  // Sets that miss have no kind of fit.
   if (miss.empty()) {
     sentences.push_back(KindText(told, *kind) + "; the joint 90 % region fills about " +
                         Percent(answer.posterior->region_volume) + " of the searched ranges.");

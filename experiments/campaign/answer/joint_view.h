@@ -26,7 +26,7 @@ struct JointView {
   std::vector<journal::TrialRecord> trials;            // all, by id
   std::vector<optimizer::Observation> observations{};  // of the search, in the order of finish
 
-  // Of the experiment of this name; throws ConfigError that lists the names.
+  // The index of the experiment with this name; throws ConfigError that lists the names.
   int IndexOf(std::string_view name) const;
   // All of them, by index.
   std::vector<int> All() const;

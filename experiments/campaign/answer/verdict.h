@@ -38,8 +38,9 @@ struct ResultVerdict {
 std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
     const std::vector<std::vector<double>>& correlation);
 
-// Of points that fit equally (unit cube, one a row): the ends of their longest direction with the
-// recommended one between; the recommended one alone where they are close together.
+// Representatives of points that fit equally (unit cube, one a row): the ends of their longest
+// direction with the recommended one between; the recommended one alone where they are close
+// together.
 std::vector<Eigen::VectorXd> RepresentativeSets(const Eigen::MatrixXd& points,
                                                 const Eigen::VectorXd& recommended);
 

@@ -15,7 +15,7 @@ struct CampaignFolder {
   std::filesystem::path result() const { return root / "result.json"; }
   std::filesystem::path posterior() const { return root / "posterior.csv"; }
   std::filesystem::path campaign() const { return root / "campaign.json"; }
-  // Of an experiment's images, from 0: the root itself for the first.
+  // The folder of an experiment's images, from 0: the root itself for the first.
   std::filesystem::path experiment(std::size_t index) const;
 };
 

@@ -11,8 +11,8 @@
 
 namespace talus::campaign {
 
-// Of a usual core [grain steps/s]. Estimates that a strategy is told use it rather than the speed
-// of this machine, so that equal specs and seeds make equal proposals everywhere.
+// Speed of a usual core [grain steps/s]. Estimates that a strategy is told use it rather than the
+// speed of this machine, so that equal specs and seeds make equal proposals everywhere.
 inline constexpr double kUsualSpeed = 4e7;
 
 // Grain steps of a trial in the middle of the ranges.
@@ -25,10 +25,10 @@ class CoreTime {
   // [core seconds] of all these trials: those that run still count by what others of their
   // experiment and scale factor took.
   double Of(std::span<const journal::TrialRecord> trials);
-  // Of noise and search among them.
+  // Noise and search among them.
   double OfSearch(std::vector<journal::TrialRecord> trials);
 
-  // Of one more simulation, by what the trials of the last Of took.
+  // The time of one more simulation, by what the trials of the last Of took.
   double OfOne(int experiment, double scale_factor);
 
  private:

@@ -55,8 +55,8 @@ class Planner {
     return posterior_->CredibleLevels(points);
   }
 
-  // Of the objective of one simulation of an experiment there, by the model that answers; nothing
-  // without an image or while there are too few trials.
+  // Noise sd of the objective of one simulation of an experiment there, by the model that answers;
+  // nothing without an image or while there are too few trials.
   std::optional<double> NoiseSd(const Eigen::VectorXd& point, int experiment);
 
   const std::vector<journal::TrialRecord>& trials() const { return trials_; }  // by id

@@ -38,7 +38,7 @@ imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
   return {.left = left, .top = top, .width = right - left, .height = bottom - top};
 }
 
-// Of an angle of repose, 1 to 3.
+// The method of an angle of repose, 1 to 3.
 int MethodOf(journal::Objective objective) {
   return 1 + static_cast<int>(objective) - static_cast<int>(journal::Objective::kAor1);
 }

@@ -56,7 +56,7 @@ TEST(PosteriorDensity, TheShadowOfABallHasNoHoles) {
     }
   }
   EXPECT_EQ(missing, 0);
-  // Of draws that reach half as far as their neighbours are, and gaps at the rim.
+  // The disc of draws that reach half as far as their neighbours are, and gaps at the rim.
   const double disc = std::numbers::pi * std::pow(1.538 * 0.1 * kCells, 2);
   EXPECT_NEAR(inside / disc, 1, 0.15);
 }

@@ -92,7 +92,7 @@ TEST_F(SearchReport, ShowsTheAnswerWithItsRangesAndWarnings) {
   EXPECT_THAT(page, HasSubstr("mu is at its bound"));
 }
 
-// Of a search that ended before there was a model.
+// The page of a search that ended before there was a model.
 TEST_F(SearchReport, ShowsAnAnswerWithoutRanges) {
   Write("result.json",
         Sealed("{\"recommended\": {\"mu\": 0.625, \"rpm\": 40}, \"stopped\": \"interrupted\"}\n"));

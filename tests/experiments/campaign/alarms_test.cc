@@ -104,7 +104,7 @@ TEST(Alarms, ATrialThatCameOutBetterIsNamed) {
   EXPECT_EQ(alarms[0].kind, AlarmKind::kWorseThanObserved);
   EXPECT_EQ(alarms[0].trial, 7);
   EXPECT_THAT(AlarmText(alarms[0]), HasSubstr("trial 7 came out better"));
-  // Of several experiments a trial may meet one better than the set that meets them all.
+  // With several experiments a trial may meet one better than the set that meets them all.
   EXPECT_THAT(SearchAlarms(answer, trials, {EmptyReference(), EmptyReference()}), IsEmpty());
 }
 

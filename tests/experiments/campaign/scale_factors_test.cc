@@ -148,7 +148,8 @@ TEST(CoreTime, RunningTrialsCountByWhatOthersOfTheirSizeTook) {
                                                  Trial(2, journal::TrialStatus::kFailed, 14),
                                                  Trial(2, journal::TrialStatus::kRunning, 0)};
   EXPECT_DOUBLE_EQ(time.Of(trials), 10 + 14 + 12);
-  // Of another size: by grain steps. f⁻³ grains times f⁻¹ steps, but for rounding to whole grains.
+  // The time of another size goes by grain steps. f⁻³ grains times f⁻¹ steps, but for rounding to
+  // whole grains.
   std::vector<journal::TrialRecord> finer = trials;
   finer[2].scale_factor = 1;
   EXPECT_NEAR(time.Of(finer), 24 + 12 * 16, 0.5);

@@ -85,7 +85,7 @@ class BitFlips : public testing::Test {
   fs::path folder_;
 };
 
-// Of 100 flips 5 were not noticed, and one changed the answer.
+// Before, 5 of 100 flips were not noticed, and one changed the answer.
 TEST_F(BitFlips, OfTheJournalAreHarmlessOrNoticed) {
   const fs::path path = journal::JournalPath(folder_);
   std::string good;

@@ -95,7 +95,7 @@ TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
   EXPECT_THAT(Text("trial/case.json"), HasSubstr("\"command\""));
 }
 
-// Of any rig: its keys are placeholders, its numbers stand in a file.
+// Any rig will do: its keys are placeholders, its numbers stand in a file.
 TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
   rigs::Case drum = SmallCase();
   drum.rig.kind = rigs::RigKind::kDrum;

@@ -65,7 +65,7 @@ PageValue ValueJson(const campaign::ResultParameter& p) {
           {"high", NumberJson(p.credible_high)}};
 }
 
-// Of every parameter, or of none.
+// The indices of every parameter, or of none.
 PageValue SobolJson(const campaign::Answer& answer, double campaign::ResultParameter::*index) {
   PageValue list = PageValue::array();
   for (const campaign::ResultParameter& p : answer.parameters) {

@@ -14,7 +14,7 @@ std::string Spaced(std::string name) {
   return name;
 }
 
-// Of all experiments.
+// Trials of all experiments.
 PageValue CountsJson(const Evidence& e) {
   int searched = 0, confirming = 0, failed = 0, running = 0;
   for (const auto* trials : {&e.trials, &e.of_others}) {

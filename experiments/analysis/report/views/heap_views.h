@@ -32,8 +32,8 @@ struct PhotoOverlay {
   double baseline = 0;  // … from the top
 };
 
-// Of the confirming trial, or of the best one before there is one. No photographs where the spec's
-// are no longer there, or the experiment is a map: `absent` then says why.
+// The heap of the confirming trial, or of the best one before there is one. No photographs where
+// the spec's are no longer there, or the experiment is a map: `absent` then says why.
 PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>& shown,
                          std::string& absent);
 

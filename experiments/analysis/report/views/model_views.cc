@@ -53,8 +53,9 @@ std::pair<double, double> SpanOf(const Eigen::VectorXd& draws) {
   return {std::max(0.0, draws.minCoeff() - room), std::min(1.0, draws.maxCoeff() + room)};
 }
 
-// Of two parameters the region itself, as the model has it: a sum of kernels is a little larger.
-// Its cells lie where the draws do, since a region may be as thin as a hundredth of the plane.
+// With two parameters the map is the region itself, as the model has it: a sum of kernels is a
+// little larger. Its cells lie where the draws do, since a region may be as thin as a hundredth of
+// the plane.
 PairMap RegionMap(const Evidence& evidence) {
   const ModelEvidence& model = *evidence.model;
   PairMap map{.i = 0, .j = 1, .x_edges = {}, .y_edges = {}, .value = {}};

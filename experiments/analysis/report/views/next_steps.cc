@@ -27,7 +27,7 @@ std::string RangeText(const campaign::ResultParameter& v) {
   return Number(v.credible_low) + " to " + Number(v.credible_high);
 }
 
-// Of the unit cube, on the parameter's own scale.
+// The range's width as a share of what is searched, on the parameter's own scale.
 double WidthOf(const ParameterInfo& parameter, const campaign::ResultParameter& v) {
   const double width =
       parameter.range.ToUnit(v.credible_high) - parameter.range.ToUnit(v.credible_low);

@@ -19,7 +19,7 @@ constexpr double kReach = 4;  // of a kernel, in its widths
 
 double UnitNormalCdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-// Of each draw's kernel.
+// The width of each draw's kernel.
 Eigen::VectorXd Widths(const Eigen::MatrixXd& draws, const KernelWidth& kernel, int num_cells) {
   const Eigen::Index count = draws.rows();
   const auto nth = static_cast<std::ptrdiff_t>(kernel.neighbour_share * static_cast<double>(count));
