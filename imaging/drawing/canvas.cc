@@ -95,6 +95,11 @@ ColorImage Enlarged(const GrayImage& picture, int zoom) {
   return canvas;
 }
 
+int OverlayZoom(const GrayImage& photo) {
+  constexpr int kWidest = 1300;
+  return std::max(1, kWidest / photo.width);
+}
+
 void Paste(const ColorImage& source, int zoom, int x, int y, ColorImage& target) {
   for (int j = 0; j < source.height * zoom; ++j) {
     for (int i = 0; i < source.width * zoom; ++i) {

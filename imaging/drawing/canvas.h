@@ -12,11 +12,17 @@ namespace talus::imaging {
 inline constexpr Color kBlack{0, 0, 0};
 inline constexpr Color kWhite{255, 255, 255};
 inline constexpr Color kGridGray{225, 225, 225};
+// On a photograph: what was found, and where it was looked for.
+inline constexpr Color kRed{230, 30, 30};
+inline constexpr Color kBlue{40, 90, 240};
+inline constexpr Color kGreen{0, 170, 60};
 
 ColorImage MakeCanvas(int width, int height);  // white
 
 // A picture to draw on, each of its pixels `zoom` wide.
 ColorImage Enlarged(const GrayImage& picture, int zoom);
+// How far a photograph is enlarged to draw on: as long as it stays below 1300 px wide.
+int OverlayZoom(const GrayImage& photo);
 
 struct CanvasPoint {
   double x = 0;  // [px], pixel (0, 0) has its centre at 0.5, 0.5

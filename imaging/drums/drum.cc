@@ -7,7 +7,8 @@
 
 #include "base/error.h"
 #include "imaging/formats/images/image_file.h"
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
+#include "imaging/spheres/projection.h"
 
 namespace talus::imaging {
 namespace {
@@ -17,16 +18,6 @@ constexpr double kBeyondRing = 0.01;   // farther in, as the lens blurs the ring
 constexpr double kThickestRing = 0.1;  // / radius
 constexpr double kLeastContrast = 40;  // of powder and light [grey levels]
 constexpr double kSameCircle = 0.01;   // how far circles of one series may differ / radius
-
-GrayImage Mean(const std::vector<GrayImage>& photos) {
-  GrayImage mean = photos.front();
-  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
-    double sum = 0;
-    for (const GrayImage& photo : photos) sum += photo.pixels[i];
-    mean.pixels[i] = static_cast<std::uint8_t>(sum / static_cast<double>(photos.size()) + 0.5);
-  }
-  return mean;
-}
 
 double Radius(const DrumCircle& circle, int x, int y) {
   return std::hypot(x + 0.5 - circle.center_x, y + 0.5 - circle.center_y);
@@ -174,7 +165,7 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   const Photographs photos = Read(options.photos);
   MeasuredDrum drum;
   const std::string name = options.photos.front().string();
-  const GrayImage mean = Mean(photos.images);
+  const GrayImage mean = MeanImage(photos.images);
   const DrumCircle circle = FindDrumCircle(mean, name);
   drum.map = MapOf(mean, circle, name);
   drum.pixel_size = options.diameter / (2 * circle.radius);

@@ -1,6 +1,5 @@
 #include "imaging/drums/drum_overlay.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,11 +8,6 @@
 
 namespace talus::imaging {
 namespace {
-
-constexpr Color kRed{230, 30, 30};
-constexpr Color kBlue{40, 90, 240};
-constexpr Color kGreen{0, 170, 60};
-constexpr int kWidest = 1300;  // enlarged as long as it stays narrower [px]
 
 std::vector<CanvasPoint> Circle(const DrumCircle& circle, double radius, int zoom) {
   constexpr int kCorners = 360;
@@ -29,7 +23,7 @@ std::vector<CanvasPoint> Circle(const DrumCircle& circle, double radius, int zoo
 }  // namespace
 
 ColorImage DrawDrum(const GrayImage& photo, const MeasuredDrum& drum) {
-  const int zoom = std::max(1, kWidest / photo.width);
+  const int zoom = OverlayZoom(photo);
   const DrumCircle& circle = drum.map.circle;
   ColorImage canvas = Enlarged(photo, zoom);
   DrawPolygon(canvas, Circle(circle, circle.radius, zoom), {.color = kBlue});

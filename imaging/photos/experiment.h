@@ -12,7 +12,7 @@
 #include "base/problems.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/heap/profile.h"
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 #include "imaging/photos/photo_warning.h"
 #include "imaging/photos/plate/plate_fit.h"
 

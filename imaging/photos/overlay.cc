@@ -1,22 +1,16 @@
 #include "imaging/photos/overlay.h"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/image_file.h"
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 #include "imaging/photos/silhouette.h"
 
 namespace talus::imaging {
 namespace {
-
-constexpr Color kRed{230, 30, 30};
-constexpr Color kBlue{40, 90, 240};
-constexpr Color kGreen{0, 170, 60};
-constexpr int kWidest = 1300;  // enlarged as long as it stays narrower [px]
 
 // From the plate's coordinates (along it and down from the middle of its top) to the canvas.
 class OnPhoto {
@@ -46,7 +40,7 @@ std::vector<std::vector<cv::Point>> Outlines(const GrayImage& silhouette) {
 }
 
 ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat, const PlateEdges& edges) {
-  const int zoom = std::max(1, kWidest / photo.width);
+  const int zoom = OverlayZoom(photo);
   ColorImage canvas = Enlarged(photo, zoom);
   GrayImage dark{.width = photo.width, .height = photo.height, .pixels = {}};
   for (const float level : flat.image.pixels)
@@ -66,7 +60,7 @@ ColorImage DrawFault(const GrayImage& photo, const BacklitPhoto& flat, const Pla
 
 ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const GrayImage& silhouette,
                        const Frame& frame) {
-  const int zoom = std::max(1, kWidest / photo.width);
+  const int zoom = OverlayZoom(photo);
   ColorImage canvas = Enlarged(photo, zoom);
   const OnPhoto on(plate, zoom);
   const double scale = plate.width * frame.pixel_size / frame.plate_diameter;  // photo / frame px

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "imaging/color_image.h"
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::imaging {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 #include "imaging/photos/experiment.h"
 #include "imaging/photos/photo_set.h"
 #include "imaging/photos/plate/plate_edges.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "imaging/heap/profile.h"
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 #include "imaging/photos/plate/plate_fit.h"
 
 namespace talus::imaging {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 
 namespace talus::imaging {
 

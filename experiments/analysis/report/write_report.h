@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "experiments/analysis/report/data/report_data.h"
 #include "experiments/analysis/report/page/page.h"
-#include "experiments/analysis/report/report_data.h"
 
 namespace talus::analysis {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 
 namespace talus::imaging {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 
 namespace talus::imaging {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "experiments/analysis/report/report_data.h"
+#include "experiments/analysis/report/data/report_data.h"
 
 namespace talus::analysis {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "experiments/analysis/report/report_data.h"
+#include "experiments/analysis/report/data/report_data.h"
 
 namespace talus::analysis {
 

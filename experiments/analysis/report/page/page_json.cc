@@ -4,7 +4,7 @@
 #include "base/json/json_text.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/colors.h"
-#include "experiments/analysis/report/methods.h"
+#include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/page/page.h"

@@ -6,6 +6,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "optimizer/posterior/experiment_model.h"
 
@@ -40,16 +41,7 @@ std::vector<std::string> HeadlineWords(const Evidence& evidence) {
 
 std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const Answer& answer) {
   constexpr double kClear = 0.5;
-  std::optional<std::pair<std::size_t, std::size_t>> pair;
-  double most = kClear;
-  for (std::size_t i = 0; i < answer.correlation.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!(std::abs(answer.correlation[i][j]) >= most)) continue;
-      most = std::abs(answer.correlation[i][j]);
-      pair = {j, i};
-    }
-  }
-  return pair;
+  return campaign::TiedPair(answer.correlation, kClear);
 }
 
 std::string TradeOffWords(const Evidence& evidence) {

@@ -27,12 +27,8 @@ std::string RangeText(const campaign::ResultParameter& v) {
   return Number(v.credible_low) + " to " + Number(v.credible_high);
 }
 
-// The range's width as a share of what is searched, on the parameter's own scale.
-double WidthOf(const ParameterInfo& parameter, const campaign::ResultParameter& v) {
-  const double width =
-      parameter.range.ToUnit(v.credible_high) - parameter.range.ToUnit(v.credible_low);
-  return std::max(width, 1e-3);
-}
+// Never 0, which no other width could be compared with.
+double WidthOf(const campaign::ResultParameter& v) { return std::max(v.Width(), 1e-3); }
 
 // The draws near a value of one parameter, with the other parameters only.
 Eigen::MatrixXd OthersNear(const Eigen::MatrixXd& draws, Eigen::Index column, double value) {
@@ -56,7 +52,7 @@ bool CanBeMeasured(const std::string& parameter) {
 void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>& steps) {
   const ParameterInfo& parameter = evidence.parameters[k];
   const campaign::ResultParameter& measured = evidence.answer->parameters[k];
-  const double width = WidthOf(parameter, measured);
+  const double width = WidthOf(measured);
   if (!(width > kMeasured)) return;
   const Eigen::MatrixXd given = OthersNear(evidence.model->draws, static_cast<Eigen::Index>(k),
                                            parameter.range.ToUnit(measured.value));
@@ -72,9 +68,10 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
     const ParameterInfo& other = evidence.parameters[j];
     const campaign::ResultParameter& now = evidence.answer->parameters[j];
     const optimizer::Range& range = ranges[left++];
-    const campaign::ResultParameter then{.credible_low = other.range.ToNative(range.low),
-                                         .credible_high = other.range.ToNative(range.high)};
-    const double share = std::min(1.0, WidthOf(other, then) / WidthOf(other, now));
+    campaign::ResultParameter then = now;
+    then.credible_low = other.range.ToNative(range.low);
+    then.credible_high = other.range.ToNative(range.high);
+    const double share = std::min(1.0, WidthOf(then) / WidthOf(now));
     step.remaining *= share;
     step.leaves += (step.leaves.empty() ? "" : ", ") + other.symbol;
     step.leaves += share < kNoNarrower ? " in " + RangeText(then) + " (now " + RangeText(now) + ")"

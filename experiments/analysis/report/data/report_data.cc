@@ -1,9 +1,9 @@
-#include "experiments/analysis/report/report_data.h"
+#include "experiments/analysis/report/data/report_data.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/analysis/report/views/profile_views.h"
+#include "experiments/analysis/report/data/profile_views.h"
 
 namespace talus::analysis {
 namespace {

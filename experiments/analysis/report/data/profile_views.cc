@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/views/profile_views.h"
+#include "experiments/analysis/report/data/profile_views.h"
 
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "imaging/heap/outline.h"

@@ -1,4 +1,4 @@
-#include "imaging/photos/backlight.h"
+#include "imaging/light/backlight.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What a report shows of profiles: outlines, measures and pictures.
 #pragma once
 
-#include "experiments/analysis/report/report_data.h"
+#include "experiments/analysis/report/data/report_data.h"
 
 namespace talus::analysis {
 

@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/methods.h"
+#include "experiments/analysis/report/data/methods.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/analysis/report/tables.h"
+#include "experiments/analysis/report/data/tables.h"
 
 #include "base/text/csv.h"
 #include "experiments/analysis/compare/compare_tables.h"
