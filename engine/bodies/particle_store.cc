@@ -12,16 +12,6 @@ std::int64_t Padded(std::int64_t count) { return (count + kBlock - 1) / kBlock *
 
 }  // namespace
 
-void ParticleStore::Resize(std::int64_t count) {
-  num = count;
-  motion.assign(8 * Padded(count), 0.0);
-  spin.assign(4 * Padded(count), 0.0);
-  single.assign(8 * Padded(count), 0.0f);
-  spot.assign(4 * Padded(count), 0.0f);
-  ids.resize(count);
-  materials.resize(count);
-}
-
 void ParticleStore::NotePositions(std::int64_t begin, std::int64_t end) {
   for (std::int64_t i = begin; i < end; ++i) {
     old_x[i] = motion[8 * i];
@@ -32,9 +22,12 @@ void ParticleStore::NotePositions(std::int64_t begin, std::int64_t end) {
 }
 
 void ParticleStore::Assign(std::span<const Particle> particles, std::span<const Material> list) {
-  Resize(static_cast<std::int64_t>(particles.size()));
-  for (std::int64_t i = 0; i < num; ++i) Put(i, particles[i]);
-  SetMasses(list);
+  num = 0;
+  motion.clear();
+  spin.clear();
+  single.clear();
+  spot.clear();
+  Append(particles, list);
 }
 
 void ParticleStore::Put(std::int64_t i, const Particle& p) {

@@ -48,7 +48,6 @@ struct ParticleStore {
   double InverseInertia(std::int64_t i) const { return spin[4 * i + 3]; }
 
  private:
-  void Resize(std::int64_t count);
   void Put(std::int64_t i, const Particle& p);
   void NotePositions(std::int64_t begin, std::int64_t end);
 

@@ -47,8 +47,7 @@ void ExperimentModel::MeasureImages() {
   double factor = 1;
   if (target.runs.size() < 2) {
     // The mean image of several heaps has wider edges than each of them.
-    const Eigen::VectorXd among_heaps =
-        (1 - 1 / heaps) * (modes.basis.cwiseAbs2() * noise + modes.discarded);
+    const Eigen::VectorXd among_heaps = (1 - 1 / heaps) * outputs_.ElementNoise();
     measured_.head(num_modes) = modes.Coefficients(
         setup_.code->OneOfMean(setup_.code->Encode(target.image.target), among_heaps));
   } else {

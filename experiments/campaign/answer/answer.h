@@ -49,6 +49,8 @@ struct ResultParameter {
   optimizer::Parameter Range() const {
     return {.name = name, .low = searched_low, .high = searched_high, .scale = scale};
   }
+  // The credible range's width as a share of what is searched, on the parameter's own scale.
+  double Width() const { return Range().ToUnit(credible_high) - Range().ToUnit(credible_low); }
 };
 
 // A number as it was measured, in its metric's unit.

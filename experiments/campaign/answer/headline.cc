@@ -23,15 +23,10 @@ std::string Short(double value) { return base::ShortNumber(value, 3); }
 
 std::string Percent(double share) { return base::ShortNumber(100 * share, 2) + " %"; }
 
-// The range's width as a share of what is searched, on the parameter's own scale.
-double WidthOf(const ResultParameter& p) {
-  return p.Range().ToUnit(p.credible_high) - p.Range().ToUnit(p.credible_low);
-}
-
 // Wide, and no other parameter tells it.
 bool IsOpen(const Answer& answer, std::size_t i) {
   const auto pair = TiedPair(answer.correlation);
-  return WidthOf(answer.parameters[i]) >= kOpen &&
+  return answer.parameters[i].Width() >= kOpen &&
          !(pair && (pair->first == i || pair->second == i));
 }
 
@@ -84,7 +79,7 @@ std::string KnownText(const Told& told) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < told.names.size(); ++i) {
     const ResultParameter& p = told.at(i);
-    if (WidthOf(p) >= kWideRange) continue;
+    if (p.Width() >= kWideRange) continue;
     known.push_back(told.names[i] + " " + Short(p.value) + " (90 %: " + Short(p.credible_low) +
                     " to " + Short(p.credible_high) + ")");
   }
@@ -104,7 +99,7 @@ std::string SeparateText(const Told& told) {
 std::string CurveText(const Told& told) {
   // What is known given the other: the narrower of the two.
   auto [given, known] = *TiedPair(told.answer.correlation);
-  if (WidthOf(told.at(known)) > WidthOf(told.at(given))) std::swap(given, known);
+  if (told.at(known).Width() > told.at(given).Width()) std::swap(given, known);
   const auto& sets = told.answer.representative;
   std::string text =
       "They determine " + told.names[known] + " given " + told.names[given] + ", not both: ";
@@ -116,8 +111,8 @@ std::string CurveText(const Told& told) {
 std::string RegionText(const Told& told) {
   std::vector<std::string> wide;
   for (std::size_t i = 0; i < told.names.size(); ++i) {
-    if (WidthOf(told.at(i)) < kWideRange || IsOpen(told.answer, i)) continue;
-    wide.push_back(RangeText(told, i) + " (" + Percent(std::min(1.0, WidthOf(told.at(i)))) +
+    if (told.at(i).Width() < kWideRange || IsOpen(told.answer, i)) continue;
+    wide.push_back(RangeText(told, i) + " (" + Percent(std::min(1.0, told.at(i).Width())) +
                    " of its searched range)");
   }
   return "They leave a region, not a point" + (wide.empty() ? "" : ": " + Listed(wide));
@@ -142,7 +137,7 @@ std::string KindText(const Told& told, VerdictKind kind) {
 std::optional<VerdictKind> VerdictKindOf(const Answer& answer) {
   if (!answer.posterior) return std::nullopt;
   if (answer.posterior->branches.size() > 1) return VerdictKind::kSeparate;
-  const auto wide = [](const ResultParameter& p) { return WidthOf(p) >= kWideRange; };
+  const auto wide = [](const ResultParameter& p) { return p.Width() >= kWideRange; };
   if (std::ranges::none_of(answer.parameters, wide)) return VerdictKind::kPoint;
   const auto pair = TiedPair(answer.correlation);
   const bool is_curve =

@@ -7,8 +7,6 @@
 namespace talus::campaign {
 namespace {
 
-constexpr double kTied = 0.8;  // correlation above which two parameters are known together only
-
 // The draw nearest to the mean of those whose place along the direction is in [low, high].
 Eigen::VectorXd MiddleOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& place, double low,
                          double high) {
@@ -27,9 +25,9 @@ Eigen::VectorXd MiddleOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& p
 }  // namespace
 
 std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
-    const std::vector<std::vector<double>>& correlation) {
+    const std::vector<std::vector<double>>& correlation, double least) {
   std::optional<std::pair<std::size_t, std::size_t>> pair;
-  double most = kTied;
+  double most = least;
   for (std::size_t i = 0; i < correlation.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!(std::abs(correlation[i][j]) >= most)) continue;

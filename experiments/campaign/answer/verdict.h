@@ -34,9 +34,12 @@ struct ResultVerdict {
   }
 };
 
-// The two parameters that are correlated most strongly, where by 0.8 or more in size.
+// Correlation from which on two parameters are known together only.
+inline constexpr double kTied = 0.8;
+
+// The two parameters that are correlated most strongly, where by `least` or more in size.
 std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
-    const std::vector<std::vector<double>>& correlation);
+    const std::vector<std::vector<double>>& correlation, double least = kTied);
 
 // Representatives of points that fit equally (unit cube, one a row): the ends of their longest
 // direction with the recommended one between; the recommended one alone where they are close

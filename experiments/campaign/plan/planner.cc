@@ -96,6 +96,7 @@ void Planner::CheckThatNumbersAreDefined(int experiment) {
   for (const journal::TrialRecord& trial : trials_) {
     const bool ok = trial.status == journal::TrialStatus::kOk;
     if (ok && trial.experiment == experiment) done.push_back(&trial);
+    if (done.size() > kFailuresToGiveUp) return;  // it was judged by the first ones
   }
   if (done.size() < kFailuresToGiveUp) return;
   for (const journal::ScalarRecord& scalar : ReferenceOf(*done.front()).scalars()) {

@@ -64,9 +64,7 @@ Vessel DrawDownRig::VesselOf(const Case& c) {
 }
 
 void DrawDownRig::Validate(const Case& c, base::Problems& problems) {
-  const double largest =
-      c.coarse_graining.scale_factor * engine::SizeCurve(c.powder.sizes).largest();
-  problems.Require(c.rig.draw_down.slot > 2 * largest, "rig.slot", c.rig.draw_down.slot,
+  problems.Require(c.rig.draw_down.slot > 2 * LargestDiameter(c), "rig.slot", c.rig.draw_down.slot,
                    "must be above two (scaled) grain diameters, or nothing runs through it");
 }
 

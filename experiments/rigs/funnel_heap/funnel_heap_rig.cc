@@ -76,13 +76,10 @@ std::vector<engine::Particle> FunnelHeapRig::Grains() const {
 
 // From the first grain on some fall over the rim.
 std::optional<PhaseEnd> FunnelHeapRig::Look() {
-  std::vector<std::int64_t> gone;
-  for (const engine::Particle& p : view().particles) {
-    if (p.position.z + p.radius >= leave_height_) continue;
-    memory().mass_fallen += MassOf({&p, 1});
-    gone.push_back(p.id);
-  }
-  Remove(gone);
+  const auto leaves = [&](const engine::Particle& p) {
+    return p.position.z + p.radius < leave_height_;
+  };
+  WeighOut(leaves, memory().mass_fallen);
   return std::nullopt;
 }
 

@@ -139,7 +139,7 @@ inline constexpr std::array kObservables = [] {
        "angle_of_repose_1",
        Dimension::kAngle,
        "AOR 1",
-       "of a round heap's silhouette by method 1 (docs/measure.md)",
+       "of a round heap's silhouette by method 1 (docs/imaging.md)",
        {.absolute = 1}},
       {O::kReposeAngle2,
        "angle_of_repose_2",

@@ -82,13 +82,10 @@ double OrificeFlowRig::MassBelow(GrainSpan grains) const {
 
 std::optional<PhaseEnd> OrificeFlowRig::Look() {
   if (phase_name() != kDischarging) return std::nullopt;
-  std::vector<std::int64_t> gone;
-  for (const engine::Particle& p : view().particles) {
-    if (p.position.z + p.radius >= leave_height_) continue;
-    memory().mass_gone += MassOf({&p, 1});
-    gone.push_back(p.id);
-  }
-  Remove(gone);
+  const auto leaves = [&](const engine::Particle& p) {
+    return p.position.z + p.radius < leave_height_;
+  };
+  WeighOut(leaves, memory().mass_gone);
   memory().flow.push_back(
       {.time = simulation().time() - phase_start(), .mass = MassBelow(view().particles)});
   if (view().particles.empty()) return PhaseEnd::kEmpty;

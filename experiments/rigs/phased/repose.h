@@ -1,5 +1,5 @@
 // The angles of repose of a round heap, as methods read them off its mean silhouette
-// (docs/measure.md): 1, 2 and 3, and the triangle of equal area.
+// (docs/imaging.md): 1, 2 and 3, and the triangle of equal area.
 #pragma once
 
 #include <span>

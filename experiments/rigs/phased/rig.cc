@@ -191,6 +191,16 @@ std::int64_t Rig::Remove(const std::vector<std::int64_t>& ids) {
   return simulation_.RemoveIf([&](const engine::Particle& p) { return gone(p.id); });
 }
 
+void Rig::WeighOut(const std::function<bool(const engine::Particle&)>& leaves, double& mass) {
+  std::vector<std::int64_t> leaving;
+  for (const engine::Particle& p : view().particles) {
+    if (!leaves(p)) continue;
+    mass += MassOf({&p, 1});
+    leaving.push_back(p.id);
+  }
+  Remove(leaving);
+}
+
 engine::Bed Rig::BedNow() const {
   return engine::MeasureBed(simulation_, {.area = vessel_.area, .floor = vessel_.region.base.z});
 }

@@ -77,6 +77,8 @@ class Rig {
   const View& view() const;
   // Takes grains out of the scene and of the view; `ids` ascending.
   std::int64_t Remove(const std::vector<std::int64_t>& ids);
+  // The same of those that `leaves` picks; their mass is added to `mass` [kg].
+  void WeighOut(const std::function<bool(const engine::Particle&)>& leaves, double& mass);
 
   const Case& rig_case() const { return case_; }
   const Vessel& vessel() const { return vessel_; }

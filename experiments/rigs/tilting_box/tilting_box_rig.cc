@@ -51,13 +51,7 @@ double TiltingBoxRig::Centre() const {
 std::optional<PhaseEnd> TiltingBoxRig::Look() {
   const TiltingBoxOptions& box = rig_case().rig.tilting_box;
   const double beyond = box.length / 2 + 2 * simulation().LargestRadius();
-  std::vector<std::int64_t> leaving;
-  for (const engine::Particle& p : view().particles) {
-    if (p.position.x <= beyond) continue;
-    memory().mass_left += MassOf({&p, 1});
-    leaving.push_back(p.id);
-  }
-  Remove(leaving);
+  WeighOut([&](const engine::Particle& p) { return p.position.x > beyond; }, memory().mass_left);
   if (phase_name() != "tilting") return std::nullopt;
   const bool slid = Centre() - memory().start_centre > kSlid * MeanDiameter();
   if (!slid) return std::nullopt;
