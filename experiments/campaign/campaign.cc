@@ -273,7 +273,7 @@ void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reaso
 
 void Campaign::Close(journal::TrialRecord& trial, const imaging::GrayImage* profile) {
   trial.finished_utc = journal::UtcNow();
-  KeepCost(folder_, trial);
+  KeepTrial(folder_, trial);  // a journal that is made anew measures it again, but cannot time it
   journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
   NoteElapsed();
   planner_.Finished(trial,

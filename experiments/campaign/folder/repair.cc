@@ -106,13 +106,6 @@ void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) 
                             base::Outlives::kProgram);
 }
 
-void KeepCost(const CampaignFolder& folder, journal::TrialRecord trial) {
-  trial.status = journal::TrialStatus::kRunning;
-  trial.reason.clear();
-  trial.metrics.clear();
-  if (std::filesystem::exists(folder.trial(trial.id))) KeepTrial(folder, trial);
-}
-
 journal::Journal RebuildJournal(const CampaignFolder& folder) {
   const journal::CampaignRecord record = KeptCampaign(folder);
   const std::vector<journal::TrialRecord> trials = KeptTrials(folder);

@@ -12,9 +12,6 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
 
 // trials/0001/trial.json: why there is such a trial.
 void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial);
-// The same of one that has ended, with the time it took: a journal that is made anew measures it
-// again, but cannot time it again.
-void KeepCost(const CampaignFolder& folder, journal::TrialRecord trial);
 
 // Puts the damaged journal aside and makes a new one in which every trial that was ever started is
 // running: those that have ended are then collected from their folders, the others run again.
