@@ -121,6 +121,12 @@ void Strategy::Tell(const py::dict& values, std::optional<double> value,
   strategy_->Tell(observation);
 }
 
+std::optional<std::string> Strategy::StopReason() {
+  const auto reason = strategy_->WhyStop();
+  if (!reason) return std::nullopt;
+  return optimizer::TextOf(*reason);
+}
+
 py::dict Strategy::Answer() {
   const optimizer::Answer answer = strategy_->Recommend();
   py::dict result;

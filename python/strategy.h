@@ -24,7 +24,7 @@ class Strategy {
   pybind11::list Ask(int count);
   void Tell(const pybind11::dict& values, std::optional<double> value,
             const std::optional<GrayArray>& image, bool failed);
-  std::optional<std::string> StopReason() { return strategy_->StopReason(); }
+  std::optional<std::string> StopReason();  // in words
   pybind11::dict Answer();
 
  private:

@@ -144,7 +144,7 @@ std::vector<Result> RunOne(const Options& options, const Problem& problem, const
   std::vector<Result> results;
   int told = 0;
   for (const int budget : options.budgets) {
-    while (told < budget && !strategy->StopReason()) {
+    while (told < budget && !strategy->WhyStop()) {
       for (auto& proposal : strategy->Ask(std::min(options.batch, budget - told), {})) {
         ++told;
         const std::uint64_t run = 1000 * seed + static_cast<std::uint64_t>(told);

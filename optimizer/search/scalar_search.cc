@@ -128,7 +128,7 @@ Eigen::VectorXd ScalarSearch::Best(const SearchRecord& record) {
   return LowestMean(ViewOf(model, record, record.domain(), record.options().seed));
 }
 
-std::optional<std::string> ScalarSearch::StopReason(const SearchRecord& record) {
+std::optional<StopReason> ScalarSearch::WhyStop(const SearchRecord& record) {
   const ScalarFit& fit = Fit(record);
   const TransformedModel model(fit.process);
   const ModelView view = ViewOf(model, record, record.domain(), record.options().seed);

@@ -27,7 +27,7 @@ class ScalarSearch {
 
   // At least two evaluations succeeded.
   Proposal Next(const SearchRecord& record, std::span<const Eigen::VectorXd> asked);
-  std::optional<std::string> StopReason(const SearchRecord& record);
+  std::optional<StopReason> WhyStop(const SearchRecord& record);
   Answer Recommend(const SearchRecord& record);
 
  private:

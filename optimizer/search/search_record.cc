@@ -145,7 +145,7 @@ bool SearchRecord::MayStop(int num_evaluations) const {
          num_evaluations >= 2 * design_.size();
 }
 
-std::optional<std::string> SearchRecord::ReasonToStop(double gain, double noise) const {
+std::optional<StopReason> SearchRecord::ReasonToStop(double gain, double noise) const {
   if (noise_free()) {
     return StopByExactGain(gain, history_.values.mean() - history_.values.minCoeff());
   }

@@ -23,6 +23,7 @@
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"
 #include "optimizer/space/domain.h"
+#include "optimizer/stop_reason.h"
 
 namespace talus::optimizer {
 
@@ -59,7 +60,7 @@ class SearchRecord {
   bool WasEvaluated(const Eigen::VectorXd& point, std::span<const Eigen::VectorXd> asked) const;
 
   // By the rule of stopping_rule.h, when `gain`, what going on would improve by at most, is small.
-  std::optional<std::string> ReasonToStop(double gain, double noise) const;
+  std::optional<StopReason> ReasonToStop(double gain, double noise) const;
   // A search never stops before `num_evaluations` is twice the design and the noise is known.
   bool MayStop(int num_evaluations) const;
 

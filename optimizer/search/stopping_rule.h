@@ -1,5 +1,5 @@
-// When a search ends by itself. Each rule answers with the reason in words, or with nothing while
-// the search should go on. A campaign's budget ends it at the latest (campaign/plan/planner.h).
+// When a search ends by itself. Each rule answers with its reason, or with nothing while the search
+// should go on. A campaign's budget ends it at the latest (campaign/plan/planner.h).
 //
 //   one objective, noisy      StopByGain: what is left to gain is small against the noise
 //   one objective, exact      StopByExactGain: … against the values seen
@@ -7,26 +7,18 @@
 //   or experiments            experiments do
 #pragma once
 
-#include <limits>
 #include <optional>
-#include <string>
+
+#include "optimizer/stop_reason.h"
 
 namespace talus::optimizer {
 
-// What a rule still lacks: for searches that their budget ends.
-struct StopShortfall {
-  std::string text;  // in words, without a full stop
-  // StopByShare's share [-], and the evaluations that would bring it down; NaN: not known.
-  double share = std::numeric_limits<double>::quiet_NaN();
-  double num_more = std::numeric_limits<double>::quiet_NaN();
-};
-
 // `gain`: what going on could improve the best value by, at most. `noise`: standard deviation of
 // one evaluation, same unit.
-std::optional<std::string> StopByGain(double gain, double noise, double stop_multiple);
+std::optional<StopReason> StopByGain(double gain, double noise, double stop_multiple);
 
 // `typical`: mean of the values less the lowest.
-std::optional<std::string> StopByExactGain(double gain, double typical);
+std::optional<StopReason> StopByExactGain(double gain, double typical);
 
 // `share`: the surrogate's variance over the posterior, as a share of what the experiments' own
 // errors leave open [-]. `temper`: by how much the variance had to be raised until the trials, each
@@ -35,7 +27,7 @@ struct SurrogateShare {
   double share = 0;
   double temper = 1;
 };
-std::optional<std::string> StopByShare(const SurrogateShare& now, double stop_share);
+std::optional<StopReason> StopByShare(const SurrogateShare& now, double stop_share);
 
 // Nothing where the rule is met. The variance of a mean of n falls as 1/n, so `num_told`
 // evaluations become share/stop_share times as many: told up to 20 times more, of no temper.

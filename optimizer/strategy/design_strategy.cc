@@ -45,9 +45,10 @@ std::vector<Proposal> DesignStrategy::Ask(int count, std::span<const Eigen::Vect
   return proposals;
 }
 
-std::optional<std::string> DesignStrategy::StopReason() {
+std::optional<StopReason> DesignStrategy::WhyStop() {
   if (!IsDone()) return std::nullopt;
-  return "all " + std::to_string(queue_.size()) + " points of " + name_ + " are evaluated";
+  return StopReason{
+      .rule = StopRule::kAllEvaluated, .value = static_cast<double>(queue_.size()), .name = name_};
 }
 
 Answer DesignStrategy::Recommend() { return BestObserved(told_, domain_, name_); }
@@ -83,10 +84,11 @@ Points GridStrategy::Refinement() const {
   return Inside(domain_, HalfStepNeighbours(sweep_.levels, centers));
 }
 
-std::optional<std::string> GridStrategy::StopReason() {
+std::optional<StopReason> GridStrategy::WhyStop() {
   if (!IsDone()) return std::nullopt;
-  return "all " + std::to_string(grid_.size()) + " points of the grid and " +
-         std::to_string(num_refined_) + " half-step neighbours of its best are evaluated";
+  return StopReason{.rule = StopRule::kGridEvaluated,
+                    .value = static_cast<double>(grid_.size()),
+                    .limit = static_cast<double>(num_refined_)};
 }
 
 }  // namespace talus::optimizer

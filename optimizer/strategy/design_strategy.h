@@ -20,7 +20,7 @@ class DesignStrategy : public Strategy {
 
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
   void Tell(const Observation& observation) override;
-  std::optional<std::string> StopReason() override;
+  std::optional<StopReason> WhyStop() override;
   Answer Recommend() override;
 
  protected:
@@ -47,7 +47,7 @@ class GridStrategy : public DesignStrategy {
   GridStrategy(const Domain& domain, const Sweep& sweep);
 
   void Tell(const Observation& observation) override;
-  std::optional<std::string> StopReason() override;
+  std::optional<StopReason> WhyStop() override;
 
  private:
   Points Refinement() const;  // of the best told so far

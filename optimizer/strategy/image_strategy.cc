@@ -158,9 +158,9 @@ Eigen::VectorXd ImageStrategy::Best(const ImageModel& model, const Domain& domai
   return LowestMean(ViewOf(model, domain, record().options().seed));
 }
 
-std::optional<std::string> ImageStrategy::StopReason() {
+std::optional<StopReason> ImageStrategy::WhyStop() {
   if (!record().MayStop(fields_.size())) return std::nullopt;
-  if (!Model()) return by_values_.StopReason(record());
+  if (!Model()) return by_values_.WhyStop(record());
   const Eigen::VectorXd best = Best(*model_, record().domain());
   const Moments at = model_->Predict(best.transpose());
   const double bound =

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "optimizer/search/image_history.h"
 #include "optimizer/search/model_step.h"
@@ -20,7 +19,7 @@ class ImageStrategy : public SurrogateStrategy {
   ImageStrategy(const Domain& domain, const FieldObjective& objective,
                 const SurrogateOptions& options);
 
-  std::optional<std::string> StopReason() override;
+  std::optional<StopReason> WhyStop() override;
   Answer Recommend() override;
 
  private:

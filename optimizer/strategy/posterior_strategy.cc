@@ -10,7 +10,6 @@
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"
 #include "optimizer/search/size_to_fit.h"
-#include "optimizer/search/stopping_rule.h"
 
 namespace talus::optimizer {
 namespace {
@@ -306,15 +305,14 @@ SurrogateShare PosteriorStrategy::ShareNow() {
   return {.share = std::expm1(2 * gain / outputs), .temper = Model().temper()};
 }
 
-std::optional<std::string> PosteriorStrategy::StopReason() {
+std::optional<StopReason> PosteriorStrategy::WhyStop() {
   if (options_.stop_share == 0 || !HasDesign()) return std::nullopt;
   return StopByShare(ShareNow(), options_.stop_share);
 }
 
 std::optional<StopShortfall> PosteriorStrategy::Shortfall() {
   if (options_.stop_share == 0) return std::nullopt;
-  if (!HasDesign())
-    return StopShortfall{.text = "the first trials at each scale factor are missing"};
+  if (!HasDesign()) return StopShortfall{.lack = StopLack::kFirstTrials};
   return ShortOfShare(ShareNow(), options_.stop_share, static_cast<int>(observations_.size()));
 }
 

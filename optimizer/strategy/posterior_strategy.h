@@ -8,7 +8,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "optimizer/moments.h"
@@ -16,6 +15,7 @@
 #include "optimizer/outputs/levels.h"
 #include "optimizer/posterior/posterior.h"
 #include "optimizer/posterior_summary.h"
+#include "optimizer/search/stopping_rule.h"
 #include "optimizer/space/domain.h"
 #include "optimizer/strategy/posterior_strategy_options.h"
 #include "optimizer/strategy/strategy.h"
@@ -30,7 +30,7 @@ class PosteriorStrategy : public Strategy {
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
   std::vector<Proposal> AskAt(int count, std::span<const Proposal> pending) override;
   void Tell(const Observation& observation) override;
-  std::optional<std::string> StopReason() override;
+  std::optional<StopReason> WhyStop() override;
   std::optional<StopShortfall> Shortfall() override;
   Answer Recommend() override;
 

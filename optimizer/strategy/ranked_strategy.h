@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "optimizer/space/domain.h"
@@ -23,7 +22,7 @@ class RankedStrategy : public Strategy {
 
   std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) override;
   void Tell(const Observation& observation) override;
-  std::optional<std::string> StopReason() override { return inner_->StopReason(); }
+  std::optional<StopReason> WhyStop() override { return inner_->WhyStop(); }
   std::optional<StopShortfall> Shortfall() override { return inner_->Shortfall(); }
   Answer Recommend() override;
 

@@ -13,7 +13,7 @@ class RbfStrategy : public SurrogateStrategy {
   using SurrogateStrategy::SurrogateStrategy;
 
   // Never: without a variance nobody knows what is left to gain.
-  std::optional<std::string> StopReason() override { return std::nullopt; }
+  std::optional<StopReason> WhyStop() override { return std::nullopt; }
   std::optional<StopShortfall> Shortfall() override { return std::nullopt; }
   Answer Recommend() override;
 

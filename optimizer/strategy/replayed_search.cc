@@ -128,9 +128,9 @@ std::vector<Proposal> ReplayedSearch::Ask(int count, std::span<const Eigen::Vect
   return proposals;
 }
 
-std::optional<std::string> ReplayedSearch::StopReason() {
+std::optional<StopReason> ReplayedSearch::WhyStop() {
   if (Replay({})) return std::nullopt;
-  return options_.name + " has converged";
+  return StopReason{.rule = StopRule::kConverged, .name = options_.name};
 }
 
 Answer ReplayedSearch::Recommend() { return BestObserved(told_, domain_, options_.name); }

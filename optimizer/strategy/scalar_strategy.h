@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "optimizer/search/scalar_search.h"
 #include "optimizer/strategy/surrogate_strategy.h"
@@ -15,9 +14,9 @@ class ScalarStrategy : public SurrogateStrategy {
   ScalarStrategy(const Domain& domain, const SurrogateOptions& options)
       : SurrogateStrategy(domain, options), search_(options.seed) {}
 
-  std::optional<std::string> StopReason() override {
+  std::optional<StopReason> WhyStop() override {
     if (!record().MayStop(static_cast<int>(record().told().size()))) return std::nullopt;
-    return search_.StopReason(record());
+    return search_.WhyStop(record());
   }
   Answer Recommend() override { return search_.Recommend(record()); }
 

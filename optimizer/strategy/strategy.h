@@ -7,12 +7,11 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "optimizer/answer.h"
 #include "optimizer/observation.h"
-#include "optimizer/search/stopping_rule.h"
+#include "optimizer/stop_reason.h"
 
 namespace talus::optimizer {
 
@@ -25,8 +24,8 @@ class Strategy {
   virtual std::vector<Proposal> Ask(int count, std::span<const Eigen::VectorXd> pending) = 0;
   virtual void Tell(const Observation& observation) = 0;
 
-  // In words, when going on is not worth it ("what is left to gain is below 0.7 × the noise sd").
-  virtual std::optional<std::string> StopReason() = 0;
+  // When going on is not worth it.
+  virtual std::optional<StopReason> WhyStop() = 0;
   // What that still lacks; nothing where it is met, switched off or where there is no rule.
   virtual std::optional<StopShortfall> Shortfall() { return std::nullopt; }
   virtual Answer Recommend() = 0;

@@ -29,8 +29,8 @@ void SurrogateStrategy::Tell(const Observation& observation) {
 }
 
 std::optional<StopShortfall> SurrogateStrategy::Shortfall() {
-  if (record_.options().stop_multiple == 0 || StopReason()) return std::nullopt;
-  return StopShortfall{.text = "a better set may still be found"};
+  if (record_.options().stop_multiple == 0 || WhyStop()) return std::nullopt;
+  return StopShortfall{.lack = StopLack::kGain};
 }
 
 }  // namespace talus::optimizer

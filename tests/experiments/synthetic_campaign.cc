@@ -138,7 +138,9 @@ analysis::TrialEvidence MakeTrial(int i, const analysis::Evidence& evidence,
 
 campaign::Answer MakeAnswer(const analysis::Evidence& evidence, const Eigen::VectorXd& truth) {
   campaign::Answer answer{.name = evidence.name, .talus_version = "0.1.0"};
-  answer.stop = {.kind = campaign::StopKind::kRule, .rule = evidence.stop_reason};
+  answer.stop = {.kind = campaign::StopKind::kRule,
+                 .rule = optimizer::StopReason{
+                     .rule = optimizer::StopRule::kGain, .value = 0.01, .limit = 1, .scale = 0.02}};
   answer.objective = "sad_mm2";
   answer.objective_unit = "mm²";
   answer.model = "posterior of 50 evaluations";
@@ -288,7 +290,9 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   evidence.strategy = "auto";
   evidence.max_simulations = 120;
   evidence.state = options.concluded ? "finished" : "running";
-  if (options.concluded) evidence.stop_reason = "what is left to gain is below 1 × the noise";
+  if (options.concluded)
+    evidence.stop_reason =
+        "what is left to gain, at most 0.01, is below 1 x the noise sd of one evaluation, 0.02";
   evidence.parameters = Parameters(options.num_parameters);
   evidence.versions = {{"talus", "0.1.0"}, {"compiler", "GCC 12.2.0"}};
   evidence.stages = {{"simulations", 1840}, {"proposals", 42}, {"projection and metrics", 3.1}};

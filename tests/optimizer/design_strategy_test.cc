@@ -14,7 +14,7 @@ double Bowl(const Eigen::VectorXd& u) { return (u.array() - 0.4).square().sum();
 // Runs a strategy to its end in batches and returns what it asked for, in order.
 std::vector<Eigen::VectorXd> RunToTheEnd(Strategy& strategy, int batch) {
   std::vector<Eigen::VectorXd> asked;
-  while (!strategy.StopReason()) {
+  while (!strategy.WhyStop()) {
     const auto proposals = strategy.Ask(batch, {});
     EXPECT_FALSE(proposals.empty());
     if (proposals.empty()) break;
@@ -48,7 +48,7 @@ TEST(GridStrategy, SweepsThenRefinesTheBestAndSaysSo) {
   }
   EXPECT_GT(asked.size(), 576u + 26u);
   EXPECT_LE(asked.size(), 576u + 20u * 26u);
-  EXPECT_THAT(*strategy->StopReason(),
+  EXPECT_THAT(TextOf(*strategy->WhyStop()),
               HasSubstr("576 points of the grid and " + std::to_string(asked.size() - 576)));
   // Nowhere on grid or half grid is a point nearer to the minimum than half a half step.
   const Eigen::Vector3d quarter(1.0 / 28, 1.0 / 28, 1.0 / 32);
@@ -63,7 +63,7 @@ TEST(GridStrategy, WaitsForTheSweepBeforeItRefines) {
   const std::vector<Eigen::VectorXd> pending{first[1].point};
   strategy->Tell({.point = first[0].point, .value = 1});
   EXPECT_TRUE(strategy->Ask(4, pending).empty());
-  EXPECT_FALSE(strategy->StopReason());
+  EXPECT_FALSE(strategy->WhyStop());
   strategy->Tell({.point = first[1].point, .failed = true});  // a failure is not refined
   const auto refined = strategy->Ask(4, {});
   ASSERT_EQ(refined.size(), 1u);

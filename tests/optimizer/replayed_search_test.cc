@@ -102,7 +102,7 @@ TEST(ReplayedSearch, LocalSearchThatHasConvergedStartsElsewhere) {
   }
   EXPECT_LT(strategy->Recommend().predicted_value, 1e-6);
   EXPECT_GT(farthest_late, 0.1);  // a new start, far from the minimum that is found by then
-  EXPECT_FALSE(strategy->StopReason());
+  EXPECT_FALSE(strategy->WhyStop());
 }
 
 TEST(ReplayedSearch, NeverAsksForAForbiddenPoint) {

@@ -208,19 +208,19 @@ TEST(ScalarStrategy, GoesOnWhenEverythingFails) {
     strategy.Tell({.point = point, .failed = true, .field = {}});
   }
   EXPECT_TRUE(strategy.Recommend().is_guess);
-  EXPECT_FALSE(strategy.StopReason());
+  EXPECT_FALSE(strategy.WhyStop());
 }
 
 TEST(ScalarStrategy, StopsInWordsOnceTheScatterHidesWhatIsLeft) {
   ScalarStrategy strategy = Fresh();
   int evaluations = 0;
-  while (evaluations < 120 && !strategy.StopReason()) {
+  while (evaluations < 120 && !strategy.WhyStop()) {
     strategy.Tell(Evaluated(strategy.Ask(1, {}).at(0).point, true, evaluations++));
   }
-  ASSERT_TRUE(strategy.StopReason());
+  ASSERT_TRUE(strategy.WhyStop());
   EXPECT_GT(evaluations, 18);  // never before twice the design
   EXPECT_LT(evaluations, 120);
-  EXPECT_NE(strategy.StopReason()->find("noise sd of one evaluation"), std::string::npos);
+  EXPECT_NE(TextOf(*strategy.WhyStop()).find("noise sd of one evaluation"), std::string::npos);
   // The promise of the rule: what was left to gain was within the noise.
   EXPECT_LT(Bowl(strategy.Recommend().point) - Bowl(kBottom), 0.03);
 }

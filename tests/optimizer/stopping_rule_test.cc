@@ -15,7 +15,10 @@ using ::testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(StoppingRule, NoisySearchesEndWhereTheGainIsSmallAgainstTheNoise) {
-  EXPECT_THAT(StopByGain(0.0199, 0.1, 0.2).value_or(""), HasSubstr("below 0.2 x the noise sd"));
+  const auto reason = StopByGain(0.0199, 0.1, 0.2);
+  ASSERT_TRUE(reason);
+  EXPECT_EQ(reason->rule, StopRule::kGain);
+  EXPECT_THAT(TextOf(*reason), HasSubstr("below 0.2 x the noise sd"));
   EXPECT_FALSE(StopByGain(0.0201, 0.1, 0.2));
   EXPECT_FALSE(StopByGain(kNan, 0.1, 0.2));
 }
@@ -28,8 +31,10 @@ TEST(StoppingRule, ExactSearchesEndWhereNothingIsLeftToGain) {
 }
 
 TEST(StoppingRule, CalibrationsEndWhereTheSurrogateKnowsEnoughAndPredictsItsTrials) {
-  EXPECT_THAT(StopByShare({.share = 0.049, .temper = 1.1}, 0.05).value_or(""),
-              HasSubstr("4.9 % of what"));
+  const auto reason = StopByShare({.share = 0.049, .temper = 1.1}, 0.05);
+  ASSERT_TRUE(reason);
+  EXPECT_EQ(reason->rule, StopRule::kShare);
+  EXPECT_THAT(TextOf(*reason), HasSubstr("4.9 % of what"));
   EXPECT_FALSE(StopByShare({.share = 0.051, .temper = 1.1}, 0.05));
   EXPECT_FALSE(StopByShare({.share = 0.028, .temper = 2.9},
                            0.05));  // an early model that misses a third of its trials
@@ -40,7 +45,8 @@ TEST(StoppingRule, WhatACalibrationLacksFallsAsOneOverItsEvaluations) {
   const auto shortfall = ShortOfShare({.share = 0.07, .temper = 1.2}, 0.02, 40);
   ASSERT_TRUE(shortfall);
   EXPECT_DOUBLE_EQ(shortfall->num_more, 100);  // 40 × 7/2 in all
-  EXPECT_THAT(shortfall->text, HasSubstr("7 % of what the measurements leave open"));
+  EXPECT_EQ(shortfall->lack, StopLack::kShare);
+  EXPECT_THAT(TextOf(*shortfall), HasSubstr("7 % of what the measurements leave open"));
   EXPECT_DOUBLE_EQ(ShortOfShare({.share = 0.0671}, 0.02, 40)->num_more, 95);  // 94.2
   EXPECT_DOUBLE_EQ(ShortOfShare({.share = 0.2}, 0.02, 47)->num_more, 430);    // 423
   EXPECT_TRUE(std::isnan(ShortOfShare({.share = 0.5}, 0.02, 47)->num_more));
@@ -48,7 +54,7 @@ TEST(StoppingRule, WhatACalibrationLacksFallsAsOneOverItsEvaluations) {
   const auto unsure = ShortOfShare({.share = 0.01, .temper = 4}, 0.02, 40);
   ASSERT_TRUE(unsure);
   EXPECT_TRUE(std::isnan(unsure->num_more));
-  EXPECT_THAT(unsure->text, HasSubstr("missed by 2 times what the model expects"));
+  EXPECT_THAT(TextOf(*unsure), HasSubstr("missed by 2 times what the model expects"));
 }
 
 }  // namespace

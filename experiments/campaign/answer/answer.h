@@ -16,6 +16,7 @@
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/plan/stop.h"
 #include "optimizer/space/parameter_space.h"
+#include "optimizer/stop_reason.h"
 
 namespace talus::campaign {
 
@@ -113,12 +114,14 @@ struct ResultConditions {
 
 // The budget ended the search before its stopping rule did.
 struct ResultUnsettled {
-  std::string why{};            // what the rule lacks
+  optimizer::StopLack lacks = optimizer::StopLack::kGain;
+  std::string why{};            // the same, in words
   double share = kNotKnown;     // surrogate's variance / what the measurements leave open [-]
   double num_more = kNotKnown;  // simulations that would settle it, an estimate
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
+    visit("lacks", self.lacks);
     visit("why", self.why);
     visit("surrogate_variance_share", self.share);
     visit("more_simulations", self.num_more);

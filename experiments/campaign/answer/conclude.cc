@@ -286,7 +286,10 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
   result.talus_version = base::Version();
   result.stop = planner.stop().value_or(Stop{});
   if (const auto lacks = planner.Shortfall()) {
-    result.unsettled = {.why = lacks->text, .share = lacks->share, .num_more = lacks->num_more};
+    result.unsettled = {.lacks = lacks->lack,
+                        .why = optimizer::TextOf(*lacks),
+                        .share = lacks->share,
+                        .num_more = lacks->num_more};
   }
   const journal::ObjectiveInfo& objective = journal::InfoOf(evidence.spec.objective);
   result.objective = objective.ValueKey();

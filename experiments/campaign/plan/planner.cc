@@ -87,7 +87,7 @@ void Planner::CheckThatSomeSucceed() {
   if (failed < kFailuresToGiveUp) return;
   StopSearch({.kind = StopKind::kAllFailed,
               .value = static_cast<double>(failed),
-              .rule = trials_.back().reason});
+              .cause = trials_.back().reason});
 }
 
 // Nor does a number teach anything that no set defines.
@@ -104,7 +104,7 @@ void Planner::CheckThatNumbersAreDefined(int experiment) {
     if (std::ranges::any_of(done, has_it)) continue;
     StopSearch({.kind = StopKind::kUndefined,
                 .value = static_cast<double>(done.size()),
-                .rule = scalar.name});
+                .cause = scalar.name});
   }
 }
 
@@ -247,7 +247,7 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
   }
   LeaveCoresToTrials();
   if (NumOfSearch() >= spec_.budget.min_simulations) {
-    if (const auto reason = Chooser().StopReason()) {
+    if (const auto reason = Chooser().WhyStop()) {
       StopSearch({.kind = StopKind::kRule, .rule = *reason});
       return false;
     }

@@ -9,7 +9,7 @@ namespace talus::campaign {
 std::string Stop::Text() const {
   switch (kind) {
     case StopKind::kRule:
-      return rule;
+      return rule ? optimizer::TextOf(*rule) : "its own rule is met";
     case StopKind::kSimulations:
       return "the budget of " + std::to_string(std::llround(value)) + " simulations is used";
     case StopKind::kCoreTime:
@@ -18,10 +18,10 @@ std::string Stop::Text() const {
       return "the time budget of " + trials::DurationText(value) + " is used";
     case StopKind::kAllFailed:
       return "the first " + std::to_string(std::llround(value)) +
-             " trials all failed, the last because it " + rule;
+             " trials all failed, the last because it " + cause;
     case StopKind::kUndefined:
       return "none of the first " + std::to_string(std::llround(value)) + " trials defines \"" +
-             rule + "\", which was measured";
+             cause + "\", which was measured";
     case StopKind::kNothingLeft:
       break;
   }

@@ -2,27 +2,30 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/field.h"
+#include "optimizer/stop_reason.h"
 
 namespace talus::campaign {
 
 enum class StopKind {
-  kRule,         // the strategy's own rule is met, as `rule` says
+  kRule,         // the strategy's own rule is met: `rule`
   kSimulations,  // the budget of `value` simulations is used
   kCoreTime,     // … of `value` seconds of core time
   kWallClock,    // … of `value` seconds of work
-  kAllFailed,    // the first `value` trials all failed; `rule` is what the last one did
-  kUndefined,    // none of the first `value` trials defines the measured number `rule`
+  kAllFailed,    // the first `value` trials all failed; `cause` is what the last one did
+  kUndefined,    // none of the first `value` trials defines the measured number `cause`
   kNothingLeft,  // the strategy has no more to propose
 };
 
 struct Stop {
   StopKind kind = StopKind::kNothingLeft;
   double value = 0;
-  std::string rule{};  // in the words of the strategy or of the trial
+  std::optional<optimizer::StopReason> rule{};
+  std::string cause{};  // a failed trial's own words, or the name of a number
 
   std::string Text() const;
 
@@ -31,6 +34,7 @@ struct Stop {
     visit("kind", self.kind);
     visit("value", self.value);
     visit("rule", self.rule);
+    visit("cause", self.cause);
     std::string text = self.Text();  // for people; made anew wherever it is read
     visit("text", text);
   }

@@ -58,7 +58,8 @@ class Loop {
     if (guard_.Asked() != base::Interrupt::kNone) return "interrupted";
     if (num_told() >= problem_.evaluations) return "all evaluations are used";
     if (nothing_left) return "the strategy has no more points";
-    return strategy_->StopReason().value_or("");
+    const auto reason = strategy_->WhyStop();
+    return reason ? optimizer::TextOf(*reason) : "";
   }
 
   // Whole batches of an earlier run. What there is of the next one is taken when it is asked for.

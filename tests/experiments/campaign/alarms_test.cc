@@ -245,7 +245,8 @@ TEST(Alarms, CommandsNameTheFolderWhereTheyAreShown) {
 TEST(Alarms, ABudgetThatEndedTheSearchSaysHowManyMoreWouldSettleIt) {
   Answer result;
   EXPECT_THAT(BudgetAlarms(result), IsEmpty());
-  result.unsettled = {.why = "it is far off", .share = 0.1, .num_more = 160};
+  result.unsettled = {
+      .lacks = optimizer::StopLack::kShare, .why = "it is far off", .share = 0.1, .num_more = 160};
   EXPECT_THAT(AlarmText(BudgetAlarms(result).at(0)),
               HasSubstr("it is far off; about 160 more simulations would meet it (`talus resume "
                         "DIR --add-simulations 160`)"));

@@ -1,0 +1,64 @@
+#include "optimizer/stop_reason.h"
+
+#include <cmath>
+
+#include "base/text/number_text.h"
+#include "optimizer/words.h"
+
+namespace talus::optimizer {
+namespace {
+
+std::string PercentText(double x) { return base::ShortNumber(100 * x, 2) + " %"; }
+
+std::string Count(double x) { return std::to_string(std::llround(x)); }
+
+}  // namespace
+
+std::string TextOf(const StopReason& r) {
+  const std::string gain = "what is left to gain, at most " + Rounded(r.value) + ", is below ";
+  switch (r.rule) {
+    case StopRule::kGain:
+      return gain + Rounded(r.limit) + " x the noise sd of one evaluation, " + Rounded(r.scale);
+    case StopRule::kExactGain:
+      return gain + Rounded(r.limit) + " x the mean value less the lowest, " + Rounded(r.scale);
+    case StopRule::kShare:
+      return "more simulations would hardly narrow the answer (over the posterior the surrogate's "
+             "variance is " +
+             PercentText(r.value) + " of what the measurements leave open, below " +
+             PercentText(r.limit) + ")";
+    case StopRule::kConverged:
+      return r.name + " has converged";
+    case StopRule::kAllEvaluated:
+      return "all " + Count(r.value) + " points of " + r.name + " are evaluated";
+    case StopRule::kGridEvaluated:
+      break;
+  }
+  return "all " + Count(r.value) + " points of the grid and " + Count(r.limit) +
+         " half-step neighbours of its best are evaluated";
+}
+
+std::string TextOf(const StopShortfall& s) {
+  switch (s.lack) {
+    case StopLack::kFirstTrials:
+      return "the first trials at each scale factor are missing";
+    case StopLack::kGain:
+      return "a better set may still be found";
+    case StopLack::kShare:
+      break;
+  }
+  std::string text;
+  if (!(s.share < s.stop_share)) {
+    text = "the surrogate's variance is " + PercentText(s.share) +
+           " of what the measurements leave open, and the search stops below " +
+           PercentText(s.stop_share);
+  }
+  if (s.temper > s.most_temper) {
+    text += (text.empty() ? "" : "; ") + std::string("trials left out are missed by ") +
+            base::ShortNumber(std::sqrt(s.temper), 2) +
+            " times what the model expects, and the search stops at " +
+            base::ShortNumber(std::sqrt(s.most_temper), 2);
+  }
+  return text;
+}
+
+}  // namespace talus::optimizer

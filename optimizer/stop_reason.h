@@ -1,0 +1,83 @@
+// Why a search ends by itself, and what a search that its budget ended still lacks: data, put in
+// words in one place.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/field.h"
+
+namespace talus::optimizer {
+
+enum class StopRule {
+  kGain,           // `value`, the most that going on could gain, is below `limit` × `scale`, the
+                   // noise sd of one evaluation
+  kExactGain,      // … is below `limit` × `scale`, the mean value less the lowest
+  kShare,          // `value`, the surrogate's variance over what the measurements leave open, is
+                   // below `limit`
+  kConverged,      // the search `name` has converged
+  kAllEvaluated,   // all `value` points of `name` are evaluated
+  kGridEvaluated,  // … of the grid, and `limit` half-step neighbours of its best
+};
+
+struct StopReason {
+  StopRule rule = StopRule::kConverged;
+  double value = 0;
+  double limit = 0;
+  double scale = 0;
+  std::string name{};  // for people: "DIRECT-L", "the Latin hypercube"
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("rule", self.rule);
+    visit("value", self.value);
+    visit("limit", self.limit);
+    visit("scale", self.scale);
+    visit("name", self.name);
+  }
+};
+
+// "what is left to gain, at most 0.012, is below 0.7 x the noise sd of one evaluation, 0.021"
+std::string TextOf(const StopReason& reason);
+
+enum class StopLack {
+  kFirstTrials,  // the first trials at each scale factor
+  kGain,         // a better set may still be found
+  kShare,  // the surrogate's variance is too large a share, or its model misses its own trials
+};
+
+struct StopShortfall {
+  StopLack lack = StopLack::kGain;
+  // Of kShare only; NaN: not known.
+  double share = std::numeric_limits<double>::quiet_NaN();       // as in StopRule::kShare [-]
+  double stop_share = std::numeric_limits<double>::quiet_NaN();  // the search stops below it [-]
+  double temper = 1;       // of the posterior, >= 1 (posterior/joint_misfit.h)
+  double most_temper = 1;  // the search stops at this or less
+  double num_more = std::numeric_limits<double>::quiet_NaN();  // evaluations that would be enough
+};
+
+// Without a full stop.
+std::string TextOf(const StopShortfall& shortfall);
+
+}  // namespace talus::optimizer
+
+template <>
+struct talus::base::Names<talus::optimizer::StopRule> {
+  using R = talus::optimizer::StopRule;
+  static constexpr std::array kList{
+      std::pair{"gain", R::kGain},
+      std::pair{"exact_gain", R::kExactGain},
+      std::pair{"share", R::kShare},
+      std::pair{"converged", R::kConverged},
+      std::pair{"all_evaluated", R::kAllEvaluated},
+      std::pair{"grid_evaluated", R::kGridEvaluated},
+  };
+};
+template <>
+struct talus::base::Names<talus::optimizer::StopLack> {
+  using L = talus::optimizer::StopLack;
+  static constexpr std::array kList{std::pair{"first_trials", L::kFirstTrials},
+                                    std::pair{"gain", L::kGain}, std::pair{"share", L::kShare}};
+};
