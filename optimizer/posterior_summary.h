@@ -26,6 +26,8 @@ struct ExperimentStanding {
   double predicted_objective = 0;  // of the mean image at the target scale factor; NaN without one
   double predicted_sd = 0;
   double implausibility = 0;              // Posterior::Implausibility [standard deviations]
+  double model_error = 1;                 // that the posterior counts with, in run-to-run sds [-]
+  double model_error_told = 0;            // ModelError::told [-]
   std::vector<NumberStanding> numbers{};  // in the order of the target's
 };
 

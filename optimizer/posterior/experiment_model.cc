@@ -29,9 +29,19 @@ ExperimentModel::ExperimentModel(const Setup& setup, const OutputData& data,
   caution_ = SurrogateCaution(static_cast<int>(num_finest));
   measured_ = Eigen::VectorXd::Zero(num_outputs());
   error_ = Eigen::VectorXd::Ones(num_outputs());
-  open_ = Eigen::VectorXd::Ones(num_outputs());
+  matched_ = Eigen::VectorXd::Ones(num_outputs());
   if (has_image()) MeasureImages();
   MeasureScalars();
+  SetModelError({.value = setup.model_error});
+}
+
+Eigen::VectorXd ExperimentModel::OpenWith(double model_error) const {
+  return error_ + model_error * model_error * matched_;
+}
+
+void ExperimentModel::SetModelError(const ModelError& model_error) {
+  model_error_ = model_error;
+  open_ = OpenWith(model_error.value);
 }
 
 // The experiment's heaps vary as simulated ones do along each mode, times one factor that its runs
@@ -64,9 +74,8 @@ void ExperimentModel::MeasureImages() {
     factor = (deviations + kPriorRuns) / (freedom + kPriorRuns);
     heaps = num_runs;
   }
-  const double model_error = setup_.model_error * setup_.model_error;
-  error_.head(num_modes) = std::max(0.25, factor) / heaps * noise;
-  open_.head(num_modes) = (1 / heaps + model_error) * std::max(0.25, factor) * noise;
+  matched_.head(num_modes) = std::max(0.25, factor) * noise;
+  error_.head(num_modes) = matched_.head(num_modes) / heaps;
   // A share 1 - 1/n of the variance of n heaps lies among them and 1/n is their mean's.
   const Eigen::VectorXd element = modes.basis.cwiseAbs2() * noise;
   objective_.emplace(setup_.code, target.image, modes, (1 - 1 / heaps) * element);
@@ -78,42 +87,51 @@ void ExperimentModel::MeasureScalars() {
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const Eigen::Index k = num_modes + static_cast<Eigen::Index>(s);
     const double error = CompressionSlope(scalars[s]) * scalars[s].standard_error;
-    const double model_error = setup_.model_error * setup_.model_error;
     measured_[k] = Compress(scalars[s], scalars[s].value);
     error_[k] = error * error;
-    open_[k] = error * error + model_error * outputs_.TargetNoise(k);
+    matched_[k] = outputs_.TargetNoise(k);
   }
 }
 
-OutputMisfit ExperimentModel::MisfitOf(const Eigen::MatrixXd& points, double caution) const {
-  OutputMisfit misfit{.residual = Eigen::MatrixXd(points.rows(), num_outputs()),
-                      .log_sd = Eigen::VectorXd::Zero(points.rows())};
+OutputMoments ExperimentModel::Outputs(const Eigen::MatrixXd& points) const {
+  OutputMoments outputs{.mean = Eigen::MatrixXd(points.rows(), num_outputs()),
+                        .variance = Eigen::MatrixXd(points.rows(), num_outputs())};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::Predictions all = outputs_.output(k).PredictAll(points);
-    const Eigen::ArrayXd cautious = caution * caution * all.variance.array() + open_[k];
-    misfit.residual.col(k) = (measured_[k] - all.mean.array()) / cautious.sqrt();
-    misfit.log_sd.array() += 0.5 * (all.variance.array() + open_[k]).log();
+    outputs.mean.col(k) = all.mean;
+    outputs.variance.col(k) = all.variance;
+  }
+  return outputs;
+}
+
+OutputMisfit ExperimentModel::MisfitOf(const OutputMoments& outputs, double caution,
+                                       const Eigen::VectorXd& open) const {
+  const Eigen::Index num_points = outputs.mean.rows();
+  OutputMisfit misfit{.residual = Eigen::MatrixXd(num_points, num_outputs()),
+                      .log_sd = Eigen::VectorXd::Zero(num_points)};
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const auto variance = outputs.variance.col(k).array();
+    const Eigen::ArrayXd cautious = caution * caution * variance + open[k];
+    misfit.residual.col(k) = (measured_[k] - outputs.mean.col(k).array()) / cautious.sqrt();
+    misfit.log_sd.array() += 0.5 * (variance + open[k]).log();
   }
   return misfit;
 }
 
 OutputPredictions ExperimentModel::Predict(const Eigen::MatrixXd& points) const {
-  OutputPredictions predictions{.mean = Eigen::MatrixXd(points.rows(), num_outputs()),
-                                .variance = Eigen::MatrixXd(points.rows(), num_outputs()),
+  const OutputMoments outputs = Outputs(points);
+  OutputPredictions predictions{.mean = outputs.mean,
+                                .variance = caution_ * caution_ * outputs.variance,
                                 .measured = error_,
                                 .model = open_ - error_,
                                 .single = Eigen::VectorXd(num_outputs())};
-  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
-    const surrogate::Predictions all = outputs_.output(k).PredictAll(points);
-    predictions.mean.col(k) = all.mean;
-    predictions.variance.col(k) = caution_ * caution_ * all.variance;
-    predictions.single[k] = outputs_.TargetNoise(k);
-  }
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) predictions.single[k] = outputs_.TargetNoise(k);
   return predictions;
 }
 
 double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
-  const Eigen::RowVectorXd residual = MisfitOf(x.transpose()).residual.row(0);
+  const Eigen::RowVectorXd residual =
+      MisfitOf(Outputs(x.transpose()), caution_, OpenWith(setup_.model_error)).residual.row(0);
   const Eigen::Index num_modes = outputs_.num_modes();
   double most = 0;
   if (num_modes > 0) most = std::sqrt(residual.head(num_modes).array().square().mean());
@@ -124,7 +142,9 @@ double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd ExperimentModel::SquaredMisfit(const Eigen::MatrixXd& points) const {
-  return MisfitOf(points, 1).residual.rowwise().squaredNorm();
+  return MisfitOf(Outputs(points), 1, OpenWith(setup_.model_error))
+      .residual.rowwise()
+      .squaredNorm();
 }
 
 Eigen::MatrixXd ExperimentModel::Gains(const Eigen::MatrixXd& draws,
@@ -174,8 +194,11 @@ double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
 }
 
 ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
-  ExperimentStanding standing{
-      .name = setup_.target->name, .predicted_objective = kUndefined, .predicted_sd = kUndefined};
+  ExperimentStanding standing{.name = setup_.target->name,
+                              .predicted_objective = kUndefined,
+                              .predicted_sd = kUndefined,
+                              .model_error = model_error_.value,
+                              .model_error_told = model_error_.told};
   if (has_image()) {
     const Moments moments = Objective(x.transpose());
     standing.predicted_objective = moments.mean[0];

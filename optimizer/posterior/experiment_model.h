@@ -29,6 +29,21 @@ struct OutputMisfit {
   Eigen::VectorXd log_sd;    // Σ ln sd over the outputs, not inflated
 };
 
+// The surrogate's mean and variance of the outputs at the target scale factor, one point a row, one
+// output a column; not inflated.
+struct OutputMoments {
+  Eigen::MatrixXd mean;
+  Eigen::MatrixXd variance;
+};
+
+// What no simulation of an experiment can match, in standard deviations of one heap from run to
+// run.
+struct ModelError {
+  double value = 1;  // >= 0
+  double told = 0;   // share of its prior's sd that the measurements have taken away, in [0, 1]; 0
+                     // where it is stated (learn_model_errors.h)
+};
+
 // The outputs at the target scale factor, and every variance that hides the truth from them.
 struct OutputPredictions {
   Eigen::MatrixXd mean;      // one point a row, one output a column
@@ -52,8 +67,14 @@ class ExperimentModel {
   int num_outputs() const { return outputs_.num_outputs(); }
   OutputState state() const { return outputs_.state(); }
 
-  OutputMisfit MisfitOf(const Eigen::MatrixXd& points) const { return MisfitOf(points, caution_); }
+  OutputMoments Outputs(const Eigen::MatrixXd& points) const;
+  OutputMisfit MisfitOf(const OutputMoments& outputs) const {
+    return MisfitOf(outputs, caution_, open_);
+  }
   OutputPredictions Predict(const Eigen::MatrixXd& points) const;
+  // With the model error as it was stated, as SquaredMisfit: no disagreement may hide in one that
+  // was learnt from it.
+  //
   // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
   double Misfit(const Eigen::VectorXd& x) const;
   // Sum of the squared residuals of all outputs, one point a row; without caution: a region may be
@@ -73,6 +94,10 @@ class ExperimentModel {
 
   void AddFantasy(const Eigen::VectorXd& x, int level) { outputs_.AddFantasy(x, level); }
 
+  const ModelError& model_error() const { return model_error_; }
+  // Takes the place of the stated one in MisfitOf, Predict, Gains and GainOfAll.
+  void SetModelError(const ModelError& model_error);
+
   double weight() const { return setup_.target->weight; }
   bool has_image() const { return setup_.code != nullptr; }
   // The objective of the mean image at the target; wants an image.
@@ -89,7 +114,9 @@ class ExperimentModel {
   std::vector<float> MeanImage(const Eigen::VectorXd& x) const;
 
  private:
-  OutputMisfit MisfitOf(const Eigen::MatrixXd& points, double caution) const;
+  OutputMisfit MisfitOf(const OutputMoments& outputs, double caution,
+                        const Eigen::VectorXd& open) const;
+  Eigen::VectorXd OpenWith(double model_error) const;
   void MeasureImages();
   void MeasureScalars();
 
@@ -98,7 +125,9 @@ class ExperimentModel {
   OutputModel outputs_;
   Eigen::VectorXd measured_;  // each output
   Eigen::VectorXd error_;     // variance of `measured_`
-  Eigen::VectorXd open_;      // B: variance that experiment and model leave, of each output
+  Eigen::VectorXd matched_;   // variance of an output that a model error of 1 adds
+  ModelError model_error_;
+  Eigen::VectorXd open_;  // B: variance that experiment and model leave, of each output
   std::optional<ImageFunctional> objective_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -89,7 +90,8 @@ class KernelMixture {
   // One a row.
   Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const {
     const double log_root = Eigen::MatrixXd(factor_.matrixL()).diagonal().array().log().sum();
-    const double constant = -log_root - 0.9189385332046727 * static_cast<double>(centres_.cols()) -
+    const double log_root_two_pi = 0.5 * std::log(2 * std::numbers::pi);
+    const double constant = -log_root - log_root_two_pi * static_cast<double>(centres_.cols()) -
                             std::log(static_cast<double>(centres_.rows()));
     const Eigen::MatrixXd white = factor_.matrixL().solve(points.transpose());
     const Eigen::MatrixXd centres = factor_.matrixL().solve(centres_.transpose());
@@ -138,13 +140,30 @@ KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& we
 Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data)
     : models_(std::move(models)), misfit_(Stack(models_, data), TestOfOutputs(models_)) {}
 
-Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double softness) const {
-  Eigen::MatrixXd residual(points.rows(), misfit_.num_outputs());
-  Eigen::VectorXd log_sd = Eigen::VectorXd::Zero(points.rows());
-  Eigen::Index left = 0;
+// Of an experiment that is held out there are none.
+std::vector<OutputMoments> Posterior::Outputs(const Eigen::MatrixXd& points) const {
+  std::vector<OutputMoments> outputs;
   for (const ExperimentModel& model : models_) {
+    outputs.push_back(NumCounted(model) == 0 ? OutputMoments{} : model.Outputs(points));
+  }
+  return outputs;
+}
+
+Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double softness) const {
+  return LogDensity(Outputs(points), softness);
+}
+
+Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,
+                                      double softness) const {
+  Eigen::Index num_points = 0;
+  for (const OutputMoments& one : outputs) num_points = std::max(num_points, one.mean.rows());
+  Eigen::MatrixXd residual(num_points, misfit_.num_outputs());
+  Eigen::VectorXd log_sd = Eigen::VectorXd::Zero(num_points);
+  Eigen::Index left = 0;
+  for (std::size_t e = 0; e < models_.size(); ++e) {
+    const ExperimentModel& model = models_[e];
     if (NumCounted(model) == 0) continue;
-    const OutputMisfit misfit = model.MisfitOf(points);
+    const OutputMisfit misfit = model.MisfitOf(outputs[e]);
     const double weight = model.weight();
     residual.middleCols(left, misfit.residual.cols()) = std::sqrt(weight) * misfit.residual;
     log_sd += weight * misfit.log_sd;

@@ -44,6 +44,9 @@ class Posterior {
   // Up to a constant, one point a row. `softness` >= 1 divides the misfits once more, for
   // exploration.
   Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points, double softness = 1) const;
+  // The same from the outputs there, one element an experiment.
+  Eigen::VectorXd LogDensity(const std::vector<OutputMoments>& outputs, double softness = 1) const;
+  std::vector<OutputMoments> Outputs(const Eigen::MatrixXd& points) const;
 
   // By importance sampling from an even start, refined where the weights are [cappe2004]: the
   // posterior may be curved and have several branches.

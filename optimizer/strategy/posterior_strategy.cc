@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "optimizer/designs/design.h"
 #include "optimizer/outputs/modelled.h"
+#include "optimizer/posterior/learn_model_errors.h"
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"
 #include "optimizer/search/size_to_fit.h"
@@ -123,7 +124,11 @@ Posterior PosteriorStrategy::MakePosterior() {
     }
     models.emplace_back(setup, data.back(), &*told.state);
   }
-  return {std::move(models), data};
+  Posterior posterior(std::move(models), data);
+  if (options_.learn_model_error) {
+    LearnModelErrors(domain_, options_.model_error, options_.seed, posterior);
+  }
+  return posterior;
 }
 
 const Posterior& PosteriorStrategy::Model() {

@@ -11,6 +11,7 @@ struct PosteriorStrategyOptions {
   double target = 0;       // the scale factor that the answer is for, <= all of them; 0: the least
   int num_initial = 0;     // evaluations of the design at the coarsest level; 0: 4 d + 4
   double model_error = 1;  // sd of what no simulation can match, in run-to-run sds of the images
+  bool learn_model_error = false;  // model_error is the scale of its prior (learn_model_errors.h)
   double stop_share = 0.02;  // stop when the surrogate's variance is below this share of what the
                              // experiment leaves open, over the posterior; 0: never
   std::uint64_t seed = 1;

@@ -56,6 +56,16 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultConfirme
   return text;
 }
 
+// "; model error 2.3 times the run-to-run scatter, learnt", where it was not stated.
+std::string ModelErrorText(const ResultStanding& standing) {
+  constexpr double kTold = 0.3;  // less of the prior's sd taken away: the prior decides
+  if (standing.model_error_told == 0) return "";
+  return "; model error " + base::ShortNumber(standing.model_error, 2) +
+         " times the run-to-run scatter" +
+         (standing.model_error_told < kTold ? ", as its prior says: this test alone cannot tell"
+                                            : ", learnt");
+}
+
 // The recommended set at each experiment.
 std::string ExperimentLines(const Answer& answer) {
   std::string text;
@@ -66,7 +76,8 @@ std::string ExperimentLines(const Answer& answer) {
     text += "  " + Padded(e.name, 18) + objective +
             (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
     if (const ResultStanding* standing = StandingOf(answer, e.name)) {
-      text += "; implausibility " + base::ShortNumber(standing->implausibility, 2);
+      text += "; implausibility " + base::ShortNumber(standing->implausibility, 2) +
+              ModelErrorText(*standing);
     }
     text += "\n";
   }

@@ -20,7 +20,9 @@ std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentS
     standings.push_back({.name = s.name,
                          .predicted = s.predicted_objective,
                          .predicted_sd = s.predicted_sd,
-                         .implausibility = s.implausibility});
+                         .implausibility = s.implausibility,
+                         .model_error = s.model_error,
+                         .model_error_told = s.model_error_told});
     for (const optimizer::NumberStanding& n : s.numbers) {
       standings.back().numbers.push_back(
           {.predicted = n.predicted, .predicted_sd = n.predicted_sd});

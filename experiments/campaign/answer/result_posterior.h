@@ -44,6 +44,8 @@ struct ResultStanding {
   double predicted = std::numeric_limits<double>::quiet_NaN();     // objective; NaN without images
   double predicted_sd = std::numeric_limits<double>::quiet_NaN();  // of that mean
   double implausibility = 0;                                       // [standard deviations]
+  double model_error = 1;       // that the posterior counts with, in run-to-run sds [-]
+  double model_error_told = 0;  // share of its prior's sd that was learnt, in [0, 1]; 0: stated
   std::vector<ResultPredictedNumber> numbers{};
 
   template <class Self, class Visitor>
@@ -52,6 +54,8 @@ struct ResultStanding {
     visit("predicted_objective", self.predicted);
     visit("predicted_objective_sd", self.predicted_sd);
     visit("implausibility", self.implausibility);
+    visit("model_error", self.model_error);
+    visit("model_error_told", self.model_error_told);
     visit("numbers", self.numbers);
   }
 };

@@ -37,12 +37,14 @@ std::vector<optimizer::ExperimentTarget> TargetsOf(const CampaignSpec& spec,
 
 std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategyFor(
     const CampaignSpec& spec, std::vector<optimizer::ExperimentTarget> targets) {
-  const optimizer::PosteriorStrategyOptions options{.scale_factors = spec.coarse_graining.Levels(),
-                                                    .target = spec.coarse_graining.Target(),
-                                                    .num_initial = spec.strategy.num_initial,
-                                                    .model_error = spec.posterior.model_error,
-                                                    .stop_share = spec.posterior.stop_share,
-                                                    .seed = spec.seed};
+  const optimizer::PosteriorStrategyOptions options{
+      .scale_factors = spec.coarse_graining.Levels(),
+      .target = spec.coarse_graining.Target(),
+      .num_initial = spec.strategy.num_initial,
+      .model_error = spec.posterior.model_error,
+      .learn_model_error = spec.posterior.learn_model_error,
+      .stop_share = spec.posterior.stop_share,
+      .seed = spec.seed};
   return std::make_unique<optimizer::PosteriorStrategy>(options, SpaceOf(spec).MakeDomain(),
                                                         std::move(targets));
 }

@@ -47,7 +47,9 @@ struct NoiseOptions {
 
 // How the posterior reads the observations, and when it knows enough.
 struct PosteriorOptions {
-  double model_error = 1;    // sd of what no simulation can match, in run-to-run sds, in [0, 1000]
+  double model_error = 1;  // sd of what no simulation can match, in run-to-run sds, in [0, 1000]
+  bool learn_model_error =
+      false;                 // from what no set can fit; model_error is its prior's scale then
   double stop_share = 0.02;  // the surrogate's variance over what the experiment leaves open [-]
 
   template <class Self, class Visitor>
@@ -55,6 +57,9 @@ struct PosteriorOptions {
     visit("model_error", self.model_error,
           {.doc = "standard deviation of what no simulation can match, over that of the "
                   "experiment's runs; in [0, 1000]"});
+    visit("learn_model_error", self.learn_model_error,
+          {.doc = "whether the model error of each experiment is learnt from what no set can fit; "
+                  "model_error, > 0, is then the scale of its half-normal prior"});
     visit("stop_share", self.stop_share,
           {.doc = "the search ends when, over the posterior, the surrogate's variance is below "
                   "this share of what the experiment itself leaves open; >= 0, 0 never"});

@@ -140,6 +140,8 @@ void NoiseOptions::Validate(base::Problems& problems) const {
 void PosteriorOptions::Validate(base::Problems& problems) const {
   problems.Require(model_error >= 0 && model_error <= 1000, "model_error", model_error,
                    "must be in [0, 1000]");
+  problems.Require(!learn_model_error || model_error > 0, "model_error", model_error,
+                   "must be positive where it is the scale of a model error that is learnt");
   problems.Require(stop_share >= 0, "stop_share", stop_share, "must not be negative");
 }
 
