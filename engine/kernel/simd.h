@@ -3,6 +3,10 @@
 // Everything that a kernel file defines lives in the namespace TALUS_TARGET, which the including
 // file sets (avx512, avx2, sse2), so that no inline function compiled for a wide instruction set
 // can replace its namesake in the common program.
+//
+// Each width has a file of its own because rows of the particles are loaded, transposed and added
+// to differently at each: one text for all widths has to gather them, with the same bits at 0.55 of
+// the speed (bench/RECORD.md).
 #pragma once
 
 #include <immintrin.h>
