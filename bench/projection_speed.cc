@@ -3,6 +3,7 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <numbers>
 #include <vector>
 
 #include "base/random.h"
@@ -17,7 +18,7 @@ using talus::base::Sphere;
 std::vector<Sphere> Heap(int count) {
   constexpr double kRadius = 5e-3;
   const double height = kRadius * std::tan(0.5236);
-  const double volume = 3.14159 * kRadius * kRadius * height / 3;
+  const double volume = std::numbers::pi * kRadius * kRadius * height / 3;
   const double grain = std::cbrt(0.6 * volume / count / 4.18879);
   std::vector<Sphere> spheres;
   talus::base::Random random(1, talus::base::Stream("projection bench"));

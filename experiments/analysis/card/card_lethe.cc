@@ -22,10 +22,10 @@ constexpr Key kKeys[] = {
     {"hamaker constant", &engine::Material::hamaker_constant},
 };
 
-std::string Lines(const engine::Material& material, const std::string& of, const char* indent) {
+std::string Lines(const engine::Material& material, const std::string& body, const char* indent) {
   std::string text;
   for (const Key& key : kKeys) {
-    text += std::string(indent) + "set " + key.name + " " + of + " = " +
+    text += std::string(indent) + "set " + key.name + " " + body + " = " +
             CardNumber(material.*key.part) + "\n";
   }
   return text;

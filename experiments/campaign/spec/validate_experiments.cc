@@ -25,9 +25,9 @@ rigs::Case RigOf(const ExperimentSpec& experiment) {
 // Images are scaled by the width of plate, drum or box: another one shows another test.
 void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
   if (!e.images.HasImages()) return;
-  const rigs::Case of = RigOf(e);
-  const double width = rigs::EntryOf(of).width(of);
-  const bool tube = of.rig.kind == rigs::RigKind::kLiftedTube;
+  const rigs::Case rig = RigOf(e);
+  const double width = rigs::EntryOf(rig).width(rig);
+  const bool tube = rig.rig.kind == rigs::RigKind::kLiftedTube;
   problems.Require(
       std::abs(e.images.plate_diameter - width) <= 0.01 * width, place + ".plate_diameter",
       e.images.plate_diameter,
@@ -39,8 +39,8 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
 
 // Another engine's command may measure what it likes.
 void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
-  const rigs::Case of = RigOf(e);
-  const auto known = rigs::EntryOf(of).observables;
+  const rigs::Case rig = RigOf(e);
+  const auto known = rigs::EntryOf(rig).observables;
   for (const ScalarSpec& scalar : ScalarsOf(e)) {
     std::string all;
     bool measured = false;
@@ -51,7 +51,7 @@ void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Probl
     }
     if (measured) continue;
     problems.Add(place + "." + scalar.key,
-                 "is not measured by the rig " + std::string(base::NameOf(of.rig.kind)) +
+                 "is not measured by the rig " + std::string(base::NameOf(rig.rig.kind)) +
                      ", which measures " + all + "; remove it, or name the rig of this test");
   }
 }
@@ -72,20 +72,20 @@ void CheckNamedWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>
                      base::Problems& problems) {
   struct Wall {
     std::map<std::string, double> properties;
-    std::string of;
+    std::string owner;
   };
   std::map<std::string, Wall> known;
   const auto check = [&](std::size_t i, const char* key,
                          const std::optional<rigs::WallMaterial>& material) {
     if (!material || !material->name) return;
     const Wall wall{.properties = PropertiesOf(*material),
-                    .of = "the " + std::string(key) + " of \"" + all[i].name + "\""};
+                    .owner = "the " + std::string(key) + " of \"" + all[i].name + "\""};
     const auto [first, is_new] = known.emplace(*material->name, wall);
     if (is_new || first->second.properties == wall.properties) return;
     const bool own = spec.experiments && (*spec.experiments)[i].device;
     problems.Add((own ? "experiments[" + std::to_string(i) + "]." : "") + "device." + key,
-                 "\"" + *material->name + "\" has other properties in " + wall.of + " than in " +
-                     first->second.of +
+                 "\"" + *material->name + "\" has other properties in " + wall.owner + " than in " +
+                     first->second.owner +
                      ": give both the same, or two names where they are two materials");
   };
   for (std::size_t i = 0; i < all.size(); ++i) {

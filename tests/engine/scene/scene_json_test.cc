@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -68,7 +69,7 @@ TEST(SceneJson, FillsAreDrawnIntoTheirRegion) {
                           .scene;
   double volume = 0;
   for (const Particle& p : scene.particles) {
-    volume += 4.0 / 3 * 3.141592653589793 * p.radius * p.radius * p.radius;
+    volume += 4.0 / 3 * std::numbers::pi * p.radius * p.radius * p.radius;
     EXPECT_EQ(p.material, 1);
   }
   EXPECT_NEAR(volume * 2000, 0.4e-3, 1.5e-6);  // to within one grain, at most 1.8 µg
