@@ -58,4 +58,8 @@ PairProperties StatedOf(std::span<const MaterialPair> pairs, int a, int b);
 // The material with what is stated in place of its own.
 Material With(Material material, const PairProperties& stated);
 
+// All that acts between two materials, stated or mixed by (P5) to (P7): what both would have if
+// they were equal.
+PairProperties Joined(const Material& a, const Material& b, const PairProperties& stated);
+
 }  // namespace talus::engine

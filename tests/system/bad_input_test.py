@@ -69,6 +69,13 @@ def paired():
     return good
 
 
+def searched_pair():
+    good = spec()
+    good["parameters"] = {"sliding_friction": {"min": 0.1, "max": 0.9},
+                          "plate_pair_sliding_friction": {"min": 0.05, "max": 0.5}}
+    return good
+
+
 def command_case():
     good = example("scenes/heap_case.json")
     good["engine"] = {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]}
@@ -79,6 +86,7 @@ def command_case():
 GOOD = {  # name: content, and how it is tried
     "spec": (spec, ["validate", "{}"]),
     "joint": (joint, ["validate", "{}"]),
+    "searched_pair": (searched_pair, ["validate", "{}"]),
     "case": (lambda: example("scenes/heap_case.json"), ["simulate", "{}", "--out", "new"]),
     "command": (command_case, ["simulate", "{}", "--out", "new"]),
     "scene": (lambda: example("scenes/bouncing_pair.json"), ["simulate", "{}", "--out", "new"]),

@@ -25,8 +25,8 @@ SCENES = {  # spheres as (position, velocity), gravity, floor, end [s]
 }
 
 
-def case(plate=None, models=None, **material):
-    return {"models": models or {}, "rayleigh_fraction": 0.15, "powder": {"material": {**MATERIAL, **material}, "mass": "0.5 g",
+def case(plate=None, models=None, pairs=None, **material):
+    return {"models": models or {}, "pairs": pairs or [], "rayleigh_fraction": 0.15, "powder": {"material": {**MATERIAL, **material}, "mass": "0.5 g",
                        "sizes": {"kind": "mono", "diameter": DIAMETER}},
             "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm",
                        **({"plate_material": plate} if plate else {})}}
@@ -181,6 +181,22 @@ class Card(unittest.TestCase):
         self.assertEqual([float(word) for word in friction], [2, 0.4, 0.533333, 0.533333, 0.8])
         self.assertIn("set friction coefficient wall = 0.8",
                       card(self.folder, "lethe", plate={"sliding_friction": 0.8}))
+
+    # The plate is the powder's but for the pair; the matrix has the stated value off its diagonal only.
+    def test_pairs_are_given_as_stated_or_said_to_be_missing(self):
+        pairs = [{"between": ["powder", "plate"], "sliding_friction": 0.25}]
+        text = card(self.folder, "liggghts", pairs=pairs)
+        friction = re.search(r"coefficientFriction peratomtypepair (.*)", text).group(1).split()
+        self.assertEqual([float(word) for word in friction], [2, 0.4, 0.25, 0.25, 0.4])
+        restitution = re.search(r"coefficientRestitution peratomtypepair (.*)", text).group(1).split()
+        self.assertEqual([float(word) for word in restitution], [2, 0.6, 0.6, 0.6, 0.6])
+        lammps = card(self.folder, "lammps", pairs=pairs)
+        self.assertRegex(lammps, r"pair_coeff \* \* .* mindlin NULL \S+ 0.4 ")
+        self.assertRegex(lammps, r"# plate: .* mindlin NULL \S+ 0.25 ")
+        for name in ("lethe", "yade", "mercurydpm"):
+            self.assertIn("NOT INCLUDED: what a pair states itself, powder and plate: sliding_friction = 0.25",
+                          card(self.folder, name, pairs=pairs))
+        self.assertEqual(json.loads(card(self.folder, "json", pairs=pairs))["pairs"], pairs)
 
     # f = 1, so that the powder's surface energy is the one used. Between two surfaces of γ, 2πγ*R* of
     # ours is the 4πγR* of LAMMPS and YADE.

@@ -12,6 +12,7 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
 
 namespace talus::analysis {
@@ -58,6 +59,7 @@ Card CardOf(const rigs::Case& rig_case) {
   const rigs::LiftedTubeOptions& device = rig_case.rig.lifted_tube;
   Card card{.title = "one case",
             .materials = {{.name = "powder", .material = powder}},
+            .pairs = {},
             .models = rig_case.models,
             .scale_factor = rig_case.coarse_graining.scale_factor,
             .surface_energy_given = rig_case.powder.material.surface_energy,
@@ -67,13 +69,25 @@ Card CardOf(const rigs::Case& rig_case) {
             .lift_velocity = device.lift_velocity,
             .plate_diameter = device.plate_diameter,
             .tube_inner_diameter = device.tube_inner_diameter};
-  const auto add = [&](const char* name, const std::optional<rigs::WallMaterial>& wall) {
-    const engine::Material material = wall.value_or(rigs::WallMaterial()).Over(powder);
-    if (!Same(material, powder)) card.materials.push_back({.name = name, .material = material});
-  };
-  add("tube", rig_case.materials.walls);
-  add("plate", rig_case.materials.floor);
+  const std::vector<engine::Material> materials = rigs::MaterialsOf(rig_case);
+  const std::vector<engine::MaterialPair> pairs = rigs::PairsOf(rig_case);
+  for (const int body : {rigs::kPowder, rigs::kWalls, rigs::kFloor}) {
+    const engine::PairProperties stated = engine::StatedOf(pairs, rigs::kPowder, body);
+    const bool is_wall = body != rigs::kPowder;
+    if (is_wall && !stated.Any() && Same(materials[body], powder)) continue;
+    if (is_wall) {
+      card.materials.push_back({.name = rigs::kBodyNames[body], .material = materials[body]});
+    }
+    const int index = static_cast<int>(card.materials.size()) - 1;
+    if (stated.Any()) card.pairs.push_back({.first = 0, .second = index, .stated = stated});
+  }
   return card;
+}
+
+engine::Material ActingOn(const Card& card, std::size_t material, std::size_t other) {
+  return engine::With(
+      card.materials[material].material,
+      engine::StatedOf(card.pairs, static_cast<int>(material), static_cast<int>(other)));
 }
 
 Card ReadCard(const std::filesystem::path& path) {
@@ -86,7 +100,7 @@ Card ReadCard(const std::filesystem::path& path) {
 // F = k_n δ with k_n = (4/3) Y* √(R* δ)  ⇒  δ = (F / ((4/3) Y* √R*))^(2/3).
 TypicalContact TypicalContactOf(const Card& card) {
   constexpr double kGrainWeights = 10;
-  const engine::Material& powder = card.materials.front().material;
+  const engine::Material powder = ActingOn(card, 0, 0);
   const double radius = card.mean_diameter / 2;
   const double mass = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3) * powder.density;
   TypicalContact contact{.pair = engine::MakePairConstants(powder, powder, card.models),

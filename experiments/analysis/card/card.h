@@ -9,6 +9,7 @@
 
 #include "base/field.h"
 #include "engine/laws/material.h"
+#include "engine/laws/material_pair.h"
 #include "engine/laws/pair_constants.h"
 #include "experiments/rigs/case/case.h"
 
@@ -31,6 +32,7 @@ struct CardRange {
 struct Card {
   std::string title;
   std::vector<CardMaterial> materials;  // the powder first; walls only where they differ from it
+  std::vector<engine::MaterialPair> pairs;  // what pairs of these state themselves
   engine::ContactModels models;
   double scale_factor = 1;           // f [-]
   double surface_energy_given = 0;   // γ before the coarse graining [J/m²]
@@ -49,6 +51,10 @@ Card CardOf(const rigs::Case& rig_case);
 // The card of a campaign's folder (its recommended set, at the scale factor that it holds for) or
 // of a case.json. Throws ConfigError when the campaign has no result yet.
 Card ReadCard(const std::filesystem::path& path);
+
+// The material as it acts on another: with what their pair states in place of its own. Two grains
+// act on each other as ActingOn(card, 0, 0).
+engine::Material ActingOn(const Card& card, std::size_t material, std::size_t other);
 
 // Two grains of the powder, of the mean diameter, pressed together by ten times a grain's weight:
 // where a code takes a constant for what grows with the load in ours.

@@ -22,6 +22,10 @@ std::string CardNumber(double value);
 // What the values hold for, one line each, behind `mark` ("# ", "// ").
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark);
 
+// Which pairs with the material of this index or a later one state something themselves, for a code
+// that has no place for it; a line each behind `mark`.
+std::string PairsNotIncluded(const Card& card, int first_material, const std::string& mark);
+
 // The restitution that `damping tsuji` of LAMMPS must be given to rebound with `restitution`, and
 // its polynomial α(e) (docs/foreign_engines.md).
 double TsujiAlpha(double restitution);

@@ -102,13 +102,13 @@ std::string LammpsCard(const Card& card) {
   text << CardHead(card, "LAMMPS (package GRANULAR)", "# ") << LammpsRemarks(card)
        << "# density: " << CardNumber(card.materials[0].material.density) << " kg/m3\n"
        << "# restitution is the input of `damping tsuji` that rebounds with "
-       << CardNumber(card.materials[0].material.restitution) << "\n"
+       << CardNumber(ActingOn(card, 0, 0).restitution) << "\n"
        << "pair_style granular\n";
-  const engine::Material& powder = card.materials[0].material;
-  text << "pair_coeff * * " << PairModel(card, powder, powder) << "\n";
+  const engine::Material grain = ActingOn(card, 0, 0);
+  text << "pair_coeff * * " << PairModel(card, grain, grain) << "\n";
   for (std::size_t i = 1; i < card.materials.size(); ++i) {
     text << "# " << card.materials[i].name << ": fix ID all wall/gran/region granular "
-         << PairModel(card, powder, card.materials[i].material) << " region ID\n";
+         << PairModel(card, ActingOn(card, 0, i), ActingOn(card, i, 0)) << " region ID\n";
   }
   text << "timestep " << CardNumber(card.time_step) << "\n";
   return text.str();

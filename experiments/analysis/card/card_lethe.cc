@@ -62,7 +62,7 @@ std::string LetheCard(const Card& card) {
   const engine::Material& wall = card.materials.back().material;
   const auto [particles, walls] = ContactNames(card.models.adhesion);
   std::ostringstream text;
-  text << CardHead(card, "Lethe", "# ");
+  text << CardHead(card, "Lethe", "# ") << PairsNotIncluded(card, 0, "# ");
   if (card.models.rolling == engine::Rolling::kEpsd2) {
     text << "# NOT INCLUDED: the epsd2 rolling resistance, which Lethe has not.\n";
   }

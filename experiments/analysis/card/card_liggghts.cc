@@ -1,6 +1,6 @@
 // LIGGGHTS-PUBLIC 3.8: hertz, history, epsd and epsd2 are (N1)–(N4), (T1)–(T3), (R1)–(R4) with
-// f = 0 and (R6), so that nothing is converted. Pair values are given as a matrix, mixed here by
-// (P5).
+// f = 0 and (R6), so that nothing is converted. Pair values are given as a matrix, as the pairs
+// state them or mixed here by (P5).
 #include <sstream>
 
 #include "experiments/analysis/card/card_formats.h"
@@ -17,9 +17,10 @@ std::string PerType(const Card& card, const std::string& property, double engine
 std::string PerPair(const Card& card, const std::string& property, double engine::Material::*part) {
   std::string line = "fix talus_" + property + " all property/global " + property +
                      " peratomtypepair " + std::to_string(card.materials.size());
-  for (const CardMaterial& a : card.materials) {
-    for (const CardMaterial& b : card.materials) {
-      line += " " + CardNumber(engine::HarmonicMean(a.material.*part, b.material.*part));
+  for (std::size_t a = 0; a < card.materials.size(); ++a) {
+    for (std::size_t b = 0; b < card.materials.size(); ++b) {
+      line += " " + CardNumber(engine::HarmonicMean(ActingOn(card, a, b).*part,
+                                                    ActingOn(card, b, a).*part));
     }
   }
   return line + "\n";

@@ -13,7 +13,7 @@
 namespace talus::analysis {
 
 std::string MercuryDpmCard(const Card& card) {
-  const engine::Material& powder = card.materials.front().material;
+  const engine::Material powder = ActingOn(card, 0, 0);  // these lines are of two grains
   const TypicalContact typical = TypicalContactOf(card);
   const double friction = typical.pair.rolling_friction;
   const double stiffness = 9.0 / 16 * typical.normal_stiffness * friction * friction;
@@ -23,7 +23,7 @@ std::string MercuryDpmCard(const Card& card) {
       powder.rolling_damping * std::sqrt(inertia * stiffness) / typical.r_star;
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   std::ostringstream text;
-  text << CardHead(card, "MercuryDPM", "// ")
+  text << CardHead(card, "MercuryDPM", "// ") << PairsNotIncluded(card, 1, "// ")
        << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's); rolling "
           "friction\n"
        << "// mu_r/2 (its arm is 2 R*); rolling stiffness and dissipation of a contact that bears "

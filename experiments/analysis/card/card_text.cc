@@ -33,6 +33,34 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
   return text.str();
 }
 
+namespace {
+
+// "powder and plate: sliding_friction = 0.25".
+std::string StatedText(const Card& card, const engine::MaterialPair& pair) {
+  std::string text = card.materials[pair.first].name + " and " +
+                     (pair.first == pair.second ? "itself" : card.materials[pair.second].name) +
+                     ":";
+  const char* separator = " ";
+  engine::PairProperties::Visit(
+      pair.stated, [&](std::string_view key, const std::optional<double>& value, base::FieldInfo) {
+        if (!value) return;
+        text += separator + std::string(key) + " = " + CardNumber(*value);
+        separator = ", ";
+      });
+  return text;
+}
+
+}  // namespace
+
+std::string PairsNotIncluded(const Card& card, int first_material, const std::string& mark) {
+  std::string text;
+  for (const engine::MaterialPair& pair : card.pairs) {
+    if (pair.second < first_material) continue;
+    text += mark + "NOT INCLUDED: what a pair states itself, " + StatedText(card, pair) + "\n";
+  }
+  return text;
+}
+
 std::string TableCard(const Card& card) {
   std::ostringstream text;
   text << CardHead(card, "any code (definitions: docs/physics.md)", "");
@@ -47,7 +75,11 @@ std::string TableCard(const Card& card) {
       text << "    " << key << " = " << CardNumber(value.get<double>()) << '\n';
     }
   }
-  text << "  pairs: harmonic mean 2ab/(a+b) of restitution, frictions and rolling damping (P5)\n"
+  for (const engine::MaterialPair& pair : card.pairs) {
+    text << "  " << StatedText(card, pair) << '\n';
+  }
+  text << "  all other pairs: harmonic mean 2ab/(a+b) of restitution, frictions and rolling "
+          "damping (P5)\n"
        << "  adhesion " << base::NameOf(card.models.adhesion) << ", rolling "
        << base::NameOf(card.models.rolling) << ", damping once fully mobilised "
        << CardNumber(card.models.full_mobilisation_damping) << '\n';
@@ -66,6 +98,11 @@ std::string JsonCard(const Card& card) {
                               {"models", base::ToJson(card.models)},
                               {"mixing", "harmonic mean 2ab/(a+b)"}};
   for (const CardMaterial& m : card.materials) json["materials"][m.name] = base::ToJson(m.material);
+  for (const engine::MaterialPair& pair : card.pairs) {
+    nlohmann::ordered_json stated = base::ToJson(pair.stated);
+    stated["between"] = {card.materials[pair.first].name, card.materials[pair.second].name};
+    json["pairs"].push_back(std::move(stated));
+  }
   for (const CardRange& r : card.ranges) {
     json["parameters"].push_back({{"name", r.name},
                                   {"unit", r.unit},

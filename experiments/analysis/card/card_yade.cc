@@ -14,14 +14,14 @@
 namespace talus::analysis {
 
 std::string YadeCard(const Card& card) {
-  const engine::Material& powder = card.materials.front().material;
+  const engine::Material powder = ActingOn(card, 0, 0);  // these lines are of two grains
   const TypicalContact typical = TypicalContactOf(card);
   const double friction = typical.pair.rolling_friction;
   const double lever = friction * typical.r_star;
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   const bool adheres = card.models.adhesion == engine::Adhesion::kDmt;
   std::ostringstream text;
-  text << CardHead(card, "YADE (HertzMindlin)", "# ")
+  text << CardHead(card, "YADE (HertzMindlin)", "# ") << PairsNotIncluded(card, 1, "# ")
        << "# Converted: frictionAngle = atan(mu_t); eta = mu_r/2 (between grains; walls: mu_r); "
           "krot\n"
        << "# of a contact that bears ten grain weights. YADE's spring in rolling has no dashpot, "

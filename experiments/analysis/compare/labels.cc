@@ -36,6 +36,12 @@ std::string SymbolOf(std::string_view parameter) {
       Entry{"tube_sliding_friction", "μ_t tube"},
       Entry{"tube_rolling_friction", "μ_r tube"},
       Entry{"tube_surface_energy", "γ tube"},
+      Entry{"plate_pair_sliding_friction", "μ_t powder–plate"},
+      Entry{"plate_pair_rolling_friction", "μ_r powder–plate"},
+      Entry{"plate_pair_restitution", "e powder–plate"},
+      Entry{"tube_pair_sliding_friction", "μ_t powder–tube"},
+      Entry{"tube_pair_rolling_friction", "μ_r powder–tube"},
+      Entry{"tube_pair_restitution", "e powder–tube"},
   };
   return Find(kSymbols, parameter);
 }

@@ -82,6 +82,7 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
   only.numbers = {};
   if (test.rig) only.rig = test.rig;
   if (test.device) only.device = test.device;
+  if (test.pairs) only.pairs = test.pairs;
   if (test.filling) only.filling = test.filling;
   if (test.rules) only.rules = test.rules;
   spec.experiment.reset();
@@ -141,6 +142,7 @@ std::string ExperimentText(const campaign::JointView& view, const TestCandidate&
   nlohmann::ordered_json json{{"name", test.name}};
   if (only.rig) json["rig"] = base::ToJson(*only.rig);
   json["device"] = base::ToJson(*only.device);
+  if (!only.pairs->empty()) json["pairs"] = base::ToJson(*only.pairs);
   json["filling"] = base::ToJson(*only.filling);
   json["rules"] = base::ToJson(*only.rules);
   return base::JsonText(json, 2) + "\n";

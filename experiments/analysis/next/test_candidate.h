@@ -18,6 +18,7 @@ struct TestCandidate {
   // Defaults: those of the campaign's first experiment.
   std::optional<rigs::RigOptions> rig{};
   std::optional<rigs::Device> device{};
+  std::optional<std::vector<engine::PairSpec>> pairs{};
   std::optional<rigs::FillingRule> filling{};
   std::optional<rigs::PhaseRules> rules{};
   std::optional<imaging::Frame> frame{};  // default: of the lifted tube's plate; others have none
@@ -29,6 +30,8 @@ struct TestCandidate {
     visit("name", self.name, {.required = true, .doc = "what the table calls it"});
     visit("rig", self.rig, {.doc = "kind of bulk test; default: the first experiment's"});
     visit("device", self.device, {.doc = "tube and plate; default: the first experiment's"});
+    visit("pairs", self.pairs,
+          {.doc = "of the powder with its walls; default: the first experiment's"});
     visit("filling", self.filling,
           {.doc = "how the powder gets in; default: the first experiment's"});
     visit("rules", self.rules, {.doc = "when each phase ends; default: the first experiment's"});

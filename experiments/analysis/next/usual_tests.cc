@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
+
 namespace talus::analysis {
 namespace {
 
@@ -24,8 +27,22 @@ bool IsMade(const campaign::JointView& view, const TestCandidate& test) {
   });
 }
 
-// The heap's own device, on other plates and lifted otherwise.
-void AddPlates(const rigs::Device& device, std::vector<TestCandidate>& tests) {
+// Whether the campaign searches a property of its plate, which a rough one would be given, too.
+bool SearchesPlate(const campaign::JointView& view) {
+  return std::any_of(view.space.parameters.begin(), view.space.parameters.end(),
+                     [](const auto& p) { return campaign::PlaceOf(p.name).body == rigs::kFloor; });
+}
+
+// What holds on another plate than the experiment's.
+std::vector<engine::PairSpec> WithoutPlate(std::vector<engine::PairSpec> pairs) {
+  std::erase_if(pairs, [](const auto& pair) { return rigs::PartnerOf(pair) == rigs::kFloor; });
+  return pairs;
+}
+
+// The first experiment's own device, on other plates and lifted otherwise.
+void AddPlates(const campaign::JointView& view, std::vector<TestCandidate>& tests) {
+  const campaign::ExperimentSpec first = campaign::ExperimentsOf(view.spec).front();
+  const rigs::Device& device = *first.device;
   constexpr double kWide = 3;     // plate over tube
   constexpr double kSlow = 0.05;  // [m/s]
   constexpr double kFast = 0.20;  // [m/s]
@@ -44,7 +61,9 @@ void AddPlates(const rigs::Device& device, std::vector<TestCandidate>& tests) {
   rough.plate_material = material;
   tests.push_back({.name = "wide plate, 5 cm/s", .rig = tube, .device = slow});
   tests.push_back({.name = "wide plate, 20 cm/s", .rig = tube, .device = fast});
-  tests.push_back({.name = "rough plate", .rig = tube, .device = rough});
+  if (SearchesPlate(view)) return;
+  tests.push_back(
+      {.name = "rough plate", .rig = tube, .device = rough, .pairs = WithoutPlate(*first.pairs)});
 }
 
 rigs::RigOptions Of(rigs::RigKind kind) {
@@ -78,7 +97,7 @@ void AddVessels(const rigs::Powder& powder, std::vector<TestCandidate>& tests) {
 
 std::vector<TestCandidate> UsualTests(const campaign::JointView& view) {
   std::vector<TestCandidate> tests;
-  AddPlates(*campaign::ExperimentsOf(view.spec).front().device, tests);
+  AddPlates(view, tests);
   AddVessels(view.spec.powder, tests);
   std::erase_if(tests, [&](const TestCandidate& test) { return IsMade(view, test); });
   return tests;

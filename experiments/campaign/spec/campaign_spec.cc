@@ -62,8 +62,11 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
     values.push_back(parameter.fixed.value_or(parameter.low));
     if (!parameter.fixed) calibrated.push_back(parameter.name);
   }
-  const rigs::Case rig_case = CaseOf(
+  rigs::Case rig_case = CaseOf(
       spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
+  for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {  // whose pairs it must know, too
+    rig_case.pairs.insert(rig_case.pairs.end(), experiment.pairs->begin(), experiment.pairs->end());
+  }
   problems.Within("engine", [&] {
     trials::CheckCommand(spec.engine.command,
                          {.rig_case = rig_case,
@@ -172,6 +175,7 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(budget.simulations == 0 || budget.simulations > noise.replicates,
                    "budget.simulations", budget.simulations, "must be more than noise.replicates");
   ValidateExperiments(*this, problems);
+  ValidatePairs(*this, problems);
   problems.Require(!HasOwnProposer() || HasOneObjective(*this), "strategy.kind",
                    "must be \"auto\" with several scale factors or experiments, or without "
                    "an image: the others minimise one objective only");
@@ -200,6 +204,7 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
   for (ExperimentSpec& experiment : list) {
     if (!experiment.rig) experiment.rig = spec.rig;
     if (!experiment.device) experiment.device = spec.device;
+    if (!experiment.pairs) experiment.pairs = spec.pairs;
     if (!experiment.filling) experiment.filling = spec.filling;
     if (!experiment.rules) experiment.rules = spec.rules;
   }
@@ -262,6 +267,7 @@ rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
       ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
   rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
   rig_case.SetDevice(*experiment.device);
+  rig_case.pairs = *experiment.pairs;
   rig_case.models = spec.models;
   rig_case.coarse_graining = {
       .scale_factor = settings.scale_factor,

@@ -26,6 +26,7 @@ struct CampaignSpec {
   rigs::Powder powder;
   std::optional<rigs::RigOptions> rig{};  // default: the lifted tube
   rigs::Device device;
+  std::vector<engine::PairSpec> pairs{};
   engine::ContactModels models;
   GrainSizes coarse_graining;
   rigs::FillingRule filling;
@@ -61,6 +62,9 @@ struct CampaignSpec {
     visit("powder", self.powder, {.required = true, .doc = "what is heaped"});
     visit("rig", self.rig, {.doc = "kind of bulk test (docs/rigs.md); default: the lifted tube"});
     visit("device", self.device, {.doc = "tube and plate"});
+    visit("pairs", self.pairs,
+          {.doc = "what grains with \"plate\", \"tube\" or \"powder\" state themselves, such as a "
+                  "measured friction; else it follows from the two"});
     visit("models", self.models, {.doc = "contact laws"});
     visit("coarse_graining", self.coarse_graining, {.doc = "fewer, larger grains"});
     visit("filling", self.filling, {.doc = "how the powder gets into the tube"});
@@ -125,6 +129,9 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec);
 
 // Why the experiment does not go together with its rig and the others; a rule a problem.
 void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems);
+
+// Pairs that name no body, and those that contradict each other or a parameter.
+void ValidatePairs(const CampaignSpec& spec, base::Problems& problems);
 
 // The case of a trial: `values` of all of the space's parameters, in its order.
 struct TrialSettings {

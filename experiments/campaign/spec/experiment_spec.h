@@ -9,6 +9,7 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "engine/scene/pair_spec.h"
 #include "experiments/campaign/spec/measured_numbers.h"
 #include "experiments/rigs/case/device.h"
 #include "experiments/rigs/options/filling_rule.h"
@@ -21,10 +22,11 @@ namespace talus::campaign {
 struct ExperimentSpec {
   std::string name;
   imaging::ExperimentOptions images;
-  std::optional<rigs::Device> device{};        // default: the campaign's
-  std::optional<rigs::PhaseRules> rules{};     // default: the campaign's
-  std::optional<rigs::RigOptions> rig{};       // default: the campaign's
-  std::optional<rigs::FillingRule> filling{};  // default: the campaign's
+  std::optional<rigs::Device> device{};                  // default: the campaign's
+  std::optional<std::vector<engine::PairSpec>> pairs{};  // default: the campaign's
+  std::optional<rigs::PhaseRules> rules{};               // default: the campaign's
+  std::optional<rigs::RigOptions> rig{};                 // default: the campaign's
+  std::optional<rigs::FillingRule> filling{};            // default: the campaign's
   MeasuredNumbers numbers;
   double weight = 1;  // power of its likelihood, > 0
 
@@ -33,6 +35,7 @@ struct ExperimentSpec {
     visit("name", self.name, {.required = true, .doc = "what tables and messages call it"});
     imaging::ExperimentOptions::Visit(self.images, visit);
     visit("device", self.device, {.doc = "tube and plate, instead of the campaign's device"});
+    visit("pairs", self.pairs, {.doc = "of the powder with its walls, instead of the campaign's"});
     visit("rules", self.rules, {.doc = "when each phase ends, instead of the campaign's rules"});
     visit("rig", self.rig, {.doc = "kind of bulk test, instead of the campaign's rig"});
     visit("filling", self.filling, {.doc = "how the powder gets in, instead of the campaign's"});

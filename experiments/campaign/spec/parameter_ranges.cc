@@ -3,6 +3,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
+
 namespace talus::campaign {
 namespace {
 
@@ -50,36 +53,11 @@ struct PropertySetter {
   }
 };
 
-enum class Body { kPowder, kPlate, kTube };
-
-// "plate_sliding_friction" is the plate's "sliding_friction".
-struct Parameter {
-  Body body = Body::kPowder;
-  std::string property;  // of engine::Material
-
-  explicit Parameter(const std::string& name) : property(name) {
-    Strip("plate_", Body::kPlate);
-    Strip("tube_", Body::kTube);
-  }
-
- private:
-  void Strip(std::string_view prefix, Body of) {
-    if (!property.starts_with(prefix)) return;
-    property.erase(0, prefix.size());
-    body = of;
-  }
-};
-
-void SetOnWall(std::optional<rigs::WallMaterial>& wall, const std::string& property, double value) {
-  if (!wall) wall.emplace();
-  rigs::WallMaterial::Visit(*wall, PropertySetter{property, value});
-}
-
 // The material with the property at `value` must be one that can be simulated. A wall's other
 // properties are those of the powder here, which are valid themselves.
 void ValidateEnd(const engine::Material& material, const std::string& name, const char* end,
                  double value, base::Problems& problems) {
-  const std::string property = Parameter(name).property;
+  const std::string property = PlaceOf(name).property;
   engine::Material at_end = material;
   engine::Material::Visit(at_end, PropertySetter{property, value});
   base::Problems of_material;
@@ -119,23 +97,38 @@ optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges) {
   return space;
 }
 
+ParameterPlace PlaceOf(const std::string& parameter) {
+  ParameterPlace place{.property = parameter};
+  const auto strip = [&](std::string_view prefix) {
+    const bool has = place.property.starts_with(prefix);
+    if (has) place.property.erase(0, prefix.size());
+    return has;
+  };
+  if (strip("plate_")) place.body = rigs::kFloor;
+  if (strip("tube_")) place.body = rigs::kWalls;
+  place.is_pair = strip("pair_");
+  return place;
+}
+
 std::string UnitOf(const std::string& parameter) {
-  return std::string(base::SiUnit(DimensionOf(Parameter(parameter).property)));
+  return std::string(base::SiUnit(DimensionOf(PlaceOf(parameter).property)));
 }
 
 double ParseProperty(const std::string& parameter, const std::string& text) {
-  return base::ParseQuantity(text, DimensionOf(Parameter(parameter).property));
+  return base::ParseQuantity(text, DimensionOf(PlaceOf(parameter).property));
 }
 
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value) {
-  const auto [body, property] = Parameter(parameter);
-  switch (body) {
-    case Body::kPowder:
-      return engine::Material::Visit(rig_case.powder.material, PropertySetter{property, value});
-    case Body::kPlate:
-      return SetOnWall(rig_case.materials.floor, property, value);
-    case Body::kTube:
-      return SetOnWall(rig_case.materials.walls, property, value);
+  const auto [body, is_pair, property] = PlaceOf(parameter);
+  const PropertySetter set{property, value};
+  if (is_pair) {
+    engine::PairProperties::Visit(rigs::PairWith(rig_case.pairs, body), set);
+  } else if (body == rigs::kPowder) {
+    engine::Material::Visit(rig_case.powder.material, set);
+  } else {
+    auto& wall = body == rigs::kFloor ? rig_case.materials.floor : rig_case.materials.walls;
+    if (!wall) wall.emplace();
+    rigs::WallMaterial::Visit(*wall, set);
   }
 }
 

@@ -34,7 +34,8 @@ struct ParameterRange {
 };
 
 // Properties of engine::Material by their names there, with plate_ or tube_ before it those of a
-// wall. The walls follow the powder where neither a range nor the device says otherwise.
+// wall, with plate_pair_ or tube_pair_ those that powder and wall state as a pair. The walls follow
+// the powder where neither a range nor the device says otherwise.
 struct ParameterRanges {
   using Number = ParameterRange<base::Dimension::kNone>;
   using SurfaceEnergy = ParameterRange<base::Dimension::kSurfaceEnergy>;
@@ -54,6 +55,12 @@ struct ParameterRanges {
   std::optional<Number> tube_sliding_friction{};
   std::optional<Number> tube_rolling_friction{};
   std::optional<SurfaceEnergy> tube_surface_energy{};
+  std::optional<Number> plate_pair_sliding_friction{};
+  std::optional<Number> plate_pair_rolling_friction{};
+  std::optional<Number> plate_pair_restitution{};
+  std::optional<Number> tube_pair_sliding_friction{};
+  std::optional<Number> tube_pair_rolling_friction{};
+  std::optional<Number> tube_pair_restitution{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -74,6 +81,18 @@ struct ParameterRanges {
     visit("tube_rolling_friction", self.tube_rolling_friction, {.doc = "mu_r of the tube"});
     visit("tube_surface_energy", self.tube_surface_energy,
           {.doc = "gamma of the tube, not coarse-grained"});
+    visit("plate_pair_sliding_friction", self.plate_pair_sliding_friction,
+          {.doc = "mu_t between powder and plate"});
+    visit("plate_pair_rolling_friction", self.plate_pair_rolling_friction,
+          {.doc = "mu_r between powder and plate"});
+    visit("plate_pair_restitution", self.plate_pair_restitution,
+          {.doc = "e between powder and plate"});
+    visit("tube_pair_sliding_friction", self.tube_pair_sliding_friction,
+          {.doc = "mu_t between powder and tube"});
+    visit("tube_pair_rolling_friction", self.tube_pair_rolling_friction,
+          {.doc = "mu_r between powder and tube"});
+    visit("tube_pair_restitution", self.tube_pair_restitution,
+          {.doc = "e between powder and tube"});
   }
 };
 
@@ -89,7 +108,16 @@ std::string UnitOf(const std::string& parameter);
 // A parameter's value from a text with its unit, or a bare number in SI; throws ConfigError.
 double ParseProperty(const std::string& parameter, const std::string& text);
 
-// Sets a parameter by its name above: the powder's, the plate's or the tube's.
+// What a parameter's name means: "plate_pair_sliding_friction" is the sliding friction of the pair
+// of powder and plate, "plate_sliding_friction" the plate's own.
+struct ParameterPlace {
+  int body = 0;  // index of its material (rigs/case/materials.h)
+  bool is_pair = false;
+  std::string property{};  // of engine::Material
+};
+ParameterPlace PlaceOf(const std::string& parameter);
+
+// Sets a parameter by its name above: the powder's, a wall's or a pair's.
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value);
 
 // What is wrong with a range, or with the powder at one of its ends, under the range's name.

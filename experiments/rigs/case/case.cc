@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/options/require.h"
 #include "imaging/spheres/projection.h"
 
@@ -26,6 +27,7 @@ void CaseOutputs::Validate(base::Problems& problems) const {
 }
 
 void Case::Validate(base::Problems& problems) const {
+  ValidatePairs(pairs, problems);
   RequirePositive(problems, "gravity", gravity);
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");

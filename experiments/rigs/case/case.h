@@ -13,6 +13,7 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "engine/laws/material.h"
+#include "engine/scene/pair_spec.h"
 #include "experiments/rigs/case/device.h"
 #include "experiments/rigs/case/powder.h"
 #include "experiments/rigs/options/filling_rule.h"
@@ -47,6 +48,7 @@ struct Case {
   Powder powder;
   RigOptions rig;
   WallMaterials materials;
+  std::vector<engine::PairSpec> pairs{};  // see pairs.h
   engine::ContactModels models;
   CoarseGraining coarse_graining;
   FillingRule filling;
@@ -71,6 +73,9 @@ struct Case {
         {.doc = "of the lifted tube; other rigs take the materials: tube_material for their walls, "
                 "plate_material for their floor"});
     if constexpr (!std::is_const_v<Self>) self.SetDevice(device);
+    visit("pairs", self.pairs,
+          {.doc = "what grains with \"plate\", \"tube\" or \"powder\" state themselves; else it "
+                  "follows from the two"});
     visit("models", self.models);
     visit("coarse_graining", self.coarse_graining);
     visit("filling", self.filling, {.doc = "how the powder gets into the tube"});

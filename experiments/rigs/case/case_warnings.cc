@@ -6,6 +6,7 @@
 #include "engine/laws/pair_constants.h"
 #include "engine/scene/scene_warnings.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 
 namespace talus::rigs {
 namespace {
@@ -17,7 +18,8 @@ constexpr double kBoulders = 15;
 // With γ_used = f γ (C1) it does not depend on the scale factor.
 double Cohesion(const Case& c) {
   if (c.models.adhesion == engine::Adhesion::kNone) return 0;
-  const engine::Material powder = MaterialsOf(c).front();
+  const engine::Material powder =
+      engine::With(UsedMaterial(c), engine::StatedOf(PairsOf(c), kPowder, kPowder));
   const double pull_off = engine::MakePairConstants(powder, powder, c.models).pull_off / 4;
   return pull_off / (EstimatePowder(c).mean_diameter * powder.density * c.gravity *
                      c.rig.lifted_tube.tube_inner_diameter);
@@ -68,7 +70,11 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
   if (c.rayleigh_fraction > kUsualRayleighFraction) {
     warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }
-  for (std::string& text : engine::AdhesionWarnings(c.models, MaterialsOf(c))) {
+  std::vector<engine::Material> surfaces = MaterialsOf(c);
+  for (const engine::MaterialPair& pair : PairsOf(c)) {
+    surfaces.push_back(engine::With(surfaces.front(), pair.stated));
+  }
+  for (std::string& text : engine::AdhesionWarnings(c.models, surfaces)) {
     warn(std::move(text));
   }
   if (c.models.rolling == engine::Rolling::kConstant && c.rayleigh_fraction > 0.15) {

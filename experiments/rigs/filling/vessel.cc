@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/filling/pouring.h"
 
 namespace talus::rigs {
@@ -57,6 +58,7 @@ FilledScene FillVessel(const Case& c, const Vessel& vessel) {
     scene.time_step = c.rayleigh_fraction * engine::RayleighTime(c.powder.material, radius);
   }
   scene.materials = MaterialsOf(c);
+  scene.pairs = PairsOf(c);
   scene.models = c.models;
   scene.gravity = {0, 0, -c.gravity};
   scene.rayleigh_fraction = c.rayleigh_fraction;

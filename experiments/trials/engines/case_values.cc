@@ -6,6 +6,7 @@
 #include "base/text/number_text.h"
 #include "engine/scene/size_distribution.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -51,6 +52,23 @@ void AddDevice(const rigs::Case& c, Scalars& scalars) {
   const engine::Material& powder = c.powder.material;
   AddMaterial("tube_", c.materials.walls.value_or(rigs::WallMaterial{}).Over(powder), scalars);
   AddMaterial("plate_", c.materials.floor.value_or(rigs::WallMaterial{}).Over(powder), scalars);
+}
+
+// "plate_pair_", which the names of a pair's properties follow.
+std::string PairPrefix(int body) { return std::string(rigs::kBodyNames[body]) + "_pair_"; }
+
+// What acts between grains and each body, whether stated or mixed.
+void AddPairs(const rigs::Case& c, Scalars& scalars) {
+  const std::vector<engine::Material> materials = rigs::MaterialsOf(c);
+  const std::vector<engine::MaterialPair> pairs = rigs::PairsOf(c);
+  for (const int body : {rigs::kPowder, rigs::kWalls, rigs::kFloor}) {
+    const engine::PairProperties all = engine::Joined(materials[rigs::kPowder], materials[body],
+                                                      engine::StatedOf(pairs, rigs::kPowder, body));
+    engine::PairProperties::Visit(
+        all, [&](std::string_view key, const std::optional<double>& value, base::FieldInfo) {
+          scalars[PairPrefix(body) + std::string(key)] = base::ExactNumber(value.value());
+        });
+  }
 }
 
 // {{ rig_length }}, {{ rig_taps_count }}, …: the keys of the rig's kind.
@@ -116,10 +134,23 @@ TemplateValues CaseValues(const rigs::Case& c) {
   scalars["threads"] = std::to_string(c.threads);
   AddSizes(c, scalars);
   AddDevice(c, scalars);
+  AddPairs(c, scalars);
   rigs::RigOptions::Visit(c.rig, RigValues{scalars, "rig_"});
   values.tables["grains"] = {.columns = {"number", "x", "y", "z", "diameter", "radius"},
                              .rows = {}};
   return values;
+}
+
+std::vector<std::string> StatedPlaceholders(const rigs::Case& c) {
+  std::vector<std::string> names;
+  for (const engine::PairSpec& pair : c.pairs) {
+    engine::PairProperties::Visit(
+        pair.stated,
+        [&](std::string_view key, const std::optional<double>& value, base::FieldInfo) {
+          if (value) names.push_back(PairPrefix(*rigs::PartnerOf(pair)) + std::string(key));
+        });
+  }
+  return names;
 }
 
 void AddGrains(const rigs::Case& c, TemplateValues& values) {

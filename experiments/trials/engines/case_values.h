@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/rigs/case/case.h"
 #include "experiments/trials/engines/template_text.h"
@@ -10,6 +11,10 @@ namespace talus::trials {
 
 // Every value, in SI. The table `grains` has its columns but no rows: see AddGrains.
 TemplateValues CaseValues(const rigs::Case& rig_case);
+
+// The placeholders of what the case's pairs state themselves, such as plate_pair_sliding_friction:
+// a template without one of them simulates another case.
+std::vector<std::string> StatedPlaceholders(const rigs::Case& rig_case);
 
 // The rows of `grains`: the powder as our own engine fills it into the tube for this seed. Takes a
 // while for many grains, so only where a template asks for it.

@@ -297,7 +297,11 @@ bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, c
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems) {
   const TemplateFolder templates(options.templates.value());
-  templates.Check(options, ValuesOf(options, check.rig_case), check.calibrated, problems);
+  std::vector<std::string> needed = check.calibrated;
+  for (std::string& name : StatedPlaceholders(check.rig_case)) {
+    if (std::ranges::find(needed, name) == needed.end()) needed.push_back(std::move(name));
+  }
+  templates.Check(options, ValuesOf(options, check.rig_case), needed, problems);
   if (check.elsewhere) return;
   problems.Require(
       !IsLaunchedByUs(options, templates) || !runners::FindProgram(kMpiLauncher, {}).empty(),

@@ -7,6 +7,8 @@
 #include "base/files/file.h"
 #include "base/json/json_schema.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 
 namespace talus::campaign {
 namespace {
@@ -85,6 +87,32 @@ TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {
   EXPECT_EQ(UnitOf("plate_surface_energy"), "J/m^2");
   EXPECT_THAT(ErrorOf(With(R"("parameters": {"plate_sliding_friction": {"min": -1, "max": 1}})")),
               HasSubstr("parameters.plate_sliding_friction.min"));
+}
+
+// An experiment's own pairs stand in place of the campaign's; what is searched holds in all.
+TEST(Spec, PairsAreStatedOrSearched) {
+  const CampaignSpec spec = Read(R"({
+    "experiments": [
+      {"name": "steel", "map": "map.png", "plate_diameter": "10 mm"},
+      {"name": "glass", "map": "map.png", "plate_diameter": "10 mm",
+       "pairs": [{"between": ["powder", "plate"], "rolling_friction": 0.07}]}],
+    "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+    "pairs": [{"between": ["powder", "plate"], "rolling_friction": 0.05}],
+    "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5},
+                   "plate_pair_sliding_friction": {"min": 0.2, "max": 0.4},
+                   "tube_pair_restitution": {"fixed": 0.3}}})");
+  const auto space = SpaceOf(spec);
+  ASSERT_EQ(space.Free().size(), 2u);
+  const std::vector<double> values = space.ToNative(Eigen::Vector2d(0.5, 0.5));
+  for (const int experiment : {0, 1}) {
+    const rigs::Case c = CaseOf(spec, {.values = values, .experiment = experiment}, {});
+    const engine::PairProperties plate = rigs::StatedWith(c.pairs, rigs::kFloor);
+    EXPECT_DOUBLE_EQ(plate.sliding_friction.value(), 0.3);
+    EXPECT_DOUBLE_EQ(plate.rolling_friction.value(), experiment == 0 ? 0.05 : 0.07);
+    EXPECT_DOUBLE_EQ(rigs::StatedWith(c.pairs, rigs::kWalls).restitution.value(), 0.3);
+    EXPECT_FALSE(c.materials.floor);
+    EXPECT_DOUBLE_EQ(c.powder.material.sliding_friction, 0.3);
+  }
 }
 
 TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {

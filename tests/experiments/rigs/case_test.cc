@@ -15,6 +15,7 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
 #include "experiments/rigs/load_case.h"
@@ -64,6 +65,23 @@ TEST(Case, ASizeFileMovesIntoTheCase) {
     "sizes": {"kind": "file", "file": "heap_case_sizes.csv"}, "mass": "0.5 g"}})"));
   EXPECT_EQ(rig_case.powder.sizes.kind, engine::SizeKind::kCumulative);
   EXPECT_THAT(CaseText(rig_case), ::testing::Not(HasSubstr("heap_case_sizes")));
+}
+
+// Whatever the two materials are; γ of a pair is coarse-grained as the powder's (C1).
+TEST(Case, PairsOfTheCaseActInItsScene) {
+  const Case rig_case = LoadCase(Write("heap_case_pairs.json", R"({
+    "powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.2 g"},
+    "models": {"adhesion": "dmt"},
+    "device": {"plate_material": {"sliding_friction": 0.9}},
+    "coarse_graining": {"scale_factor": 2},
+    "pairs": [{"between": ["plate", "powder"], "sliding_friction": 0.25,
+               "surface_energy": "1 mJ/m^2"}]})"));
+  const engine::Scene scene = FillTube(rig_case).scene;
+  ASSERT_EQ(scene.pairs.size(), 1u);
+  EXPECT_TRUE(scene.pairs[0].Joins(kPowder, kFloor));
+  EXPECT_DOUBLE_EQ(scene.pairs[0].stated.sliding_friction.value(), 0.25);
+  EXPECT_DOUBLE_EQ(scene.pairs[0].stated.surface_energy.value(), 2e-3);
+  EXPECT_FALSE(scene.pairs[0].stated.rolling_friction);
 }
 
 TEST(Case, HashIgnoresWhatDoesNotChangeTheHeap) {

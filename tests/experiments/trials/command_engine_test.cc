@@ -9,6 +9,8 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
@@ -383,6 +385,28 @@ TEST(CaseValues, SeedsSuitTheCodesThatTakeThem) {
   rig_case.seed = ~std::uint64_t{0};
   const long seed = std::stol(CaseValues(rig_case).scalars.at("seed"));
   EXPECT_TRUE(seed > 0 && seed < 900000000) << seed;
+}
+
+// 2 · 0.5 · 0.125 / (0.5 + 0.125) = 0.2 where the pair does not state it (P5).
+TEST(CaseValues, PairsAreStatedOrMixed) {
+  rigs::Case rig_case = SmallCase();
+  rig_case.materials.floor = rigs::WallMaterial{.sliding_friction = 0.125};
+  EXPECT_DOUBLE_EQ(std::stod(CaseValues(rig_case).scalars.at("plate_pair_sliding_friction")), 0.2);
+  EXPECT_THAT(StatedPlaceholders(rig_case), ::testing::IsEmpty());
+  rigs::PairWith(rig_case.pairs, rigs::kFloor).sliding_friction = 0.25;
+  EXPECT_EQ(CaseValues(rig_case).scalars.at("plate_pair_sliding_friction"), "0.25");
+  EXPECT_EQ(CaseValues(rig_case).scalars.at("plate_sliding_friction"), "0.125");
+  EXPECT_THAT(StatedPlaceholders(rig_case), ::testing::ElementsAre("plate_pair_sliding_friction"));
+}
+
+// A deck that mixes the pair itself simulates another case than the one that is asked for.
+TEST_F(CommandEngineTest, StatedPairWithoutItsPlaceholderIsRefused) {
+  Deck("run.sh", "echo {{ plate_sliding_friction }}\n");
+  rigs::Case rig_case = SmallCase();
+  rigs::PairWith(rig_case.pairs, rigs::kFloor).sliding_friction = 0.25;
+  base::Problems problems;
+  CheckCommand(options_, {.rig_case = rig_case, .calibrated = {}, .elsewhere = true}, problems);
+  EXPECT_THAT(problems.Text(), HasSubstr("{{ plate_pair_sliding_friction }}"));
 }
 
 TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {

@@ -8,6 +8,8 @@
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/report/views/answer_words.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
+#include "experiments/rigs/case/materials.h"
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/posterior/credible_ranges.h"
 
@@ -44,7 +46,8 @@ Eigen::MatrixXd OthersNear(const Eigen::MatrixXd& draws, Eigen::Index column, do
 
 // A tilted plate tells the friction between powder and wall; nothing tells that of two grains.
 bool CanBeMeasured(const std::string& parameter) {
-  return parameter == "plate_sliding_friction" || parameter == "tube_sliding_friction";
+  const campaign::ParameterPlace place = campaign::PlaceOf(parameter);
+  return place.body != rigs::kPowder && place.property == "sliding_friction";
 }
 
 // Another test tells this parameter: where do the others lie, given it? As the ranges that the page
