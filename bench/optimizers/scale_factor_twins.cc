@@ -3,11 +3,12 @@
 // all scale factors, and with one alone. bench/optimizers/README.md says what came out.
 //
 //   scale_factor_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
-//                  [--useless yes]
+//                  [--useless yes] [--tests 1]
 //
 // A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
 // and scatters more, as measured on heaps of three grain sizes (docs/validation.md). --useless: a
-// coarse heap is that of other parameters altogether, and tells nothing of the true one.
+// coarse heap is that of other parameters altogether, and tells nothing of the true one. --tests 2:
+// a second heap of the same parameters, which another instance makes.
 #include <cstdio>
 #include <ctime>
 #include <map>
@@ -30,6 +31,7 @@ struct Options {
   std::vector<double> factors{2, 1.5, 1};
   double target = 0;
   bool useless = false;
+  int tests = 1;
 };
 
 Options Parse(int argc, char** argv) {
@@ -41,6 +43,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--core-time") options.core_time = std::stod(argv[i + 1]);
     if (key == "--target") options.target = std::stod(argv[i + 1]);
     if (key == "--useless") options.useless = true;
+    if (key == "--tests") options.tests = std::stoi(argv[i + 1]);
     if (key != "--factors") continue;
     options.factors.clear();
     std::stringstream list(argv[i + 1]);
@@ -82,13 +85,18 @@ struct Tally {
 };
 
 void Calibrate(const Options& options, int instance, Tally& tally) {
-  const auto problem = MakeProblem("heap", instance);
+  constexpr int kOtherTest = 5000;  // between the instances of the tests
   const Vec truth = TwinTruth(instance);
-  const optimizer::ExperimentTarget target = Photographed(*problem, truth, instance);
+  std::vector<std::unique_ptr<Problem>> problems;
+  std::vector<optimizer::ExperimentTarget> targets;
+  for (int test = 0; test < options.tests; ++test) {
+    problems.push_back(MakeProblem("heap", instance + kOtherTest * test));
+    targets.push_back(Photographed(*problems.back(), truth, instance + kOtherTest * test));
+  }
   const auto seed = static_cast<std::uint64_t>(instance);
   optimizer::PosteriorStrategy strategy(
       {.scale_factors = options.factors, .target = options.target, .seed = seed},
-      {.num_parameters = D}, {target});
+      {.num_parameters = D}, targets);
   double spent = 0;
   int told = 0;
   std::map<double, double> spent_at;  // core seconds, by scale factor
@@ -97,12 +105,14 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
     const double cost = HeapCost(p.scale_factor);
     spent += cost;
     spent_at[p.scale_factor] += cost;
-    const Image image = Heap(*problem, {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
+    const auto test = static_cast<std::size_t>(p.experiment);
+    const Image image = Heap(*problems[test], {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
                              1000 * seed + static_cast<std::uint64_t>(told), options.useless);
     strategy.Tell({.point = p.point,
+                   .experiment = p.experiment,
                    .scale_factor = p.scale_factor,
                    .cost = cost,
-                   .value = target.image.Value(image.px),
+                   .value = targets[test].image.Value(image.px),
                    .field = image.px});
   }
   const optimizer::Answer answer = strategy.Recommend();

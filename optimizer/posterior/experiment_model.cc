@@ -108,10 +108,12 @@ OutputMisfit ExperimentModel::MisfitOf(const OutputMoments& outputs, double caut
                                        const Eigen::VectorXd& open) const {
   const Eigen::Index num_points = outputs.mean.rows();
   OutputMisfit misfit{.residual = Eigen::MatrixXd(num_points, num_outputs()),
-                      .log_sd = Eigen::VectorXd::Zero(num_points)};
+                      .log_sd = Eigen::VectorXd::Zero(num_points),
+                      .share = Eigen::VectorXd::Zero(num_points)};
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const auto variance = outputs.variance.col(k).array();
     const Eigen::ArrayXd cautious = caution * caution * variance + open[k];
+    misfit.share.array() += (1 - open[k] / cautious) / num_outputs();
     misfit.residual.col(k) = (measured_[k] - outputs.mean.col(k).array()) / cautious.sqrt();
     misfit.log_sd.array() += 0.5 * (variance + open[k]).log();
   }

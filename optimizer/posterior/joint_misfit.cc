@@ -15,8 +15,9 @@ constexpr double kRegion = 0.9;  // probability of the regions of the outputs
 
 }  // namespace
 
-JointMisfit::JointMisfit(const Eigen::MatrixXd& stacked, const std::vector<int>& test) {
-  const Eigen::MatrixXd lower = ResidualCorrelation(stacked, test).llt().matrixL();
+JointMisfit::JointMisfit(const Eigen::MatrixXd& stacked, const std::vector<int>& test)
+    : test_(test), correlation_(ResidualCorrelation(stacked, test)) {
+  const Eigen::MatrixXd lower = correlation_.llt().matrixL();
   inverse_root_ = lower.triangularView<Eigen::Lower>().solve(
       Eigen::MatrixXd::Identity(stacked.cols(), stacked.cols()));
   Temper(stacked);
@@ -50,8 +51,25 @@ void JointMisfit::Temper(const Eigen::MatrixXd& stacked) {
   coverage_.tempered = covered(temper_);
 }
 
-Eigen::ArrayXd JointMisfit::Squared(const Eigen::MatrixXd& residual) const {
-  return (residual * inverse_root_.transpose()).rowwise().squaredNorm().array();
+Eigen::ArrayXd JointMisfit::Squared(const Eigen::MatrixXd& residual,
+                                    const Eigen::MatrixXd& share) const {
+  if (share.cols() < 2) {
+    return (residual * inverse_root_.transpose()).rowwise().squaredNorm().array();
+  }
+  Eigen::ArrayXd squared(residual.rows());
+  Eigen::MatrixXd shared = correlation_;
+  for (Eigen::Index i = 0; i < residual.rows(); ++i) {
+    const Eigen::RowVectorXd root = share.row(i).cwiseSqrt();
+    for (Eigen::Index a = 0; a < shared.rows(); ++a) {
+      for (Eigen::Index b = 0; b < a; ++b) {  // the lower triangle is all that LLT reads
+        const int e = test_[static_cast<std::size_t>(a)];
+        const int f = test_[static_cast<std::size_t>(b)];
+        if (e != f) shared(a, b) = root[e] * root[f] * correlation_(a, b);
+      }
+    }
+    squared[i] = shared.llt().matrixL().solve(residual.row(i).transpose()).squaredNorm();
+  }
+  return squared;
 }
 
 Eigen::VectorXd JointMisfit::LogDensity(const Eigen::ArrayXd& squared, const Eigen::ArrayXd& log_sd,

@@ -57,11 +57,13 @@ Eigen::MatrixXd Stack(const std::vector<ExperimentModel>& models,
   return stacked;
 }
 
-// The experiment that each output is of.
+// The experiment that each output is of, counted among those that count.
 std::vector<int> TestOfOutputs(const std::vector<ExperimentModel>& models) {
   std::vector<int> test;
-  for (std::size_t e = 0; e < models.size(); ++e) {
-    test.insert(test.end(), static_cast<std::size_t>(models[e].num_outputs()), static_cast<int>(e));
+  int num_tests = 0;
+  for (const ExperimentModel& model : models) {
+    if (NumCounted(model) == 0) continue;
+    test.insert(test.end(), static_cast<std::size_t>(NumCounted(model)), num_tests++);
   }
   return test;
 }
@@ -158,6 +160,7 @@ Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,
   Eigen::Index num_points = 0;
   for (const OutputMoments& one : outputs) num_points = std::max(num_points, one.mean.rows());
   Eigen::MatrixXd residual(num_points, misfit_.num_outputs());
+  Eigen::MatrixXd share(num_points, 0);
   Eigen::VectorXd log_sd = Eigen::VectorXd::Zero(num_points);
   Eigen::Index left = 0;
   for (std::size_t e = 0; e < models_.size(); ++e) {
@@ -167,9 +170,11 @@ Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,
     const double weight = model.weight();
     residual.middleCols(left, misfit.residual.cols()) = std::sqrt(weight) * misfit.residual;
     log_sd += weight * misfit.log_sd;
+    share.conservativeResize(Eigen::NoChange, share.cols() + 1);
+    share.rightCols(1) = misfit.share;
     left += misfit.residual.cols();
   }
-  return misfit_.LogDensity(misfit_.Squared(residual), log_sd, softness);
+  return misfit_.LogDensity(misfit_.Squared(residual, share), log_sd, softness);
 }
 
 PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,

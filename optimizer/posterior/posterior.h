@@ -1,9 +1,9 @@
 // The posterior of the parameters: how likely the measured outputs of all experiments are at a set.
 //
-//   ln p(x | data) = -Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ C⁻¹ r          joint_misfit.h
+//   ln p(x | data) = -Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ R⁻¹ r          joint_misfit.h
 //
 // r residuals of the K outputs in standard deviations s (experiment_model.h: the experiment's own
-// error, model error and the surrogate's, which is inflated in r and not in -Σ ln s). C and T come
+// error, model error and the surrogate's, which is inflated in r and not in -Σ ln s). R and T come
 // from leave-one-out residuals of all experiments together, so that two tests are not added as if
 // independent. The prior is uniform over the domain.
 //
