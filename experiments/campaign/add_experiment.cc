@@ -6,6 +6,7 @@
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/record/stored.h"
+#include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/start.h"
 #include "experiments/campaign/take_over.h"
 
@@ -44,10 +45,12 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   CampaignSpec spec = SpecWith(opened.spec, experiment);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
   const double used = CoreTime(opened.spec).OfSearch(trials);
+  SetDrumDiameters(spec);
   spec.budget.core_time = used + options.core_time.value_or(used);
   base::Problems problems(file.string(), {});
   CheckSpec(spec, problems);
   problems.ThrowIfAny();
+  SetDrumFills(spec);
   journal::CampaignRecord record = opened.journal.Campaign();
   record.experiments.push_back(MakeExperimentRecord(spec.experiments->back()));
   // Throws where the test does not have what is to be met.

@@ -13,6 +13,7 @@
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
+#include "experiments/campaign/spec/drum_images.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -33,7 +34,7 @@ std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpa
 }
 
 void AddImages(const ExperimentSpec& spec, journal::ExperimentRecord& record) {
-  const imaging::Experiment experiment = imaging::MeasureExperiment(spec.images);
+  const imaging::Experiment experiment = MeasureImages(spec);
   for (const imaging::PhotoWarning& warning : experiment.warnings) {
     record.warnings.push_back({.kind = std::string(base::NameOf(warning.doubt)),
                                .photo = warning.photo.string(),

@@ -70,6 +70,19 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
   if (problems.empty() && c.filling.kind == FillingKind::kPour) ValidatePour(c, vessel, problems);
 }
 
+// A picture as wide as the rig's, with a margin, for a camera that was given none.
+imaging::Frame UsualFrame(const Case& c) {
+  constexpr int kPixels = 480;
+  constexpr double kMargin = 1.2;
+  const double width = EntryOf(c).width(c);
+  return {.width = kPixels,
+          .height = kPixels,
+          .pixel_size = kMargin * width / kPixels,
+          .center_x = kPixels / 2.0,
+          .baseline = kPixels * (1 + 1 / kMargin) / 2,
+          .plate_diameter = width};
+}
+
 }  // namespace
 
 CaseSize EstimateCase(const Case& c) {
@@ -90,6 +103,8 @@ Case LoadCase(const std::filesystem::path& path) { return LoadCase(base::ReadJso
 Case LoadCase(const base::JsonFile& file) {
   auto rig_case = base::LoadOptions<Case>(file);
   engine::ReadSizeFile(rig_case.powder.sizes);
+  rig_case.SetMassByFill();
+  if (rig_case.rig.camera && !rig_case.frame) rig_case.frame = UsualFrame(rig_case);
   base::Problems problems(file.path.string(), file.places);
   ValidateCase(rig_case, problems);
   problems.ThrowIfAny();

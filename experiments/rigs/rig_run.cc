@@ -3,24 +3,15 @@
 #include <utility>
 
 #include "base/files/file.h"
-#include "base/sphere.h"
 #include "engine/run/state_file.h"
 #include "experiments/rigs/case/case_text.h"
+#include "experiments/rigs/phased/camera.h"
+#include "experiments/rigs/phased/spheres.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
-namespace {
-
-std::vector<base::Sphere> Spheres(const std::vector<engine::Particle>& particles) {
-  std::vector<base::Sphere> spheres;
-  for (const engine::Particle& p : particles) spheres.push_back({p.position, p.radius});
-  return spheres;
-}
-
-}  // namespace
-
 RigRun::RigRun(const Case& rig_case, std::filesystem::path folder)
     : case_(rig_case),
       folder_(std::move(folder)),
@@ -58,9 +49,14 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
     base::WriteFileAtomically(folder_ / "heap.vtp", engine::VtpOf(grains, time));
   }
   if (case_.outputs.csv) base::WriteFileAtomically(folder_ / "heap.csv", engine::CsvOf(grains));
-  if (case_.frame) {
+  if (case_.rig.camera) {
+    const Pictures pictures = PicturesOf(rig_->state().camera, case_.frame.value());
+    base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(pictures.mean));
+    base::WriteFileAtomically(folder_ / "profile_sd.png",
+                              imaging::EncodePng(pictures.standard_deviation));
+  } else if (case_.frame) {
     const imaging::Profile profile =
-        imaging::ProjectHeap(Spheres(grains), *case_.frame, NumViewsOf(case_));
+        imaging::ProjectHeap(SpheresOf(grains), *case_.frame, NumViewsOf(case_));
     base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(profile.image));
   }
   base::WriteFileAtomically(folder_ / "result.json", rig_->ResultText(grains, timing));

@@ -190,7 +190,8 @@ Profile DrumProfile(const MeasuredDrum& drum) {
                             .center_x = circle.center_x,
                             .baseline = std::min(circle.center_y + circle.radius,
                                                  static_cast<double>(drum.map.image.height)),
-                            .plate_diameter = 2 * circle.radius * drum.pixel_size}};
+                            .plate_diameter = 2 * circle.radius * drum.pixel_size,
+                            .disc_diameter = 2 * drum.map.inner_radius * drum.pixel_size}};
   if (drum.turning == Turning::kClockwise) return profile;
   profile.frame.center_x = width - circle.center_x;
   for (auto row = profile.image.pixels.begin(); row != profile.image.pixels.end(); row += width) {

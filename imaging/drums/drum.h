@@ -40,7 +40,8 @@ struct MeasuredDrum {
 MeasuredDrum MeasureDrum(const DrumPhotos& options);
 
 // The map as the rig `drum` shows its spheres: turning clockwise (mirrored where it does not), the
-// baseline at the drum's lowest point, its diameter in the plate's place.
+// baseline at the drum's lowest point, its diameter in the plate's place, and its disc that of what
+// the ring does not hide.
 Profile DrumProfile(const MeasuredDrum& drum);
 
 }  // namespace talus::imaging

@@ -1,5 +1,6 @@
 #include "imaging/heap/profile.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace talus::imaging {
@@ -13,10 +14,19 @@ void Frame::Validate(base::Problems& problems) const {
                    "must be positive and below 1 m");
   problems.Require(plate_diameter > 0 && plate_diameter <= 2, "plate_diameter", plate_diameter,
                    "must be positive and at most 2 m");
+  problems.Require(!disc_diameter || (*disc_diameter > 0 && *disc_diameter <= plate_diameter),
+                   "disc_diameter", disc_diameter.value_or(0),
+                   "must be positive and at most plate_diameter");
   problems.Require(center_x >= 0 && center_x <= width, "center_x_px", center_x,
                    "must be within the image");
   problems.Require(baseline >= 0 && baseline <= height, "baseline_px", baseline,
                    "must be within the image");
+}
+
+bool Frame::Knows(int column, int row) const {
+  if (!disc_diameter) return true;
+  const double axis = baseline - plate_diameter / (2 * pixel_size);  // its row [px]
+  return std::hypot(column + 0.5 - center_x, row + 0.5 - axis) <= *disc_diameter / (2 * pixel_size);
 }
 
 }  // namespace talus::imaging

@@ -1,6 +1,8 @@
 // An average heap profile: an image and the frame that ties its pixels to the plate.
 #pragma once
 
+#include <optional>
+
 #include "base/field.h"
 #include "base/problems.h"
 #include "imaging/gray_image.h"
@@ -17,6 +19,9 @@ struct Frame {
   double center_x = 0;           // of the plate [px] from the left edge of the image
   double baseline = 0;           // the plate's top [px] from the top edge of the image
   double plate_diameter = 0.01;  // [m], > 0
+  // Of a drum: only what lies within this disc about its axis is known, and powder elsewhere is not
+  // shown [m], > 0.
+  std::optional<double> disc_diameter{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -29,8 +34,14 @@ struct Frame {
     visit("baseline_px", self.baseline, {.required = true, .doc = "plate top, from the top"});
     visit("plate_diameter", self.plate_diameter,
           {.dimension = Dimension::kLength, .required = true, .doc = "plate diameter, > 0"});
+    visit("disc_diameter", self.disc_diameter,
+          {.dimension = Dimension::kLength,
+           .doc = "of a drum, whose diameter is plate_diameter: only what lies within this disc "
+                  "about its axis counts; default: all counts"});
   }
   void Validate(base::Problems& problems) const;
+  // Whether a pixel shows what is known: all do without a disc.
+  bool Knows(int column, int row) const;
   bool operator==(const Frame&) const = default;
 };
 

@@ -185,7 +185,9 @@ std::vector<GrayImage> ProjectViews(std::span<const base::Sphere> spheres, const
     std::size_t pixel = FirstPixel(frame, row);
     for (int column = 0; column < frame.width; ++column, ++pixel) {
       for (std::size_t view = 0; view < views.size(); ++view) {
-        if (silhouettes.Get(view, row, column)) views[view].pixels[pixel] = 0;
+        if (silhouettes.Get(view, row, column) && frame.Knows(column, row)) {
+          views[view].pixels[pixel] = 0;
+        }
       }
     }
   });
@@ -198,6 +200,7 @@ Profile ProjectHeap(std::span<const base::Sphere> spheres, const Frame& frame, i
   ForEachRow(frame, num_views, [&](int row) {
     std::size_t pixel = FirstPixel(frame, row);
     for (int column = 0; column < frame.width; ++column, ++pixel) {
+      if (!frame.Knows(column, row)) continue;
       int num_powder = 0;
       for (std::size_t view = 0; view < static_cast<std::size_t>(num_views); ++view) {
         num_powder += silhouettes.Get(view, row, column) ? 1 : 0;

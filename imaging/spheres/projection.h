@@ -5,7 +5,7 @@
 // images):
 //   column = center_x + (x cos φ + y sin φ) / pixel_size      row = baseline - z / pixel_size
 // A pixel is powder when its centre lies in the disc of a sphere, rim included; what is below the
-// baseline is never powder.
+// baseline is never powder, nor is what lies outside the frame's disc.
 #pragma once
 
 #include <span>

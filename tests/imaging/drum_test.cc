@@ -110,6 +110,9 @@ TEST(Drum, ProfileTurnsClockwise) {
     EXPECT_EQ(profile.image.at(x - 80, y), 0) << angle;  // 80 px left of it: 15 px below the plane
     EXPECT_EQ(profile.image.at(x + 80, y), 255) << angle;
     EXPECT_NEAR(profile.frame.plate_diameter, 0.084, 1e-12);
+    // The ring of 4 px is left out, and a little more as the lens blurs it.
+    EXPECT_LT(profile.frame.disc_diameter.value(), 0.084 * (kRadius - 4) / kRadius);
+    EXPECT_GT(profile.frame.disc_diameter.value(), 0.084 * (kRadius - 8) / kRadius);
     base::Problems problems;
     profile.frame.Validate(problems);
     EXPECT_TRUE(problems.empty());

@@ -105,6 +105,22 @@ TEST(Projection, RimCounts) {
   EXPECT_EQ(image.at(10 + 4, 10 + 4), 255);
 }
 
+// Half of a drum's radius is known: a grain at its axis shows whole, one at the rim not at all.
+TEST(Projection, OutsideTheDiscNothingShows) {
+  Frame frame = SmallFrame();
+  frame.height = 90;
+  frame.baseline = 85;
+  frame.disc_diameter = 0.5 * frame.plate_diameter;
+  const std::vector<Sphere> spheres{{.position = {0, 0, 4e-3}, .radius = 5e-4},
+                                    {.position = {0, 0, 7.5e-3}, .radius = 5e-4}};
+  Frame whole = frame;
+  whole.disc_diameter.reset();
+  const GrayImage known = ProjectViews(spheres, frame, 1).front();
+  EXPECT_EQ(known.pixels, ProjectViews({spheres.data(), 1}, whole, 1).front().pixels);
+  EXPECT_EQ(ProjectHeap(spheres, frame, 3).image.pixels,
+            ProjectHeap({spheres.data(), 1}, whole, 3).image.pixels);
+}
+
 TEST(Projection, RejectsFramesAndViewsThatMeanNothing) {
   Frame frame = SmallFrame();
   EXPECT_THROW(ProjectHeap({}, frame, 0), base::ConfigError);

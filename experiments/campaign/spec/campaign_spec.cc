@@ -7,6 +7,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/name.h"
+#include "experiments/campaign/spec/drum_images.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/load_case.h"
@@ -207,6 +208,9 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
     if (!experiment.pairs) experiment.pairs = spec.pairs;
     if (!experiment.filling) experiment.filling = spec.filling;
     if (!experiment.rules) experiment.rules = spec.rules;
+    const bool has_fill =
+        experiment.rig && experiment.rig->kind == rigs::RigKind::kDrum && experiment.rig->drum.fill;
+    if (!experiment.mass && spec.powder.mass > 0 && !has_fill) experiment.mass = spec.powder.mass;
   }
   return list;
 }
@@ -223,6 +227,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   if (spec.name.empty()) spec.name = base::OneLine(file.path.stem().string());
   if (!spec.parameters) spec.parameters = UsualRanges(spec.models.adhesion);
   CompleteDefaults(spec, file.root);
+  SetDrumDiameters(spec);
   base::TreeValidator(problems).Check(spec);
   if (problems.empty()) {
     const optimizer::ParameterSpace space = SpaceOf(spec);
@@ -234,6 +239,8 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   problems.ThrowIfAny();
   spec.coarse_graining.scale_factor = spec.coarse_graining.Levels().back();
   engine::ReadSizeFile(spec.powder.sizes);
+  SetDrumFills(spec);
+  if (spec.powder.mass == 0) spec.powder.mass = TypicalCase(spec, 0, 1).powder.mass;
   CompleteEngine(spec, problems);
   ValidateCases(spec, problems);
   problems.ThrowIfAny();
@@ -265,6 +272,7 @@ rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   rig_case.powder = spec.powder;
   const ExperimentSpec experiment =
       ExperimentsOf(spec).at(static_cast<std::size_t>(settings.experiment));
+  if (experiment.mass) rig_case.powder.mass = *experiment.mass;
   rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
   rig_case.SetDevice(*experiment.device);
   rig_case.pairs = *experiment.pairs;
@@ -284,6 +292,7 @@ rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   for (std::size_t i = 0; i < space.parameters.size(); ++i) {
     SetParameter(rig_case, space.parameters[i].name, settings.values[i]);
   }
+  rig_case.SetMassByFill();
   return rig_case;
 }
 

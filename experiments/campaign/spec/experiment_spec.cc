@@ -1,5 +1,7 @@
 #include "experiments/campaign/spec/experiment_spec.h"
 
+#include <cmath>
+
 #include "base/text/name.h"
 
 namespace talus::campaign {
@@ -12,7 +14,14 @@ void ExperimentSpec::Validate(base::Problems& problems) const {
   problems.Require(images.HasImages() || has_numbers, "",
                    "has no data: give photos, runs or a map, or numbers with their errors such as "
                    "\"mass_fallen\": {\"value\": \"21 mg\", \"sd\": \"2 mg\"}");
-  if (images.HasImages()) images.Validate(problems);
+  problems.Require(!mass || (*mass > 0 && std::isfinite(*mass)), "mass", mass.value_or(0),
+                   "must be positive");
+  if (!images.HasImages()) return;
+  imaging::ExperimentOptions complete = images;
+  if (rig && rig->kind == rigs::RigKind::kDrum && images.plate_diameter == 0) {
+    complete.plate_diameter = rig->drum.diameter;
+  }
+  complete.Validate(problems);
 }
 
 }  // namespace talus::campaign

@@ -15,6 +15,7 @@
 #include "experiments/rigs/options/filling_rule.h"
 #include "experiments/rigs/options/rig_options.h"
 #include "experiments/rigs/options/rules.h"
+#include "imaging/drums/drum.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
@@ -27,6 +28,8 @@ struct ExperimentSpec {
   std::optional<rigs::PhaseRules> rules{};               // default: the campaign's
   std::optional<rigs::RigOptions> rig{};                 // default: the campaign's
   std::optional<rigs::FillingRule> filling{};            // default: the campaign's
+  std::optional<double> mass{};                          // filled [kg], > 0; default: the powder's
+  std::optional<imaging::Turning> turning{};  // of a drum's photographs; default: as they show it
   MeasuredNumbers numbers;
   double weight = 1;  // power of its likelihood, > 0
 
@@ -39,6 +42,11 @@ struct ExperimentSpec {
     visit("rules", self.rules, {.doc = "when each phase ends, instead of the campaign's rules"});
     visit("rig", self.rig, {.doc = "kind of bulk test, instead of the campaign's rig"});
     visit("filling", self.filling, {.doc = "how the powder gets in, instead of the campaign's"});
+    visit("mass", self.mass,
+          {.dimension = base::Dimension::kMass, .doc = "filled, > 0, instead of the powder's"});
+    visit("turning", self.turning,
+          {.doc = "how a drum's photographs show it turn: clockwise carries the powder up on the "
+                  "left; default: read from the picture"});
     MeasuredNumbers::Visit(self.numbers, visit);
     visit(
         "weight", self.weight,

@@ -1,5 +1,7 @@
 #include "experiments/campaign/spec/measured_numbers.h"
 
+#include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -15,10 +17,13 @@ struct Collector {
                   base::FieldInfo = {}) {
     if (!number) return;
     const rigs::MetricUnit unit = rigs::MetricUnitOf(D);
-    ScalarSpec scalar{.metric = std::string(key) + unit.ending,
-                      .key = std::string(key),
-                      .standard_error = number->standard_error * unit.scale};
-    if constexpr (requires { number->value; }) scalar.value = number->value * unit.scale;
+    ScalarSpec scalar{.metric = std::string(key) + unit.ending, .key = std::string(key)};
+    if constexpr (requires { number->Value(); }) {
+      scalar.value = number->Value() * unit.scale;
+      scalar.standard_error = number->StandardError() * unit.scale;
+    } else {
+      scalar.standard_error = number->standard_error * unit.scale;
+    }
     scalars.push_back(std::move(scalar));
   }
 };
@@ -31,6 +36,15 @@ std::vector<ScalarSpec> Collect(const NumbersOf<Number>& numbers) {
 }
 
 }  // namespace
+
+MeanOfValues MeanOf(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  MeanOfValues result{.mean = std::accumulate(values.begin(), values.end(), 0.0) / count};
+  double squares = 0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  if (values.size() > 1) result.standard_error = std::sqrt(squares / (count - 1) / count);
+  return result;
+}
 
 std::vector<ScalarSpec> ScalarsOf(const MeasuredNumbers& numbers) { return Collect(numbers); }
 

@@ -14,23 +14,68 @@
 
 namespace talus::campaign {
 
-// A number with the error of what is given (of the mean, where it is a mean). D is its dimension.
+// The mean of repeated measurements and its standard error.
+struct MeanOfValues {
+  double mean = 0;
+  double standard_error = 0;
+};
+MeanOfValues MeanOf(const std::vector<double>& values);
+
+// A number with the error of what is given (of the mean, where it is a mean), or the values that
+// were measured, two or more. D is its dimension.
 template <base::Dimension D>
 struct MeasuredNumber {
-  double value = 0;           // SI
-  double standard_error = 0;  // SI, > 0
+  std::optional<double> value{};                // SI, >= 0
+  std::optional<double> standard_error{};       // SI, > 0
+  std::optional<std::vector<double>> values{};  // SI, >= 0, in place of the two
+
+  double Value() const { return values ? MeanOf(*values).mean : value.value_or(0); }
+  double StandardError() const {
+    return values && values->size() > 1 ? MeanOf(*values).standard_error
+                                        : standard_error.value_or(0);
+  }
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("value", self.value,
-          {.dimension = D, .required = true, .doc = "what was measured, >= 0"});
+          {.dimension = D, .doc = "what was measured, >= 0; needed without values"});
     visit("sd", self.standard_error,
-          {.dimension = D, .required = true, .doc = "standard error of the value given, > 0"});
+          {.dimension = D, .doc = "standard error of the value given, > 0; needed beside it"});
+    visit("values", self.values,
+          {.dimension = D,
+           .doc = "in place of value and sd: every measurement, two or more, whose mean and "
+                  "standard error count"});
   }
   void Validate(base::Problems& problems) const {
-    problems.Require(value >= 0 && std::isfinite(value), "value", value, "must not be negative");
-    problems.Require(standard_error > 0 && std::isfinite(standard_error), "sd", standard_error,
+    if (values) return ValidateValues(problems);
+    problems.Require(value.has_value(), "value", "is missing");
+    problems.Require(standard_error.has_value(), "sd", "is missing");
+    problems.Require(!value || (*value >= 0 && std::isfinite(*value)), "value", value.value_or(0),
+                     "must not be negative");
+    ValidateError(problems);
+  }
+
+ private:
+  void ValidateError(base::Problems& problems) const {
+    problems.Require(!standard_error || (*standard_error > 0 && std::isfinite(*standard_error)),
+                     "sd", standard_error.value_or(0),
                      "must be positive: a number counts by its error");
+  }
+  void ValidateValues(base::Problems& problems) const {
+    problems.Require(!value, "values", "stands beside value: give one of the two");
+    problems.Require(!values->empty(), "values", "is empty: give every measurement");
+    for (const double one : *values) {
+      problems.Require(one >= 0 && std::isfinite(one), "values", one, "must not be negative");
+    }
+    if (values->size() == 1) {
+      problems.Require(standard_error.has_value(), "values",
+                       "is one number, which has no scatter: give its sd, or measure once more");
+      return ValidateError(problems);
+    }
+    problems.Require(!standard_error, "sd",
+                     "stands beside values, whose scatter gives it: give one of the two");
+    problems.Require(values->empty() || MeanOf(*values).standard_error > 0, "values",
+                     "are all the same, which no error can be read from: give value and sd");
   }
 };
 

@@ -35,6 +35,9 @@ struct PropertyDimension {
   }
 };
 
+// The one parameter that is not of a material: how full a drum is.
+constexpr std::string_view kFill = "fill";
+
 base::Dimension DimensionOf(const std::string& property) {
   PropertyDimension visitor{property};
   const engine::Material material;
@@ -57,6 +60,10 @@ struct PropertySetter {
 // properties are those of the powder here, which are valid themselves.
 void ValidateEnd(const engine::Material& material, const std::string& name, const char* end,
                  double value, base::Problems& problems) {
+  if (name == kFill) {
+    problems.Require(value > 0 && value <= 0.6, end, value, "must be positive and at most 0.6");
+    return;
+  }
   const std::string property = PlaceOf(name).property;
   engine::Material at_end = material;
   engine::Material::Visit(at_end, PropertySetter{property, value});
@@ -119,6 +126,10 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
 }
 
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value) {
+  if (parameter == kFill) {
+    rig_case.rig.drum.fill = value;
+    return;
+  }
   const auto [body, is_pair, property] = PlaceOf(parameter);
   const PropertySetter set{property, value};
   if (is_pair) {

@@ -61,6 +61,7 @@ struct ParameterRanges {
   std::optional<Number> tube_pair_sliding_friction{};
   std::optional<Number> tube_pair_rolling_friction{};
   std::optional<Number> tube_pair_restitution{};
+  std::optional<Number> fill{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -93,6 +94,7 @@ struct ParameterRanges {
           {.doc = "mu_r between powder and tube"});
     visit("tube_pair_restitution", self.tube_pair_restitution,
           {.doc = "e between powder and tube"});
+    visit("fill", self.fill, {.doc = "of a drum, in place of its mass: rig.fill"});
   }
 };
 
@@ -117,7 +119,8 @@ struct ParameterPlace {
 };
 ParameterPlace PlaceOf(const std::string& parameter);
 
-// Sets a parameter by its name above: the powder's, a wall's or a pair's.
+// Sets a parameter by its name above: the powder's, a wall's or a pair's, or a drum's fill, from
+// which Case::SetMassByFill makes the mass.
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value);
 
 // What is wrong with a range, or with the powder at one of its ends, under the range's name.

@@ -43,13 +43,13 @@ void CheckAngle(const std::optional<MeasuredNumber<base::Dimension::kAngle>>& an
                          " degrees; a bare number is in rad: write \"" + number +
                          " deg\" for degrees");
   };
-  check("value", angle->value, kSteepest);
-  check("sd", angle->standard_error, kLargestAngleError);
+  check(angle->values ? "values" : "value", angle->Value(), kSteepest);
+  check(angle->values ? "values" : "sd", angle->StandardError(), kLargestAngleError);
 }
 
 void CheckDensity(const std::optional<MeasuredNumber<base::Dimension::kDensity>>& bulk,
                   double grains, const std::string& place, base::Problems& problems) {
-  problems.Require(!bulk || bulk->value < grains, place, bulk ? bulk->value : 0,
+  problems.Require(!bulk || bulk->Value() < grains, place, bulk ? bulk->Value() : 0,
                    "in kg/m^3, must be below the grains' " + base::ShortNumber(grains) +
                        " (powder.material.density): they leave gaps; is one in g/cm^3?");
 }
@@ -61,12 +61,12 @@ void CheckDensities(const MeasuredNumbers& numbers, double grains, const Place& 
   CheckDensity(numbers.Of<Observable::kBulkDensity>(), grains, place("bulk_density"), problems);
   const auto& poured = numbers.Of<Observable::kPouredDensity>();
   const auto& tapped = numbers.Of<Observable::kTappedDensity>();
-  problems.Require(!poured || !tapped || tapped->value >= poured->value, place("tapped_density"),
-                   tapped ? tapped->value : 0,
+  problems.Require(!poured || !tapped || tapped->Value() >= poured->Value(),
+                   place("tapped_density"), tapped ? tapped->Value() : 0,
                    "is below poured_density: taps only compact; are the two exchanged?");
   const auto& ratio = numbers.Of<Observable::kHausnerRatio>();
-  problems.Require(!ratio || (ratio->value >= 1 && ratio->value <= kLargestHausner),
-                   place("hausner_ratio"), ratio ? ratio->value : 0,
+  problems.Require(!ratio || (ratio->Value() >= 1 && ratio->Value() <= kLargestHausner),
+                   place("hausner_ratio"), ratio ? ratio->Value() : 0,
                    "must be in [1, 3]: tapped over poured density; below 1 it is poured over "
                    "tapped, or Carr's index");
 }
@@ -74,8 +74,8 @@ void CheckDensities(const MeasuredNumbers& numbers, double grains, const Place& 
 void CheckMasses(const MeasuredNumbers& numbers, double filled, const Place& place,
                  base::Problems& problems) {
   const auto check = [&](std::string_view key, const auto& mass) {
-    problems.Require(!mass || mass->value <= kLooseFill * filled, place(key),
-                     mass ? mass->value : 0,
+    problems.Require(!mass || mass->Value() <= kLooseFill * filled, place(key),
+                     mass ? mass->Value() : 0,
                      "in kg, is more than the " + base::ShortNumber(filled) +
                          " filled in (powder.mass); write \"21 mg\" for milligrams");
   };
@@ -111,10 +111,12 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     CheckAngle(e.numbers.Of<Observable::kAngle>(), place("angle"), problems);
     CheckAngle(e.numbers.Of<Observable::kShearAngle>(), place("shear_angle"), problems);
     CheckDensities(e.numbers, spec.powder.material.density, place, problems);
-    CheckMasses(e.numbers, spec.powder.mass, place, problems);
+    if (e.mass) CheckMasses(e.numbers, *e.mass, place, problems);
     if (e.rig && e.rig->kind != rigs::RigKind::kLiftedTube) continue;
     const bool own = spec.experiments && (*spec.experiments)[i].device;
-    CheckTube(spec.powder, *e.device, own ? place : Place(""), problems);
+    rigs::Powder powder = spec.powder;
+    powder.mass = e.mass.value_or(0);
+    CheckTube(powder, *e.device, own ? place : Place(""), problems);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/plausible.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -54,6 +55,30 @@ void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Probl
                  "is not measured by the rig " + std::string(base::NameOf(rig.rig.kind)) +
                      ", which measures " + all + "; remove it, or name the rig of this test");
   }
+}
+
+// What it is filled with; a drum's photographs show how full it is.
+void CheckMass(const CampaignSpec& spec, const ExperimentSpec& e, const std::string& place,
+               base::Problems& problems) {
+  const bool is_drum = e.rig && e.rig->kind == rigs::RigKind::kDrum;
+  const bool has_fill = is_drum && e.rig->drum.fill;
+  const bool is_searched = is_drum && spec.parameters && spec.parameters->fill;
+  problems.Require(!e.mass || !has_fill, place + ".mass",
+                   "stands beside rig.fill: give one of the two");
+  problems.Require(e.mass || has_fill || is_searched || ShowsDrum(e), "powder.mass",
+                   "is missing or 0, must be positive: give it, or " +
+                       (place.empty() ? "" : place + ".mass, or ") +
+                       "the photographs or rig.fill of a drum");
+}
+
+// It is read off the pictures of a camera.
+void CheckCohesiveIndex(const ExperimentSpec& e, const std::string& place,
+                        base::Problems& problems) {
+  const bool filmed = e.rig && e.rig->camera;
+  problems.Require(!e.numbers.Of<rigs::Observable::kCohesiveIndex>() || filmed,
+                   place + (place.empty() ? "" : ".") + "cohesive_index",
+                   "needs a camera: give the rig \"camera\": {\"frames\": 20, \"interval\": "
+                   "\"10 ms\"}, as the test's own");
 }
 
 // What the wall's material gives itself, by the names of the properties.
@@ -142,6 +167,18 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
   CheckHoldOut(spec, problems);
   if (!spec.experiment && !spec.experiments) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string place = spec.experiments ? "experiments[" + std::to_string(i) + "]" : "";
+    CheckMass(spec, all[i], place, problems);
+    ValidateDrumImages(all[i], place, problems);
+    CheckCohesiveIndex(all[i], place, problems);
+  }
+  const auto is_drum = [](const ExperimentSpec& e) {
+    return e.rig && e.rig->kind == rigs::RigKind::kDrum;
+  };
+  problems.Require(
+      !spec.parameters || !spec.parameters->fill || std::any_of(all.begin(), all.end(), is_drum),
+      "parameters.fill", "has no effect: it is a drum's; leave it out");
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
   if (!spec.experiments) return;

@@ -9,7 +9,9 @@
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
-void Powder::Validate(base::Problems& problems) const { RequirePositive(problems, "mass", mass); }
+void Powder::Validate(base::Problems& problems) const {
+  problems.Require(mass >= 0 && std::isfinite(mass), "mass", mass, "must be positive");
+}
 
 void CoarseGraining::Validate(base::Problems& problems) const {
   problems.Require(scale_factor >= 1 && std::isfinite(scale_factor), "scale_factor", scale_factor,
@@ -28,6 +30,11 @@ void CaseOutputs::Validate(base::Problems& problems) const {
 
 void Case::Validate(base::Problems& problems) const {
   ValidatePairs(pairs, problems);
+  const bool has_fill = rig.kind == RigKind::kDrum && rig.drum.fill;
+  problems.Require(powder.mass != 0 || has_fill, "powder.mass",
+                   "is missing or 0, must be positive (a drum may have rig.fill instead)");
+  problems.Require(powder.mass == 0 || !has_fill, "rig.fill",
+                   "stands beside powder.mass: give one of the two");
   RequirePositive(problems, "gravity", gravity);
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
@@ -49,6 +56,12 @@ Device Case::DeviceKey() const {
 void Case::SetDevice(const Device& device) {
   rig.lifted_tube = device;
   materials = {.walls = device.tube_material, .floor = device.plate_material};
+}
+
+void Case::SetMassByFill() {
+  if (rig.kind != RigKind::kDrum || !rig.drum.fill) return;
+  powder.mass = rig.drum.GrainVolume() * powder.material.density;
+  rig.drum.fill.reset();
 }
 
 PowderSize EstimatePowder(const Case& c) {

@@ -96,6 +96,9 @@ struct Case {
   // What needs no knowledge of the rig.
   void Validate(base::Problems& problems) const;
 
+  // Puts the mass in the place of a drum's fill; nothing where there is none.
+  void SetMassByFill();
+
   // The tube and the materials, which share the key `device`.
   Device DeviceKey() const;
   void SetDevice(const Device& device);

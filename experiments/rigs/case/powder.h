@@ -11,14 +11,15 @@ namespace talus::rigs {
 struct Powder {
   engine::Material material;
   engine::SizeDistribution sizes;  // of the real powder; the scale factor enlarges it
-  double mass = 0;                 // [kg], > 0
+  double mass = 0;                 // [kg], > 0; 0: not given, as a drum's fill stands for it
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("material", self.material, {.doc = "of a grain"});
     visit("sizes", self.sizes, {.required = true, .doc = "diameters of the real powder"});
     visit("mass", self.mass,
-          {.dimension = base::Dimension::kMass, .required = true, .doc = "filled, > 0"});
+          {.dimension = base::Dimension::kMass,
+           .doc = "filled, > 0; a drum may have its rig's fill instead"});
   }
   void Validate(base::Problems& problems) const;
 };

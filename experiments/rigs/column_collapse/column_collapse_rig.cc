@@ -18,6 +18,7 @@ constexpr double kFront = 0.99;  // of the mass lies behind the front
 ColumnCollapseRig::ColumnCollapseRig(const Case& c, State state, engine::Simulation simulation)
     : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
   Phase running = Resting("running out", c.rules.heap);
+  running.filmed = true;
   running.begin = [this] { Open(); };
   SetPhases({running}, TestTime(c, FilledHeight(c, vessel())));
 }

@@ -17,6 +17,7 @@ constexpr int kGate = 0;
 DrawDownRig::DrawDownRig(const Case& c, State state, engine::Simulation simulation)
     : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
   Phase discharging = Resting("discharging", c.rules.heap);
+  discharging.filmed = true;
   discharging.begin = [this] { scene().RemoveWall(kGate); };
   SetPhases({discharging}, TestTime(c, FilledHeight(c, vessel())));
 }

@@ -24,8 +24,9 @@ DrumRig::DrumRig(const Case& c, State state, engine::Simulation simulation)
   const double turn = 2 * std::numbers::pi / drum.speed;
   Phase starting = Lasting("starting", drum.start_turns * turn);
   starting.begin = [this] { Turn(); };
-  SetPhases({starting, Lasting("turning", drum.turns * turn)},
-            TestTime(c, FilledHeight(c, vessel())));
+  Phase turning = Lasting("turning", drum.turns * turn);
+  turning.filmed = true;
+  SetPhases({starting, turning}, TestTime(c, FilledHeight(c, vessel())));
 }
 
 void DrumRig::Turn() {
@@ -50,6 +51,7 @@ std::optional<PhaseEnd> DrumRig::Look() {
 std::vector<engine::Wall> DrumRig::Walls(const Case& c, double) {
   const DrumOptions& drum = c.rig.drum;
   const double radius = drum.diameter / 2;
+  const int covers = c.materials.floor ? kFloor : kWalls;
   const auto lid = [&](double y) {
     return engine::Disc{.center = {0, y, radius}, .normal = {0, 1, 0}, .radius = radius};
   };
@@ -58,8 +60,8 @@ std::vector<engine::Wall> DrumRig::Walls(const Case& c, double) {
                                   .radius = radius,
                                   .length = drum.width};
   return {{.name = "side", .shape = side, .material = kWalls},
-          {.name = "front", .shape = lid(-drum.width / 2), .material = kWalls},
-          {.name = "back", .shape = lid(drum.width / 2), .material = kWalls}};
+          {.name = "front", .shape = lid(-drum.width / 2), .material = covers},
+          {.name = "back", .shape = lid(drum.width / 2), .material = covers}};
 }
 
 Vessel DrumRig::VesselOf(const Case& c) {
@@ -76,6 +78,15 @@ void DrumRig::Validate(const Case& c, base::Problems& problems) {
   problems.Require(froude < 1, "rig.speed", drum.speed,
                    "rad/s is so fast that the powder turns with the drum: ω²R/g is " +
                        base::ShortNumber(froude) + ", must be below 1");
+  if (c.rig.camera) {
+    const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
+    problems.Require(c.rig.camera->LastTime() <= measured, "rig.camera",
+                     "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
+                         " s after start_turns, when the drum has ended: its turns take " +
+                         base::ShortNumber(measured) + " s; raise rig.turns to " +
+                         base::ShortNumber(drum.turns * c.rig.camera->LastTime() / measured, 3) +
+                         " or more, or take fewer pictures");
+  }
   const double most = kBoxHeight * c.rig.drum.diameter / 2;
   const double filled = FilledHeight(c, VesselOf(c));
   problems.Require(filled < most, "powder.mass", c.powder.mass,

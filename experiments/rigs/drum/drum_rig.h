@@ -1,6 +1,6 @@
 // The dynamic angle of repose in a turning drum: the mean slope of the middle half of the surface,
 // over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
-// towards -x.
+// towards -x. Front and back are of the floor's material where there is one, else of the side's.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,8 @@ struct DrumMemory {
 
 class DrumRig : public RememberingRig<DrumMemory> {
  public:
-  static constexpr RigObservable kMeasured[] = {{Observable::kAngle, true}, {Observable::kAngleSd}};
+  static constexpr RigObservable kMeasured[] = {
+      {Observable::kAngle, true}, {Observable::kAngleSd}, {Observable::kCohesiveIndex}};
 
   DrumRig(const Case& rig_case, State state, engine::Simulation simulation);
 

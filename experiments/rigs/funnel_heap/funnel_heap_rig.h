@@ -21,10 +21,14 @@ struct FunnelHeapMemory {
 
 class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
  public:
-  static constexpr RigObservable kMeasured[] = {
-      {Observable::kMassOnPlate, true},   {Observable::kMassFallen},   {Observable::kHeight},
-      {Observable::kReposeAngle1},        {Observable::kReposeAngle2}, {Observable::kReposeAngle3},
-      {Observable::kReposeTriangle, true}};
+  static constexpr RigObservable kMeasured[] = {{Observable::kMassOnPlate, true},
+                                                {Observable::kMassFallen},
+                                                {Observable::kHeight},
+                                                {Observable::kReposeAngle1},
+                                                {Observable::kReposeAngle2},
+                                                {Observable::kReposeAngle3},
+                                                {Observable::kReposeTriangle, true},
+                                                {Observable::kStaticCohesiveIndex}};
 
   FunnelHeapRig(const Case& rig_case, State state, engine::Simulation simulation);
 

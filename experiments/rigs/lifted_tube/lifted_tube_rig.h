@@ -26,9 +26,11 @@ struct LiftedTubeMemory {
 class LiftedTubeRig : public RememberingRig<LiftedTubeMemory> {
  public:
   static constexpr RigObservable kMeasured[] = {
-      {Observable::kMassOnPlate},  {Observable::kMassFallen, true}, {Observable::kNumFallen},
-      {Observable::kHeight},       {Observable::kBulkDensity},      {Observable::kReposeAngle1},
-      {Observable::kReposeAngle2}, {Observable::kReposeAngle3},     {Observable::kReposeTriangle}};
+      {Observable::kMassOnPlate},    {Observable::kMassFallen, true},
+      {Observable::kNumFallen},      {Observable::kHeight},
+      {Observable::kBulkDensity},    {Observable::kReposeAngle1},
+      {Observable::kReposeAngle2},   {Observable::kReposeAngle3},
+      {Observable::kReposeTriangle}, {Observable::kStaticCohesiveIndex}};
 
   LiftedTubeRig(const Case& rig_case, State state, engine::Simulation simulation);
 

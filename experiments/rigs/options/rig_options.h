@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/rigs/options/camera_options.h"
 #include "experiments/rigs/options/column_collapse_options.h"
 #include "experiments/rigs/options/draw_down_options.h"
 #include "experiments/rigs/options/drum_options.h"
@@ -28,6 +30,23 @@ enum class RigKind {
   kFunnelHeap
 };
 
+// Whether its powder moves when it is measured, so that a camera can take pictures of it.
+constexpr bool IsFilmed(RigKind kind) {
+  switch (kind) {
+    case RigKind::kColumnCollapse:
+    case RigKind::kTiltingBox:
+    case RigKind::kDrawDown:
+    case RigKind::kDrum:
+    case RigKind::kOrificeFlow:
+      return true;
+    case RigKind::kLiftedTube:
+    case RigKind::kTappedDensity:
+    case RigKind::kFunnelHeap:
+      return false;
+  }
+  return false;
+}
+
 // The keys of one kind only are there: those of `kind`. The lifted tube's stand under `device`.
 struct RigOptions {
   RigKind kind = RigKind::kLiftedTube;
@@ -39,15 +58,22 @@ struct RigOptions {
   DrumOptions drum;
   OrificeFlowOptions orifice_flow;
   FunnelHeapOptions funnel_heap;
+  std::optional<CameraOptions> camera{};  // default: one picture, at the end
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("kind", self.kind,
           {.required = true, .doc = "of bulk test; the keys beside it are that test's"});
     OfKind(self, [&](auto& options) { options.Visit(options, visit); });
+    visit("camera", self.camera,
+          {.doc = "pictures over time, whose mean is the profile, of rigs whose powder moves; "
+                  "default: one picture, at the end"});
   }
   void Validate(base::Problems& problems) const {
     OfKind(*this, [&](const auto& options) { options.Validate(problems); });
+    problems.Require(!camera || IsFilmed(kind), "camera",
+                     "has nothing to film: the powder of this rig is at rest when its picture is "
+                     "taken; remove it");
   }
 
   // One of each kind, for the schema.

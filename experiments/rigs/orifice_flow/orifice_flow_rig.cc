@@ -36,6 +36,7 @@ OrificeFlowRig::OrificeFlowRig(const Case& c, State state, engine::Simulation si
   Phase discharging = Resting(kDischarging, c.rules.heap);
   discharging.hold_time = c.rig.orifice_flow.arch_time;
   discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
+  discharging.filmed = true;
   discharging.begin = [this] { scene().RemoveWall(kGate); };
   SetPhases({discharging}, test_time);
 }

@@ -22,6 +22,7 @@ struct Phase {
   std::function<double()> cap{};         // how long it lasts at most [s]
   PhaseEnd at_cap = PhaseEnd::kTimeCap;
   std::string cap_warning{};      // where a cap is worth one; default: a general sentence
+  bool filmed = false;            // a camera takes its pictures in it
   std::function<void()> begin{};  // what changes in the scene
   std::function<void()> end{};    // what is measured
 };

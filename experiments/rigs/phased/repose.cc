@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/sphere.h"
+#include "experiments/rigs/phased/spheres.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/spheres/projection.h"
 
@@ -44,18 +44,17 @@ Reading ReadingOf(Observable observable, const imaging::Metric& metric) {
 
 std::vector<Reading> ReposeReadings(std::span<const engine::Particle> heap,
                                     const RoundPlate& plate) {
-  std::vector<base::Sphere> spheres;
-  for (const engine::Particle& p : heap) spheres.push_back({p.position, p.radius});
   const imaging::Frame frame = FrameOf(heap, plate);
   imaging::HeapImages images;
-  images.parts = imaging::ProjectViews(spheres, frame, imaging::kDefaultViews);
+  images.parts = imaging::ProjectViews(SpheresOf(heap), frame, imaging::kDefaultViews);
   images.profile = {.image = imaging::MeanImage(images.parts), .frame = frame};
   const std::vector<imaging::Metric> metrics = imaging::DescribeProfile(images);
   const std::pair<Observable, const char*> kMethods[] = {
       {Observable::kReposeAngle1, "repose_angle_1_mean_deg"},
       {Observable::kReposeAngle2, "repose_angle_2_mean_deg"},
       {Observable::kReposeAngle3, "repose_angle_3_mean_deg"},
-      {Observable::kReposeTriangle, "triangle_angle_deg"}};
+      {Observable::kReposeTriangle, "triangle_angle_deg"},
+      {Observable::kStaticCohesiveIndex, "static_cohesive_index"}};
   std::vector<Reading> readings;
   for (const auto& [observable, name] : kMethods) {
     readings.push_back(ReadingOf(observable, imaging::FindMetric(metrics, name)));

@@ -1,5 +1,6 @@
 // The angles of repose of a round heap, as methods read them off its mean silhouette
-// (docs/imaging.md): 1, 2 and 3, and the triangle of equal area.
+// (docs/imaging.md): 1, 2 and 3, and the triangle of equal area; and how far the heap is from that
+// triangle.
 #pragma once
 
 #include <span>

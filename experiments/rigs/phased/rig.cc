@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/error.h"
 #include "engine/bodies/wall_motion.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/pace.h"
@@ -118,13 +119,28 @@ bool Rig::Advance(double until) {
   if (state_.phase >= phases_.size()) return false;
   const bool pouring = pour_ && phase_name() == kPouring;
   const Slice slice = AdvanceSlice(simulation_, {.check_steps = check_steps_,
-                                                 .until = until,
+                                                 .until = std::min(until, NextPicture()),
                                                  .pour = pouring ? &*pour_ : nullptr,
                                                  .pour_state = &state_.pour});
   state_.particle_steps += slice.particle_steps;
   record().steps += slice.steps;
+  TakeDuePicture();
   if (simulation_.step() % check_steps_ == 0) Check();
   return state_.phase < phases_.size();
+}
+
+double Rig::NextPicture() const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (!case_.rig.camera || !phases_[state_.phase].filmed) return kNever;
+  const CameraOptions& camera = *case_.rig.camera;
+  if (state_.camera.num_frames == camera.frames) return kNever;
+  return phase_start() + camera.start + state_.camera.num_frames * camera.interval;
+}
+
+// At the step that is nearest to its time.
+void Rig::TakeDuePicture() {
+  if (simulation_.time() + simulation_.time_step() / 2 < NextPicture()) return;
+  TakePicture(Grains(), case_.frame.value(), state_.camera);
 }
 
 void Rig::Check() {
@@ -154,6 +170,13 @@ bool Rig::AtRest(const RestRule& rule) {
 
 void Rig::EndPhase(PhaseEnd reason) {
   const Phase& ended = phases_[state_.phase];
+  if (std::isfinite(NextPicture())) {
+    throw base::Error(Format(
+        "the camera had taken %d of %d pictures when %s ended, after %.4g s: the powder had come "
+        "to its end; take them earlier (rig.camera)",
+        state_.camera.num_frames, case_.rig.camera->frames, ended.name.c_str(),
+        simulation_.time() - phase_start()));
+  }
   record().reason = reason;
   record().end_time = simulation_.time();
   if (ended.end) ended.end();

@@ -93,6 +93,8 @@ class Rig {
   void Say(const std::string& message) { messages_.push_back(message); }
 
  private:
+  double NextPicture() const;  // when it is due [s]; infinite when none is
+  void TakeDuePicture();
   void Check();
   bool Held(const Phase& phase);
   bool AtRest(const RestRule& rule);

@@ -106,13 +106,19 @@ std::string Rig::ResultText(const std::vector<engine::Particle>& grains,
                    {"contacts_per_grain", state_.bed.coordination}};
   result["num_grains"] = state_.num_filled;
   for (const auto& [name, count] : Counts(grains)) result["counts"][name] = count;
-  AddReadings(Readings(grains), result);
+  std::vector<Reading> readings = Readings(grains);
+  if (case_.rig.camera) readings.push_back(CohesiveIndex(state_.camera, case_.frame.value()));
+  AddReadings(readings, result);
   result["conditions"] = CommonConditions(case_, simulation_);
   for (const auto& [name, value] : Conditions()) result["conditions"][name] = value;
   if (case_.frame) {
     result["profile"] = base::ToJson(*case_.frame);
     result["profile"]["file"] = "profile.png";
     result["profile"]["num_views"] = NumViewsOf(case_);
+    if (case_.rig.camera) {
+      result["profile"]["num_frames"] = state_.camera.num_frames;
+      result["profile"]["sd_file"] = "profile_sd.png";
+    }
   }
   result["num_steps"] = simulation_.step();
   result["simulated_time_s"] = simulation_.time();

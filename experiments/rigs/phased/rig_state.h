@@ -7,6 +7,7 @@
 #include "base/field.h"
 #include "engine/run/bed.h"
 #include "engine/scene/pour.h"
+#include "experiments/rigs/phased/camera.h"
 #include "experiments/rigs/phased/phase.h"
 
 namespace talus::rigs {
@@ -22,6 +23,7 @@ struct RigState {
   std::int64_t num_quiet_checks = 0;  // in a row, for which the phase's criterion has held
   double particle_steps = 0;
   engine::Bed bed{};  // when the filling had settled
+  CameraMemory camera{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -37,6 +39,7 @@ struct RigState {
     visit("bed_height_m", self.bed.height);
     visit("solid_fraction", self.bed.solid_fraction);
     visit("coordination", self.bed.coordination);
+    visit("camera", self.camera);
   }
 };
 

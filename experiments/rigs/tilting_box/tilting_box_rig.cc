@@ -26,6 +26,7 @@ TiltingBoxRig::TiltingBoxRig(const Case& c, State state, engine::Simulation simu
     phases.back().begin = [this] { scene().RemoveWall(kGate); };
   }
   phases.push_back(Lasting("tilting", box.largest_angle / box.rate));
+  phases.back().filmed = true;
   phases.back().begin = [this] { Tilt(); };
   SetPhases(std::move(phases), TestTime(c, FilledHeight(c, vessel())));
 }

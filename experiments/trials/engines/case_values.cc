@@ -85,8 +85,13 @@ struct RigValues {
   void operator()(std::string_view key, const std::optional<double>& value, base::FieldInfo = {}) {
     if (value) (*this)(key, *value);
   }
-  void operator()(std::string_view key, const rigs::TapRule& taps, base::FieldInfo = {}) {
-    rigs::TapRule::Visit(taps, RigValues{scalars, prefix + std::string(key) + "_"});
+  template <base::Visitable Group>
+  void operator()(std::string_view key, const Group& group, base::FieldInfo = {}) {
+    Group::Visit(group, RigValues{scalars, prefix + std::string(key) + "_"});
+  }
+  template <base::Visitable Group>
+  void operator()(std::string_view key, const std::optional<Group>& group, base::FieldInfo = {}) {
+    if (group) (*this)(key, *group);
   }
 };
 

@@ -45,23 +45,28 @@ double CpuTimeOf(const nlohmann::json& result) {
   return timing == result.end() ? 0 : timing->value("cpu_time_s", 0.0);
 }
 
-// The finished run's grains in the frame, and the result as a run of this case would have it.
+// The finished run's grains in the frame.
+void DrawHeap(const rigs::Case& rig_case, const std::filesystem::path& folder,
+              nlohmann::ordered_json& result) {
+  std::filesystem::remove(folder / "profile.png");
+  result.erase("profile");
+  if (!rig_case.frame) return;
+  const int num_views = rigs::NumViewsOf(rig_case);
+  const auto grains = imaging::ReadSpheres(folder / "heap.vtp", {});
+  base::WriteFileAtomically(
+      folder / "profile.png",
+      imaging::EncodePng(imaging::ProjectHeap(grains, *rig_case.frame, num_views).image));
+  result["profile"] = base::ToJson(*rig_case.frame);
+  result["profile"]["file"] = "profile.png";
+  result["profile"]["num_views"] = num_views;
+}
+
+// The picture and the result as a run of this case would have them; those of a camera stay.
 void DrawAnew(const rigs::Case& rig_case, const std::filesystem::path& folder) {
   const auto text = base::IfWhole(base::ReadFile(folder / "result.json"));
   auto result = nlohmann::ordered_json::parse(text.value_or(""), nullptr, false);
   if (!result.is_object()) throw base::Error("left a result.json that is not JSON");
-  std::filesystem::remove(folder / "profile.png");
-  result.erase("profile");
-  if (rig_case.frame) {
-    const int num_views = rigs::NumViewsOf(rig_case);
-    const auto grains = imaging::ReadSpheres(folder / "heap.vtp", {});
-    base::WriteFileAtomically(
-        folder / "profile.png",
-        imaging::EncodePng(imaging::ProjectHeap(grains, *rig_case.frame, num_views).image));
-    result["profile"] = base::ToJson(*rig_case.frame);
-    result["profile"]["file"] = "profile.png";
-    result["profile"]["num_views"] = num_views;
-  }
+  if (!rig_case.rig.camera) DrawHeap(rig_case, folder, result);
   result["input_hash"] = base::Hex(rigs::CaseHash(rig_case));
   base::WriteFileAtomically(folder / "case.json", rigs::CaseText(rig_case));
   base::WriteFileAtomically(folder / "result.json",
@@ -115,8 +120,13 @@ TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesyst
 
 bool TalusEngine::TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                            const std::filesystem::path& to) {
-  if (!rigs::IsSameRun(rigs::LoadCase(from / "case.json"), rig_case)) return false;
-  if (rig_case.frame && !std::filesystem::exists(from / "heap.vtp")) return false;
+  const rigs::Case made = rigs::LoadCase(from / "case.json");
+  if (!rigs::IsSameRun(made, rig_case)) return false;
+  // What a camera has seen in another frame is gone.
+  if (rig_case.rig.camera) {
+    if (rig_case.frame && rig_case.frame != made.frame) return false;
+  } else if (rig_case.frame && !std::filesystem::exists(from / "heap.vtp"))
+    return false;
   CopyFolder(from, to);
   DrawAnew(rig_case, to);
   return true;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "base/error.h"
@@ -67,6 +68,21 @@ TEST(Spec, AnySubsetOfTheMaterialWithUnitsAndFixedValues) {
   EXPECT_EQ(c.coarse_graining.scale_factor, 2);
   EXPECT_EQ(UnitOf("surface_energy"), "J/m^2");
   EXPECT_EQ(UnitOf("sliding_friction"), "");
+}
+
+// Heaps of two masses; one of them weighed three times: mean 21, standard error √(7/3).
+TEST(Spec, AnExperimentHasItsOwnMassAndItsRepeatedNumbers) {
+  const CampaignSpec spec = Read(R"({
+    "experiments": [
+      {"name": "small", "map": "a.png", "plate_diameter": "10 mm", "mass": "0.5 g"},
+      {"name": "large", "mass": "1 g", "mass_fallen": {"values": ["18 mg", "23 mg", "22 mg"]}}],
+    "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}},
+    "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5}}})");
+  EXPECT_DOUBLE_EQ(TypicalCase(spec, 0, 1).powder.mass, 0.5e-3);
+  EXPECT_DOUBLE_EQ(TypicalCase(spec, 1, 1).powder.mass, 1e-3);
+  const ScalarSpec fallen = ScalarsOf(ExperimentsOf(spec)[1]).front();
+  EXPECT_NEAR(fallen.value, 21e-6, 1e-15);
+  EXPECT_NEAR(fallen.standard_error, std::sqrt(7.0 / 3) * 1e-6, 1e-15);
 }
 
 TEST(Spec, PlateAndTubeHaveParametersOfTheirOwn) {

@@ -9,11 +9,16 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/drum/drum_rig.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/rigs/phased/camera.h"
+#include "experiments/rigs/phased/spheres.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/rig_run.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/spheres/projection.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::rigs {
@@ -195,6 +200,108 @@ TEST(Drum, TheDynamicAngleGrowsWithFriction) {
   EXPECT_LT(angles[1], 60);
 }
 
+// A drum filmed while it turns.
+Case Filmed() {
+  Case c = CaseOf(RigKind::kDrum, 0.5, 0.1, 0.15e-3);
+  c.rig.drum = {.diameter = 0.012, .width = 0.005, .speed = 10, .start_turns = 0.1, .turns = 0.1};
+  c.rig.camera = {.frames = 4, .interval = 0.01, .start = 0.005};
+  c.frame = imaging::Frame{.width = 130,
+                           .height = 130,
+                           .pixel_size = 1e-4,
+                           .center_x = 65,
+                           .baseline = 125,
+                           .plate_diameter = 0.012};
+  return c;
+}
+
+// The pictures of another run of the same case, stopped at the times of the camera.
+TEST(Camera, TheProfileIsTheMeanOfSilhouettesWhileThePowderMoves) {
+  const Case c = Filmed();
+  const auto filmed = Ran(c);
+  Case still = c;
+  still.rig.camera.reset();
+  const auto run = Ran(still);
+  ASSERT_EQ(filmed->simulation().step(), run->simulation().step());
+  for (std::size_t i = 0; i < run->Grains().size(); ++i) {  // who looks on changes nothing
+    EXPECT_EQ(filmed->Grains()[i].position.x, run->Grains()[i].position.x);
+  }
+  const auto again = MakeRig(still);
+  std::vector<imaging::GrayImage> views;
+  for (int frame = 0; frame < 4; ++frame) {
+    const double at = run->RecordOf("turning").start_time + 0.005 + 0.01 * frame;
+    while (again->simulation().time() + again->simulation().time_step() / 2 < at) {
+      again->Advance(at);
+    }
+    views.push_back(imaging::ProjectViews(SpheresOf(again->Grains()), *c.frame, 1).front());
+  }
+  EXPECT_NE(views.front().pixels, views.back().pixels);
+  const Pictures pictures = PicturesOf(filmed->state().camera, *c.frame);
+  EXPECT_EQ(pictures.mean.pixels, imaging::MeanImage(views).pixels);
+  EXPECT_GT(Value(c, *filmed, "cohesive_index_m"), 0);
+}
+
+TEST(Camera, ASeriesGoesOnFromACheckpoint) {
+  const Case c = Filmed();
+  const auto whole = Ran(c);
+  auto first = MakeRig(c);
+  while (first->state().camera.num_frames < 2) first->Advance();
+  auto second = RestoreRig(c, first->StateLine(),
+                           engine::Simulation::Restore(first->simulation().Checkpoint()));
+  while (second->Advance()) {
+  }
+  EXPECT_EQ(second->state().camera.num_frames, 4);
+  EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
+}
+
+// Of four frames the six pixels of a row showed powder in none, one, two, four, four and four.
+TEST(Camera, MeanAndStandardDeviationAreThoseOfEachPixel) {
+  const imaging::Frame frame{.width = 6, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
+  const CameraMemory memory{.num_frames = 4, .runs = {0, 1, 1, 1, 2, 1, 4, 3}};
+  const Pictures pictures = PicturesOf(memory, frame);
+  EXPECT_EQ(pictures.mean.pixels, (std::vector<std::uint8_t>{255, 191, 128, 0, 0, 0}));
+  EXPECT_EQ(pictures.standard_deviation.pixels,
+            (std::vector<std::uint8_t>{0, 110, 128, 0, 0, 0}));  // 255 √(3/16), 255 / 2
+  EXPECT_NEAR(CohesiveIndex(memory, frame).value, (std::sqrt(3.0 / 16) + 0.5) * 1e-6 / 0.01, 1e-15);
+  EXPECT_THAT(CohesiveIndex({.num_frames = 1, .runs = {1, 6}}, frame).undefined,
+              HasSubstr("no standard deviation"));
+}
+
+// A column comes to rest long before a second.
+TEST(Camera, PicturesAfterTheEndAreAFailure) {
+  Case c = CaseOf(RigKind::kColumnCollapse, 0.5, 0.1, 0.1e-3);
+  c.rig.column_collapse = {.length = 0.006, .width = 0.005};
+  c.rig.camera = {.frames = 2, .interval = 5};
+  c.rules.heap.max_time = 0.3;
+  c.frame = Filmed().frame;
+  try {
+    Ran(c);
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("had taken 1 of 2 pictures when running out ended"));
+  }
+}
+
+TEST(Drum, AFillStandsForItsMass) {
+  Case c = CaseOf(RigKind::kDrum, 0.5, 0.1, 0);
+  c.rig.drum = {.diameter = 0.084, .width = 0.02, .fill = 0.5};
+  const double disc = std::numbers::pi / 4 * 0.084 * 0.084;
+  c.SetMassByFill();
+  EXPECT_NEAR(c.powder.mass, 0.5 * kSeenSolidFraction * disc * 0.02 * kDensity, 1e-12);
+  EXPECT_FALSE(c.rig.drum.fill);
+}
+
+TEST(Drum, CoversHaveAMaterialOfTheirOwn) {
+  Case c = Filmed();
+  const auto materials = [&] {
+    std::vector<int> list;
+    for (const engine::Wall& wall : DrumRig::Walls(c, 0)) list.push_back(wall.material);
+    return list;
+  };
+  EXPECT_EQ(materials(), (std::vector{kWalls, kWalls, kWalls}));
+  c.materials.floor = WallMaterial{.sliding_friction = 0.2};
+  EXPECT_EQ(materials(), (std::vector{kWalls, kFloor, kFloor}));
+}
+
 Case Orifice(double diameter, double mass) {
   Case c = CaseOf(RigKind::kOrificeFlow, 0.5, 0.05, mass);
   c.rig.orifice_flow = {.diameter = 0.016, .orifice = diameter, .arch_time = 0.1};
@@ -252,6 +359,8 @@ Case Small(RigKind kind) {
   c.rig.drum = {.diameter = 0.012, .width = 0.005, .speed = 10, .start_turns = 0.1, .turns = 0.1};
   c.rig.orifice_flow = {.diameter = 0.008, .orifice = 0.005, .cone_angle = 1, .arch_time = 0.05};
   c.rig.funnel_heap = {.plate_diameter = 0.008, .height = 0.008, .outlet = 0.004};
+  if (IsFilmed(kind)) c.rig.camera = {.frames = 5, .interval = 0.005};
+  c.frame = Filmed().frame;
   if (kind == RigKind::kFunnelHeap) c.filling.kind = FillingKind::kPour;
   c.rules.heap.max_time = 0.3;
   return c;
@@ -291,6 +400,7 @@ INSTANTIATE_TEST_SUITE_P(Rigs, EveryRig,
 TEST(RigRun, WritesTheContractOfATrialFolder) {
   ScratchFolder scratch;
   Case c = Small(RigKind::kColumnCollapse);
+  c.rig.camera.reset();
   c.frame = imaging::Frame{.width = 300,
                            .height = 100,
                            .pixel_size = 1e-4,
@@ -340,6 +450,10 @@ TEST(RigOptions, OnlyTheKeysOfTheKindAreKnown) {
               HasSubstr("rig.orifice: is 0.04, must be below the diameter of the cylinder"));
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "funnel_heap"}})").c_str()),
               HasSubstr("must be \"pour\""));
+  EXPECT_THAT(ErrorOf((powder + R"({"kind": "funnel_heap", "camera": {"frames": 2,
+                       "interval": "1 ms"}}})")
+                          .c_str()),
+              HasSubstr("rig.camera: has nothing to film"));
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "draw_down", "slot": "1 mm"}})").c_str()),
               HasSubstr("must be above two (scaled) grain diameters"));
   EXPECT_THAT(

@@ -7,6 +7,7 @@
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/campaign/spec/drum_images.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/photos/overlay.h"
@@ -94,9 +95,9 @@ imaging::ExperimentOptions FirstRun(imaging::ExperimentOptions options) {
   return options;
 }
 
-imaging::ExperimentOptions PhotographsOf(const Evidence& evidence) {
+campaign::ExperimentSpec ExperimentOf(const Evidence& evidence) {
   const campaign::CampaignSpec spec = campaign::ParseSpecText(evidence.spec_json);
-  return campaign::ExperimentsOf(spec).at(evidence.experiment).images;
+  return campaign::ExperimentsOf(spec).at(evidence.experiment);
 }
 
 // Views spread evenly over those there are.
@@ -108,7 +109,11 @@ std::vector<imaging::MeasuredView> SomeViews(const std::vector<imaging::Measured
 }
 
 void AddPhotographs(const Evidence& evidence, const Box& box, PhotoOverlay& overlay) {
-  const imaging::ExperimentOptions given = PhotographsOf(evidence);
+  const campaign::ExperimentSpec experiment = ExperimentOf(evidence);
+  if (campaign::ShowsDrum(experiment)) {
+    throw base::ConfigError("a drum's photographs count as one average");
+  }
+  const imaging::ExperimentOptions& given = experiment.images;
   if (!given.map.empty()) throw base::ConfigError("the experiment is given as a map");
   const imaging::ExperimentOptions options = FirstRun(given);
   const imaging::Experiment measured = imaging::MeasureExperiment(options);

@@ -1,0 +1,87 @@
+#include "experiments/campaign/spec/drum_images.h"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "imaging/drums/drum.h"
+#include "imaging/photos/photo_set.h"
+
+namespace talus::campaign {
+namespace {
+
+bool IsDrum(const std::optional<rigs::RigOptions>& rig) {
+  return rig && rig->kind == rigs::RigKind::kDrum;
+}
+
+imaging::MeasuredDrum MeasureDrumOf(const ExperimentSpec& e) {
+  imaging::DrumPhotos drum{.photos = {}, .diameter = e.images.plate_diameter, .turning = e.turning};
+  if (e.images.photos.empty()) {
+    drum.photos = {e.images.map};
+  } else {
+    drum.photos = imaging::ImagesIn(e.images.photos);
+    if (drum.photos.empty()) {
+      throw base::ConfigError(e.images.photos.string() + ": holds no photographs");
+    }
+  }
+  return imaging::MeasureDrum(drum);
+}
+
+void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images) {
+  if (images.HasImages() && images.plate_diameter == 0) images.plate_diameter = rig.drum.diameter;
+}
+
+}  // namespace
+
+bool ShowsDrum(const ExperimentSpec& e) {
+  return IsDrum(e.rig) && e.images.HasImages() && !e.images.frame;
+}
+
+void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
+                        base::Problems& problems) {
+  const std::string prefix = place.empty() ? "" : place + ".";
+  if (!ShowsDrum(e)) {
+    problems.Require(!e.turning, prefix + "turning", "is of a drum's photographs: remove it");
+    return;
+  }
+  const imaging::ExperimentOptions& images = e.images;
+  problems.Require(images.runs.empty(), prefix + "runs",
+                   "are of heaps: give a drum's photographs as the folder of one series, "
+                   "\"photos\", or as their average, \"map\"");
+  const bool plain = images.scale.empty() && images.tilt == 0 && !images.pixel_size &&
+                     !images.threshold && images.powder != imaging::PowderLook::kBright;
+  problems.Require(plain, place,
+                   "has a scale, tilt, pixel_size, threshold or bright powder, which are of heaps: "
+                   "a drum is read by its circle, lit from behind");
+}
+
+imaging::Experiment MeasureImages(const ExperimentSpec& e) {
+  if (!ShowsDrum(e)) return imaging::MeasureExperiment(e.images);
+  imaging::Experiment experiment;
+  experiment.aehp = imaging::DrumProfile(MeasureDrumOf(e));
+  experiment.metrics = imaging::DescribeProfile(experiment.Images(), e.images.metrics);
+  return experiment;
+}
+
+void SetDrumDiameters(CampaignSpec& spec) {
+  if (spec.experiment && IsDrum(spec.rig)) SetDiameter(*spec.rig, *spec.experiment);
+  if (!spec.experiments) return;
+  for (ExperimentSpec& e : *spec.experiments) {
+    const std::optional<rigs::RigOptions>& rig = e.rig ? e.rig : spec.rig;
+    if (IsDrum(rig)) SetDiameter(*rig, e.images);
+  }
+}
+
+void SetDrumFills(CampaignSpec& spec) {
+  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!ShowsDrum(all[i]) || all[i].mass || all[i].rig->drum.fill) continue;
+    rigs::RigOptions rig = *all[i].rig;
+    rig.drum.fill = MeasureDrumOf(all[i]).surface.fill;
+    (spec.experiment ? spec.rig : (*spec.experiments)[i].rig) = std::move(rig);
+  }
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,30 @@
+// Photographs of a turning drum as a campaign's images: read as `talus measure --drum` reads them,
+// turning as the rig `drum` does, and known only inside the ring.
+#pragma once
+
+#include <string>
+
+#include "base/problems.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "imaging/photos/experiment.h"
+
+namespace talus::campaign {
+
+// Whether its images are photographs of a drum: `photos` a series of one camera, or `map` the
+// average of one. A map with a frame is a profile already. The rig is filled in.
+bool ShowsDrum(const ExperimentSpec& experiment);
+
+// What is of no drum's photographs, or of those only.
+void ValidateDrumImages(const ExperimentSpec& experiment, const std::string& place,
+                        base::Problems& problems);
+
+// Of a drum or a heap. Throws ConfigError that names the file and what to do.
+imaging::Experiment MeasureImages(const ExperimentSpec& experiment);
+
+// The width of drums' images is their rig's, where it is not given.
+void SetDrumDiameters(CampaignSpec& spec);
+
+// A drum without a mass is as full as its photographs show. Reads them.
+void SetDrumFills(CampaignSpec& spec);
+
+}  // namespace talus::campaign

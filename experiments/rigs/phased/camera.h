@@ -1,0 +1,42 @@
+// The pictures that a rig's camera takes while the powder moves: their mean, as an average heap
+// profile is the mean of views, and their standard deviation.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/scene.h"
+#include "experiments/rigs/observables/observable.h"
+#include "imaging/heap/profile.h"
+
+namespace talus::rigs {
+
+// What has been seen so far. Runs of pixels, row by row, that showed powder equally often: the
+// number of frames with powder, and how many pixels follow that have it.
+struct CameraMemory {
+  int num_frames = 0;
+  std::vector<int> runs{};
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("num_frames", self.num_frames);
+    visit("runs", self.runs);
+  }
+};
+
+// One picture more, seen from the front.
+void TakePicture(std::span<const engine::Particle> grains, const imaging::Frame& frame,
+                 CameraMemory& memory);
+
+// With p the share of the frames in which a pixel is powder:
+struct Pictures {
+  imaging::GrayImage mean;                // 255 (1 - p)
+  imaging::GrayImage standard_deviation;  // of the silhouettes, 255 √(p (1 - p)): 127 at most
+};
+Pictures PicturesOf(const CameraMemory& memory, const imaging::Frame& frame);
+
+// How much the surface moves: ∫ √(p (1 - p)) dA / D, over the picture, D the width that it is
+// scaled by. Level surfaces that lie s high or low by chance give 1.81 s.
+Reading CohesiveIndex(const CameraMemory& memory, const imaging::Frame& frame);
+
+}  // namespace talus::rigs

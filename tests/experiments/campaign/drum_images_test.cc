@@ -1,0 +1,141 @@
+// Photographs of a drum as the images of an experiment.
+#include "experiments/campaign/spec/drum_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/json/json_file.h"
+#include "imaging/formats/images/image_file.h"
+#include "tests/experiments/scratch_folder.h"
+
+namespace talus::campaign {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr int kSide = 200;  // of the picture [px]
+constexpr double kRadius = 95;
+constexpr double kRing = 3;  // [px]
+
+// Half full; the surface falls by 40 degrees to the right, or to the left.
+imaging::GrayImage Draw(bool falls_right) {
+  imaging::GrayImage image{.width = kSide, .height = kSide, .pixels = {}};
+  const double slope = std::tan(40 * std::numbers::pi / 180) * (falls_right ? -1 : 1);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double right = x + 0.5 - kSide / 2.0;
+      const double up = kSide / 2.0 - y - 0.5;
+      const double r = std::hypot(right, up);
+      const bool dark =
+          (r <= kRadius && up < slope * right) || (r <= kRadius && r > kRadius - kRing);
+      image.pixels.push_back(dark ? 20 : 240);
+    }
+  }
+  return image;
+}
+
+class DrumImages : public ::testing::Test {
+ public:
+  DrumImages() {
+    fs::create_directories(scratch_.path() / "photos");
+    imaging::WritePng(scratch_.path() / "photos/one.png", Draw(false));
+    imaging::WritePng(scratch_.path() / "map.png", Draw(true));
+  }
+  // `more` are keys of the second experiment, whose series turns the other way.
+  CampaignSpec Read(const std::string& more = "", const std::string& powder = "") const {
+    return ReadCampaignSpec(base::ParseJson(R"({"experiments": [
+        {"name": "slow", "map": "map.png",
+         "rig": {"kind": "drum", "diameter": "84 mm", "width": "20 mm", "speed": "15 rpm"}},
+        {"name": "fast", "photos": "photos")" + more +
+                                                R"(,
+         "rig": {"kind": "drum", "diameter": "84 mm", "width": "20 mm", "speed": "45 rpm",
+                 "turns": 0.2, "camera": {"frames": 20, "interval": "10 ms"}}}],
+      "powder": {"material": {"density": 1580},
+                 "sizes": {"kind": "mono", "diameter": "1.2 mm"})" +
+                                                powder + R"(},
+      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9},
+                     "fill": {"min": 0.4, "max": 0.5}}})",
+                                            scratch_.path() / "spec.json"));
+  }
+  std::string ErrorOf(const std::string& more) const {
+    try {
+      Read(more);
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  ScratchFolder scratch_;
+};
+
+TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
+  const CampaignSpec spec = Read();
+  for (const ExperimentSpec& e : ExperimentsOf(spec)) {
+    EXPECT_EQ(e.images.plate_diameter, 0.084);
+    EXPECT_NEAR(e.rig->drum.fill.value(), 0.5, 0.01);
+    EXPECT_FALSE(e.mass);
+  }
+}
+
+// The fill is searched in place of what the picture says: in the middle of its range.
+TEST_F(DrumImages, ASearchedFillIsTheMassOfATrial) {
+  const double disc = std::numbers::pi / 4 * 0.084 * 0.084;
+  const double expected = 0.45 * rigs::kSeenSolidFraction * disc * 0.02 * 1580;
+  EXPECT_NEAR(TypicalCase(Read(), 1, 1).powder.mass, expected, 1e-12);
+}
+
+// Mirrored, the drum that turns the other way shows what the first shows.
+TEST_F(DrumImages, ProfilesTurnAsTheRigDoesAndKnowTheDiscOnly) {
+  const std::vector<ExperimentSpec> all = ExperimentsOf(Read());
+  const imaging::Profile first = MeasureImages(all[0]).aehp;
+  const imaging::Profile second = MeasureImages(all[1]).aehp;
+  EXPECT_EQ(first.image.pixels, second.image.pixels);
+  EXPECT_EQ(first.image.at(kSide / 2 - 60, kSide / 2), 0);
+  EXPECT_EQ(first.image.at(kSide / 2 + 60, kSide / 2), 255);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      EXPECT_TRUE(first.frame.Knows(x, y) || first.image.at(x, y) == 255);
+    }
+  }
+  EXPECT_LT(first.frame.disc_diameter.value(), 0.084 * (kRadius - kRing) / kRadius);
+}
+
+TEST_F(DrumImages, ErrorsSayWhatToDo) {
+  EXPECT_THAT(ErrorOf(R"(, "turning": "clockwise")"), HasSubstr("turns the other way"));
+  EXPECT_EQ(ErrorOf(R"(, "turning": "counter-clockwise")"), "");
+  EXPECT_THAT(ErrorOf(R"(, "pixel_size": "0.5 mm")"), HasSubstr("which are of heaps"));
+  EXPECT_THAT(ErrorOf(R"(, "mass": 0)"), HasSubstr("experiments[1].mass: is 0, must be positive"));
+  EXPECT_EQ(ErrorOf(R"(, "cohesive_index": {"values": ["1 mm", "1.2 mm"]})"), "");
+}
+
+// A measured series that is not part of the project: TALUS_REAL_DATA names its folder. Its README
+// says how it turns and what it covers: 0.499 and 0.503 of the disc within 41.4 mm.
+TEST(RealDrum, MicrocrystallineCellulose) {
+  const char* const folder = std::getenv("TALUS_REAL_DATA");
+  if (folder == nullptr) GTEST_SKIP() << "TALUS_REAL_DATA is not set";
+  for (const char* file : {"gd_15rpm.png", "gd_45rpm.png"}) {
+    ExperimentSpec e;
+    e.rig.emplace();
+    e.rig->kind = rigs::RigKind::kDrum;
+    e.images.map = fs::path(folder) / "drum_mcc" / file;
+    e.images.plate_diameter = 0.084;
+    e.turning = imaging::Turning::kClockwise;
+    const imaging::Profile profile = MeasureImages(e).aehp;
+    const double known = std::numbers::pi / 4 * std::pow(profile.frame.disc_diameter.value(), 2);
+    const double pixel = profile.frame.pixel_size;
+    // Half-way between powder and light, and within 41.3 mm: 1.5 % of the disc more.
+    EXPECT_NEAR(imaging::Nebp(profile.image) * pixel * pixel / known, 0.51, 0.015);
+  }
+}
+
+}  // namespace
+}  // namespace talus::campaign
