@@ -128,7 +128,7 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value) {
   if (parameter == kFill) {
     rig_case.rig.drum.fill = value;
-    return;
+    return rig_case.SetMassByFill();
   }
   const auto [body, is_pair, property] = PlaceOf(parameter);
   const PropertySetter set{property, value};

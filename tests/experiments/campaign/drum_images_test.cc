@@ -91,6 +91,11 @@ TEST_F(DrumImages, ASearchedFillIsTheMassOfATrial) {
   const double disc = std::numbers::pi / 4 * 0.084 * 0.084;
   const double expected = 0.45 * rigs::kSeenSolidFraction * disc * 0.02 * 1580;
   EXPECT_NEAR(TypicalCase(Read(), 1, 1).powder.mass, expected, 1e-12);
+  rigs::Case alone;  // as `talus predict` sets what was searched
+  alone.rig = *ExperimentsOf(Read())[1].rig;
+  alone.powder.material.density = 1580;
+  SetParameter(alone, "fill", 0.45);
+  EXPECT_NEAR(alone.powder.mass, expected, 1e-12);
 }
 
 // Mirrored, the drum that turns the other way shows what the first shows.

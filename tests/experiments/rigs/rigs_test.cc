@@ -333,7 +333,7 @@ TEST(OrificeFlow, AnArchIsAnAnswer) {
 
 // A heap that the plate's rim cuts off has the angle of repose; rough grains stand steeper.
 TEST(FunnelHeap, RoughGrainsStandSteeperAndEveryGrainIsWeighed) {
-  std::vector<double> angles;
+  std::vector<double> angles, indices;
   for (const double friction : {0.1, 0.6}) {
     Case c = CaseOf(RigKind::kFunnelHeap, friction, friction / 2, 0.8e-3);
     c.rig.funnel_heap = {.plate_diameter = 0.014, .height = 0.012, .outlet = 0.005};
@@ -341,10 +341,14 @@ TEST(FunnelHeap, RoughGrainsStandSteeperAndEveryGrainIsWeighed) {
     const auto rig = Ran(c);
     angles.push_back(Value(c, *rig, "angle_of_repose_triangle_deg"));
     const double weighed = Value(c, *rig, "mass_on_plate_kg") + Value(c, *rig, "mass_fallen_kg");
-    EXPECT_NEAR(weighed, 0.8e-3, 2e-6);  // to a whole number of grains
+    EXPECT_NEAR(weighed, 0.8e-3, 2e-6);                       // to a whole number of grains
+    indices.push_back(Value(c, *rig, "static_cohesive_index"));
   }
   EXPECT_GT(angles[1], angles[0] + 5);
   EXPECT_LT(angles[1], 45);
+  // A cone, nearly; smooth grains leave a layer.
+  EXPECT_LT(indices[1], 0.5);
+  EXPECT_GT(indices[0], indices[1]);
 }
 
 // Every rig goes on from a checkpoint with the same bits.

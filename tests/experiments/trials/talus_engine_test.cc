@@ -83,5 +83,29 @@ TEST(TalusEngine, ARunIsTakenOverWithTheImageThatItsOwnFrameWouldHaveGiven) {
   fs::remove_all(root);
 }
 
+// What a camera saw is in no file of grains, so that another frame needs another run.
+TEST(TalusEngine, AFilmedRunIsTakenOverInItsOwnFrameOnly) {
+  const fs::path root = fs::temp_directory_path() / ("talus_filmed_" + std::to_string(::getpid()));
+  rigs::Case seen = SmallHeap({.width = 60,
+                               .height = 60,
+                               .pixel_size = 3e-4,
+                               .center_x = 30,
+                               .baseline = 55,
+                               .plate_diameter = 0.016});
+  seen.rig.kind = rigs::RigKind::kDrum;
+  seen.rig.drum = {.diameter = 0.016, .width = 0.006, .speed = 10, .start_turns = 0, .turns = 0.1};
+  seen.rig.camera = {.frames = 3, .interval = 0.01};
+  Simulate(seen, root / "seen");
+  TalusEngine engine("talus");
+  rigs::Case other = seen;
+  other.frame->center_x = 31;
+  EXPECT_FALSE(engine.TakeOver(other, root / "seen", root / "other"));
+  ASSERT_TRUE(engine.TakeOver(seen, root / "seen", root / "taken"));
+  for (const char* file : {"profile.png", "profile_sd.png"}) {
+    EXPECT_EQ(base::ReadFile(root / "taken" / file), base::ReadFile(root / "seen" / file));
+  }
+  fs::remove_all(root);
+}
+
 }  // namespace
 }  // namespace talus::trials
