@@ -1,5 +1,7 @@
 #include "base/text/name.h"
 
+#include <cctype>
+
 #include "base/text/printable.h"
 
 namespace talus::base {
@@ -27,6 +29,18 @@ std::string OneLine(std::string_view text) {
     text.remove_prefix(length);
   }
   return line;
+}
+
+std::string FileWord(std::string_view name) {
+  std::string word;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      word += c;
+    } else if (!word.empty() && word.back() != '-') {
+      word += '-';
+    }
+  }
+  return word.empty() ? "test" : word;
 }
 
 }  // namespace talus::base

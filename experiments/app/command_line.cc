@@ -41,6 +41,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddStatusCommand(app);
   AddConsiderCommand(app);
   AddNextCommand(app);
+  AddPredictCommand(app);
   AddCompareCommand(app);
   AddReportCommand(app);
   AddCardCommand(app);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "experiments/app/commands.h"
+#include "experiments/app/set_argument.h"
 #include "experiments/campaign/answer/hold_out.h"
 
 namespace talus::app {
@@ -21,20 +22,6 @@ struct ConsiderArguments {
   bool alone = false;
   bool json = false;
 };
-
-std::map<std::string, std::string> ReadSet(const std::vector<std::string>& texts) {
-  std::map<std::string, std::string> set;
-  for (const std::string& text : texts) {
-    const auto equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw base::ConfigError("\"" + text + "\": must be NAME=VALUE, as sliding_friction=0.45");
-    }
-    if (!set.emplace(text.substr(0, equals), text.substr(equals + 1)).second) {
-      throw base::ConfigError(text.substr(0, equals) + ": is given twice");
-    }
-  }
-  return set;
-}
 
 std::string Considered(const ConsiderArguments& arguments) {
   if (!arguments.hold_out.empty()) {
@@ -54,7 +41,7 @@ std::string Considered(const ConsiderArguments& arguments) {
         "--hold-out NAME or --alone");
   }
   const campaign::ConsideredSet considered =
-      campaign::ConsiderSet(arguments.folder, ReadSet(arguments.set));
+      campaign::ConsiderSet(arguments.folder, ReadSetArgument(arguments.set));
   return arguments.json ? campaign::ConsideredJson(considered)
                         : campaign::ConsideredText(considered);
 }

@@ -157,6 +157,9 @@ def good_folder(folder):
     os.mkfifo(folder / "pipe")
     (folder / "blocked").mkdir()
     os.mkfifo(folder / "blocked/run01_view01.jpg")
+    (folder / "weighed.json").write_text('{"runout": {"value": "9 mm", "sd": "1 mm"}}')
+    (folder / "other_laws.json").write_text(json.dumps(
+        {**example("scenes/heap_case.json"), "models": {"rolling": "constant"}}))
     (folder / "candidates.json").write_text('{"candidates": [{"name": "again"}]}')
     (folder / "further.json").write_text(
         '{"name": "plate", "mass_fallen": {"value": "21 mg", "sd": "2 mg"}}')

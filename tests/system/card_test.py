@@ -192,11 +192,32 @@ class Card(unittest.TestCase):
         self.assertEqual([float(word) for word in restitution], [2, 0.6, 0.6, 0.6, 0.6])
         lammps = card(self.folder, "lammps", pairs=pairs)
         self.assertRegex(lammps, r"pair_coeff \* \* .* mindlin NULL \S+ 0.4 ")
-        self.assertRegex(lammps, r"# plate: .* mindlin NULL \S+ 0.25 ")
+        self.assertRegex(lammps, r"# fix plate .* mindlin NULL \S+ 0.25 ")
         for name in ("lethe", "yade", "mercurydpm"):
             self.assertIn("NOT INCLUDED: what a pair states itself, powder and plate: sliding_friction = 0.25",
                           card(self.folder, name, pairs=pairs))
         self.assertEqual(json.loads(card(self.folder, "json", pairs=pairs))["pairs"], pairs)
+
+    # Plate and tube as the card gives them, without their comment marks: a grain falls onto the plate.
+    def test_walls_of_the_lammps_card_hold_a_grain(self):
+        if not shutil.which("lmp"):
+            self.skipTest("lmp is not installed")
+        lines = card(self.folder, "lammps", plate={"sliding_friction": 0.8})
+        walls = [line[2:] for line in lines.splitlines() if re.match("# (variable|region|fix (tube|plate)) ", line)]
+        self.assertEqual(len(walls), 6)
+        (self.folder / "atoms.data").write_text(
+            f"a grain\n\n1 atoms\n1 atom types\n\n-0.05 0.05 xlo xhi\n-0.05 0.05 ylo yhi\n-0.05 0.3 zlo zhi\n\n"
+            f"Atoms\n\n1 1 {DIAMETER} {MATERIAL['density']} 0 0 {DIAMETER}\n")
+        (self.folder / "in.deck").write_text(
+            "units si\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
+            "read_data atoms.data\nneighbor 2e-4 bin\n" + lines + "\n".join(walls) +
+            "\nfix weight all gravity 9.81 vector 0 0 -1\nfix motion all nve/sphere\n"
+            f"run {round(0.15 / time_step(lines))}\n"
+            f"dump last all custom 1 last.dump id z\ndump_modify last format float %.9g\nrun 0\n")
+        done = subprocess.run(["lmp", "-in", "in.deck"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+        height = float((self.folder / "last.dump").read_text().split()[-1])
+        self.assertAlmostEqual(height, DIAMETER / 2, delta=0.01 * DIAMETER)
 
     # f = 1, so that the powder's surface energy is the one used. Between two surfaces of γ, 2πγ*R* of
     # ours is the 4πγR* of LAMMPS and YADE.

@@ -5,9 +5,13 @@
 
 #include "base/error.h"
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/card/card_formats.h"
+#include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/answer/answer.h"
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
@@ -22,25 +26,58 @@ bool Same(const engine::Material& a, const engine::Material& b) {
   return base::ToJson(a) == base::ToJson(b);
 }
 
-Card ReadCampaignCard(const std::filesystem::path& folder) {
+// What a campaign has concluded, and what it was asked.
+struct Finished {
+  campaign::Answer result;
+  campaign::CampaignSpec spec;
+};
+
+Finished ReadFinished(const std::filesystem::path& folder) {
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   const std::string text = journal.Progress().result_json;
   if (text.empty()) {
     throw base::ConfigError(folder.string() + ": has no result yet; `talus status " +
                             base::ShellWord(folder.string()) + "` says where the campaign stands");
   }
-  const campaign::Answer result = campaign::ParseAnswer(text);
-  const journal::CampaignRecord record = journal.Campaign();
-  const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
-  std::vector<double> values;
-  for (const campaign::ResultParameter& p : result.parameters) values.push_back(p.value);
+  return {.result = campaign::ParseAnswer(text),
+          .spec = campaign::ParseSpecText(journal.Campaign().spec_json)};
+}
+
+// A set (all of the space's parameters, in its order) with the campaign's conditions and alarms.
+Card CardWith(const Finished& finished, const std::vector<double>& values,
+              const std::filesystem::path& folder) {
+  const auto& [result, spec] = finished;
   const rigs::Case rig_case = campaign::CaseOf(
       spec, {.values = values, .scale_factor = result.conditions.scale_factor}, std::nullopt);
   Card card = CardOf(rig_case);
   card.title = result.name;
+  card.tests.clear();
+  for (const campaign::ExperimentSpec& experiment : campaign::ExperimentsOf(spec)) {
+    card.tests.push_back(
+        {.name = experiment.name, .rig = experiment.rig.value_or(rigs::RigOptions{})});
+    card.tests.back().rig.lifted_tube = *experiment.device;
+  }
   for (const campaign::Alarm& warning : result.warnings) {
     card.notes.push_back(campaign::WithFolder(campaign::AlarmText(warning), folder));
   }
+  return card;
+}
+
+// The recommended set, where some parameters may be held.
+std::vector<double> RecommendedValues(const Finished& finished) {
+  const optimizer::ParameterSpace space = campaign::SpaceOf(finished.spec);
+  std::vector<double> values;
+  auto next = finished.result.parameters.begin();
+  for (const optimizer::Parameter& p : space.parameters) {
+    values.push_back(p.fixed ? *p.fixed : (next++)->value);
+  }
+  return values;
+}
+
+Card ReadCampaignCard(const std::filesystem::path& folder) {
+  const Finished finished = ReadFinished(folder);
+  const campaign::Answer& result = finished.result;
+  Card card = CardWith(finished, RecommendedValues(finished), folder);
   for (const campaign::ResultParameter& p : result.parameters) {
     card.ranges.push_back({.name = p.name,
                            .unit = p.unit,
@@ -51,12 +88,27 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
   return card;
 }
 
+// One class of equal grains, else five of equal volume at the middle of each.
+std::vector<CardSize> SizesOf(const rigs::Case& rig_case) {
+  constexpr int kClasses = 5;
+  const engine::SizeCurve curve(rig_case.powder.sizes);
+  const double f = rig_case.coarse_graining.scale_factor;
+  if (!(curve.largest() > 1.0001 * curve.smallest())) {
+    return {{.diameter = f * curve.VolumeQuantile(0.5), .volume_share = 1}};
+  }
+  std::vector<CardSize> sizes;
+  for (int i = 0; i < kClasses; ++i) {
+    sizes.push_back({.diameter = f * curve.VolumeQuantile((i + 0.5) / kClasses),
+                     .volume_share = 1.0 / kClasses});
+  }
+  return sizes;
+}
+
 }  // namespace
 
 Card CardOf(const rigs::Case& rig_case) {
   const rigs::PowderSize size = rigs::EstimatePowder(rig_case);
   const engine::Material powder = rigs::UsedMaterial(rig_case);
-  const rigs::LiftedTubeOptions& device = rig_case.rig.lifted_tube;
   Card card{.title = "one case",
             .materials = {{.name = "powder", .material = powder}},
             .pairs = {},
@@ -66,9 +118,8 @@ Card CardOf(const rigs::Case& rig_case) {
             .mean_diameter = size.mean_diameter,
             .time_step = size.time_step,
             .gravity = rig_case.gravity,
-            .lift_velocity = device.lift_velocity,
-            .plate_diameter = device.plate_diameter,
-            .tube_inner_diameter = device.tube_inner_diameter};
+            .sizes = SizesOf(rig_case),
+            .tests = {{.name = std::string(base::NameOf(rig_case.rig.kind)), .rig = rig_case.rig}}};
   const std::vector<engine::Material> materials = rigs::MaterialsOf(rig_case);
   const std::vector<engine::MaterialPair> pairs = rigs::PairsOf(rig_case);
   for (const int body : {rigs::kPowder, rigs::kWalls, rigs::kFloor}) {
@@ -95,6 +146,27 @@ Card ReadCard(const std::filesystem::path& path) {
   Card card = CardOf(rigs::LoadCase(path));
   card.title = path.filename().string();
   return card;
+}
+
+std::vector<DrawCard> ReadDrawCards(const std::filesystem::path& folder, int count) {
+  const Finished finished = ReadFinished(folder);
+  const campaign::JointView view = campaign::ReadJointView(folder);
+  const WeightedDraws draws = PosteriorSets(view, count);
+  std::vector<DrawCard> cards;
+  for (std::size_t i = 0; i < draws.points.size(); ++i) {
+    const auto point = Eigen::Map<const Eigen::VectorXd>(
+        draws.points[i].data(), static_cast<Eigen::Index>(draws.points[i].size()));
+    Card card = CardWith(finished, view.space.ToNative(point), folder);
+    card.title += ", draw " + std::to_string(i + 1) + " of " + std::to_string(draws.points.size()) +
+                  " of the posterior, weight " + base::ShortNumber(draws.weights[i]);
+    const std::vector<double> values = campaign::FreeValues(view.space, point);
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      const journal::ParameterRecord& parameter = view.record.parameters[p];
+      card.ranges.push_back({.name = parameter.name, .unit = parameter.unit, .value = values[p]});
+    }
+    cards.push_back({.card = std::move(card), .weight = draws.weights[i]});
+  }
+  return cards;
 }
 
 // F = k_n δ with k_n = (4/3) Y* √(R* δ)  ⇒  δ = (F / ((4/3) Y* √R*))^(2/3).

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,20 @@ struct CardRange {
   std::string name;
   std::string unit;
   double value = 0;
-  double low = 0;
-  double high = 0;
+  double low = std::numeric_limits<double>::quiet_NaN();  // NaN: of one draw, which has none
+  double high = std::numeric_limits<double>::quiet_NaN();
+};
+
+// A class of the grains as they are simulated.
+struct CardSize {
+  double diameter = 0;      // [m]
+  double volume_share = 0;  // of all grains; the classes' sum is 1
+};
+
+// A bulk test that the set comes from.
+struct CardTest {
+  std::string name;
+  rigs::RigOptions rig;  // the lifted tube's own keys among them
 };
 
 struct Card {
@@ -39,9 +52,8 @@ struct Card {
   double mean_diameter = 0;          // of the simulated grains, D50 [m]
   double time_step = 0;              // [s]
   double gravity = 9.81;             // [m/s²]
-  double lift_velocity = 0;          // [m/s]
-  double plate_diameter = 0;         // [m]
-  double tube_inner_diameter = 0;    // [m]
+  std::vector<CardSize> sizes{};     // the finest first
+  std::vector<CardTest> tests{};     // one at least
   std::vector<CardRange> ranges{};   // none for a lone case
   std::vector<std::string> notes{};  // of the campaign: what is doubtful
 };
@@ -56,6 +68,22 @@ Card ReadCard(const std::filesystem::path& path);
 // act on each other as ActingOn(card, 0, 0).
 engine::Material ActingOn(const Card& card, std::size_t material, std::size_t other);
 
+enum class CardFormat { kTable, kJson, kLethe, kLiggghts, kLammps, kYade, kMercuryDpm };
+
+// A set of the posterior as a card, and what share of the posterior it stands for.
+struct DrawCard {
+  Card card;
+  double weight = 0;
+};
+
+// Cards along the posterior of a campaign's folder, of so many sets (predict/draws.h); their values
+// have no ranges. Throws as ReadCard does, and base::Error where there are too few trials.
+std::vector<DrawCard> ReadDrawCards(const std::filesystem::path& folder, int count);
+
+// Writes each card in each of the formats, and draws.csv with the weights and the sets.
+void WriteDrawCards(const std::vector<DrawCard>& cards, const std::vector<CardFormat>& formats,
+                    const std::filesystem::path& folder);
+
 // Two grains of the powder, of the mean diameter, pressed together by ten times a grain's weight:
 // where a code takes a constant for what grows with the load in ours.
 struct TypicalContact {
@@ -66,7 +94,6 @@ struct TypicalContact {
 };
 TypicalContact TypicalContactOf(const Card& card);
 
-enum class CardFormat { kTable, kJson, kLethe, kLiggghts, kLammps, kYade, kMercuryDpm };
 std::string CardText(const Card& card, CardFormat format);
 
 }  // namespace talus::analysis

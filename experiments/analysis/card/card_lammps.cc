@@ -59,6 +59,52 @@ std::string PairModel(const Card& card, const engine::Material& a, const engine:
          " damping tsuji";
 }
 
+// Its place among the card's materials; that of the powder where it has none of its own.
+std::size_t IndexOf(const Card& card, const std::string& name) {
+  for (std::size_t i = 0; i < card.materials.size(); ++i) {
+    if (card.materials[i].name == name) return i;
+  }
+  return 0;
+}
+
+// Tube and plate of the lifted tube, ready to be uncommented; of other rigs the laws of their
+// walls.
+std::string LammpsWalls(const Card& card) {
+  const auto law = [&](const std::string& name) {
+    const std::size_t wall = IndexOf(card, name);
+    return "fix " + name + " all wall/gran/region granular " +
+           PairModel(card, ActingOn(card, 0, wall), ActingOn(card, wall, 0)) + " region " + name;
+  };
+  for (const CardTest& test : card.tests) {
+    if (test.rig.kind != rigs::RigKind::kLiftedTube) continue;
+    const rigs::LiftedTubeOptions& device = test.rig.lifted_tube;
+    const std::string tube = CardNumber(device.tube_inner_diameter / 2);
+    const std::string height = CardNumber(20 * device.tube_inner_diameter);
+    return "# Walls of that test (plate top at z = 0; the tube is lifted from time 0 on):\n"
+           "# variable rest equal 0\n# variable lift equal time*" +
+           CardNumber(device.lift_velocity) + "\n# region tube cylinder z 0 0 " + tube + " 0 " +
+           height +
+           " side in open 1 open 2 move v_rest v_rest v_lift\n# region plate cylinder z 0 0 " +
+           CardNumber(device.plate_diameter / 2) + " -" + CardNumber(device.plate_height) +
+           " 0 side out\n# " + law("tube") + "\n# " + law("plate") + "\n";
+  }
+  return "# walls of the vessel: " + law("tube") + "\n# floor: " + law("plate") + "\n";
+}
+
+// `fix pour` counts grains: a class of volume share s has s/d³ of them, in proportion.
+std::string LammpsSizes(const Card& card) {
+  double total = 0;
+  for (const CardSize& s : card.sizes) total += s.volume_share / std::pow(s.diameter, 3);
+  std::string text = "# grains: fix ID all pour NUMBER 1 SEED region ID diam poly " +
+                     std::to_string(card.sizes.size());
+  for (const CardSize& s : card.sizes) {
+    text += " " + CardNumber(s.diameter) + " " +
+            CardNumber(s.volume_share / std::pow(s.diameter, 3) / total);
+  }
+  const std::string density = CardNumber(card.materials.front().material.density);
+  return text + " dens " + density + " " + density + "\n";
+}
+
 std::string LammpsRemarks(const Card& card) {
   std::string text;
   if (card.models.adhesion != engine::Adhesion::kNone) {
@@ -105,11 +151,8 @@ std::string LammpsCard(const Card& card) {
        << CardNumber(ActingOn(card, 0, 0).restitution) << "\n"
        << "pair_style granular\n";
   const engine::Material grain = ActingOn(card, 0, 0);
-  text << "pair_coeff * * " << PairModel(card, grain, grain) << "\n";
-  for (std::size_t i = 1; i < card.materials.size(); ++i) {
-    text << "# " << card.materials[i].name << ": fix ID all wall/gran/region granular "
-         << PairModel(card, ActingOn(card, 0, i), ActingOn(card, i, 0)) << " region ID\n";
-  }
+  text << "pair_coeff * * " << PairModel(card, grain, grain) << "\n"
+       << LammpsWalls(card) << LammpsSizes(card);
   text << "timestep " << CardNumber(card.time_step) << "\n";
   return text.str();
 }

@@ -54,6 +54,22 @@ const char* RollingName(engine::Rolling rolling) {
   return "";
 }
 
+std::string LetheSizes(const Card& card) {
+  if (card.sizes.size() == 1) {
+    return "    set size distribution type = uniform\n    set diameter = " +
+           CardNumber(card.sizes.front().diameter) + "\n";
+  }
+  std::string diameters;
+  std::string shares;
+  for (const CardSize& size : card.sizes) {
+    const char* comma = diameters.empty() ? "" : ", ";
+    diameters += comma + CardNumber(size.diameter);
+    shares += comma + CardNumber(size.volume_share);
+  }
+  return "    set size distribution type = custom\n    set custom diameters = " + diameters +
+         "\n    set custom volume fractions = " + shares + "\n";
+}
+
 }  // namespace
 
 std::string LetheCard(const Card& card) {
@@ -68,7 +84,7 @@ std::string LetheCard(const Card& card) {
   }
   if (!one_wall) text << "# Lethe has one wall material: the plate's; the tube had another.\n";
   text << "subsection lagrangian physical properties\n  subsection particle type 0\n"
-       << "    set density particles = " << CardNumber(powder.density) << "\n"
+       << LetheSizes(card) << "    set density particles = " << CardNumber(powder.density) << "\n"
        << Lines(powder, "particles", "    ") << "  end\n"
        << Lines(wall, "wall", "  ") << "end\n"
        << "subsection model parameters\n"

@@ -61,6 +61,45 @@ std::string LiggghtsRemarks(const Card& card) {
   return text;
 }
 
+int TypeOf(const Card& card, const std::string& name) {
+  for (std::size_t i = 0; i < card.materials.size(); ++i) {
+    if (card.materials[i].name == name) return static_cast<int>(i) + 1;
+  }
+  return 1;
+}
+
+// A primitive wall has no end and does not move: plate and tube before the lift.
+std::string LiggghtsWalls(const Card& card, const std::string& model) {
+  for (const CardTest& test : card.tests) {
+    if (test.rig.kind != rigs::RigKind::kLiftedTube) continue;
+    const rigs::LiftedTubeOptions& device = test.rig.lifted_tube;
+    const std::string wall = " all wall/gran " + model + " primitive type ";
+    return "# Walls of that test (a plate with a rim and a tube that is lifted need fix "
+           "mesh/surface):\n# fix plate" +
+           wall + std::to_string(TypeOf(card, "plate")) + " zplane 0.0\n# fix tube" + wall +
+           std::to_string(TypeOf(card, "tube")) + " zcylinder " +
+           CardNumber(device.tube_inner_diameter / 2) + " 0.0 0.0\n";
+  }
+  return "";
+}
+
+// particledistribution/discrete weighs its templates by mass.
+std::string LiggghtsSizes(const Card& card) {
+  std::string templates;
+  std::string distribution;
+  int seed = 10007;  // LIGGGHTS wants primes above 10 000
+  for (std::size_t i = 0; i < card.sizes.size(); ++i) {
+    const std::string id = "grain" + std::to_string(i + 1);
+    templates += "# fix " + id + " all particletemplate/sphere " + std::to_string(seed) +
+                 " atom_type 1 density constant " +
+                 CardNumber(card.materials.front().material.density) + " radius constant " +
+                 CardNumber(card.sizes[i].diameter / 2) + "\n";
+    distribution += " " + id + " " + CardNumber(card.sizes[i].volume_share);
+  }
+  return "# grains:\n" + templates + "# fix grains all particledistribution/discrete 10009 " +
+         std::to_string(card.sizes.size()) + distribution + "\n";
+}
+
 }  // namespace
 
 std::string LiggghtsCard(const Card& card) {
@@ -85,7 +124,8 @@ std::string LiggghtsCard(const Card& card) {
   }
   text << "pair_style gran " << model << "\npair_coeff * *\n"
        << "# and each wall: fix ID all wall/gran " << model << " ...\n"
-       << "timestep " << CardNumber(card.time_step) << "\n";
+       << LiggghtsWalls(card, model) << LiggghtsSizes(card) << "timestep "
+       << CardNumber(card.time_step) << "\n";
   return text.str();
 }
 

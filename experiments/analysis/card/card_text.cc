@@ -1,4 +1,5 @@
 // The card for people and for scripts, and what the codes' cards share.
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -12,6 +13,27 @@ namespace talus::analysis {
 
 std::string CardNumber(double value) { return base::ShortNumber(value, 6); }
 
+namespace {
+
+// "heap: tube of 10 mm lifted at 50 mm/s off a plate of 10 mm", "mixer: drum, diameter 0.024 m, …".
+std::string TestText(const CardTest& test) {
+  const std::string name = base::OneLine(test.name) + ": ";
+  if (test.rig.kind == rigs::RigKind::kLiftedTube) {
+    const rigs::LiftedTubeOptions& tube = test.rig.lifted_tube;
+    return name + "tube of " + CardNumber(tube.tube_inner_diameter * 1e3) + " mm lifted at " +
+           CardNumber(tube.lift_velocity * 1e3) + " mm/s off a plate of " +
+           CardNumber(tube.plate_diameter * 1e3) + " mm";
+  }
+  std::string text = name + std::string(base::NameOf(test.rig.kind));
+  const nlohmann::ordered_json json = base::ToJson(test.rig);
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_number()) text += ", " + key + " " + CardNumber(value.get<double>());
+  }
+  return text + " (SI)";
+}
+
+}  // namespace
+
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark) {
   std::ostringstream text;
   text << mark << base::OneLine(card.title) << ", calibrated with talus, for " << code
@@ -20,9 +42,13 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
        << " (grains of " << CardNumber(card.mean_diameter * 1e3)
        << " mm, D50), Young's modulus as below, time step up to " << CardNumber(card.time_step)
        << " s,\n"
-       << mark << "tube of " << CardNumber(card.tube_inner_diameter * 1e3) << " mm lifted at "
-       << CardNumber(card.lift_velocity * 1e3) << " mm/s off a plate of "
-       << CardNumber(card.plate_diameter * 1e3) << " mm.\n";
+       << mark << "and the tests that it comes from:\n";
+  for (const CardTest& test : card.tests) text << mark << "  " << TestText(test) << "\n";
+  text << mark << "Grains as simulated (diameter in mm, share of the volume):";
+  for (const CardSize& size : card.sizes) {
+    text << ' ' << CardNumber(size.diameter * 1e3) << " (" << CardNumber(size.volume_share) << ')';
+  }
+  text << '\n';
   if (card.surface_energy_given > 0) {
     text << mark << "Surface energy: " << CardNumber(card.materials[0].material.surface_energy)
          << " J/m2 is used at this scale factor for " << CardNumber(card.surface_energy_given)
@@ -66,7 +92,9 @@ std::string TableCard(const Card& card) {
   text << CardHead(card, "any code (definitions: docs/physics.md)", "");
   for (const CardRange& r : card.ranges) {
     text << "  " << r.name << " = " << CardNumber(r.value) << ' ' << r.unit
-         << ", 90 %: " << CardNumber(r.low) << " ... " << CardNumber(r.high) << '\n';
+         << (std::isfinite(r.low) ? ", 90 %: " + CardNumber(r.low) + " ... " + CardNumber(r.high)
+                                  : std::string())
+         << '\n';
   }
   for (const CardMaterial& m : card.materials) {
     text << "  " << m.name << '\n';
@@ -92,9 +120,6 @@ std::string JsonCard(const Card& card) {
                               {"surface_energy_given_J_per_m2", card.surface_energy_given},
                               {"mean_diameter_m", card.mean_diameter},
                               {"time_step_s", card.time_step},
-                              {"lift_velocity_m_per_s", card.lift_velocity},
-                              {"plate_diameter_m", card.plate_diameter},
-                              {"tube_inner_diameter_m", card.tube_inner_diameter},
                               {"models", base::ToJson(card.models)},
                               {"mixing", "harmonic mean 2ab/(a+b)"}};
   for (const CardMaterial& m : card.materials) json["materials"][m.name] = base::ToJson(m.material);
@@ -109,6 +134,16 @@ std::string JsonCard(const Card& card) {
                                   {"value", r.value},
                                   {"low_90", base::ToJson(r.low)},
                                   {"high_90", base::ToJson(r.high)}});
+  }
+  for (const CardSize& size : card.sizes) {
+    json["sizes"].push_back({{"diameter_m", size.diameter}, {"volume_share", size.volume_share}});
+  }
+  for (const CardTest& test : card.tests) {
+    nlohmann::ordered_json entry{{"name", test.name}, {"rig", base::ToJson(test.rig)}};
+    if (test.rig.kind == rigs::RigKind::kLiftedTube) {
+      entry["device"] = base::ToJson(test.rig.lifted_tube);
+    }
+    json["tests"].push_back(std::move(entry));
   }
   json["warnings"] = card.notes;
   return base::JsonText(json, 2) + "\n";

@@ -13,6 +13,25 @@
 
 namespace talus::analysis {
 
+namespace {
+
+// makeCloud takes the share of the mass up to each diameter.
+std::string YadeSizes(const Card& card) {
+  std::string diameters;
+  std::string shares;
+  double sum = 0;
+  for (const CardSize& size : card.sizes) {
+    sum += size.volume_share;
+    const char* comma = diameters.empty() ? "" : ", ";
+    diameters += comma + CardNumber(size.diameter);
+    shares += comma + CardNumber(sum);
+  }
+  return "# grains: pack.SpherePack().makeCloud(..., psdSizes=[" + diameters + "], psdCumm=[" +
+         shares + "], distributeMass=True)\n";
+}
+
+}  // namespace
+
 std::string YadeCard(const Card& card) {
   const engine::Material powder = ActingOn(card, 0, 0);  // these lines are of two grains
   const TypicalContact typical = TypicalContactOf(card);
@@ -50,7 +69,7 @@ std::string YadeCard(const Card& card) {
   if (adheres) text << ", gamma=" << CardNumber(typical.pair.surface_energy / 2);
   text << ")\nlaw = Law2_ScGeom_MindlinPhys_Mindlin(includeMoment=" << (rolls ? "True" : "False")
        << ", includeAdhesion=" << (adheres ? "True" : "False") << ")\n"
-       << "O.dt = " << CardNumber(card.time_step) << "\n";
+       << YadeSizes(card) << "O.dt = " << CardNumber(card.time_step) << "\n";
   return text.str();
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "experiments/analysis/next/heap_pair.h"
+#include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "imaging/spheres/projection.h"

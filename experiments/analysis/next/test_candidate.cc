@@ -1,7 +1,6 @@
 #include "experiments/analysis/next/test_candidate.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -148,16 +147,6 @@ std::string ExperimentText(const campaign::JointView& view, const TestCandidate&
   return base::JsonText(json, 2) + "\n";
 }
 
-std::string FileName(const TestCandidate& test) {
-  std::string name;
-  for (const char c : test.name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      name += c;
-    } else if (!name.empty() && name.back() != '-') {
-      name += '-';
-    }
-  }
-  return name.empty() ? "test" : name;
-}
+std::string FileName(const TestCandidate& test) { return base::FileWord(test.name); }
 
 }  // namespace talus::analysis

@@ -1,15 +1,15 @@
 #include "experiments/analysis/next/test_design.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/interrupt.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/campaign/run_cases.h"
 
 namespace talus::analysis {
 namespace {
@@ -30,17 +30,11 @@ std::string TextOf(const campaign::JointView& view, const TestCandidate& test) {
                        FrameOf(view, test))));
 }
 
-// The farthest from those that are taken already, one after the other.
-std::vector<std::vector<double>> Spread(const Eigen::MatrixXd& draws) {
+std::vector<std::vector<double>> PointsOf(const Eigen::MatrixXd& draws) {
   std::vector<std::vector<double>> points;
-  Eigen::VectorXd distance =
-      Eigen::VectorXd::Constant(draws.rows(), std::numeric_limits<double>::infinity());
-  Eigen::Index next = 0;
-  for (int i = 0; i < kDesignSize && i < draws.rows(); ++i) {
-    const Eigen::RowVectorXd taken = draws.row(next);
+  for (const Eigen::Index row : FarApart(draws, kDesignSize)) {
+    const Eigen::RowVectorXd taken = draws.row(row);
     points.emplace_back(taken.data(), taken.data() + taken.size());
-    distance = distance.cwiseMin((draws.rowwise() - taken).rowwise().norm());
-    distance.maxCoeff(&next);
   }
   return points;
 }
@@ -93,29 +87,16 @@ TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
 
 void Simulate(const campaign::JointView& view, const TestCandidate& test,
               const campaign::DesignRecord& record, const campaign::CampaignParts& parts) {
-  const base::InterruptGuard interrupt;
-  trials::TrialEngine& engine = *parts.engine;
-  runners::Runner& runner = *parts.runner;
-  std::size_t next = 0;
-  int running = 0;
-  while (next < record.points.size() || running > 0) {
-    while (next < record.points.size() && running < runner.Capacity()) {
-      const fs::path folder = FolderOf(view, test).trial(next);
-      engine.Prepare(CaseAt(view, test, record, next), folder);
-      ++next;
-      if (engine.IsComplete(folder)) continue;
-      const runners::Job job{.id = static_cast<std::int64_t>(next),
-                             .folder = folder,
-                             .command = engine.Command(folder),
-                             .time_cap = view.spec.trial_time_cap};
-      runner.Submit({&job, 1});
-      ++running;
-    }
-    running -= static_cast<int>(runner.Wait(0.5).size());
-    if (interrupt.Asked() != base::Interrupt::kNone) {
-      throw base::Interrupted("interrupted; the same command goes on with \"" + test.name + "\"");
-    }
-  }
+  const campaign::CaseRuns runs{.count = record.points.size(),
+                                .at =
+                                    [&](std::size_t i) {
+                                      return campaign::FolderCase{
+                                          .folder = FolderOf(view, test).trial(i),
+                                          .rig_case = CaseAt(view, test, record, i)};
+                                    },
+                                .time_cap = view.spec.trial_time_cap};
+  if (campaign::RunCases(runs, parts)) return;
+  throw base::Interrupted("interrupted; the same command goes on with \"" + test.name + "\"");
 }
 
 }  // namespace
@@ -133,7 +114,7 @@ TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& 
   if (!record) {
     record = campaign::DesignRecord{.test = TextOf(view, test),
                                     .scale_factor = view.spec.coarse_graining.Levels().front(),
-                                    .points = Spread(draws)};
+                                    .points = PointsOf(draws)};
     // Where there is one of the same name and another device, it makes room.
     FolderOf(view, test).Make(*record);
     base::WriteFileAtomically(FolderOf(view, test).root / "experiment.json",

@@ -25,6 +25,12 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
     base::WriteFileAtomically(folder / "figures" / (candidate.picture.name + ".png"),
                               candidate.picture.png);
   }
+  for (const PredictionView& view : data.predictions) {
+    for (const Picture* picture : {&view.mean, &view.different}) {
+      if (picture->png.empty()) continue;
+      base::WriteFileAtomically(folder / "figures" / (picture->name + ".png"), picture->png);
+    }
+  }
   for (const NamedText& table : ReportTables(data)) {
     base::WriteFileAtomically(folder / "tables" / (table.name + ".csv"), table.text);
   }

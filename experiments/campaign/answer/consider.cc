@@ -18,6 +18,35 @@ namespace {
 
 constexpr std::size_t kMostNear = 5;
 
+std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
+                                     const std::vector<Reference>& references,
+                                     const Eigen::VectorXd& point) {
+  std::vector<NearTrial> near;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.status == journal::TrialStatus::kRunning) continue;
+    near.push_back(
+        {.trial = trial,
+         .distance = (PointOf(trial) - point).lpNorm<Eigen::Infinity>(),
+         .objective = references[static_cast<std::size_t>(trial.experiment)].Value(trial)});
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const NearTrial& a, const NearTrial& b) { return a.distance < b.distance; });
+  near.resize(std::min(near.size(), kMostNear));
+  return near;
+}
+
+std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
+                    const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + base::ShortNumber(values[i]) +
+            (parameters[i].unit.empty() ? "" : " " + parameters[i].unit);
+  }
+  return text;
+}
+
+}  // namespace
+
 Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
                         const std::map<std::string, std::string>& set) {
   base::Problems problems;
@@ -50,35 +79,6 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
   problems.ThrowIfAny();
   return point;
 }
-
-std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
-                                     const std::vector<Reference>& references,
-                                     const Eigen::VectorXd& point) {
-  std::vector<NearTrial> near;
-  for (const journal::TrialRecord& trial : trials) {
-    if (trial.status == journal::TrialStatus::kRunning) continue;
-    near.push_back(
-        {.trial = trial,
-         .distance = (PointOf(trial) - point).lpNorm<Eigen::Infinity>(),
-         .objective = references[static_cast<std::size_t>(trial.experiment)].Value(trial)});
-  }
-  std::stable_sort(near.begin(), near.end(),
-                   [](const NearTrial& a, const NearTrial& b) { return a.distance < b.distance; });
-  near.resize(std::min(near.size(), kMostNear));
-  return near;
-}
-
-std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
-                    const std::vector<double>& values) {
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + base::ShortNumber(values[i]) +
-            (parameters[i].unit.empty() ? "" : " " + parameters[i].unit);
-  }
-  return text;
-}
-
-}  // namespace
 
 ConsideredSet ConsiderSet(const std::filesystem::path& root,
                           const std::map<std::string, std::string>& set) {

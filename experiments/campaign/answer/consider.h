@@ -1,6 +1,7 @@
 // Where a given parameter set stands in what a campaign's trials say.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "experiments/campaign/answer/result_posterior.h"
 #include "experiments/journal/records.h"
+#include "optimizer/space/parameter_space.h"
 
 namespace talus::campaign {
 
@@ -30,9 +32,12 @@ struct ConsideredSet {
   std::string objective_unit;
 };
 
-// `set` holds the value of each calibrated parameter as text, "0.45" or "2 uJ/m^2"; throws
-// ConfigError with every one that is missing, not known or outside its range. The campaign may be
-// running; nothing is written.
+// The point of the unit cube where each free parameter has the value given as text, "0.45" or
+// "2 uJ/m^2"; throws ConfigError with every one that is missing, not known or outside its range.
+Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
+                        const std::map<std::string, std::string>& set);
+
+// The campaign may be running; nothing is written.
 ConsideredSet ConsiderSet(const std::filesystem::path& folder,
                           const std::map<std::string, std::string>& set);
 

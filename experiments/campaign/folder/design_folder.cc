@@ -2,12 +2,8 @@
 
 #include <algorithm>
 
-#include "base/files/checked_text.h"
-#include "base/files/file.h"
-#include "base/json/json_text.h"
-#include "base/json/json_writer.h"
 #include "base/text/number_text.h"
-#include "experiments/journal/record_json.h"
+#include "experiments/campaign/folder/record_file.h"
 
 namespace talus::campaign {
 namespace {
@@ -23,18 +19,13 @@ fs::path DesignFolder::trial(std::size_t index) const {
 }
 
 std::optional<DesignRecord> DesignFolder::Read() const {
-  const fs::path file = root / kRecord;
-  if (!fs::exists(file)) return std::nullopt;
-  const auto text = base::IfWhole(base::ReadFile(file));
-  if (!text) return std::nullopt;  // damaged: it is simulated again
-  return journal::ParseRecord<DesignRecord>(*text, file.string());
+  return ReadRecordFile<DesignRecord>(root / kRecord);  // damaged: it is simulated again
 }
 
 void DesignFolder::Make(const DesignRecord& record) const {
   fs::remove_all(root);
   fs::create_directories(root);
-  base::WriteFileAtomically(root / kRecord,
-                            base::WithChecksum(base::JsonText(base::ToJson(record), 1) + "\n"));
+  WriteRecordFile(root / kRecord, record);
 }
 
 fs::path NextFolder(const fs::path& campaign) { return fs::absolute(campaign) / "next"; }

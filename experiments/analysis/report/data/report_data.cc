@@ -39,6 +39,7 @@ ReportData MakeReportData(Evidence evidence) {
   AddModelViews(data);
   AddProfileViews(data);
   data.next_table = ReadNextTable(data.evidence);
+  data.predictions = ReadPredictions(data.evidence);
   data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;
 }

@@ -13,6 +13,7 @@
 #include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/views/next_steps.h"
 #include "experiments/analysis/report/views/next_table_view.h"
+#include "experiments/analysis/report/views/predictions_view.h"
 
 namespace talus::analysis {
 
@@ -46,6 +47,7 @@ struct ReportData {
   std::vector<RepresentativeView> representative;  // of the recommended set and its equals
   std::vector<NextStep> next_steps;
   std::optional<NextTableView> next_table;  // none where `talus next` has not been run
+  std::vector<PredictionView> predictions;  // of `talus predict`
   std::vector<RegionPoint> region_history;  // of a page that is watched
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's

@@ -103,6 +103,49 @@ PageValue NextTableJson(const NextTableView& table) {
           {"candidates", ListJson(table.candidates, candidate)}};
 }
 
+PageValue PredictionJson(const PredictionView& view) {
+  const Prediction& p = view.prediction;
+  const auto number = [](const PredictedNumber& n) {
+    const ShownUnit unit = ShownUnitOf(rigs::UnitOfObservable(n.name));
+    const auto shown = [&](double x) { return NumberJson(unit.per_unit * x); };
+    PageValue json{{"title", MetricTitle(n.name)},
+                   {"unit", unit.text},
+                   {"usual", n.is_usual},
+                   {"mean", shown(n.mean)},
+                   {"low", shown(n.low)},
+                   {"high", shown(n.high)},
+                   {"parameters_sd", shown(n.parameters_sd)},
+                   {"run_sd", shown(n.run_sd)},
+                   {"parameters_share", NumberJson(n.parameters_share)}};
+    json["measured"] = nullptr;
+    if (n.measured) {
+      json["measured"] = {{"value", shown(n.measured->value)},
+                          {"error", shown(n.measured->standard_error)},
+                          {"inside", n.measured->is_inside},
+                          {"another_inside", n.measured->nearest_is_inside}};
+    }
+    return json;
+  };
+  const auto set = [&](int draw) {
+    return NumbersJson(p.draws.at(static_cast<std::size_t>(draw)).values);
+  };
+  return {{"name", p.name},
+          {"test", p.test},
+          {"by", base::NameOf(p.by)},
+          {"scale_factor", NumberJson(p.scale_factor)},
+          {"draws", p.draws.size()},
+          {"runs", p.num_runs},
+          {"ended", p.num_ended},
+          {"outdated", view.is_outdated},
+          {"notes", p.notes},
+          {"numbers", ListJson(p.numbers, number)},
+          {"mean", UriJson(view.mean)},
+          {"mean_size", {view.mean.width, view.mean.height}},
+          {"different", UriJson(view.different)},
+          {"different_size", {view.different.width, view.different.height}},
+          {"different_sets", ListJson(p.different, set)}};
+}
+
 PageValue HeadlineJson(const ReportData& data) {
   const Evidence& e = data.evidence;
   const campaign::Answer& a = *e.answer;

@@ -33,5 +33,6 @@ PageValue TrialsJson(const Evidence& evidence);  // by column: half the size of 
 // What the campaign concludes, and what to do next.
 PageValue HeadlineJson(const ReportData& data);  // needs an answer
 PageValue NextTableJson(const NextTableView& table);
+PageValue PredictionJson(const PredictionView& view);
 
 }  // namespace talus::analysis

@@ -35,9 +35,9 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
       std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
       std::string(page_files::kSearchChartsJs) + std::string(page_files::kSpaceChartsJs) +
       std::string(page_files::kProfileChartsJs) + std::string(page_files::kOverlayJs) +
-      std::string(page_files::kTrialTableJs) + std::string(page_files::kAnswerJs) +
-      std::string(page_files::kRunningJs) + std::string(page_files::kSectionsJs) +
-      std::string(page_files::kPageJs);
+      std::string(page_files::kTrialTableJs) + std::string(page_files::kPredictionsJs) +
+      std::string(page_files::kAnswerJs) + std::string(page_files::kRunningJs) +
+      std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
   // The data come last: what they hold is never searched for a placeholder.
   Replace(page, "{{title}}", base::MarkupText(data.evidence.name) + " – calibration report");
   const bool reloads = options.reload > 0 && data.evidence.state == "running";

@@ -192,7 +192,7 @@ function answerSection() {
   return [verdict(h), alarms(),
     element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), oneHeap ? heaps : null),
       element("div", {}, next, region ? fitList(h) : null)),
-    branches(h), oneHeap ? null : heaps, ...nextTable(), facts(h),
+    predictionLines(), branches(h), oneHeap ? null : heaps, ...nextTable(), facts(h),
     D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
       element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))) : null,
     D.conditions.length ? element("div", {class: "card"}, element("h3", {}, "It holds for"),

@@ -33,6 +33,8 @@ function build() {
   document.getElementById("name").textContent = D.campaign.name;
   document.getElementById("standing").append(...standing());
   section("answer", "Answer", "", answerSection());
+  section("predictions", "Predictions", "What the calibrated sets give in other tests or processes, simulated by talus " +
+    "predict: the range of a single run, and where its uncertainty comes from.", predictionSection());
   section("convergence-section", "Convergence", of, known ? [card(convergenceChart())] : []);
   section("space-section", "Parameter space", of, known ? [card(spaceChart())] : []);
   section("model", "Model", D.model ? modelLead() : "", modelSection());

@@ -1,4 +1,4 @@
-#include "experiments/analysis/next/heap_pair.h"
+#include "experiments/analysis/compare/heap_pair.h"
 
 #include <algorithm>
 

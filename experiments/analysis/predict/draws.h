@@ -1,0 +1,30 @@
+// A few draws that stand for the many of a posterior.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "experiments/campaign/answer/joint_view.h"
+
+namespace talus::analysis {
+
+struct WeightedDraws {
+  std::vector<std::vector<double>> points;  // unit cube
+  std::vector<double> weights;              // sum to 1
+};
+
+// Stratified: the draws (equally likely, one a row) are parted into `count` cells of near draws
+// (Lloyd's k-means from starts far apart), and one draw of each cell is taken at random with the
+// cell's share as its weight. So they fill the posterior, and weighted means over them are
+// unbiased. The first stand far apart, so that a few already show the range. Fewer where fewer
+// draws differ.
+WeightedDraws ChooseDraws(const Eigen::MatrixXd& draws, int count, std::uint64_t seed);
+
+// ChooseDraws of what a campaign's trials say. Throws base::Error where they are too few.
+WeightedDraws PosteriorSets(const campaign::JointView& view, int count);
+
+// Rows of `draws`, each the farthest from those before it.
+std::vector<Eigen::Index> FarApart(const Eigen::MatrixXd& draws, int count);
+
+}  // namespace talus::analysis

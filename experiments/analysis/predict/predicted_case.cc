@@ -1,0 +1,217 @@
+#include "experiments/analysis/predict/predicted_case.h"
+
+#include <algorithm>
+
+#include "base/json/json_file.h"
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
+#include "base/text/number_text.h"
+#include "experiments/analysis/predict/scene_engine.h"
+#include "experiments/campaign/plan/core_time.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/load_case.h"
+
+namespace talus::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using campaign::JointView;
+
+constexpr double kAffordable = 240;  // of all runs without a scale factor given [core s]
+
+// What the file says of contact laws must be what the set was calibrated with.
+void RefuseOtherLaws(const JointView& view, const base::JsonFile& file, base::Problems& problems) {
+  const auto given = file.root.find("models");
+  if (given == file.root.end() || !given->is_object()) return;
+  const nlohmann::json calibrated = base::ToJson(view.spec.models);
+  for (const auto& [key, value] : given->items()) {
+    const auto law = calibrated.find(key);
+    if (law == calibrated.end() || *law == value) continue;
+    problems.Add("models." + key, "is " + base::JsonText(value) +
+                                      ", but the set was calibrated with " + base::JsonText(*law) +
+                                      " and holds with that only; leave it out");
+  }
+}
+
+// Walls are the case's own, unless the campaign has searched what they are made of.
+void RefuseFixedWalls(const JointView& view, const base::JsonFile& file, const rigs::Case& given) {
+  base::Problems problems(file.path.string(), file.places);
+  const auto has = [](const auto& stated, const std::string& property) {
+    return base::ToJson(stated).contains(property);
+  };
+  for (const journal::ParameterRecord& p : view.record.parameters) {
+    const auto [body, is_pair, property] = campaign::PlaceOf(p.name);
+    if (body == rigs::kPowder) continue;
+    const auto& wall = body == rigs::kFloor ? given.materials.floor : given.materials.walls;
+    const bool fixed =
+        is_pair ? has(rigs::StatedWith(given.pairs, body), property) : wall && has(*wall, property);
+    const std::string place =
+        is_pair ? "pairs" : std::string("device.") + rigs::kBodyNames[body] + "_material";
+    problems.Require(!fixed, place + "." + property,
+                     "is fixed here, but the campaign has calibrated it as " + p.name +
+                         "; leave it out, and the draws give it");
+  }
+  problems.ThrowIfAny();
+}
+
+std::string SizesText(const engine::SizeDistribution& sizes) {
+  const engine::SizeCurve curve(sizes);
+  return "D50 " + base::ShortNumber(1e3 * curve.VolumeQuantile(0.5)) + " mm";
+}
+
+// The file has a powder of its own because `talus simulate` needs one.
+void NotePowder(const JointView& view, const rigs::Powder& own, PredictedCase& predicted) {
+  const rigs::Powder& powder = view.spec.powder;
+  std::string differs;
+  const auto note = [&](const std::string& text) {
+    differs += (differs.empty() ? "" : ", ") + text;
+  };
+  if (base::ToJson(own.sizes) != base::ToJson(powder.sizes)) {
+    note(SizesText(powder.sizes) + " instead of " + SizesText(own.sizes));
+  }
+  if (own.material.density != powder.material.density) {
+    note("density " + base::ShortNumber(powder.material.density) + " kg/m3 instead of " +
+         base::ShortNumber(own.material.density));
+  }
+  if (differs.empty()) return;
+  predicted.notes.push_back("the powder is the campaign's (" + differs +
+                            "); of the file's own only its mass counts, " +
+                            base::ShortNumber(1e3 * own.mass) + " g");
+}
+
+// By the speed that the campaign's trials had.
+double CoreSecondsAt(const JointView& view, rigs::Case rig_case, double scale_factor) {
+  campaign::CoreTime core_time(view.spec);
+  core_time.Of(view.trials);
+  rig_case.coarse_graining.scale_factor = scale_factor;
+  const rigs::CaseSize size = rigs::EstimateCase(rig_case);
+  const double grain_steps =
+      static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
+  return grain_steps * core_time.OfOne(0, scale_factor) /
+         campaign::GrainStepsOf(view.spec, 0, scale_factor);
+}
+
+bool IsPossible(rigs::Case rig_case, double scale_factor) {
+  rig_case.coarse_graining.scale_factor = scale_factor;
+  base::Problems problems;
+  rigs::ValidateCase(rig_case, problems);
+  return problems.empty();
+}
+
+// The campaign's finest that all runs can afford, else its coarsest that the case has room for.
+double AffordableScale(const JointView& view, const rigs::Case& rig_case, int num_runs) {
+  std::vector<double> levels = view.spec.coarse_graining.Levels();  // the coarsest first
+  if (view.spec.coarse_graining.Target() < levels.back()) {
+    levels.push_back(view.spec.coarse_graining.Target());
+  }
+  double chosen = levels.back();
+  bool found = false;
+  for (const double level : levels) {
+    if (!IsPossible(rig_case, level)) continue;
+    if (found && num_runs * CoreSecondsAt(view, rig_case, level) > kAffordable) break;
+    chosen = level;
+    found = true;
+  }
+  return chosen;
+}
+
+void TakePowder(const JointView& view, rigs::Case& rig_case) {
+  const double mass = rig_case.powder.mass;
+  rig_case.powder = view.spec.powder;
+  rig_case.powder.mass = mass;
+  rig_case.models = view.spec.models;
+  std::erase_if(rig_case.pairs, [](const engine::PairSpec& pair) {
+    return rigs::PartnerOf(pair) == rigs::kPowder;
+  });
+  const std::vector<engine::PairSpec> of_grains = PairsOfGrains(view);
+  rig_case.pairs.insert(rig_case.pairs.end(), of_grains.begin(), of_grains.end());
+  rig_case.coarse_graining.surface_energy_exponent =
+      view.spec.coarse_graining.surface_energy_exponent;
+  rig_case.threads = view.spec.threads;
+}
+
+void ReadRigCase(const JointView& view, const base::JsonFile& file,
+                 std::optional<double> scale_factor, int num_runs, PredictedCase& predicted) {
+  rigs::Case& rig_case = predicted.rig_case;
+  rig_case = rigs::LoadCase(file);
+  RefuseFixedWalls(view, file, rig_case);
+  const auto graining = file.root.find("coarse_graining");
+  if (!scale_factor && graining != file.root.end() && graining->contains("scale_factor")) {
+    scale_factor = rig_case.coarse_graining.scale_factor;
+  }
+  NotePowder(view, rig_case.powder, predicted);
+  TakePowder(view, rig_case);
+  if (!file.root.contains("rayleigh_fraction")) {
+    rig_case.rayleigh_fraction = view.spec.rayleigh_fraction;
+  }
+  // Any set of the ranges will do for what a powder's sizes and a vessel say.
+  rig_case = CaseWith(view, predicted,
+                      view.space.ToNative(Eigen::VectorXd::Constant(
+                          static_cast<Eigen::Index>(view.space.Free().size()), 0.5)),
+                      view.spec.seed);
+  rig_case.coarse_graining.scale_factor =
+      scale_factor ? *scale_factor : AffordableScale(view, rig_case, num_runs);
+  base::Problems problems(file.path.string() + " with the campaign's powder at scale factor " +
+                              base::ShortNumber(rig_case.coarse_graining.scale_factor),
+                          {});
+  rigs::ValidateCase(rig_case, problems);
+  problems.ThrowIfAny();
+}
+
+}  // namespace
+
+PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
+                                std::optional<double> scale_factor, int num_runs) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  PredictedCase predicted{
+      .name = path.stem().string(), .rig_case = {}, .scene_text = {}, .notes = {}};
+  base::Problems problems(path.string(), file.places);
+  const bool is_case = file.root.is_object() && file.root.contains("powder");
+  problems.Require(is_case || (file.root.is_object() && file.root.contains("materials")), "",
+                   "is neither a case of a bulk test (it has \"powder\") nor a scene (it has "
+                   "\"materials\")");
+  if (is_case) {
+    problems.Require(!file.root.contains("engine"), "engine",
+                     "is of another engine's case; leave it out, and the campaign's own engine "
+                     "simulates it");
+  }
+  if (problems.empty()) RefuseOtherLaws(view, file, problems);
+  problems.ThrowIfAny();
+  if (is_case) {
+    ReadRigCase(view, file, scale_factor, num_runs, predicted);
+  } else {
+    ReadScene(view, file, scale_factor, predicted);
+  }
+  const double target = view.spec.coarse_graining.Target();
+  const double used = predicted.rig_case.coarse_graining.scale_factor;
+  if (is_case && used > target) {
+    predicted.notes.push_back("simulated at scale factor " + base::ShortNumber(used) +
+                              ", where the answer is for " + base::ShortNumber(target) +
+                              ": what coarse grains change in this test is not known; --scale " +
+                              base::ShortNumber(target) + " shows it");
+  }
+  return predicted;
+}
+
+std::vector<engine::PairSpec> PairsOfGrains(const JointView& view) {
+  std::vector<engine::PairSpec> pairs = view.spec.pairs;
+  std::erase_if(
+      pairs, [](const engine::PairSpec& pair) { return rigs::PartnerOf(pair) != rigs::kPowder; });
+  return pairs;
+}
+
+rigs::Case CaseWith(const JointView& view, const PredictedCase& predicted,
+                    std::span<const double> values, std::uint64_t seed) {
+  rigs::Case rig_case = predicted.rig_case;
+  for (std::size_t i = 0; i < view.space.parameters.size(); ++i) {
+    const optimizer::Parameter& p = view.space.parameters[i];
+    // What the campaign holds of its own walls says nothing of the case's.
+    if (p.fixed && campaign::PlaceOf(p.name).body != rigs::kPowder) continue;
+    campaign::SetParameter(rig_case, p.name, values[i]);
+  }
+  rig_case.seed = seed;
+  return rig_case;
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,207 @@
+#include "experiments/analysis/predict/prediction_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "experiments/analysis/predict/prediction_pictures.h"
+#include "imaging/heap/metrics.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::analysis {
+namespace {
+
+const journal::MetricRecord* Find(const trials::TrialOutput& output, const std::string& name) {
+  const auto found = std::ranges::find(output.scalars, name, &journal::MetricRecord::name);
+  return found == output.scalars.end() ? nullptr : &*found;
+}
+
+double MeanOfRuns(const std::vector<double>& values) {
+  return values.empty() ? kUnknown
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
+}
+
+MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
+                    const PredictedNumber& predicted, int num_seeds) {
+  MeasuredThere there{.value = number.value,
+                      .standard_error = number.standard_error,
+                      .low = spread.Quantile(0.05, number.standard_error),
+                      .high = spread.Quantile(0.95, number.standard_error)};
+  there.is_inside = number.value >= there.low && number.value <= there.high;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t d = 0; d < predicted.by_draw.size(); ++d) {
+    const double distance = std::abs(predicted.by_draw[d] - number.value);
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    there.nearest_draw = static_cast<int>(d);
+  }
+  const double run_sd = std::isnan(spread.run_sd()) ? 0 : spread.run_sd();
+  const double sd = std::hypot(run_sd * std::sqrt(1 + 1.0 / num_seeds), number.standard_error);
+  there.nearest_is_inside = nearest <= kNinety * sd;
+  return there;
+}
+
+PredictedNumber Describe(std::string name, const DrawValues& values) {
+  const Spread spread(values);
+  PredictedNumber number{.name = std::move(name),
+                         .mean = spread.mean(),
+                         .low = spread.Quantile(0.05),
+                         .high = spread.Quantile(0.95),
+                         .parameters_sd = spread.parameters_sd(),
+                         .run_sd = spread.run_sd(),
+                         .parameters_share = spread.ParametersShare()};
+  for (const std::vector<double>& runs : values.runs) {
+    number.num_defined += static_cast<int>(runs.size());
+    number.by_draw.push_back(MeanOfRuns(runs));
+  }
+  return number;
+}
+
+struct Weighted {
+  double value = 0;
+  double weight = 0;
+};
+
+// The least value that 90 % of the weight is not above.
+double Quantile90(std::vector<Weighted> values) {
+  std::ranges::sort(values, {}, &Weighted::value);
+  double total = 0;
+  for (const Weighted& v : values) total += v.weight;
+  double below = 0;
+  for (const Weighted& v : values) {
+    below += v.weight;
+    if (below >= 0.9 * total) return v.value;
+  }
+  return kUnknown;
+}
+
+}  // namespace
+
+PredictionRuns::PredictionRuns(std::vector<double> weights, int num_seeds)
+    : weights_(std::move(weights)), runs_(weights_.size() * static_cast<std::size_t>(num_seeds)) {}
+
+void PredictionRuns::Add(std::size_t run, trials::TrialOutput output) {
+  runs_[run] = {.has_ended = true, .output = std::move(output)};
+  ++num_ended_;
+}
+
+void PredictionRuns::AddFailure(std::size_t run, std::string why) {
+  runs_[run].has_ended = true;
+  ++num_ended_;
+  ++num_failed_;
+  failure_ = std::move(why);
+}
+
+std::vector<std::string> PredictionRuns::Names() const {
+  std::vector<std::string> names;
+  for (const Run& run : runs_) {
+    if (!run.output) continue;
+    for (const journal::MetricRecord& scalar : run.output->scalars) {
+      if (std::ranges::find(names, scalar.name) == names.end()) names.push_back(scalar.name);
+    }
+  }
+  return names;
+}
+
+DrawValues PredictionRuns::ValuesOf(const std::string& name, std::string& undefined) const {
+  DrawValues values{.runs = std::vector<std::vector<double>>(weights_.size()), .weight = weights_};
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (!runs_[r].output) continue;
+    const journal::MetricRecord* scalar = Find(*runs_[r].output, name);
+    if (scalar == nullptr) continue;
+    if (std::isfinite(scalar->value))
+      values.runs[draw(r)].push_back(scalar->value);
+    else
+      undefined = scalar->undefined;
+  }
+  return values;
+}
+
+void PredictionRuns::Summarise(Prediction& prediction) const {
+  prediction.num_runs = static_cast<int>(runs_.size());
+  prediction.num_ended = num_ended_;
+  prediction.num_failed = num_failed_;
+  prediction.failure = failure_;
+  prediction.core_time = 0;
+  for (const Run& run : runs_) prediction.core_time += run.output ? run.output->cpu_time : 0;
+  prediction.numbers.clear();
+  for (const std::string& name : Names()) {
+    std::string undefined;
+    const DrawValues values = ValuesOf(name, undefined);
+    PredictedNumber number{.name = name, .by_draw = std::vector(weights_.size(), kUnknown)};
+    const bool any =
+        std::ranges::any_of(values.runs, [](const auto& runs) { return !runs.empty(); });
+    if (any) number = Describe(name, values);
+    number.undefined = std::move(undefined);
+    prediction.numbers.push_back(std::move(number));
+  }
+}
+
+std::vector<imaging::GrayImage> PredictionRuns::ImagesOf(std::size_t wanted) const {
+  std::vector<imaging::GrayImage> images;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (draw(r) != wanted || !runs_[r].output) continue;
+    if (!runs_[r].output->profile.pixels.empty()) images.push_back(runs_[r].output->profile);
+  }
+  return images;
+}
+
+void PredictionRuns::Compare(const MeasuredProcess& measured, Prediction& prediction) const {
+  for (const campaign::ScalarSpec& scalar : measured.numbers) {
+    const auto number =
+        std::ranges::find(prediction.numbers, scalar.metric, &PredictedNumber::name);
+    if (number == prediction.numbers.end() || number->num_defined == 0) continue;
+    std::string undefined;
+    const auto seeds = static_cast<int>(runs_.size() / weights_.size());
+    number->measured = Judge(scalar, Spread(ValuesOf(scalar.metric, undefined)), *number, seeds);
+  }
+  if (measured.profile) prediction.image = CompareImage(*measured.profile);
+}
+
+std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile& measured) const {
+  const double pixel = 1e3 * measured.frame.pixel_size;  // [mm]
+  const auto sad = [&](const imaging::GrayImage& a, const imaging::GrayImage& b) {
+    return imaging::Sad(a, b) * pixel * pixel;
+  };
+  struct SeenRun {
+    imaging::GrayImage image;
+    double weight = 0;
+  };
+  std::vector<SeenRun> all;
+  std::vector<imaging::GrayImage> means;
+  std::vector<double> weights;
+  std::vector<Weighted> own;  // of each run to its draw's mean
+  MeasuredImage image;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t d = 0; d < weights_.size(); ++d) {
+    const std::vector<imaging::GrayImage> runs = ImagesOf(d);
+    if (runs.empty()) continue;
+    means.push_back(imaging::MeanImage(runs));
+    weights.push_back(weights_[d]);
+    const auto n = static_cast<double>(runs.size());
+    for (const imaging::GrayImage& run : runs) {
+      all.push_back({run, weights_[d] / n});
+      // The mean has the run in it, and is so much nearer to it than to another one.
+      const double another = std::sqrt((n + 1) / std::max(n - 1, 1.0));
+      if (n > 1) own.push_back({sad(run, means.back()) * another, weights_[d] / n});
+    }
+    const double distance = sad(measured.image, means.back());
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    image.nearest_draw = static_cast<int>(d);
+  }
+  if (all.empty()) return std::nullopt;
+  const imaging::GrayImage mean = WeightedMean(means, weights);
+  std::vector<Weighted> spread;
+  for (const SeenRun& run : all) spread.push_back({sad(run.image, mean), run.weight});
+  image.sad_mm2 = sad(measured.image, mean);
+  image.sad_90_mm2 = Quantile90(spread);
+  image.is_inside = image.sad_mm2 <= image.sad_90_mm2;
+  image.nearest_sad_mm2 = nearest;
+  image.nearest_is_inside = nearest <= Quantile90(own);
+  return image;
+}
+
+}  // namespace talus::analysis

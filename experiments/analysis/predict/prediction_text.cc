@@ -1,0 +1,158 @@
+#include "experiments/analysis/predict/prediction_text.h"
+
+#include <cmath>
+
+#include "base/text/counted.h"
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
+#include "experiments/analysis/compare/labels.h"
+#include "experiments/rigs/observables/observable.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::analysis {
+namespace {
+
+using base::ShortNumber;
+
+// A number's name without its unit, and the unit that people read it in.
+struct Shown {
+  std::string title;
+  ShownUnit unit;
+
+  explicit Shown(const std::string& name)
+      : title(rigs::FindObservable(name) != nullptr ? rigs::FindObservable(name)->key : name),
+        unit(ShownUnitOf(rigs::UnitOfObservable(name))) {}
+
+  std::string Text(double x) const { return ShortNumber(unit.per_unit * x, 4); }
+  std::string Unit() const { return unit.text.empty() ? "" : " " + unit.text; }
+};
+
+std::string Percent(double share) { return ShortNumber(std::round(100 * share), 3) + " %"; }
+
+std::string SetText(const Prediction& prediction, int draw,
+                    const std::vector<journal::ParameterRecord>& parameters) {
+  std::string text;
+  const std::vector<double>& values = prediction.draws.at(static_cast<std::size_t>(draw)).values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + ShortNumber(values[i]);
+  }
+  return "draw " + std::to_string(draw + 1) + " (" + text + ")";
+}
+
+// Where the uncertainty of a single run comes from.
+std::string SharesText(const PredictedNumber& number, bool many_draws) {
+  if (!many_draws) {
+    return std::isfinite(number.run_sd) ? "all of it the scatter of a single run" : "one run";
+  }
+  if (!std::isfinite(number.run_sd)) {
+    return "parameters and the scatter of a run are not told apart: no set was run twice";
+  }
+  if (!std::isfinite(number.parameters_share)) return "the same in every run";
+  return "of the variance " + Percent(number.parameters_share) + " parameters, " +
+         Percent(1 - number.parameters_share) + " the scatter of a single run";
+}
+
+std::string MeasuredText(const Prediction& prediction, const PredictedNumber& number,
+                         const std::vector<journal::ParameterRecord>& parameters) {
+  const MeasuredThere& m = *number.measured;
+  const Shown shown(number.name);
+  std::string text = "    measured " + shown.Text(m.value) + " ± " + shown.Text(m.standard_error) +
+                     shown.Unit() + ": " + (m.is_inside ? "inside" : "outside") + " of " +
+                     shown.Text(m.low) + " … " + shown.Text(m.high) + ", its error counted";
+  if (m.is_inside) return text + "\n";
+  return text + (m.nearest_is_inside
+                     ? "; yet " + SetText(prediction, m.nearest_draw, parameters) +
+                           " gives it: `talus add-experiment` would narrow the answer by it\n"
+                     : "; no draw gives it: this process is not predicted by any set that fits\n");
+}
+
+std::string ImageText(const Prediction& prediction,
+                      const std::vector<journal::ParameterRecord>& parameters) {
+  const MeasuredImage& image = *prediction.image;
+  std::string text = "  measured image  " + ShortNumber(image.sad_mm2) +
+                     " mm² from the predicted mean, " + (image.is_inside ? "inside" : "outside") +
+                     " of the " + ShortNumber(image.sad_90_mm2) + " mm² of 90 % of single runs";
+  if (!image.is_inside) {
+    text += "; nearest is " + SetText(prediction, image.nearest_draw, parameters) + ", " +
+            ShortNumber(image.nearest_sad_mm2) + " mm² from it, " +
+            (image.nearest_is_inside ? "which gives it: `talus add-experiment` would narrow the "
+                                       "answer by it"
+                                     : "and does not give it either");
+  }
+  return text + "\n";
+}
+
+std::string WhatText(const Prediction& prediction) {
+  switch (prediction.by) {
+    case PredictedBy::kPosterior:
+      return base::Counted(static_cast<long long>(prediction.draws.size()), "draw") +
+             " of the posterior";
+    case PredictedBy::kRecommended:
+      return "the recommended set";
+    case PredictedBy::kSet:
+      return "one set";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string NumberTitle(const PredictedNumber& number) { return Shown(number.name).title; }
+
+std::string NumberText(const PredictedNumber& number) {
+  const Shown shown(number.name);
+  return shown.Text(number.mean) + shown.Unit() + ", 90 % of runs in " + shown.Text(number.low) +
+         " … " + shown.Text(number.high);
+}
+
+std::string PredictionText(const Prediction& prediction,
+                           const std::vector<journal::ParameterRecord>& parameters) {
+  std::string text = prediction.name + " (" + prediction.test + "), by " + WhatText(prediction);
+  if (prediction.test != "scene") {
+    text += ", scale factor " + ShortNumber(prediction.scale_factor);
+  }
+  text += ": " + std::to_string(prediction.num_ended) + " of " +
+          base::Counted(prediction.num_runs, "run") + ", " +
+          trials::DurationText(prediction.core_time) + " of core time\n";
+  if (prediction.num_failed > 0) {
+    text += "  " + std::to_string(prediction.num_failed) +
+            " failed, the last: " + prediction.failure + "\n";
+  }
+  for (const std::string& note : prediction.notes) text += "  note: " + note + "\n";
+  for (const PredictedNumber& number : prediction.numbers) {
+    const Shown shown(number.name);
+    text += "  " + shown.title +
+            std::string(shown.title.size() < 15 ? 16 - shown.title.size() : 1, ' ');
+    if (number.num_defined == 0) {
+      text += "has no value: " + number.undefined + "\n";
+      continue;
+    }
+    text += NumberText(number) + "; " + SharesText(number, prediction.draws.size() > 1);
+    const int silent = prediction.num_ended - prediction.num_failed - number.num_defined;
+    if (silent > 0) {
+      text += "; without a value in " + base::Counted(silent, "run") +
+              (number.undefined.empty() ? "" : ": " + number.undefined);
+    }
+    text += "\n";
+    if (number.measured) text += MeasuredText(prediction, number, parameters);
+  }
+  if (prediction.image) text += ImageText(prediction, parameters);
+  return text;
+}
+
+std::string DrawsCsv(const Prediction& prediction,
+                     const std::vector<journal::ParameterRecord>& parameters) {
+  base::Csv csv;
+  csv.Cell("draw").Cell("weight");
+  for (const journal::ParameterRecord& p : parameters) csv.Cell(journal::ColumnName(p));
+  for (const PredictedNumber& number : prediction.numbers) csv.Cell(number.name);
+  csv.EndRow();
+  for (std::size_t d = 0; d < prediction.draws.size(); ++d) {
+    csv.Cell(d + 1).Cell(prediction.draws[d].weight).Cells(prediction.draws[d].values);
+    for (const PredictedNumber& number : prediction.numbers) csv.Cell(number.by_draw[d]);
+    csv.EndRow();
+  }
+  return csv.Take();
+}
+
+}  // namespace talus::analysis

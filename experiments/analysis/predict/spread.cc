@@ -1,0 +1,93 @@
+#include "experiments/analysis/predict/spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace talus::analysis {
+namespace {
+
+double Mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// t quantile over normal quantile at 5 %, to first order in 1/ν (Cornish and Fisher); 1 for ν → ∞.
+double StudentOverNormal(double freedom) {
+  return 1 + (kNinety * kNinety + 1) / (4 * std::max(freedom, 1.0));
+}
+
+}  // namespace
+
+Spread::Spread(const DrawValues& values) {
+  double squares_within = 0;
+  double num_runs = 0;
+  std::vector<double> count;
+  for (std::size_t i = 0; i < values.runs.size(); ++i) {
+    const std::vector<double>& runs = values.runs[i];
+    if (runs.empty() || !(values.weight[i] > 0)) continue;
+    const double mean = Mean(runs);
+    for (const double y : runs) squares_within += (y - mean) * (y - mean);
+    num_runs += static_cast<double>(runs.size());
+    count.push_back(static_cast<double>(runs.size()));
+    centre_.push_back(mean);
+    weight_.push_back(values.weight[i]);
+  }
+  const double total = std::accumulate(weight_.begin(), weight_.end(), 0.0);
+  for (double& w : weight_) w /= total;
+  const auto num_draws = static_cast<double>(centre_.size());
+  const double run_freedom = num_runs - num_draws;
+  if (run_freedom > 0) run_sd_ = std::sqrt(squares_within / run_freedom);
+
+  double between = 0;   // Σ w_i (ȳ_i − ȳ)²
+  double of_means = 0;  // Σ w_i (1 − w_i) / n_i
+  double squares = 0;   // Σ w_i²
+  for (std::size_t i = 0; i < centre_.size(); ++i) mean_ += weight_[i] * centre_[i];
+  for (std::size_t i = 0; i < centre_.size(); ++i) {
+    between += weight_[i] * (centre_[i] - mean_) * (centre_[i] - mean_);
+    of_means += weight_[i] * (1 - weight_[i]) / count[i];
+    squares += weight_[i] * weight_[i];
+  }
+  const double run_variance = run_freedom > 0 ? run_sd_ * run_sd_ : 0;
+  if (squares < 1) {
+    parameters_sd_ = std::sqrt(std::max(0.0, (between - run_variance * of_means) / (1 - squares)));
+  }
+  const double draw_freedom = 1 / squares - 1;
+  const double wide = parameters_sd_ * std::sqrt(1 + squares) * StudentOverNormal(draw_freedom);
+  const double drawn_in = between > 0 ? wide / std::sqrt(between) : 0;
+  for (double& centre : centre_) centre = mean_ + drawn_in * (centre - mean_);
+  kernel_sd_ =
+      std::sqrt(run_variance * (1 + 1 / num_runs)) * StudentOverNormal(std::max(run_freedom, 1.0));
+}
+
+double Spread::ParametersShare() const {
+  const double sum = parameters_sd_ * parameters_sd_ + run_sd_ * run_sd_;
+  return sum > 0 ? parameters_sd_ * parameters_sd_ / sum : std::numeric_limits<double>::quiet_NaN();
+}
+
+double Spread::Below(double value, double sd) const {
+  double probability = 0;
+  for (std::size_t i = 0; i < centre_.size(); ++i) {
+    probability += weight_[i] * 0.5 * std::erfc((centre_[i] - value) / (sd * std::numbers::sqrt2));
+  }
+  return probability;
+}
+
+double Spread::Quantile(double probability, double error_sd) const {
+  const auto [least, most] = std::minmax_element(centre_.begin(), centre_.end());
+  // Draws of a number that never scatters stand for what lies between them.
+  double sd = std::hypot(kernel_sd_, error_sd);
+  if (std::isnan(run_sd_)) sd = std::hypot(sd, parameters_sd_ / std::sqrt(double(centre_.size())));
+  if (!(sd > 1e-12 * (*most - *least))) sd = 1e-12 * (*most - *least);
+  if (sd == 0) return *least;
+  constexpr double kFar = 10;
+  double low = *least - kFar * sd;
+  double high = *most + kFar * sd;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (low + high) / 2;
+    (Below(middle, sd) < probability ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace talus::analysis

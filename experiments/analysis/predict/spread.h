@@ -1,0 +1,52 @@
+// How a number of another test spreads: over the draws of a posterior, and from run to run of one.
+//
+// One-way random effects, y_ij = m + a_i + e_ij of draw i with weight w_i (Σ w = 1) and n_i runs:
+//
+//   σ_e² = Σ_ij (y_ij − ȳ_i)² / (n − k)                           scatter of a single run
+//   σ_a² = [Σ w_i (ȳ_i − ȳ)² − σ_e² Σ w_i (1 − w_i)/n_i] / (1 − Σ w_i²), >= 0       parameters
+//
+// With equal weights and numbers of runs this is the analysis of variance. What a single run will
+// give is the mixture of normals N(m_i, τ²) with weights w_i: the means m_i drawn in so that they
+// spread by σ_a, both widened to Student's t for the few draws and runs that they come from.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+namespace talus::analysis {
+
+// The values of one number.
+struct DrawValues {
+  std::vector<std::vector<double>> runs;  // of each draw; a draw may have none
+  std::vector<double> weight;             // of each draw, >= 0
+};
+
+class Spread {
+ public:
+  // At least one value.
+  explicit Spread(const DrawValues& values);
+
+  double mean() const { return mean_; }
+  double parameters_sd() const { return parameters_sd_; }
+  // NaN where no draw has two runs: all of it then counts as the parameters'.
+  double run_sd() const { return run_sd_; }
+  // Of the variance of a single run, in [0, 1]; NaN where the two cannot be told apart.
+  double ParametersShare() const;
+  // Of a single run that is measured with an independent error of this standard deviation.
+  double Quantile(double probability, double error_sd = 0) const;
+
+ private:
+  double Below(double value, double sd) const;
+
+  double mean_ = 0;
+  double parameters_sd_ = 0;
+  double run_sd_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> weight_;  // of the draws that have values; sums to 1
+  std::vector<double> centre_;  // m_i
+  double kernel_sd_ = 0;        // τ
+};
+
+// Standard deviations on either side of the mean that hold 90 % of a normal.
+inline constexpr double kNinety = 1.6448536269514722;
+
+}  // namespace talus::analysis

@@ -1,0 +1,57 @@
+#include "experiments/analysis/report/views/predictions_view.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files/file.h"
+#include "experiments/journal/record_json.h"
+#include "imaging/formats/images/image_file.h"
+
+namespace talus::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+Picture PictureIn(const fs::path& folder, const std::string& file, const std::string& title) {
+  if (file.empty() || !fs::exists(folder / file)) return {};
+  const std::string png = base::ReadFile(folder / file);
+  const imaging::GrayImage size = imaging::ReadGrayImage(folder / file);
+  return {.name = "predict_" + folder.filename().string() + "_" + fs::path(file).stem().string(),
+          .title = title,
+          .caption = {},
+          .width = size.width,
+          .height = size.height,
+          .png = png};
+}
+
+PredictionView ViewOf(const fs::path& folder, const Evidence& evidence) {
+  const fs::path file = folder / "prediction.json";
+  PredictionView view{
+      .prediction = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string()),
+      .mean = {},
+      .different = {}};
+  const Prediction& p = view.prediction;
+  view.is_outdated = std::ranges::any_of(evidence.trials, [&](const TrialEvidence& trial) {
+    return trial.id > p.last_trial && trial.state != journal::TrialStatus::kRunning;
+  });
+  view.mean = PictureIn(folder, p.mean_profile, p.name + ": mean silhouette");
+  view.different = PictureIn(folder, p.most_different, p.name + ": the two draws that differ most");
+  return view;
+}
+
+}  // namespace
+
+std::vector<PredictionView> ReadPredictions(const Evidence& evidence) {
+  std::vector<fs::path> folders;
+  const fs::path root = evidence.folder / "predict";
+  if (evidence.folder.empty() || !fs::is_directory(root)) return {};
+  for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
+    if (fs::exists(entry.path() / "prediction.json")) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  std::vector<PredictionView> views;
+  for (const fs::path& folder : folders) views.push_back(ViewOf(folder, evidence));
+  return views;
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,83 @@
+// talus predict
+#include "experiments/analysis/predict/predict.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
+#include "experiments/analysis/predict/prediction_text.h"
+#include "experiments/app/commands.h"
+#include "experiments/app/set_argument.h"
+#include "experiments/campaign/make_parts.h"
+
+namespace talus::app {
+namespace {
+
+struct PredictArguments {
+  std::string folder;
+  std::vector<std::string> cases;
+  std::vector<std::string> set;
+  analysis::PredictOptions options;
+  bool json = false;
+};
+
+void RunPredict(const PredictArguments& arguments) {
+  const campaign::JointView view = campaign::ReadJointView(arguments.folder);
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const std::string& file : arguments.cases) {
+    analysis::PredictOptions options = arguments.options;
+    options.file = file;
+    options.set = ReadSetArgument(arguments.set);
+    // A queue's own files stand beside the predictions, not among those of the campaign's trials.
+    const analysis::Prediction prediction = analysis::Predict(
+        view, options,
+        {.runner = campaign::MakeRunner(view.spec, analysis::PredictFolder(view.folder.root)),
+         .engine = campaign::MakeEngine(view.spec)});
+    if (arguments.json) {
+      list.push_back(base::ToJson(prediction));
+    } else {
+      std::cout << analysis::PredictionText(prediction, view.record.parameters) << std::flush;
+    }
+  }
+  if (arguments.json) std::cout << base::JsonText(list, 2) << std::endl;
+}
+
+}  // namespace
+
+void AddPredictCommand(CLI::App& app) {
+  const auto arguments = std::make_shared<PredictArguments>();
+  analysis::PredictOptions& options = arguments->options;
+  CLI::App* command = app.add_subcommand(
+      "predict", "What the calibrated sets give in another test or process, and how sure that is");
+  command->add_option("DIR", arguments->folder, "the campaign's folder; it may be running")
+      ->required();
+  command
+      ->add_option("CASE", arguments->cases,
+                   "cases of bulk tests, or scenes, as talus simulate takes them")
+      ->required();
+  command->add_option("--draws", options.num_draws,
+                      "sets drawn from the posterior, from 2 to 200; default: 12");
+  command->add_option("--seeds", options.num_seeds,
+                      "runs of each set, from 1 to 100; default: 3, of one set alone 8");
+  command->add_option("--scale", options.scale_factor,
+                      "scale factor of the grains, 1 or more; default: the case's, else the finest "
+                      "of the campaign's that takes 4 min of core time at most");
+  CLI::Option* set = command->add_option(
+      "--set", arguments->set, "NAME=VALUE of every calibrated parameter: by this set alone");
+  command->add_flag("--recommended", options.recommended, "by the recommended set alone")
+      ->excludes(set);
+  command
+      ->add_option("--measured", options.measured,
+                   "what was measured: a JSON file as an experiment of a spec, or a profile that "
+                   "talus measure wrote")
+      ->type_name("FILE");
+  command->add_flag("--json", arguments->json, "as JSON");
+  command->callback([arguments] { RunPredict(*arguments); });
+}
+
+}  // namespace talus::app

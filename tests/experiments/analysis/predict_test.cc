@@ -1,0 +1,275 @@
+// What a campaign predicts of other tests, with drawn heaps in place of simulations.
+#include "experiments/analysis/predict/predict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/json/json_reader.h"
+#include "engine/scene/scene_spec.h"
+#include "experiments/analysis/predict/draws.h"
+#include "experiments/analysis/predict/prediction_text.h"
+#include "experiments/analysis/predict/scene_engine.h"
+#include "experiments/analysis/predict/spread.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::FakeEngine;
+using campaign::JointView;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Means 2 and 6, within-draw variance 2, mean square between 16: σ_a² = (16 − 2)/2.
+TEST(Spread, OfABalancedDesignIsTheAnalysisOfVariance) {
+  const Spread spread({.runs = {{1, 3}, {5, 7}}, .weight = {0.5, 0.5}});
+  EXPECT_DOUBLE_EQ(spread.mean(), 4);
+  EXPECT_NEAR(spread.run_sd(), std::sqrt(2), 1e-12);
+  EXPECT_NEAR(spread.parameters_sd(), std::sqrt(7), 1e-12);
+  EXPECT_NEAR(spread.ParametersShare(), 7.0 / 9, 1e-12);
+  EXPECT_NEAR(spread.Quantile(0.05) + spread.Quantile(0.95), 2 * 4, 1e-6);  // symmetric
+}
+
+TEST(Spread, WhatDoesNotDifferBetweenDrawsIsNotOfTheParameters) {
+  const Spread spread({.runs = {{1, 3}, {3, 1}, {}}, .weight = {0.2, 0.3, 0.5}});
+  EXPECT_EQ(spread.parameters_sd(), 0);
+  EXPECT_EQ(spread.ParametersShare(), 0);
+  EXPECT_DOUBLE_EQ(spread.mean(), 2);  // a draw without values does not count
+}
+
+TEST(Spread, OneValueAloneIsItsOwnRange) {
+  const Spread spread({.runs = {{5}}, .weight = {1}});
+  EXPECT_EQ(spread.Quantile(0.05), 5);
+  EXPECT_TRUE(std::isnan(spread.ParametersShare()));
+}
+
+// 2000 predictions of 12 draws and 3 runs each: seen 90.4 %, with a standard error of 0.7 %.
+// Without Student's t it is 87 %.
+TEST(Spread, NinetyPerCentHoldTheNextRunInNinetyPerCentOfCases) {
+  int inside = 0;
+  constexpr int kCases = 2000;
+  for (int c = 0; c < kCases; ++c) {
+    base::Random random(1, base::Stream("spread test"), static_cast<std::uint64_t>(c));
+    DrawValues values{.runs = std::vector<std::vector<double>>(12),
+                      .weight = std::vector<double>(12, 1.0 / 12)};
+    for (std::vector<double>& runs : values.runs) {
+      const double centre = random.Normal();
+      for (int k = 0; k < 3; ++k) runs.push_back(centre + random.Normal());
+    }
+    const Spread spread(values);
+    const double next = random.Normal() + random.Normal();
+    inside += next > spread.Quantile(0.05) && next < spread.Quantile(0.95);
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / kCases, 0.90, 0.025);
+}
+
+// Seven tenths of the posterior stand at one corner, the others at the opposite one.
+TEST(Draws, StandForTheWholePosteriorWithTheirWeights) {
+  Eigen::MatrixXd all(1000, 2);
+  base::Random random(3, base::Stream("draws test"));
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    const double corner = i < 700 ? 0.1 : 0.9;
+    all.row(i) << corner + 0.05 * random.Normal(), corner + 0.05 * random.Normal();
+  }
+  const WeightedDraws few = ChooseDraws(all, 12, 1);
+  ASSERT_EQ(few.points.size(), 12u);
+  EXPECT_NEAR(std::accumulate(few.weights.begin(), few.weights.end(), 0.0), 1, 1e-12);
+  double near = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < few.points.size(); ++i) {
+    if (few.points[i][0] < 0.5) near += few.weights[i];
+    mean += few.weights[i] * few.points[i][0];
+  }
+  EXPECT_NEAR(near, 0.7, 1e-12);
+  EXPECT_NEAR(mean, all.col(0).mean(), 0.02);
+  EXPECT_EQ(ChooseDraws(all, 12, 1).points, few.points);
+  EXPECT_EQ(ChooseDraws(Eigen::MatrixXd::Constant(50, 2, 0.3), 12, 1).points.size(), 1u);
+}
+
+class PredictTest : public campaign::CampaignFixture {
+ protected:
+  void SetUp() override {
+    folder_ = Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]},
+      "budget": {"simulations": 24}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1)");
+    campaign::RunFake(folder_, {});
+    view_.emplace(campaign::ReadJointView(folder_));
+  }
+  Prediction Run(PredictOptions options) const {
+    return Predict(*view_, options,
+                   {.runner = campaign::MakeRunner(view_->spec, view_->folder.root),
+                    .engine = std::make_unique<FakeEngine>(campaign::FakeEngineOptions{})});
+  }
+  fs::path Write(const std::string& name, const std::string& text) const {
+    std::ofstream(scratch_.path() / name) << text;
+    return scratch_.path() / name;
+  }
+  fs::path Taps(const std::string& more = "") const {
+    return Write("taps.json", R"({"powder": {"material": {"sliding_friction": 0.123},
+      "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.5 g"},
+      "rig": {"kind": "tapped_density", "diameter": "10 mm"}, "filling": {"kind": "pour"})" +
+                                  more + "}");
+  }
+  std::string ErrorOf(const PredictOptions& options) const {
+    try {
+      Run(options);
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path folder_;
+  std::optional<JointView> view_;
+};
+
+// The drawn density is 1550 − 350 μ_r kg/m³, and scatters by 4.
+TEST_F(PredictTest, TellsTheParametersFromTheScatterOfARun) {
+  const Prediction p = Run({.file = Taps(), .num_draws = 16, .num_seeds = 5});
+  ASSERT_EQ(p.numbers.size(), 1u);
+  const PredictedNumber& density = p.numbers[0];
+  EXPECT_EQ(density.name, "tapped_density_kg_per_m3");
+  EXPECT_TRUE(density.is_usual);
+  EXPECT_EQ(density.num_defined, 80);
+  EXPECT_NEAR(density.run_sd, 4, 1);  // 64 degrees of freedom: ± 0.35
+  double mean = 0;
+  double square = 0;
+  for (const PredictedDraw& draw : p.draws) {
+    mean += draw.weight * draw.values[1];
+    square += draw.weight * draw.values[1] * draw.values[1];
+  }
+  EXPECT_NEAR(density.mean, 1550 - 350 * mean, 2);  // 4 / √80, three times
+  const double sd = 350 * std::sqrt(square - mean * mean);
+  EXPECT_NEAR(density.parameters_sd, sd, 2);
+  EXPECT_LT(density.low, density.mean - sd);
+  EXPECT_EQ(p.scale_factor, 1);  // of drawn heaps the finest is affordable
+  EXPECT_THAT(p.notes, testing::Contains(HasSubstr("D50 0.4 mm instead of D50 1 mm")));
+  EXPECT_THAT(PredictionText(p, view_->record.parameters), HasSubstr("% parameters"));
+  EXPECT_THAT(base::ReadFile(folder_ / "predict/taps/draws.csv"),
+              testing::StartsWith("draw,weight,sliding_friction,rolling_friction,tapped_density"));
+}
+
+TEST_F(PredictTest, GoesOnWhereItWasEnded) {
+  const PredictOptions options{.file = Taps(), .num_draws = 4, .num_seeds = 2};
+  const Prediction first = Run(options);
+  const fs::path trials = folder_ / "predict/taps/trials";
+  const auto time = fs::last_write_time(trials / "0001_1/profile.png");
+  fs::remove_all(trials / "0003_2");  // as if it had been killed there
+  const Prediction second = Run(options);
+  EXPECT_EQ(fs::last_write_time(trials / "0001_1/profile.png"), time);
+  EXPECT_TRUE(fs::exists(trials / "0003_2/profile.png"));
+  EXPECT_EQ(first.numbers[0].by_draw, second.numbers[0].by_draw);
+  // More runs of the same draws: those that are there stay.
+  const Prediction more = Run({.file = Taps(), .num_draws = 4, .num_seeds = 3});
+  EXPECT_EQ(fs::last_write_time(trials / "0001_1/profile.png"), time);
+  EXPECT_EQ(more.num_ended, 12);
+}
+
+TEST_F(PredictTest, OneSetHasNoUncertaintyOfParameters) {
+  const Prediction set =
+      Run({.file = Taps(), .set = {{"sliding_friction", "0.4"}, {"rolling_friction", "0.2"}}});
+  ASSERT_EQ(set.draws.size(), 1u);
+  EXPECT_EQ(set.numbers[0].parameters_sd, 0);
+  EXPECT_NEAR(set.numbers[0].mean, 1550 - 350 * 0.2, 5);
+  EXPECT_TRUE(fs::exists(folder_ / "predict/taps-set/prediction.json"));
+  const Prediction best = Run({.file = Taps(), .recommended = true});
+  EXPECT_EQ(best.draws[0].values[0], Result(folder_).parameters[0].value);
+}
+
+TEST_F(PredictTest, AMeasuredNumberIsInsideOrAnotherDrawGivesItOrNoneDoes) {
+  PredictOptions options{.file = Taps(), .num_draws = 8};
+  const auto measured = [&](double density) {
+    options.measured = Write("measured.json", R"({"tapped_density": {"value": )" +
+                                                  std::to_string(density) + R"(, "sd": 1}})");
+    return *Run(options).numbers[0].measured;
+  };
+  const PredictedNumber number = Run(options).numbers[0];
+  EXPECT_TRUE(measured(number.mean).is_inside);
+  const MeasuredThere far = measured(1200);
+  EXPECT_FALSE(far.is_inside);
+  EXPECT_FALSE(far.nearest_is_inside);
+  EXPECT_THAT(PredictionText(Run(options), view_->record.parameters),
+              HasSubstr("no draw gives it"));
+}
+
+TEST_F(PredictTest, AMeasuredImageIsComparedInItsOwnFrameWithoutNewRuns) {
+  const fs::path tube = Write("tube.json", R"({"powder": {
+      "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"}})");
+  const PredictOptions options{.file = tube, .num_draws = 4, .num_seeds = 2};
+  EXPECT_FALSE(Run(options).image.has_value());
+  const fs::path ran = folder_ / "predict/tube/trials/0001_1/ran";  // gone when it runs anew
+  std::ofstream(ran) << "once";
+  imaging::WritePng(scratch_.path() / "seen.png",
+                    campaign::DrawHeap(campaign::kTrueSliding, campaign::kTrueRolling, 77));
+  PredictOptions compared = options;
+  const auto image = [&](const std::string& map) {
+    compared.measured = Write("seen.json", R"({"map": ")" + map + R"(", "plate_diameter": "10 mm",
+      "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
+                "baseline_px": 76, "plate_diameter": "10 mm"}})");
+    return Run(compared);
+  };
+  const Prediction near = image("seen.png");
+  ASSERT_TRUE(near.image.has_value());
+  EXPECT_TRUE(fs::exists(ran));
+  EXPECT_TRUE(fs::exists(folder_ / "predict/tube/mean_profile.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "predict/tube/most_different.png"));
+  imaging::WritePng(scratch_.path() / "far.png", campaign::DrawHeap(0.8, 0.5, 77));
+  const Prediction far = image("far.png");
+  EXPECT_GT(far.image->sad_mm2, 5 * near.image->sad_mm2);
+  EXPECT_FALSE(far.image->is_inside);
+  EXPECT_FALSE(far.image->nearest_is_inside);
+}
+
+TEST_F(PredictTest, WhatContradictsTheCampaignIsRefusedAndNothingIsWritten) {
+  EXPECT_THAT(ErrorOf({.file = Taps(R"(, "models": {"rolling": "constant"})")}),
+              HasSubstr("models.rolling: is \"constant\", but the set was calibrated with"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factor = 0.5}), HasSubstr("--scale: is 0.5"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .scale_factor = 20}), HasSubstr("at scale factor 20"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .num_draws = 1}), HasSubstr("--draws: is 1"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .set = {{"sliding_friction", "0.4"}}}),
+              HasSubstr("rolling_friction: is missing"));
+  EXPECT_THAT(ErrorOf({.file = Taps(),
+                       .measured = Write("m.json", R"({"runout": {"value": 0.1, "sd": 0.01}})")}),
+              HasSubstr("runout: is not measured by the rig tapped_density"));
+  EXPECT_THAT(ErrorOf({.file = Write("none.json", "{}")}), HasSubstr("neither a case"));
+  EXPECT_FALSE(fs::exists(folder_ / "predict"));
+}
+
+TEST_F(PredictTest, WallsThatTheCampaignHasSearchedAreNotTheCases) {
+  const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / "plates_in", "");
+  std::string text = base::ReadFile(spec);
+  text.replace(text.find("rolling_friction"), 16, "plate_sliding_friction");
+  base::WriteFileAtomically(spec, text);
+  const fs::path plates = scratch_.path() / "plates";
+  campaign::BeginCampaign(spec, plates);
+  view_.emplace(campaign::ReadJointView(plates));
+  EXPECT_THAT(ErrorOf({.file = Taps(R"(, "device": {"plate_material": {"sliding_friction": 0.3}})"),
+                       .set = {{"sliding_friction", "0.4"}, {"plate_sliding_friction", "0.2"}}}),
+              HasSubstr("the campaign has calibrated it as plate_sliding_friction"));
+}
+
+TEST_F(PredictTest, ASceneIsFilledWithTheCampaignsPowder) {
+  const fs::path file = Write("pair.json", R"({
+    "materials": [{"name": "beads", "density": 1000}, {"name": "steel"}],
+    "spheres": [{"diameter": "0.8 mm", "position": [0, 0, "1 mm"]}],
+    "walls": [{"shape": "plane", "material": "steel"}], "stop": {"time": "1 ms"}})");
+  const PredictedCase scene = ReadPredictedCase(*view_, file, {}, 1);
+  EXPECT_EQ(scene.rig_case.coarse_graining.scale_factor, 2);  // 0.8 mm for 0.4 mm
+  SceneEngine engine(scene.scene_text);
+  const std::vector<double> values{0.31, 0.12};
+  engine.Prepare(CaseWith(*view_, scene, values, 9), scratch_.path() / "trial");
+  const auto spec = base::LoadOptions<engine::SceneSpec>(
+      base::ReadJsonFile(scratch_.path() / "trial/scene.json"));
+  EXPECT_EQ(spec.materials[0].name, "beads");
+  EXPECT_EQ(spec.materials[0].material.density, view_->spec.powder.material.density);
+  EXPECT_EQ(spec.materials[0].material.sliding_friction, 0.31);
+  EXPECT_NE(spec.materials[1].material.sliding_friction, 0.31);
+  EXPECT_EQ(spec.seed, 9u);
+  EXPECT_THROW(ReadPredictedCase(*view_, file, 2, 1), base::ConfigError);
+}
+
+}  // namespace
+}  // namespace talus::analysis
