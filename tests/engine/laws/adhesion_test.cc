@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "tests/engine/claim.h"
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
@@ -36,7 +37,8 @@ TEST(DmtContact, RestsWhereElasticForceBalancesThePull) {
   const auto contacts = simulation.Contacts();
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_EQ(contacts[0].second, -1);
-  EXPECT_NEAR(contacts[0].overlap / 1.80539e-6, 1, 1e-5);
+  testing::Formula("(4/3) Y* √R* δ^1.5 = 2πγ*R*");
+  testing::Verify({"overlap", contacts[0].overlap, 1.80539e-6, 1e-5});
   EXPECT_NEAR(base::Norm(contacts[0].force) / kPullOff, 0, 1e-5);
 }
 
@@ -52,8 +54,9 @@ TEST(DmtContact, PullReachesAcrossTheGapAndNoFarther) {
   }
 }
 
-// Hangs from a ceiling under a load that is this part of the pull-off force.
-bool Holds(Adhesion adhesion, double pull_off, double share) {
+// Hangs from a ceiling under a load that grows by 1 % of what is expected at a time: the first that
+// it does not bear [N]. A step overshoots by as much at most.
+double PullOff(Adhesion adhesion, double expected) {
   Scene scene = OnWall(adhesion, -1.8e-6);
   const double mass = SphereMass(scene.materials[0], kRadius);
   scene.materials[0].restitution = 0.1;  // so that the load, put on at once, does not swing
@@ -62,28 +65,28 @@ bool Holds(Adhesion adhesion, double pull_off, double share) {
   scene.particles = settled.Particles();
   scene.particles[0].velocity = {};
   double load = 0;
-  for (int step = 1; step <= 50; ++step) {  // the load grows by 2 % of the pull-off at a time
-    load = share * pull_off * step / 50;
+  for (int step = 1; step <= 110; ++step) {
+    load = expected * step / 100;
     scene.gravity = {0, 0, load / mass};
     Simulation simulation(scene);
     simulation.Advance(4000);
-    if (simulation.Contacts().empty()) return false;
+    if (simulation.Contacts().empty()) break;
     scene.particles = simulation.Particles();
     scene.particles[0].velocity = {};
   }
-  return true;
+  return load;
 }
 
-// A step of 2 % overshoots by as much at most, so 0.95 must hold and 1.02 must not.
 TEST(DmtContact, SeparatesAtThePullOffForce) {
-  EXPECT_TRUE(Holds(Adhesion::kDmt, kPullOff, 0.95));
-  EXPECT_FALSE(Holds(Adhesion::kDmt, kPullOff, 1.02));
+  testing::Formula("2πγ*R*, 4πγR* of equal spheres");
+  testing::Verify({"pull-off", PullOff(Adhesion::kDmt, kPullOff), kPullOff, 0.02});
 }
 
 // The simplified law ends at δ = 0, at -(4/3)πγ*R*, two thirds of the DMT pull-off.
 TEST(JkrContact, SeparatesAtThePullOffForceOfItsLastContact) {
-  EXPECT_TRUE(Holds(Adhesion::kJkr, 2.0 / 3 * kPullOff, 0.95));
-  EXPECT_FALSE(Holds(Adhesion::kJkr, 2.0 / 3 * kPullOff, 1.02));
+  const double expected = 2.0 / 3 * kPullOff;
+  testing::Formula("(4/3)πγ*R* at δ = 0");
+  testing::Verify({"pull-off", PullOff(Adhesion::kJkr, expected), expected, 0.02});
 }
 
 TEST(JkrContact, RestsAtTheZeroForceContact) {
@@ -94,7 +97,8 @@ TEST(JkrContact, RestsAtTheZeroForceContact) {
   const double y_star = MakePairConstants(Sticky(), Sticky(), {}).y_star;
   const double b = 2 * std::numbers::pi * 4e-4 * kRadius * kRadius / y_star;
   const double a = std::cbrt(2.25 * b);  // a³ = 9πγ*R*²/(2Y*)
-  EXPECT_NEAR(contacts[0].overlap / ((a * a - std::sqrt(b * a)) / kRadius), 1, 1e-5);
+  testing::Formula("δ = (a² − √(2πγ*R*²a/Y*))/R*, a³ = 9πγ*R*²/(2Y*)");
+  testing::Verify({"overlap", contacts[0].overlap, (a * a - std::sqrt(b * a)) / kRadius, 1e-5});
 }
 
 }  // namespace

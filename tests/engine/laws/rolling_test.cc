@@ -1,6 +1,7 @@
 // A sphere that rolls on a plate, for each law of rolling resistance.
 #include <gtest/gtest.h>
 
+#include "tests/engine/claim.h"
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
@@ -44,7 +45,8 @@ TEST_P(RollingLaw, DeceleratesByItsLimit) {
   const double first = advance_to(wind_up), start = simulation.time();
   const double second = advance_to(end);
   const double deceleration = (first - second) / (simulation.time() - start);
-  EXPECT_NEAR(deceleration / (0.1 * kGravity / 1.4), 1, 1e-3);
+  testing::Formula("μ_r g/1.4");
+  testing::Verify({"deceleration", deceleration, 0.1 * kGravity / 1.4, 1e-3});
 }
 INSTANTIATE_TEST_SUITE_P(Limited, RollingLaw,
                          ::testing::Values(Rolling::kConstant, Rolling::kEpsd, Rolling::kEpsd2));
@@ -55,7 +57,8 @@ TEST(ViscousRolling, SpeedDecaysExponentially) {
   Simulation simulation(RollingSphere(Rolling::kViscous, speed));
   simulation.Advance(std::llround(0.2 / simulation.time_step()));
   const double expected = speed * std::exp(-0.1 * kGravity / 1.4 * simulation.time());
-  EXPECT_NEAR(simulation.Particles()[0].velocity.x / expected, 1, 1e-3);
+  testing::Formula("v exp(−μ_r g t/1.4), t in s, v in m/s");
+  testing::Verify({"speed", simulation.Particles()[0].velocity.x, expected, 1e-3});
 }
 
 TEST(EpsdRolling, BringsASphereToRestWhereItStays) {
