@@ -52,6 +52,11 @@ LoadedScene LoadScene(base::JsonFile file) {
   for (FillSpec& fill : loaded.spec.fills) ReadSizeFile(fill.sizes);
   for (PourSpec& pour : loaded.spec.pours) ReadSizeFile(pour.sizes);
   base::Problems problems(path.string(), file.places);
+  if (!loaded.spec.sphere_files.empty()) {
+    ReadSphereFiles(loaded.spec);
+    loaded.spec.Validate(problems);
+    problems.ThrowIfAny();
+  }
   try {
     loaded.scene = BuildScene(loaded.spec);
   } catch (const base::ConfigError& error) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -191,11 +193,12 @@ void SceneSpec::Validate(base::Problems& problems) const {
   }
   ValidatePairs(*this, problems);
   RequireMaterials(*this, spheres, "spheres", problems);
+  RequireMaterials(*this, sphere_files, "sphere_files", problems);
   RequireMaterials(*this, fills, "fills", problems);
   RequireMaterials(*this, pours, "pours", problems);
   RequireMaterials(*this, walls, "walls", problems);
-  problems.Require(!spheres.empty() || !fills.empty() || !pours.empty(), "",
-                   "must have spheres, fills or pours");
+  problems.Require(!spheres.empty() || !sphere_files.empty() || !fills.empty() || !pours.empty(),
+                   "", "must have spheres, sphere_files, fills or pours");
   problems.Require(pours.empty() || Norm(gravity) > 0, "pours", "need gravity");
   std::vector<TurnStep> turns;
   for (const TurnSpec& turn : gravity_turns) turns.push_back({turn.time, turn.angular_velocity});
@@ -218,6 +221,14 @@ void SceneSpec::Validate(base::Problems& problems) const {
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");
   problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
                    "checkpoint_interval", checkpoint_interval, "must not be negative");
+}
+
+void ReadSphereFiles(SceneSpec& spec) {
+  for (const SphereFileSpec& file : spec.sphere_files) {
+    std::vector<SphereSpec> spheres = ReadSphereFile(file, spec.materials);
+    std::move(spheres.begin(), spheres.end(), std::back_inserter(spec.spheres));
+  }
+  spec.sphere_files.clear();
 }
 
 Scene BuildScene(const SceneSpec& spec) {

@@ -14,6 +14,7 @@
 #include "engine/scene/pair_spec.h"
 #include "engine/scene/pour.h"
 #include "engine/scene/size_distribution.h"
+#include "engine/scene/sphere_file.h"
 #include "engine/scene/wall_spec.h"
 
 namespace talus::engine {
@@ -169,6 +170,7 @@ struct SceneSpec {
   std::vector<PairSpec> pairs{};
   ContactModels models;
   std::vector<SphereSpec> spheres{};
+  std::vector<SphereFileSpec> sphere_files{};
   std::vector<FillSpec> fills{};
   std::vector<PourSpec> pours{};
   std::vector<WallSpec> walls{};
@@ -191,6 +193,8 @@ struct SceneSpec {
           {.doc = "what pairs of materials state themselves; else it follows from the two"});
     visit("models", self.models, {.doc = "contact laws between all bodies"});
     visit("spheres", self.spheres, {.doc = "one by one"});
+    visit("sphere_files", self.sphere_files,
+          {.doc = "listed in CSV files; they follow those of spheres"});
     visit("fills", self.fills, {.doc = "drawn from a size distribution"});
     visit("pours", self.pours, {.doc = "coming in over time, out of a funnel's mouth"});
     visit("walls", self.walls);
@@ -216,8 +220,11 @@ struct SceneSpec {
 // Index of the material called `name`, or the first for no name; -1 if there is none.
 int MaterialIndex(const SceneSpec& spec, const std::string& name);
 
-// The scene of a valid spec. Throws ConfigError when a fill finds no room, or the time step is too
-// long for what is poured.
+// Puts the spheres of `sphere_files` in their place, so that the spec is complete without them.
+void ReadSphereFiles(SceneSpec& spec);
+
+// The scene of a valid spec without `sphere_files`. Throws ConfigError when a fill finds no room,
+// or the time step is too long for what is poured.
 Scene BuildScene(const SceneSpec& spec);
 
 // What is poured, in the order of the spec, with the numbers that follow those of the scene.

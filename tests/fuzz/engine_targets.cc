@@ -28,6 +28,13 @@ void SizeFile(std::string_view bytes) {
   });
 }
 
+void SphereFile(std::string_view bytes) {
+  Expect([&] {
+    const std::vector<engine::NamedMaterial> materials = {{.name = "sand", .material = {}}};
+    engine::ReadSphereText(bytes, {.file = "spheres.csv", .material = ""}, materials);
+  });
+}
+
 // Behind the checksums as well, which damage does not get past.
 std::string WithItsChecksum(std::string_view rest) {
   return "talus run 1\n" + base::Hex(base::Checksum(rest)) + "\n" + std::string(rest);
@@ -39,8 +46,11 @@ void Checkpoint(std::string_view bytes) {
   Expect([&] { engine::Simulation::Restore(bytes, 1); });
 }
 
-constexpr Target kTargets[] = {
-    {"json", Json}, {"scene", Scene}, {"size_file", SizeFile}, {"checkpoint", Checkpoint}};
+constexpr Target kTargets[] = {{"json", Json},
+                               {"scene", Scene},
+                               {"size_file", SizeFile},
+                               {"sphere_file", SphereFile},
+                               {"checkpoint", Checkpoint}};
 
 }  // namespace
 

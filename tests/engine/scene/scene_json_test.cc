@@ -48,6 +48,50 @@ constexpr const char* kPair = R"({
   "stop": {"time": 0.1}
 })";
 
+// What a scene leaves is where another may start from.
+TEST(SceneJson, SpheresComeFromFilesWithTheirMaterials) {
+  const std::filesystem::path folder = ::testing::TempDir();
+  base::WriteFileAtomically(folder / "state.csv",
+                            "id,type,x_m,y_m,z_m,diameter_m,vx_m_per_s,wy_rad_per_s\n"
+                            "7,1,0.01,0.02,0.03,0.002,0.5,-4\n3,0,0,0,0.01,0.001,0,0\n");
+  base::WriteFileAtomically(folder / "radii.csv", "radius_m,x_m,y_m,z_m\r\n0.003,0,0,0.1\r\n");
+  const Scene scene = LoadScene(Write(R"({
+    "materials": [{"name": "sand"}, {"name": "steel", "density": 7800}],
+    "pairs": [{"between": ["sand", "steel"], "sliding_friction": 0.2}],
+    "spheres": [{"diameter": "1 mm", "position": [0, 0, 1]}],
+    "sphere_files": [{"file": "state.csv"}, {"file": "radii.csv", "material": "steel"}],
+    "stop": {"time": 1}})"))
+                          .scene;
+  ASSERT_EQ(scene.particles.size(), 4u);
+  EXPECT_EQ(scene.particles[1].material, 1);
+  EXPECT_EQ(scene.particles[1].radius, 0.001);
+  EXPECT_EQ(scene.particles[1].position, (Vec3{0.01, 0.02, 0.03}));
+  EXPECT_EQ(scene.particles[1].velocity, (Vec3{0.5, 0, 0}));
+  EXPECT_EQ(scene.particles[1].angular_velocity, (Vec3{0, -4, 0}));
+  EXPECT_EQ(scene.particles[2].material, 0);
+  EXPECT_EQ(scene.particles[3].material, 1);
+  EXPECT_EQ(scene.particles[3].radius, 0.003);
+}
+
+TEST(SceneJson, BadSphereFilesAreNamedWithTheLine) {
+  const std::filesystem::path folder = ::testing::TempDir();
+  const auto error = [&](const std::string& table) {
+    base::WriteFileAtomically(folder / "bad.csv", table);
+    return ErrorOf(
+        R"({"materials": [{"name": "sand"}], "domain": {"low": [-1, -1, -1], "high": [1, 1, 1]},
+                       "sphere_files": [{"file": "bad.csv"}], "stop": {"time": 1}})");
+  };
+  EXPECT_THAT(error(""), AllOf(HasSubstr("bad.csv"), HasSubstr("no column x_m")));
+  EXPECT_THAT(error("x_m,y_m,z_m\n0,0,0\n"), HasSubstr("no column diameter_m or radius_m"));
+  EXPECT_THAT(error("x_m,y_m,z_m,x_m,radius_m\n"), HasSubstr("column x_m twice"));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n\n"), HasSubstr("has no spheres"));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,0\n"), HasSubstr("line 2: has 3 columns"));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,nan,1\n"), HasSubstr("line 2: z_m is \"nan\""));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,0,-1\n"), HasSubstr("must be positive"));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m,type\n0,0,0,1,1\n"), HasSubstr("line 2: type"));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,5,0.1\n"), HasSubstr("outside the domain"));
+}
+
 TEST(SceneJson, ReadsSpheresWallsAndUnits) {
   const Scene scene = LoadScene(Write(kPair)).scene;
   ASSERT_EQ(scene.particles.size(), 2u);
