@@ -37,9 +37,17 @@ struct Standing {
   std::vector<ExperimentStanding> experiments;
 };
 
+// What knowing a nuisance would change.
+struct NuisanceWeight {
+  Eigen::Index coordinate = 0;
+  double narrowing = 0;    // of the asked parameter's range that it would narrow most: narrowing.h
+  Eigen::Index other = 0;  // the coordinate of that parameter
+};
+
+// Regions are of the parameters asked for, nuisances integrated out.
 struct PosteriorSummary {
-  Eigen::MatrixXd draws;                  // unit cube, one draw a row, equally likely
-  double region_volume = 1;               // of the joint 90 % region, share of the searched box
+  Eigen::MatrixXd draws;     // unit cube, one draw a row, equally likely, nuisances too
+  double region_volume = 1;  // of the joint 90 % region, share of the searched box
   std::vector<PosteriorBranch> branches;  // of the joint 90 % region, the likeliest first
   double temper = 1;        // misfits are divided by this for leave-one-out coverage, >= 1
   double raw_coverage = 0;  // leave-one-out, of nominal 90 % regions of the outputs, without it
@@ -52,6 +60,9 @@ struct PosteriorSummary {
   int fewest_at_finest = 0;  // evaluations at the smallest scale factor, of the experiment with the
                              // fewest
   std::vector<ExperimentStanding> experiments;  // at the recommended set
+  std::vector<NuisanceWeight> nuisances{};
+  Eigen::MatrixXd prior_draws{};   // as `draws`; no rows where the prior is uniform
+  Eigen::VectorXd prior_offset{};  // of the draws' mean (Prior::Offset); NaN where it is uniform
 };
 
 }  // namespace talus::optimizer

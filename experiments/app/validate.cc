@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/app/commands.h"
+#include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/plan/estimate.h"
 #include "experiments/campaign/start.h"
@@ -37,12 +39,22 @@ std::string At(const std::string& experiment, double scale_factor) {
   return experiment + " at scale factor " + base::ShortNumber(scale_factor) + ": ";
 }
 
+bool IsNuisance(const campaign::CampaignSpec& spec, const std::string& name) {
+  return std::ranges::any_of(campaign::SpaceOf(spec).parameters,
+                             [&](const auto& p) { return p.name == name && p.is_nuisance; });
+}
+
 void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
                    const campaign::CampaignSpec& spec) {
+  const std::map<std::string, std::string> priors = campaign::PriorTexts(*spec.parameters);
   std::cout << "  searched         ";
   for (const journal::ParameterRecord& p : parameters) {
     std::cout << ' ' << p.name << " in " << base::ShortNumber(p.low) << " … "
-              << base::ShortNumber(p.high) << (p.unit.empty() ? "" : " " + p.unit) << ';';
+              << base::ShortNumber(p.high) << (p.unit.empty() ? "" : " " + p.unit);
+    if (const auto prior = priors.find(p.name); prior != priors.end()) {
+      std::cout << ", prior " << prior->second;
+    }
+    std::cout << (IsNuisance(spec, p.name) ? " (nuisance);" : ";");
   }
   std::cout << " minimising " << base::NameOf(spec.objective) << '\n';
 }
@@ -59,7 +71,7 @@ journal::CampaignRecord MeasuredRecord(const campaign::CampaignSpec& spec,
 }
 
 void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
-  const campaign::CampaignSpec spec = campaign::ReadCampaignSpec(file);
+  const campaign::CampaignSpec spec = campaign::ReadSpecWithPosteriors(file);
   journal::CampaignRecord record;
   if (with_experiment) record = MeasuredRecord(spec, file);
   std::cout << file.path.string() << ": is in order\n";

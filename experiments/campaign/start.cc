@@ -10,6 +10,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
+#include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
@@ -99,9 +100,10 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const ResumeOpt
     change.spec = ParseSpecText(record.spec_json);
     return change;
   }
-  change.spec = LoadCampaignSpec(path);
+  const CampaignSpec begun = ParseSpecText(record.spec_json);
+  change.spec = ReadSpecWithPosteriors(base::ReadJsonFile(path), &begun);
   // `calibrate --hold-out` is of the campaign and not in the file.
-  if (!change.spec.hold_out) change.spec.hold_out = ParseSpecText(record.spec_json).hold_out;
+  if (!change.spec.hold_out) change.spec.hold_out = begun.hold_out;
   const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
   if (!forbidden.empty()) {
     std::string message = path.string() +
@@ -190,7 +192,7 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
                    const BeginOptions& options) {
   base::JsonFile file = base::ReadJsonFile(spec_path);
   if (options.hold_out && file.root.is_object()) file.root["hold_out"] = *options.hold_out;
-  const CampaignSpec spec = ReadCampaignSpec(file);
+  const CampaignSpec spec = ReadSpecWithPosteriors(file);
   const CampaignFolder folder{std::filesystem::absolute(root)};
   RequireNewFolder(folder, root);
   const journal::CampaignRecord record = MakeRecord(spec, file);

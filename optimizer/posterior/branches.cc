@@ -36,11 +36,12 @@ struct Pair {
   std::size_t b = 0;
 };
 
-std::vector<Pair> NearPairs(const Eigen::MatrixXd& draws) {
+// `places`: the draws' coordinates that are asked for.
+std::vector<Pair> NearPairs(const Eigen::MatrixXd& places) {
   std::vector<Pair> pairs;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      const double distance = (draws.row(i) - draws.row(j)).norm();
+      const double distance = (places.row(i) - places.row(j)).norm();
       if (distance < kReach) {
         pairs.push_back({distance, static_cast<std::size_t>(i), static_cast<std::size_t>(j)});
       }
@@ -52,7 +53,7 @@ std::vector<Pair> NearPairs(const Eigen::MatrixXd& draws) {
 }
 
 // Whether the region holds a quarter, half and three quarters of the way.
-bool IsJoined(const Posterior& posterior, const Eigen::MatrixXd& draws, const Pair& pair,
+bool IsJoined(const AskedDensity& posterior, const Eigen::MatrixXd& draws, const Pair& pair,
               double least) {
   Eigen::MatrixXd between(3, draws.cols());
   const Eigen::RowVectorXd a = draws.row(static_cast<Eigen::Index>(pair.a));
@@ -61,14 +62,14 @@ bool IsJoined(const Posterior& posterior, const Eigen::MatrixXd& draws, const Pa
   return posterior.LogDensity(between).minCoeff() > least - kDip;
 }
 
-PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::VectorXd& density,
-                         Eigen::Index num_draws) {
+PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::MatrixXd& places,
+                         const Eigen::VectorXd& density, Eigen::Index num_draws) {
   const double dense = base::Median(density);
   Eigen::Index middle = 0;
   double least = -1;
   for (Eigen::Index i = 0; i < members.rows(); ++i) {
     if (density[i] < dense) continue;
-    const double sum = (members.rowwise() - members.row(i)).rowwise().norm().sum();
+    const double sum = (places.rowwise() - places.row(i)).rowwise().norm().sum();
     if (least < 0 || sum < least) {
       least = sum;
       middle = i;
@@ -82,8 +83,8 @@ PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::VectorXd& 
 
 }  // namespace
 
-std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const PosteriorSample& sample,
-                                          std::uint64_t seed) {
+std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
+                                          const PosteriorSample& sample, std::uint64_t seed) {
   Eigen::MatrixXd draws = sample.Draws(kDraws, seed);
   Eigen::VectorXd density = posterior.LogDensity(draws);
   std::vector<Eigen::Index> inside;
@@ -91,10 +92,11 @@ std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const Post
     if (density[i] >= sample.region_log_density) inside.push_back(i);
   }
   draws = Eigen::MatrixXd(draws(inside, Eigen::all));
+  const Eigen::MatrixXd places = draws(Eigen::all, posterior.asked());
   density = Eigen::VectorXd(density(inside));
   Components components(inside.size());
   int tries = 0;
-  for (const Pair& pair : NearPairs(draws)) {
+  for (const Pair& pair : NearPairs(places)) {
     if (components.Root(pair.a) == components.Root(pair.b)) continue;
     if (++tries > kMostTries) break;
     if (IsJoined(posterior, draws, pair, sample.region_log_density)) {
@@ -107,8 +109,11 @@ std::vector<PosteriorBranch> FindBranches(const Posterior& posterior, const Post
   }
   std::vector<PosteriorBranch> branches;
   for (const auto& [root, rows] : members) {
-    PosteriorBranch branch = Describe(draws(rows, Eigen::all), density(rows), draws.rows());
-    if (branch.share >= kLeastShare) branches.push_back(std::move(branch));
+    PosteriorBranch branch =
+        Describe(draws(rows, Eigen::all), places(rows, Eigen::all), density(rows), draws.rows());
+    if (branch.share < kLeastShare) continue;
+    branch.point = posterior.WithTypicalNuisances(branch.point);
+    branches.push_back(std::move(branch));
   }
   std::stable_sort(branches.begin(), branches.end(),
                    [](const auto& a, const auto& b) { return a.share > b.share; });

@@ -42,12 +42,12 @@ NodeMoments MomentsOf(const Nodes& log_weight) {
   return {mean_square, std::sqrt(std::max(0.0, mean_square - mean * mean))};
 }
 
-// ln ∫ p(data | x) p(x) dx over the sample.
+// ln ∫ p(data | x) p(x) dx over the sample; `prior`: p(x) dx of its points.
 double LogEvidence(const Posterior& posterior, const std::vector<OutputMoments>& outputs,
-                   const Eigen::VectorXd& volume) {
+                   const Eigen::ArrayXd& prior) {
   const Eigen::ArrayXd density = posterior.LogDensity(outputs).array();
   const double most = density.maxCoeff();
-  return most + std::log((volume.array() * (density - most).exp()).sum());
+  return most + std::log((prior * (density - most).exp()).sum());
 }
 
 }  // namespace
@@ -58,6 +58,8 @@ void LearnModelErrors(const Domain& domain, double scale, std::uint64_t seed,
   for (ExperimentModel& model : models) model.SetModelError({.value = kBroad * scale});
   const PosteriorSample sample = posterior.Sample(domain, kSampled, 1, seed);
   const std::vector<OutputMoments> outputs = posterior.Outputs(sample.points);
+  const Eigen::ArrayXd prior =
+      sample.volume.array() * domain.prior.LogDensity(sample.points).array().exp();
   for (ExperimentModel& model : models) model.SetModelError({.value = scale});
   const Nodes log_prior = LogPrior();
   const NodeMoments before = MomentsOf(log_prior);
@@ -67,7 +69,7 @@ void LearnModelErrors(const Domain& domain, double scale, std::uint64_t seed,
       Nodes log_weight = log_prior;
       for (Eigen::Index i = 0; i < log_weight.size(); ++i) {
         model.SetModelError({.value = kNodes[static_cast<std::size_t>(i)] * scale});
-        log_weight[i] += LogEvidence(posterior, outputs, sample.volume);
+        log_weight[i] += LogEvidence(posterior, outputs, prior);
       }
       const NodeMoments after = MomentsOf(log_weight);
       model.SetModelError({.value = scale * std::sqrt(after.mean_square / before.mean_square),

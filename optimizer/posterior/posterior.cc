@@ -14,8 +14,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kRegion = 0.9;  // probability of the joint region
-
 // Outputs that the likelihood is made of: none of an experiment that is held out.
 int NumCounted(const ExperimentModel& model) {
   return model.weight() > 0 ? model.num_outputs() : 0;
@@ -68,11 +66,6 @@ std::vector<int> TestOfOutputs(const std::vector<ExperimentModel>& models) {
   return test;
 }
 
-double LogSumExp(const Eigen::VectorXd& x) {
-  const double most = x.maxCoeff();
-  return most + std::log((x.array() - most).exp().sum());
-}
-
 // Draws round weighted points: a mixture of normal kernels, whose density can be asked.
 class KernelMixture {
  public:
@@ -111,20 +104,6 @@ class KernelMixture {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-// Rows drawn in proportion to their weight, evenly through the sum of weights.
-std::vector<Eigen::Index> Resample(const Eigen::VectorXd& weight, int count, base::Random& random) {
-  std::vector<Eigen::Index> rows;
-  const double offset = random.Uniform();
-  double sum = 0;
-  Eigen::Index i = 0;
-  for (int k = 0; k < count; ++k) {
-    const double goal = (k + offset) / count;
-    while (i + 1 < weight.size() && sum + weight[i] < goal) sum += weight[i++];
-    rows.push_back(i);
-  }
-  return rows;
-}
-
 KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& weight,
                         base::Random& random) {
   constexpr int kCentres = 120;
@@ -139,8 +118,11 @@ KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& we
 
 }  // namespace
 
-Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data)
-    : models_(std::move(models)), misfit_(Stack(models_, data), TestOfOutputs(models_)) {}
+Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data,
+                     Prior prior)
+    : models_(std::move(models)),
+      misfit_(Stack(models_, data), TestOfOutputs(models_)),
+      prior_(std::move(prior)) {}
 
 // Of an experiment that is held out there are none.
 std::vector<OutputMoments> Posterior::Outputs(const Eigen::MatrixXd& points) const {
@@ -152,7 +134,7 @@ std::vector<OutputMoments> Posterior::Outputs(const Eigen::MatrixXd& points) con
 }
 
 Eigen::VectorXd Posterior::LogDensity(const Eigen::MatrixXd& points, double softness) const {
-  return LogDensity(Outputs(points), softness);
+  return LogDensity(Outputs(points), softness) + prior_.LogDensity(points);
 }
 
 Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,
@@ -185,17 +167,24 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
   PosteriorSample sample;
   sample.points = Inside(domain, RSequence(num_start, domain.num_parameters, seed));
   const double share_inside = static_cast<double>(sample.points.rows()) / num_start;
+  const auto first = static_cast<double>(sample.points.rows());
+  const int num_prior = prior_.IsUniform() ? 0 : num_start;
+  sample.points = optimizer::Stack(
+      sample.points, Inside(domain, prior_.Draw(num_prior, domain.num_parameters, random)));
   sample.log_density = LogDensity(sample.points, softness);
   std::vector<KernelMixture> mixtures;
   std::vector<double> counts;
-  const auto first = static_cast<double>(sample.points.rows());
   for (int round = 0;; ++round) {
     // Balance heuristic: the proposal is the mixture of all rounds.
-    Eigen::MatrixXd logs(sample.points.rows(), static_cast<Eigen::Index>(mixtures.size()) + 1);
+    const auto num_mixtures = static_cast<Eigen::Index>(mixtures.size());
+    Eigen::MatrixXd logs(sample.points.rows(), num_mixtures + (num_prior > 0 ? 2 : 1));
     logs.col(0).setConstant(std::log(first / share_inside));
     for (std::size_t m = 0; m < mixtures.size(); ++m) {
       logs.col(static_cast<Eigen::Index>(m) + 1) =
           mixtures[m].LogDensity(sample.points).array() + std::log(counts[m]);
+    }
+    if (num_prior > 0) {
+      logs.rightCols(1) = prior_.LogDensity(sample.points).array() + std::log(1.0 * num_prior);
     }
     Eigen::VectorXd log_volume(sample.points.rows());
     for (Eigen::Index i = 0; i < logs.rows(); ++i) log_volume[i] = -LogSumExp(logs.row(i));
@@ -213,30 +202,8 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
     sample.log_density.conservativeResize(before + more.rows());
     sample.log_density.tail(more.rows()) = LogDensity(more, softness);
   }
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(sample.weight.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return sample.log_density[a] > sample.log_density[b];
-  });
-  double sum = 0;
-  for (const Eigen::Index i : order) {
-    sample.region_log_density = sample.log_density[i];
-    if ((sum += sample.weight[i]) >= kRegion) break;
-  }
+  sample.SetRegion();
   return sample;
-}
-
-double PosteriorSample::CredibleLevel(double at) const {
-  return std::min(1.0, (log_density.array() > at).select(weight, 0).sum());
-}
-
-double PosteriorSample::RegionVolume() const {
-  return std::min(1.0, (log_density.array() >= region_log_density).select(volume, 0).sum());
-}
-
-Eigen::MatrixXd PosteriorSample::Draws(int count, std::uint64_t seed) const {
-  base::Random random(seed, base::Stream("equally likely draws"));
-  return points(Resample(weight, count, random), Eigen::all);
 }
 
 double Posterior::Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const {

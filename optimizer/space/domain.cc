@@ -5,6 +5,20 @@
 
 namespace talus::optimizer {
 
+bool Domain::IsBeforeAdded(const Eigen::VectorXd& point) const {
+  return std::any_of(added.begin(), added.end(), [&](const AddedCoordinate& a) {
+    return std::abs(point[a.coordinate] - a.at) <= kSamePoint;
+  });
+}
+
+std::vector<Eigen::Index> Domain::Asked() const {
+  std::vector<Eigen::Index> asked;
+  for (Eigen::Index k = 0; k < num_parameters; ++k) {
+    if (!std::binary_search(nuisances.begin(), nuisances.end(), k)) asked.push_back(k);
+  }
+  return asked;
+}
+
 Eigen::VectorXd Domain::Snap(const Eigen::VectorXd& point) const {
   if (IsList()) {
     Eigen::Index nearest = 0;

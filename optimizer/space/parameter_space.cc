@@ -124,23 +124,13 @@ void Parameter::ValidateLevels(base::Problems& problems) const {
 
 double Parameter::ToNative(double unit) const {
   if (fixed) return *fixed;
-  const double from = lowest();
-  const double to = highest();
-  const double value =
-      scale == Scale::kLog ? from * std::pow(to / from, unit) : from + unit * (to - from);
+  const double value = range().ToNative(unit);
   if (!levels.empty()) {  // exactly, not but for rounding
     return *std::min_element(levels.begin(), levels.end(), [&](double a, double b) {
       return std::abs(a - value) < std::abs(b - value);
     });
   }
-  return std::clamp(value, from, to);  // rounding must not leave the range at its ends
-}
-
-double Parameter::ToUnit(double native) const {
-  const double from = lowest();
-  const double to = highest();
-  return scale == Scale::kLog ? std::log(native / from) / std::log(to / from)
-                              : (native - from) / (to - from);
+  return std::clamp(value, lowest(), highest());  // rounding must not leave the range at its ends
 }
 
 void ParameterSpace::Validate(base::Problems& problems) const {
@@ -207,9 +197,47 @@ Domain ParameterSpace::MakeDomain() const {
       return space.Satisfies(space.ToNative(unit));
     };
   }
+  AddBeliefs(domain);
   AddLevels(domain);
   if (!candidates.empty()) AddTable(domain);
   return domain;
+}
+
+Eigen::MatrixXd ParameterSpace::Inside(const EarlierDraws& draws) const {
+  std::vector<const Parameter*> columns;
+  for (const std::string& name : draws.names) {
+    columns.push_back(&parameters[static_cast<std::size_t>(IndexOf(parameters, name))]);
+  }
+  Eigen::MatrixXd inside(static_cast<Eigen::Index>(draws.values.size()),
+                         static_cast<Eigen::Index>(columns.size()));
+  Eigen::Index count = 0;
+  for (const std::vector<double>& draw : draws.values) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      inside(count, static_cast<Eigen::Index>(k)) = columns[k]->ToUnit(draw[k]);
+    }
+    const auto row = inside.row(count).array();
+    if ((row >= 0).all() && (row <= 1).all()) ++count;
+  }
+  return inside.topRows(count);
+}
+
+void ParameterSpace::AddBeliefs(Domain& domain) const {
+  const std::vector<int> free = Free();
+  const auto coordinate_of = [&](const std::string& name) {
+    return std::find(free.begin(), free.end(), IndexOf(parameters, name)) - free.begin();
+  };
+  for (const int i : free) {
+    const Parameter& p = parameters[static_cast<std::size_t>(i)];
+    const Eigen::Index coordinate = coordinate_of(p.name);
+    if (p.prior) domain.prior.Add(coordinate, p.range(), *p.prior);
+    if (p.is_nuisance) domain.nuisances.push_back(coordinate);
+    if (p.added_at) domain.added.push_back({.coordinate = coordinate, .at = p.ToUnit(*p.added_at)});
+  }
+  for (const EarlierDraws& draws : earlier) {
+    std::vector<Eigen::Index> coordinates;
+    for (const std::string& name : draws.names) coordinates.push_back(coordinate_of(name));
+    domain.prior.Add(std::move(coordinates), Inside(draws));
+  }
 }
 
 // Levels of every parameter are a list of candidates, where that is not too long.

@@ -1,10 +1,7 @@
-// The parameters to be found: names, ranges and scales, and the map between them and the unit cube.
-//
-//   linear   value = low + u (high - low)
-//   log      value = low (high / low)^u
+// The parameters to be found: names, ranges and scales, what is known of them beforehand, and the
+// map between them and the unit cube (scale.h).
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -15,10 +12,10 @@
 #include "base/field.h"
 #include "base/problems.h"
 #include "optimizer/space/domain.h"
+#include "optimizer/space/prior.h"
+#include "optimizer/space/scale.h"
 
 namespace talus::optimizer {
-
-enum class Scale { kLinear, kLog };
 
 inline constexpr int kMaxParameters = 6;
 
@@ -30,6 +27,11 @@ struct Parameter {
   std::optional<double> guess = {};  // in [low, high]: tried first
   std::optional<double> fixed = {};  // held at this value and not searched; needs no range
   std::vector<double> levels = {};   // the only values, ascending; in place of low and high
+  // What only a posterior uses.
+  std::optional<NormalPrior> prior = {};  // none: uniform on the scale
+  bool is_nuisance = false;               // searched, but not asked for
+  // That evaluations were made at before the parameter was searched; Domain::added.
+  std::optional<double> added_at = {};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -46,8 +48,9 @@ struct Parameter {
 
   double lowest() const { return levels.empty() ? low : levels.front(); }
   double highest() const { return levels.empty() ? high : levels.back(); }
+  ScaledRange range() const { return {.low = lowest(), .high = highest(), .scale = scale}; }
   double ToNative(double unit) const;
-  double ToUnit(double native) const;
+  double ToUnit(double native) const { return range().ToUnit(native); }
 
  private:
   void ValidateLevels(base::Problems& problems) const;
@@ -75,10 +78,17 @@ struct LinearConstraint {
   }
 };
 
+// Equally likely draws of an earlier posterior, native values.
+struct EarlierDraws {
+  std::vector<std::string> names;           // of parameters that are searched
+  std::vector<std::vector<double>> values;  // one draw a row, in their order
+};
+
 struct ParameterSpace {
   std::vector<Parameter> parameters;
   std::vector<LinearConstraint> constraints = {};
-  std::filesystem::path candidates = {};  // CSV table of the only points; none when empty
+  std::filesystem::path candidates = {};   // CSV table of the only points; none when empty
+  std::vector<EarlierDraws> earlier = {};  // priors of several parameters together
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -98,19 +108,17 @@ struct ParameterSpace {
 
   bool Satisfies(std::span<const double> native) const;
 
+  // Draws in the unit cube, one a row, those alone that lie inside it.
+  Eigen::MatrixXd Inside(const EarlierDraws& draws) const;
+
   // The domain of a strategy. Holds a copy of this space, so it may outlive it. Reads the table of
   // candidates; throws base::ConfigError when that cannot be used.
   Domain MakeDomain() const;
 
  private:
+  void AddBeliefs(Domain& domain) const;
   void AddLevels(Domain& domain) const;
   void AddTable(Domain& domain) const;
 };
 
 }  // namespace talus::optimizer
-
-template <>
-struct talus::base::Names<talus::optimizer::Scale> {
-  static constexpr std::array kList{std::pair{"linear", talus::optimizer::Scale::kLinear},
-                                    std::pair{"log", talus::optimizer::Scale::kLog}};
-};

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/random.h"
-#include "optimizer/designs/design.h"
+#include "optimizer/designs/posterior_design.h"
 #include "optimizer/outputs/modelled.h"
 #include "optimizer/posterior/learn_model_errors.h"
 #include "optimizer/search/feasibility.h"
@@ -48,13 +48,9 @@ PosteriorStrategy::PosteriorStrategy(const PosteriorStrategyOptions& options, co
       domain_(domain),
       levels_(options.scale_factors, options.target),
       targets_(std::move(targets)) {
-  const int d = domain_.num_parameters;
-  const int size = options_.num_initial > 0 ? options_.num_initial : 4 * d + 4;
-  Points points = domain_.guesses;
-  for (const Eigen::VectorXd& point : LatinHypercube(size, d, options_.seed)) {
-    if (domain_.Contains(point) && static_cast<int>(points.size()) < size) points.push_back(point);
-  }
-  design_.resize(static_cast<Eigen::Index>(points.size()), d);
+  const int size = options_.num_initial > 0 ? options_.num_initial : PosteriorDesignSize(domain_);
+  const Points points = PosteriorDesign(domain_, size, options_.seed);
+  design_.resize(static_cast<Eigen::Index>(points.size()), domain_.num_parameters);
   for (Eigen::Index i = 0; i < design_.rows(); ++i) {
     design_.row(i) = points[static_cast<std::size_t>(i)];
   }
@@ -75,6 +71,8 @@ PosteriorStrategy::PosteriorStrategy(const PosteriorStrategyOptions& options, co
 void PosteriorStrategy::Tell(const Observation& observation) {
   posterior_.reset();
   sample_.reset();
+  asked_.reset();
+  asked_sample_.reset();
   observations_.push_back(WithoutImage(observation));
   Told& told = told_[static_cast<std::size_t>(observation.experiment)];
   const int level = levels_.LevelOf(observation.scale_factor);
@@ -124,7 +122,7 @@ Posterior PosteriorStrategy::MakePosterior() {
     }
     models.emplace_back(setup, data.back(), &*told.state);
   }
-  Posterior posterior(std::move(models), data);
+  Posterior posterior(std::move(models), data, domain_.prior);
   if (options_.learn_model_error) {
     LearnModelErrors(domain_, options_.model_error, options_.seed, posterior);
   }
@@ -142,6 +140,21 @@ const PosteriorSample& PosteriorStrategy::Sample() {
     sample_ = Model().Sample(domain_, start, 1, options_.seed);
   }
   return *sample_;
+}
+
+const AskedDensity& PosteriorStrategy::Asked() {
+  if (!asked_) {
+    const auto density = [this](const Eigen::MatrixXd& points) {
+      return Model().LogDensity(points);
+    };
+    asked_.emplace(density, domain_, Sample(), options_.seed);
+  }
+  return *asked_;
+}
+
+const PosteriorSample& PosteriorStrategy::AskedSample() {
+  if (!asked_sample_) asked_sample_ = Asked().Sample(Sample());
+  return *asked_sample_;
 }
 
 double PosteriorStrategy::CostOf(std::size_t experiment, int level) const {
@@ -194,10 +207,12 @@ std::optional<Proposal> PosteriorStrategy::FromDesign(std::span<const Proposal> 
   const bool under_way = IsUnderWay();
   const Eigen::Index size =
       under_way ? std::min<Eigen::Index>(kOfAddedTest, design_.rows()) : design_.rows();
-  // Any evaluations at the coarsest scale factor will do for an added one.
+  // Any evaluations at the coarsest scale factor will do for an added one; but those made before a
+  // parameter was searched do not tell what it does.
   const auto has_enough = [&](int e) {
     const auto is_it = [&](const auto& other) {
-      return other.experiment == e && levels_.LevelOf(other.scale_factor) == 0;
+      return other.experiment == e && levels_.LevelOf(other.scale_factor) == 0 &&
+             !domain_.IsBeforeAdded(other.point);
     };
     return under_way && std::count_if(asked.begin(), asked.end(), is_it) +
                                 std::count_if(observations_.begin(), observations_.end(), is_it) >=

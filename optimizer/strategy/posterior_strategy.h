@@ -13,6 +13,7 @@
 #include "optimizer/moments.h"
 #include "optimizer/outputs/experiment_target.h"
 #include "optimizer/outputs/levels.h"
+#include "optimizer/posterior/asked_density.h"
 #include "optimizer/posterior/posterior.h"
 #include "optimizer/posterior_summary.h"
 #include "optimizer/search/stopping_rule.h"
@@ -38,7 +39,7 @@ class PosteriorStrategy : public Strategy {
   bool CanModel() const;
   // Where a set stands in the posterior.
   std::optional<Standing> Consider(const Eigen::VectorXd& point);
-  // Its credible level alone, of many: one point a row.
+  // Its credible level alone, of many: one point a row. The nuisances' coordinates do not count.
   std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points);
   // The objective of an experiment with an image by the model that Recommend answers with, at the
   // target scale factor: one point a row.
@@ -46,6 +47,9 @@ class PosteriorStrategy : public Strategy {
   // Model and sample of all that was told.
   const Posterior& Model();
   const PosteriorSample& Sample();
+  // The same of the parameters asked for.
+  const AskedDensity& Asked();
+  const PosteriorSample& AskedSample();
 
  private:
   // What was told of one experiment; images in both codes until it shows which one serves.
@@ -83,6 +87,9 @@ class PosteriorStrategy : public Strategy {
   std::vector<double> UnlearntScaleFactors() const;
   int FewestAtFinest() const;
   void Summarise(Answer& answer);
+  std::vector<NuisanceWeight> NuisanceWeights(const Eigen::MatrixXd& draws) const;
+  void AddPrior(PosteriorSummary& summary) const;
+  std::vector<Range> AskedRanges(const Eigen::MatrixXd& draws) const;
 
   PosteriorStrategyOptions options_;
   Domain domain_;
@@ -93,6 +100,8 @@ class PosteriorStrategy : public Strategy {
   Eigen::MatrixXd design_;                 // one point a row
   std::optional<Posterior> posterior_;     // of all that was told
   std::optional<PosteriorSample> sample_;  // of it
+  std::optional<AskedDensity> asked_;
+  std::optional<PosteriorSample> asked_sample_;
 };
 
 }  // namespace talus::optimizer

@@ -4,12 +4,15 @@
 #include <limits>
 #include <utility>
 
+#include "base/random.h"
 #include "optimizer/posterior/branches.h"
 #include "optimizer/posterior/credible_ranges.h"
+#include "optimizer/posterior/narrowing.h"
 #include "optimizer/posterior/rank_correlation.h"
 #include "optimizer/posterior/sobol_indices.h"
 #include "optimizer/search/best_observed.h"
 #include "optimizer/search/describe_minimum.h"
+#include "optimizer/space/point_rows.h"
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
@@ -37,13 +40,35 @@ int PosteriorStrategy::FewestAtFinest() const {
   return static_cast<int>(fewest);
 }
 
+std::vector<NuisanceWeight> PosteriorStrategy::NuisanceWeights(const Eigen::MatrixXd& draws) const {
+  std::vector<NuisanceWeight> weights;
+  for (const Eigen::Index nuisance : domain_.nuisances) {
+    NuisanceWeight weight{.coordinate = nuisance};
+    for (const Eigen::Index other : domain_.Asked()) {
+      const double narrowing = Narrowing(draws, nuisance, other);
+      if (narrowing < weight.narrowing) continue;
+      weight.narrowing = narrowing;
+      weight.other = other;
+    }
+    weights.push_back(weight);
+  }
+  return weights;
+}
+
+void PosteriorStrategy::AddPrior(PosteriorSummary& summary) const {
+  summary.prior_offset = domain_.prior.Offset(summary.draws);
+  if (domain_.prior.IsUniform()) return;
+  base::Random random(options_.seed, base::Stream("draws of the prior"));
+  summary.prior_draws =
+      Inside(domain_, domain_.prior.Draw(summary.draws.rows(), domain_.num_parameters, random));
+}
+
 void PosteriorStrategy::Summarise(Answer& answer) {
   constexpr int kDraws = 2000;
   const Posterior& posterior = Model();
-  const PosteriorSample& sample = Sample();
-  PosteriorSummary summary{.draws = sample.Draws(kDraws, options_.seed),
-                           .region_volume = sample.RegionVolume(),
-                           .branches = FindBranches(posterior, sample, options_.seed),
+  PosteriorSummary summary{.draws = Sample().Draws(kDraws, options_.seed),
+                           .region_volume = AskedSample().RegionVolume(),
+                           .branches = FindBranches(Asked(), AskedSample(), options_.seed),
                            .temper = posterior.temper(),
                            .raw_coverage = posterior.coverage().raw,
                            .tempered_coverage = posterior.coverage().tempered,
@@ -54,8 +79,25 @@ void PosteriorStrategy::Summarise(Answer& answer) {
                            .fewest_at_finest = FewestAtFinest(),
                            .experiments = {}};
   answer.point = summary.branches.front().point;
+  summary.nuisances = NuisanceWeights(summary.draws);
+  AddPrior(summary);
   summary.experiments = posterior.StandingsAt(answer.point);
   answer.posterior = std::move(summary);
+}
+
+// Those of the parameters asked for hold all together, and each nuisance's by itself.
+std::vector<Range> PosteriorStrategy::AskedRanges(const Eigen::MatrixXd& draws) const {
+  constexpr double kConfidence = 0.9;
+  std::vector<Range> ranges(static_cast<std::size_t>(draws.cols()));
+  const auto set = [&](const std::vector<Eigen::Index>& coordinates) {
+    const std::vector<Range> some = CredibleRanges(draws(Eigen::all, coordinates), kConfidence);
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      ranges[static_cast<std::size_t>(coordinates[k])] = some[k];
+    }
+  };
+  set(domain_.Asked());
+  for (const Eigen::Index nuisance : domain_.nuisances) set({nuisance});
+  return ranges;
 }
 
 Answer PosteriorStrategy::Recommend() {
@@ -64,13 +106,16 @@ Answer PosteriorStrategy::Recommend() {
   Answer answer;
   Summarise(answer);
   const PosteriorSummary& summary = *answer.posterior;
-  answer.credible = CredibleRanges(summary.draws, 0.9);
+  answer.credible = AskedRanges(summary.draws);
   answer.correlation = RankCorrelation(summary.draws);
   for (int i = 0; i < kMostTied; ++i) {
     answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));
   }
   answer.tied_volume = summary.region_volume;
   answer.warnings = BoundWarnings(answer.point);
+  std::erase_if(answer.warnings, [&](const BoundWarning& bound) {
+    return std::ranges::count(domain_.nuisances, bound.parameter) > 0;
+  });
   const std::vector<ExperimentModel>& models = Model().models();
   const auto image = std::find_if(models.begin(), models.end(),
                                   [](const ExperimentModel& m) { return m.has_image(); });
@@ -97,8 +142,8 @@ Answer PosteriorStrategy::Recommend() {
 
 std::optional<Eigen::VectorXd> PosteriorStrategy::CredibleLevels(const Eigen::MatrixXd& points) {
   if (!CanModel()) return std::nullopt;
-  const PosteriorSample& sample = Sample();
-  return Model().LogDensity(points).unaryExpr(
+  const PosteriorSample& sample = AskedSample();
+  return Asked().LogDensity(points).unaryExpr(
       [&](double log_density) { return sample.CredibleLevel(log_density); });
 }
 

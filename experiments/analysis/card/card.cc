@@ -12,6 +12,7 @@
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
@@ -79,6 +80,11 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
   const campaign::Answer& result = finished.result;
   Card card = CardWith(finished, RecommendedValues(finished), folder);
   for (const campaign::ResultParameter& p : result.parameters) {
+    if (p.nuisance) {
+      card.notes.push_back("not asked for, " + campaign::NuisanceText(p, p.name) +
+                           "; the card has " + base::ShortNumber(p.value));
+      continue;
+    }
     card.ranges.push_back({.name = p.name,
                            .unit = p.unit,
                            .value = p.value,

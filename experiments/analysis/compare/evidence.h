@@ -67,8 +67,9 @@ struct ModelEvidence {
   Eigen::VectorXd point;         // that it recommends
   double expected = kUndefined;  // the objective there, of the experiment that is shown; >= 0
   double expected_sd = kUndefined;
-  double noise_sd = kUndefined;  // scatter of one evaluation there
-  Eigen::MatrixXd draws;         // of the posterior, one a row
+  double noise_sd = kUndefined;   // scatter of one evaluation there
+  Eigen::MatrixXd draws;          // of the posterior, one a row
+  Eigen::MatrixXd prior_draws{};  // of the prior; no rows where it is uniform
   // Share of the posterior that is denser than at a point, one a row.
   std::function<Eigen::VectorXd(const Eigen::MatrixXd&)> credible_levels{};
   // The objective, >= 0, one point a row; empty where the experiment that is shown has no image.

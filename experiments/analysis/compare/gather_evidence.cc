@@ -36,6 +36,14 @@ ParameterInfo InfoOf(const journal::ParameterRecord& record) {
   return info;
 }
 
+void MarkNuisances(Evidence& evidence) {
+  if (!evidence.answer) return;
+  for (std::size_t i = 0; i < evidence.answer->parameters.size(); ++i) {
+    evidence.parameters.at(i).range.is_nuisance =
+        evidence.answer->parameters[i].nuisance.has_value();
+  }
+}
+
 // The value of each known metric, in their order; new ones are added to the list.
 std::vector<double> InColumns(const std::vector<journal::MetricRecord>& records,
                               std::vector<MetricInfo>& columns) {
@@ -255,6 +263,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   AddTrialsOf(shown, journal->Trials(), evidence);
   AddReference(shown, evidence);
   AddAnswer(progress.result_json, record, evidence);
+  MarkNuisances(evidence);
   AddTimes(evidence, progress.elapsed_s);
   AddVersions(record, evidence);
   evidence.profile =

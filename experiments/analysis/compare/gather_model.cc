@@ -44,6 +44,7 @@ void AddModel(const std::filesystem::path& campaign, Evidence& evidence) {
   model.point = answer.point;
   model.noise_sd = answer.noise_sd;
   model.draws = answer.posterior->draws;
+  model.prior_draws = answer.posterior->prior_draws;
   model.credible_levels = [strategy](const Eigen::MatrixXd& points) {
     return *strategy->CredibleLevels(points);
   };

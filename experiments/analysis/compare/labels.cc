@@ -42,6 +42,9 @@ std::string SymbolOf(std::string_view parameter) {
       Entry{"tube_pair_sliding_friction", "μ_t powder–tube"},
       Entry{"tube_pair_rolling_friction", "μ_r powder–tube"},
       Entry{"tube_pair_restitution", "e powder–tube"},
+      Entry{"mass", "m"},
+      Entry{"fill", "fill"},
+      Entry{"particle_size", "d/d₀"},
   };
   return Find(kSymbols, parameter);
 }

@@ -83,7 +83,9 @@ Eigen::VectorXd RecommendedPoint(const JointView& view) {
 }
 
 Eigen::VectorXd OneSet(const JointView& view, const PredictOptions& options) {
-  return options.recommended ? RecommendedPoint(view) : campaign::ReadSet(view.space, options.set);
+  if (options.recommended) return RecommendedPoint(view);
+  return campaign::Filled(campaign::ReadSet(view.space, options.set),
+                          *campaign::StrategyOf(view, view.Answered()));
 }
 
 // One call's work on DIR/predict/NAME.

@@ -71,12 +71,20 @@ std::string AlarmText(const Alarm& a) {
                                  a.experiment.value_or(""));
     case AlarmKind::kImplausible:
       return "no set fits " + experiment + ": the recommended one is " + value +
-             " standard deviations off; the contact law, the plate material or the set-up is wrong";
+             " standard deviations off; " +
+             (a.parameter ? "the prior of " + *a.parameter + ", " : "") +
+             "the contact law, the plate material or the set-up is wrong";
     case AlarmKind::kDisagree:
       return "the experiments disagree: each is met by sets that the others rule out (tension " +
              value + " standard deviations, " + experiment +
              " most); the contact law, the plate material or the set-up of one is wrong (`talus "
              "consider DIR --alone`)";
+    case AlarmKind::kContradictsPrior:
+      return "the measurements contradict the prior of " + a.parameter.value_or("") + " (" +
+             a.reason.value_or("") + "): the posterior lies " +
+             base::ShortNumber(std::abs(a.value.value_or(0)), 2) + " of its standard deviations " +
+             (a.value.value_or(0) > 0 ? "above" : "below") +
+             "; the prior, the contact law or the set-up is wrong";
     case AlarmKind::kExtrapolated:
       return "nothing was simulated at " + factor +
              ", which the answer is for: it is an extrapolation, and a few trials there would "

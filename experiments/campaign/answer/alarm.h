@@ -15,10 +15,12 @@ namespace talus::campaign {
 // Those of photographs have the names that measure.json gives them (imaging::PhotoDoubt).
 // The gravest first: alarms stand in this order.
 enum class AlarmKind {
-  kImplausible,  // no set fits `experiment`: the best is `value` standard deviations off
+  kImplausible,  // no set fits `experiment`: the best is `value` standard deviations off; the prior
+                 // of `parameter`, where there is one, may keep it away
   kDisagree,     // the experiments pull apart by `value`, `experiment` most
   kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
                  // `share` of its powder's area, or its `number` by `value` standard errors
+  kContradictsPrior,     // the posterior of `parameter` is `value` sd off its prior, `reason`
   kWorseThanPredicted,   // `shown` is worse than predicted, by `value` of the objective
   kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`
   kPoorModel,            // a share `value` of the trials left out lay in their 90 % regions
@@ -102,6 +104,7 @@ struct talus::base::Names<talus::campaign::AlarmKind> {
       std::pair{"implausible", K::kImplausible},
       std::pair{"disagree", K::kDisagree},
       std::pair{"misses", K::kMisses},
+      std::pair{"contradicts_prior", K::kContradictsPrior},
       std::pair{"worse_than_predicted", K::kWorseThanPredicted},
       std::pair{"worse_than_observed", K::kWorseThanObserved},
       std::pair{"poor_model", K::kPoorModel},

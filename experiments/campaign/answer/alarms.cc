@@ -5,6 +5,7 @@
 
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/fit.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "optimizer/search/describe_minimum.h"
@@ -12,6 +13,7 @@
 namespace talus::campaign {
 namespace {
 
+constexpr double kContradicts = 3;       // standard deviations of a prior
 constexpr double kSurprise = 2;          // standard deviations that are no luck any more
 constexpr double kLeastShare = 0.1;      // of the predicted value: less is not worth a word
 constexpr double kLeastOfFloor = 0.25;   // of the experiment's noise floor: neither is this
@@ -49,6 +51,21 @@ std::optional<Alarm> PredictionAlarm(const Answer& answer, const ResultExperimen
                .value = excess,
                .shown = mean,
                .noise_floor = experiment.noise_floor};
+}
+
+// The parameter that the posterior has moved farthest from its prior, in its standard deviations: a
+// narrow prior may keep it from where a set would fit.
+std::optional<std::string> HeldByItsPrior(const Answer& answer) {
+  const ResultParameter* farthest = nullptr;
+  for (const ResultParameter& p : answer.parameters) {
+    if (!p.prior) continue;
+    if (farthest != nullptr && std::abs(p.prior->offset) <= std::abs(farthest->prior->offset)) {
+      continue;
+    }
+    farthest = &p;
+  }
+  if (farthest == nullptr) return std::nullopt;
+  return farthest->name;
 }
 
 // The best trial of the search for the experiment at the scale factor.
@@ -153,8 +170,10 @@ std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
   const ResultPosterior& p = *answer.posterior;
   for (const ResultStanding& e : p.experiments) {
     if (!(e.implausibility > kImplausible)) continue;
-    alarms.push_back(
-        {.kind = AlarmKind::kImplausible, .experiment = e.name, .value = e.implausibility});
+    alarms.push_back({.kind = AlarmKind::kImplausible,
+                      .parameter = HeldByItsPrior(answer),
+                      .experiment = e.name,
+                      .value = e.implausibility});
   }
   if (Disagree(p.tension, p.raw_coverage)) {
     alarms.push_back({.kind = AlarmKind::kDisagree, .experiment = p.odd, .value = p.tension});
@@ -177,7 +196,8 @@ std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
   return alarms;
 }
 
-std::vector<Alarm> CorrelationAlarms(const Answer& answer) {
+std::vector<Alarm> CorrelationAlarms(const Answer& all) {
+  const Answer answer = AskedPart(all);
   const auto pair = TiedPair(answer.correlation);
   // Draws of a small region may correlate as strongly as they like.
   const bool is_open = answer.verdict && (answer.verdict->kind == VerdictKind::kCurve ||
@@ -189,7 +209,8 @@ std::vector<Alarm> CorrelationAlarms(const Answer& answer) {
            .value = answer.correlation[pair->first][pair->second]}};
 }
 
-std::vector<Alarm> BoundAlarms(const Answer& answer) {
+std::vector<Alarm> BoundAlarms(const Answer& all) {
+  const Answer answer = AskedPart(all);
   Eigen::VectorXd point(static_cast<Eigen::Index>(answer.parameters.size()));
   for (std::size_t i = 0; i < answer.parameters.size(); ++i) {
     const ResultParameter& p = answer.parameters[i];
@@ -201,6 +222,18 @@ std::vector<Alarm> BoundAlarms(const Answer& answer) {
         {.kind = AlarmKind::kBound,
          .parameter = answer.parameters[static_cast<std::size_t>(bound.parameter)].name,
          .side = bound.is_upper ? "upper" : "lower"});
+  }
+  return alarms;
+}
+
+std::vector<Alarm> PriorAlarms(const Answer& answer) {
+  std::vector<Alarm> alarms;
+  for (const ResultParameter& p : answer.parameters) {
+    if (!p.prior || !(std::abs(p.prior->offset) > kContradicts)) continue;
+    alarms.push_back({.kind = AlarmKind::kContradictsPrior,
+                      .parameter = p.name,
+                      .value = p.prior->offset,
+                      .reason = p.prior->text});
   }
   return alarms;
 }
@@ -218,6 +251,7 @@ void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   Append(PredictionAlarms(answer), alarms);
   Append(SearchAlarms(answer, basis.trials, basis.references), alarms);
   Append(PosteriorAlarms(answer), alarms);
+  Append(PriorAlarms(answer), alarms);
   Append(BudgetAlarms(answer), alarms);
   Append(CorrelationAlarms(answer), alarms);
   Append(BoundAlarms(answer), alarms);

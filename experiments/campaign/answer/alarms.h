@@ -44,6 +44,9 @@ std::vector<Alarm> CorrelationAlarms(const Answer& answer);
 // Parameters of the recommended set that lie on an end of their range.
 std::vector<Alarm> BoundAlarms(const Answer& answer);
 
+// Parameters whose posterior lies far from their prior.
+std::vector<Alarm> PriorAlarms(const Answer& answer);
+
 // Whether the budget ended the search before its stopping rule did.
 std::vector<Alarm> BudgetAlarms(const Answer& answer);
 

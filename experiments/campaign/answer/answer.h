@@ -13,6 +13,7 @@
 #include "experiments/campaign/answer/result_candidate.h"
 #include "experiments/campaign/answer/result_held_out.h"
 #include "experiments/campaign/answer/result_posterior.h"
+#include "experiments/campaign/answer/result_prior.h"
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/plan/stop.h"
 #include "optimizer/space/parameter_space.h"
@@ -20,7 +21,7 @@
 
 namespace talus::campaign {
 
-// A calibrated parameter, SI; its unit stands beside it because it differs from one to the other.
+// A searched parameter, SI; its unit stands beside it because it differs from one to the other.
 struct ResultParameter {
   std::string name{};
   std::string unit{};
@@ -28,10 +29,13 @@ struct ResultParameter {
   double searched_low = 0;
   double searched_high = 0;
   optimizer::Scale scale = optimizer::Scale::kLinear;  // that it is searched on
-  double credible_low = kNotKnown;                     // 90 %, for all parameters together
+  double credible_low = kNotKnown;  // 90 %, for all parameters asked for together; a nuisance's
+                                    // by itself
   double credible_high = kNotKnown;
   double sobol_first = kNotKnown;
   double sobol_total = kNotKnown;
+  std::optional<ResultPrior> prior{};        // none: uniform
+  std::optional<ResultNuisance> nuisance{};  // none: it is asked for
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -45,6 +49,8 @@ struct ResultParameter {
     visit("credible_90_high", self.credible_high);
     visit("sobol_first", self.sobol_first);
     visit("sobol_total", self.sobol_total);
+    visit("prior", self.prior);
+    visit("nuisance", self.nuisance);
   }
   // Its searched range, for ToUnit and ToNative.
   optimizer::Parameter Range() const {

@@ -4,6 +4,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 
 namespace talus::campaign {
@@ -14,14 +15,25 @@ std::string Padded(std::string text, std::size_t width) {
   return text;
 }
 
+// "  (prior 0.35 ± 0.05, 90 % in 0.27 … 0.43)"
+std::string PriorText(const ResultParameter& p) {
+  if (!p.prior) return "";
+  return "  (prior " + p.prior->text + ", 90 % in " + base::ShortNumber(p.prior->low) + " … " +
+         base::ShortNumber(p.prior->high) + ")";
+}
+
 std::string ParameterLines(const Answer& result) {
   std::string text;
   for (const ResultParameter& p : result.parameters) {
+    if (p.nuisance) continue;
     text += "  " + Padded(p.name, 18) + Padded(base::ShortNumber(p.value) + " " + p.unit, 18) +
             "90 % in " + base::ShortNumber(p.credible_low) + " … " +
-            base::ShortNumber(p.credible_high) + "\n";
+            base::ShortNumber(p.credible_high) + PriorText(p) + "\n";
   }
-  if (result.parameters.size() > 1) text += "  (90 % for all of them together)\n";
+  if (AskedParameters(result).size() > 1) text += "  (90 % for all of them together)\n";
+  for (const ResultParameter& p : result.parameters) {
+    if (p.nuisance) text += "  nuisance          " + NuisanceText(p, p.name) + PriorText(p) + "\n";
+  }
   return text;
 }
 

@@ -146,7 +146,25 @@ void AddExperiments(const optimizer::Answer& answer, Planner& planner,
   }
 }
 
-void AddParameters(const optimizer::Answer& answer, const Planner& planner, Answer& result) {
+std::optional<ResultNuisance> NuisanceOf(const optimizer::Answer& answer, const Planner& planner,
+                                         std::size_t i) {
+  const auto& space = planner.space();
+  const std::vector<int> free = space.Free();
+  const auto parameter = [&](auto k) -> const optimizer::Parameter& {
+    return space.parameters[static_cast<std::size_t>(free[static_cast<std::size_t>(k)])];
+  };
+  if (!parameter(i).is_nuisance) return std::nullopt;
+  ResultNuisance nuisance;
+  if (!answer.posterior) return nuisance;
+  for (const optimizer::NuisanceWeight& weight : answer.posterior->nuisances) {
+    if (weight.coordinate != static_cast<Eigen::Index>(i)) continue;
+    nuisance = {.narrowing = weight.narrowing, .of_range = parameter(weight.other).name};
+  }
+  return nuisance;
+}
+
+void AddParameters(const optimizer::Answer& answer, const Planner& planner,
+                   const CampaignSpec& spec, Answer& result) {
   const auto& space = planner.space();
   const std::vector<int> free = space.Free();
   const std::vector<double> values = FreeValues(space, answer.point);
@@ -164,6 +182,8 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner, Answ
     }
     if (i < answer.sobol_first.size()) parameter.sobol_first = answer.sobol_first[i];
     if (i < answer.sobol_total.size()) parameter.sobol_total = answer.sobol_total[i];
+    if (answer.posterior) parameter.prior = PriorOf(*answer.posterior, p, i, *spec.parameters);
+    parameter.nuisance = NuisanceOf(answer, planner, i);
     result.parameters.push_back(parameter);
   }
 }
@@ -194,7 +214,8 @@ Eigen::MatrixXd InRegion(const Eigen::MatrixXd& draws, const Planner& planner) {
 void AddRepresentatives(const optimizer::Answer& answer, const Planner& planner, Answer& result) {
   if (!answer.posterior) return;
   const Eigen::MatrixXd points = InRegion(answer.posterior->draws, planner);
-  for (const Eigen::VectorXd& set : RepresentativeSets(points, answer.point)) {
+  const std::vector<Eigen::Index> asked = planner.domain().Asked();
+  for (const Eigen::VectorXd& set : RepresentativeSets(points, answer.point, asked)) {
     result.representative.push_back(FreeValues(planner.space(), set));
   }
 }
@@ -294,7 +315,7 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
   const journal::ObjectiveInfo& objective = journal::InfoOf(evidence.spec.objective);
   result.objective = objective.ValueKey();
   result.objective_unit = objective.unit;
-  AddParameters(*answer, planner, result);
+  AddParameters(*answer, planner, evidence.spec, result);
   for (Eigen::Index i = 0; i < answer->correlation.rows(); ++i) {
     const Eigen::RowVectorXd row = answer->correlation.row(i);
     result.correlation.emplace_back(row.data(), row.data() + row.size());

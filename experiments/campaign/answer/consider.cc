@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
@@ -17,6 +18,7 @@ namespace talus::campaign {
 namespace {
 
 constexpr std::size_t kMostNear = 5;
+constexpr double kTypical = std::numeric_limits<double>::quiet_NaN();  // of a coordinate: as it is
 
 std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& trials,
                                      const std::vector<Reference>& references,
@@ -45,6 +47,36 @@ std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
   return text;
 }
 
+std::vector<ConsideredParameter> KnownOf(const JointView& view, const optimizer::Answer& answer) {
+  std::vector<ConsideredParameter> known;
+  const std::vector<int> free = view.space.Free();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const optimizer::Parameter& p = view.space.parameters[static_cast<std::size_t>(free[i])];
+    known.push_back({.name = p.name,
+                     .unit = UnitOf(p.name),
+                     .prior = PriorOf(*answer.posterior, p, i, *view.spec.parameters),
+                     .is_nuisance = p.is_nuisance,
+                     .low = p.ToNative(answer.credible[i].low),
+                     .high = p.ToNative(answer.credible[i].high)});
+  }
+  return known;
+}
+
+std::string KnownText(const ConsideredParameter& p) {
+  const std::string unit = p.unit.empty() ? "" : " " + p.unit;
+  const auto range = [&](double low, double high) {
+    return "90 % in " + base::ShortNumber(low) + " … " + base::ShortNumber(high) + unit;
+  };
+  std::string text = "  " + p.name + (p.is_nuisance ? " (nuisance): " : ": ");
+  if (p.prior) {
+    text += "prior " + p.prior->text + ", " + range(p.prior->low, p.prior->high) + "; ";
+  }
+  text += "posterior " + range(p.low, p.high);
+  if (p.prior)
+    text += ", its mean " + base::ShortNumber(p.prior->offset, 2) + " sd off the prior's";
+  return text + "\n";
+}
+
 }  // namespace
 
 Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
@@ -57,6 +89,10 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
     names.push_back(p.name);
     const auto given = set.find(p.name);
+    if (given == set.end() && p.is_nuisance) {
+      point[static_cast<Eigen::Index>(i)] = kTypical;
+      continue;
+    }
     problems.Require(given != set.end(), p.name,
                      "is missing; give NAME=VALUE for every calibrated parameter");
     if (given == set.end()) continue;
@@ -80,11 +116,19 @@ Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
   return point;
 }
 
+Eigen::VectorXd Filled(const Eigen::VectorXd& given, optimizer::PosteriorStrategy& strategy) {
+  if (!given.hasNaN()) return given;
+  const auto is_open = given.array().isNaN();
+  const Eigen::VectorXd middle = is_open.select(0.5, given);
+  if (!strategy.CanModel()) return middle;
+  return is_open.select(strategy.Asked().WithTypicalNuisances(middle), given);
+}
+
 ConsideredSet ConsiderSet(const std::filesystem::path& root,
                           const std::map<std::string, std::string>& set) {
   const JointView view = ReadJointView(root);
-  const Eigen::VectorXd point = ReadSet(view.space, set);
   const auto strategy = StrategyOf(view, view.Answered());
+  const Eigen::VectorXd point = Filled(ReadSet(view.space, set), *strategy);
   ConsideredSet considered{
       .parameters = view.record.parameters,
       .values = FreeValues(view.space, point),
@@ -93,6 +137,7 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
       .experiments = {},
       .nearest = NearestTrials(view.trials, view.references, point),
       .objective_unit = std::string(journal::InfoOf(view.spec.objective).unit)};
+  if (strategy->CanModel()) considered.known = KnownOf(view, strategy->Recommend());
   if (const auto standing = strategy->Consider(point)) {
     considered.credible_level = standing->credible_level;
     considered.experiments = StandingsOf(standing->experiments);
@@ -109,6 +154,7 @@ std::string ConsideredText(const ConsideredSet& c) {
     text += "  credible level    " + base::ShortNumber(*c.credible_level) + ": " +
             (inside ? "inside" : "outside") + " the joint 90 % region\n";
   }
+  for (const ConsideredParameter& p : c.known) text += KnownText(p);
   for (const ResultStanding& e : c.experiments) {
     text += "  " + e.name + ": ";
     if (std::isfinite(e.predicted)) {
@@ -134,6 +180,12 @@ std::string ConsideredJson(const ConsideredSet& c) {
   nlohmann::ordered_json json;
   for (std::size_t i = 0; i < c.values.size(); ++i) {
     json["values"][c.parameters[i].name] = c.values[i];
+  }
+  for (const ConsideredParameter& p : c.known) {
+    nlohmann::ordered_json known{
+        {"nuisance", p.is_nuisance}, {"credible_90_low", p.low}, {"credible_90_high", p.high}};
+    if (p.prior) known["prior"] = base::ToJson(*p.prior);
+    json["known"][p.name] = std::move(known);
   }
   json["target_scale_factor"] = c.target_scale_factor;
   json["credible_level"] =

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/campaign/answer/result_posterior.h"
+#include "experiments/campaign/answer/result_prior.h"
 #include "experiments/journal/records.h"
 #include "optimizer/space/parameter_space.h"
 
@@ -21,9 +22,21 @@ struct NearTrial {
   std::optional<double> objective;  // nothing where it failed or is not defined
 };
 
+// What is known of a parameter: beforehand, and from the trials.
+struct ConsideredParameter {
+  std::string name;
+  std::string unit;
+  std::optional<ResultPrior> prior;  // none: uniform
+  bool is_nuisance = false;
+  double low = 0;  // 90 % of the posterior, for all parameters asked for together
+  double high = 0;
+};
+
 struct ConsideredSet {
   std::vector<journal::ParameterRecord> parameters;
-  std::vector<double> values;  // in their order, SI
+  std::vector<double> values;  // in their order, SI; nuisances that are not given at their typical
+                               // values
+  std::vector<ConsideredParameter> known{};  // none while there are too few trials
   double target_scale_factor = 1;
   std::optional<double> credible_level;  // of the smallest joint region that holds it; nothing
                                          // while there are too few trials
@@ -33,9 +46,12 @@ struct ConsideredSet {
 };
 
 // The point of the unit cube where each free parameter has the value given as text, "0.45" or
-// "2 uJ/m^2"; throws ConfigError with every one that is missing, not known or outside its range.
+// "2 uJ/m^2"; NaN where a nuisance is not given. Throws ConfigError with every parameter that is
+// missing, not known or outside its range.
 Eigen::VectorXd ReadSet(const optimizer::ParameterSpace& space,
                         const std::map<std::string, std::string>& set);
+// The same with the nuisances that were not given where they typically are beside the others.
+Eigen::VectorXd Filled(const Eigen::VectorXd& given, optimizer::PosteriorStrategy& strategy);
 
 // The campaign may be running; nothing is written.
 ConsideredSet ConsiderSet(const std::filesystem::path& folder,

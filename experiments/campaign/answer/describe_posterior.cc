@@ -1,8 +1,10 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 
 #include <cmath>
+#include <map>
 
 #include "base/text/csv.h"
+#include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::campaign {
 
@@ -50,6 +52,20 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   .high = FreeValues(space, branch.high)});
   }
   return posterior;
+}
+
+std::optional<ResultPrior> PriorOf(const optimizer::PosteriorSummary& summary,
+                                   const optimizer::Parameter& parameter, std::size_t i,
+                                   const ParameterRanges& ranges) {
+  const std::map<std::string, std::string> texts = PriorTexts(ranges);
+  const auto text = texts.find(parameter.name);
+  if (text == texts.end() || summary.prior_draws.rows() == 0) return std::nullopt;
+  const auto k = static_cast<Eigen::Index>(i);
+  const optimizer::Range range = optimizer::CredibleRanges(summary.prior_draws.col(k), 0.9).front();
+  return ResultPrior{.text = text->second,
+                     .low = parameter.ToNative(range.low),
+                     .high = parameter.ToNative(range.high),
+                     .offset = summary.prior_offset[k]};
 }
 
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,

@@ -1,10 +1,13 @@
 // An optimiser's posterior in a campaign's own words: SI values and names.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/campaign/answer/result_posterior.h"
+#include "experiments/campaign/answer/result_prior.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/journal/records.h"
 #include "optimizer/posterior_summary.h"
 #include "optimizer/space/parameter_space.h"
@@ -19,6 +22,11 @@ std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentS
 
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   const optimizer::ParameterSpace& space);
+
+// The prior of the parameter, which is coordinate i; nothing where its spec gives it none.
+std::optional<ResultPrior> PriorOf(const optimizer::PosteriorSummary& summary,
+                                   const optimizer::Parameter& parameter, std::size_t i,
+                                   const ParameterRanges& ranges);
 
 // Its draws, one a line, SI with the units in the head.
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,

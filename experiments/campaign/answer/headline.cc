@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "experiments/campaign/answer/nuisances.h"
 
 namespace talus::campaign {
 namespace {
@@ -118,6 +119,16 @@ std::string RegionText(const Told& told) {
   return "They leave a region, not a point" + (wide.empty() ? "" : ": " + Listed(wide));
 }
 
+// "Not asked for: restitution e: not determined, 0.62 … 0.93, does not matter."
+std::string NuisancesText(const Answer& answer, const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < answer.parameters.size(); ++i) {
+    const ResultParameter& p = answer.parameters[i];
+    if (p.nuisance) text += (text.empty() ? "Not asked for: " : "; ") + NuisanceText(p, names[i]);
+  }
+  return text.empty() ? text : text + ".";
+}
+
 std::string KindText(const Told& told, VerdictKind kind) {
   switch (kind) {
     case VerdictKind::kSeparate:
@@ -134,8 +145,9 @@ std::string KindText(const Told& told, VerdictKind kind) {
 
 }  // namespace
 
-std::optional<VerdictKind> VerdictKindOf(const Answer& answer) {
-  if (!answer.posterior) return std::nullopt;
+std::optional<VerdictKind> VerdictKindOf(const Answer& all) {
+  if (!all.posterior) return std::nullopt;
+  const Answer answer = AskedPart(all);
   if (answer.posterior->branches.size() > 1) return VerdictKind::kSeparate;
   const auto wide = [](const ResultParameter& p) { return p.Width() >= kWideRange; };
   if (std::ranges::none_of(answer.parameters, wide)) return VerdictKind::kPoint;
@@ -145,9 +157,11 @@ std::optional<VerdictKind> VerdictKindOf(const Answer& answer) {
   return is_curve ? VerdictKind::kCurve : VerdictKind::kRegion;
 }
 
-std::vector<std::string> Headline(const Answer& answer, const std::vector<std::string>& names) {
-  const auto kind = VerdictKindOf(answer);
+std::vector<std::string> Headline(const Answer& all, const std::vector<std::string>& all_names) {
+  const auto kind = VerdictKindOf(all);
   if (!kind) return {};
+  const Answer answer = AskedPart(all);
+  const std::vector<std::string> names = OnlyThose(AskedParameters(all), all_names);
   const Told told{.answer = answer, .names = names};
   const std::string miss = MissText(answer);
   std::vector<std::string> sentences{
@@ -158,6 +172,7 @@ std::vector<std::string> Headline(const Answer& answer, const std::vector<std::s
     sentences.push_back(KindText(told, *kind) + "; the joint 90 % region fills about " +
                         Percent(answer.posterior->region_volume) + " of the searched ranges.");
   }
+  sentences.push_back(NuisancesText(all, all_names));
   std::erase(sentences, "");
   return sentences;
 }

@@ -39,12 +39,14 @@ std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
 }
 
 std::vector<Eigen::VectorXd> RepresentativeSets(const Eigen::MatrixXd& points,
-                                                const Eigen::VectorXd& recommended) {
+                                                const Eigen::VectorXd& recommended,
+                                                const std::vector<Eigen::Index>& asked) {
   // Shares of the points between which each end is taken: beyond them is the posterior's tail.
   constexpr double kOuter = 0.04;
   constexpr double kInner = 0.12;
   if (points.rows() < 10) return {recommended};
-  const Eigen::MatrixXd centred = points.rowwise() - points.colwise().mean();
+  const Eigen::MatrixXd places = points(Eigen::all, asked);
+  const Eigen::MatrixXd centred = places.rowwise() - places.colwise().mean();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(centred.transpose() * centred);
   Eigen::VectorXd along = axes.eigenvectors().rightCols(1);
   Eigen::Index largest = 0;

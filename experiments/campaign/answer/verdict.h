@@ -42,10 +42,11 @@ std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
     const std::vector<std::vector<double>>& correlation, double least = kTied);
 
 // Representatives of points that fit equally (unit cube, one a row): the ends of their longest
-// direction with the recommended one between; the recommended one alone where they are close
-// together.
+// direction in the coordinates asked for, with the recommended one between; the recommended one
+// alone where they are close together.
 std::vector<Eigen::VectorXd> RepresentativeSets(const Eigen::MatrixXd& points,
-                                                const Eigen::VectorXd& recommended);
+                                                const Eigen::VectorXd& recommended,
+                                                const std::vector<Eigen::Index>& asked);
 
 }  // namespace talus::campaign
 

@@ -61,6 +61,7 @@ class Planner {
 
   const std::vector<journal::TrialRecord>& trials() const { return trials_; }  // by id
   const optimizer::ParameterSpace& space() const { return space_; }
+  const optimizer::Domain& domain() const { return domain_; }
 
   // Processor time of noise and search so far [core seconds], the running ones estimated.
   double CoreTimeOfSearch();

@@ -61,7 +61,8 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
   std::vector<std::string> calibrated;
   for (const optimizer::Parameter& parameter : space.parameters) {
     values.push_back(parameter.fixed.value_or(parameter.low));
-    if (!parameter.fixed) calibrated.push_back(parameter.name);
+    // What is of the bulk reaches a deck by the grains and the lengths that follow from it.
+    if (!parameter.fixed && !IsOfBulk(parameter.name)) calibrated.push_back(parameter.name);
   }
   rigs::Case rig_case = CaseOf(
       spec, {.values = values, .seed = 1, .scale_factor = spec.coarse_graining.scale_factor}, {});
@@ -102,14 +103,34 @@ bool HasOneObjective(const CampaignSpec& spec) {
          experiments.front().images.HasImages();
 }
 
+// Points of the cube whose cases are checked: the middle, and both ends of what decides whether the
+// powder fits into its vessel.
+std::vector<Eigen::VectorXd> CheckedPoints(const CampaignSpec& spec) {
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  const std::vector<int> free = space.Free();
+  const Eigen::VectorXd middle =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
+  std::vector<Eigen::VectorXd> points{middle};
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    if (!IsOfBulk(space.parameters[static_cast<std::size_t>(free[k])].name)) continue;
+    for (const double end : {0.0, 1.0}) {
+      points.push_back(middle);
+      points.back()[static_cast<Eigen::Index>(k)] = end;
+    }
+  }
+  return points;
+}
+
 // What shows only when it is put together, such as a tube that cannot hold the mass.
 void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
+      for (const Eigen::VectorXd& point : CheckedPoints(spec)) {
+        rigs::ValidateCase(CaseAt(spec, point, static_cast<int>(e), factor), problems);
+        if (!problems.empty()) return;  // the same for every scale factor
+      }
       const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), factor);
-      rigs::ValidateCase(rig_case, problems);
-      if (!problems.empty()) return;  // the same for every scale factor
       if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
       const double across = rigs::GrainsAcrossPlate(rig_case);
       problems.Require(across >= kFewestAcross, "coarse_graining",
@@ -297,9 +318,13 @@ rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
 }
 
 rigs::Case TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor) {
-  const optimizer::ParameterSpace space = SpaceOf(spec);
-  const auto num_free = static_cast<Eigen::Index>(space.Free().size());
-  const std::vector<double> values = space.ToNative(Eigen::VectorXd::Constant(num_free, 0.5));
+  const auto num_free = static_cast<Eigen::Index>(SpaceOf(spec).Free().size());
+  return CaseAt(spec, Eigen::VectorXd::Constant(num_free, 0.5), experiment, scale_factor);
+}
+
+rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int experiment,
+                  double scale_factor) {
+  const std::vector<double> values = SpaceOf(spec).ToNative(point);
   rigs::Case rig_case = CaseOf(
       spec,
       {.values = values, .seed = spec.seed, .scale_factor = scale_factor, .experiment = experiment},

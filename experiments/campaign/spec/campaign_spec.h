@@ -143,8 +143,11 @@ struct TrialSettings {
 rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
                   const std::optional<imaging::Frame>& frame);
 
-// A trial in the middle of the ranges, without the experiment's frame: for checks and estimates.
+// A trial in the middle of the ranges, or at a point of the unit cube, without the experiment's
+// frame: for checks and estimates.
 rigs::Case TypicalCase(const CampaignSpec& spec, int experiment, double scale_factor);
+rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int experiment,
+                  double scale_factor);
 
 // What differs between two specs (as SpecText writes them), "powder.mass: 0.001 → 0.002" each;
 // what a running campaign may change is left out.

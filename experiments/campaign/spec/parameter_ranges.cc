@@ -1,7 +1,9 @@
 #include "experiments/campaign/spec/parameter_ranges.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
@@ -19,6 +21,7 @@ struct GivenRanges {
   void operator()(std::string_view name, const std::optional<Range>& range, FieldInfo = {}) {
     if (range) use(std::string(name), *range);
   }
+  void operator()(std::string_view, const std::optional<EarlierPosterior>&, FieldInfo = {}) {}
 };
 
 template <class Use>
@@ -35,10 +38,49 @@ struct PropertyDimension {
   }
 };
 
-// The one parameter that is not of a material: how full a drum is.
-constexpr std::string_view kFill = "fill";
+// What is not of a material.
+struct BulkQuantity {
+  std::string_view name;
+  base::Dimension dimension;
+  void (*set)(rigs::Case&, double);
+};
+
+struct LengthScaler {
+  double factor;
+  void operator()(std::string_view, std::optional<double>& field, FieldInfo info = {}) const {
+    if (field && info.dimension == base::Dimension::kLength) *field *= factor;
+  }
+  void operator()(std::string_view, std::vector<double>& field, FieldInfo info = {}) const {
+    if (info.dimension != base::Dimension::kLength) return;
+    for (double& one : field) one *= factor;
+  }
+  template <class Field>
+  void operator()(std::string_view, Field&, FieldInfo = {}) const {}
+};
+
+void SetFill(rigs::Case& c, double fill) {
+  if (c.rig.kind != rigs::RigKind::kDrum) return;
+  c.rig.drum.fill = fill;
+  c.SetMassByFill();
+}
+
+// In the order in which they are set: the fill of a drum is what its mass follows from.
+constexpr BulkQuantity kBulk[] = {
+    {"mass", base::Dimension::kMass, [](rigs::Case& c, double value) { c.powder.mass = value; }},
+    {"fill", base::Dimension::kNone, SetFill},
+    {"particle_size", base::Dimension::kNone,
+     [](rigs::Case& c, double value) {
+       engine::SizeDistribution::Visit(c.powder.sizes, LengthScaler{value});
+     }},
+};
+
+const BulkQuantity* BulkOf(std::string_view name) {
+  const auto* found = std::ranges::find(kBulk, name, &BulkQuantity::name);
+  return found == std::end(kBulk) ? nullptr : found;
+}
 
 base::Dimension DimensionOf(const std::string& property) {
+  if (const BulkQuantity* bulk = BulkOf(property)) return bulk->dimension;
   PropertyDimension visitor{property};
   const engine::Material material;
   engine::Material::Visit(material, visitor);
@@ -60,8 +102,12 @@ struct PropertySetter {
 // properties are those of the powder here, which are valid themselves.
 void ValidateEnd(const engine::Material& material, const std::string& name, const char* end,
                  double value, base::Problems& problems) {
-  if (name == kFill) {
+  if (name == "fill") {
     problems.Require(value > 0 && value <= 0.6, end, value, "must be positive and at most 0.6");
+    return;
+  }
+  if (IsOfBulk(name)) {
+    problems.Require(value > 0 && std::isfinite(value), end, value, "must be positive");
     return;
   }
   const std::string property = PlaceOf(name).property;
@@ -99,8 +145,18 @@ optimizer::ParameterSpace MakeSpace(const ParameterRanges& ranges) {
                                 .high = range.max,
                                 .scale = range.scale,
                                 .guess = range.guess,
-                                .fixed = range.fixed});
+                                .fixed = range.fixed,
+                                .is_nuisance = range.nuisance,
+                                .added_at = range.added_at});
+    if (!range.prior) return;
+    space.parameters.back().prior = range.prior->Normal();
+    if (!range.prior->from) return;
+    space.earlier.push_back({.names = {name}, .values = {}});
+    for (const double draw : range.prior->draws) space.earlier.back().values.push_back({draw});
   });
+  if (ranges.prior) {
+    space.earlier.push_back({.names = ranges.prior->names, .values = ranges.prior->draws});
+  }
   return space;
 }
 
@@ -125,11 +181,22 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
   return base::ParseQuantity(text, DimensionOf(PlaceOf(parameter).property));
 }
 
-void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value) {
-  if (parameter == kFill) {
-    rig_case.rig.drum.fill = value;
-    return rig_case.SetMassByFill();
+bool IsOfBulk(const std::string& parameter) { return BulkOf(parameter) != nullptr; }
+
+std::map<std::string, std::string> PriorTexts(const ParameterRanges& ranges) {
+  std::map<std::string, std::string> texts;
+  ForEachRange(ranges, [&](const std::string& name, const auto& range) {
+    if (range.prior) texts.emplace(name, range.prior->Text());
+  });
+  if (!ranges.prior) return texts;
+  for (const std::string& name : ranges.prior->names) {
+    texts.emplace(name, "the posterior of " + ranges.prior->from.string());
   }
+  return texts;
+}
+
+void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value) {
+  if (const BulkQuantity* bulk = BulkOf(parameter)) return bulk->set(rig_case, value);
   const auto [body, is_pair, property] = PlaceOf(parameter);
   const PropertySetter set{property, value};
   if (is_pair) {
@@ -146,13 +213,19 @@ void SetParameter(rigs::Case& rig_case, const std::string& parameter, double val
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,
                     base::Problems& problems) {
   int num_free = 0;
+  int num_asked = 0;
   ForEachRange(ranges, [&](const std::string& name, const auto& range) {
     problems.Within(name, [&] {
       if (range.fixed) {
         ValidateEnd(material, name, "fixed", *range.fixed, problems);
+        problems.Require(!range.prior, "prior",
+                         "is of a parameter that is fixed: take one of the two away");
+        problems.Require(!range.nuisance, "nuisance",
+                         "is searched, and this is fixed: take one of the two away");
         return;
       }
       ++num_free;
+      num_asked += range.nuisance ? 0 : 1;
       if (std::isnan(range.min) || std::isnan(range.max)) {
         problems.Add("", "needs min and max, or fixed");
         return;
@@ -166,10 +239,16 @@ void ValidateRanges(const ParameterRanges& ranges, const engine::Material& mater
         problems.Require(*range.guess >= range.min && *range.guess <= range.max, "guess",
                          *range.guess, "must lie between min and max");
       }
+      if (!range.prior) return;
+      problems.Within("prior", [&] { range.prior->ValidateIn(range.min, range.max, problems); });
+      problems.Require(!ranges.prior, "prior",
+                       "stands beside the prior of all parameters together: keep one of the two");
     });
   });
   problems.Require(num_free >= 1 && num_free <= optimizer::kMaxParameters, "", num_free,
                    "parameters are searched, must be 1 to 6");
+  problems.Require(num_free == 0 || num_asked > 0, "",
+                   "are all nuisances: nothing is asked for; take \"nuisance\" away from one");
 }
 
 }  // namespace talus::campaign

@@ -1,12 +1,16 @@
-// Which properties of the powder, the plate and the tube a campaign searches, and where.
+// Which properties of the powder, the plate and the tube a campaign searches, where, and what is
+// known of them beforehand.
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "base/field.h"
 #include "base/problems.h"
 #include "engine/laws/material.h"
+#include "experiments/campaign/spec/parameter_prior.h"
 #include "experiments/rigs/case/case.h"
 #include "optimizer/space/parameter_space.h"
 
@@ -19,6 +23,9 @@ struct ParameterRange {
   optimizer::Scale scale = optimizer::Scale::kLinear;
   std::optional<double> guess{};
   std::optional<double> fixed{};
+  std::optional<ParameterPrior<kDimension>> prior{};  // default: uniform on its scale
+  bool nuisance = false;  // searched because nobody knows it, not because it is asked for
+  std::optional<double> added_at{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -30,12 +37,20 @@ struct ParameterRange {
           {.dimension = kDimension, .doc = "a value thought to be good, tried first"});
     visit("fixed", self.fixed,
           {.dimension = kDimension, .doc = "holds it at this value, without a search"});
+    visit("prior", self.prior,
+          {.doc = "what is known of it beforehand; default: nothing but its range"});
+    visit("nuisance", self.nuisance,
+          {.doc = "not asked for: searched with its prior, and the ranges of the others include "
+                  "what it leaves open"});
+    visit("added_at", self.added_at,
+          {.dimension = kDimension,
+           .doc = "filled in by `talus resume --search`: the value of the trials before it"});
   }
 };
 
 // Properties of engine::Material by their names there, with plate_ or tube_ before it those of a
-// wall, with plate_pair_ or tube_pair_ those that powder and wall state as a pair. The walls follow
-// the powder where neither a range nor the device says otherwise.
+// wall, with plate_pair_ or tube_pair_ those that powder and wall state as a pair; and quantities
+// of the bulk. The walls follow the powder where neither a range nor the device says otherwise.
 struct ParameterRanges {
   using Number = ParameterRange<base::Dimension::kNone>;
   using SurfaceEnergy = ParameterRange<base::Dimension::kSurfaceEnergy>;
@@ -61,7 +76,10 @@ struct ParameterRanges {
   std::optional<Number> tube_pair_sliding_friction{};
   std::optional<Number> tube_pair_rolling_friction{};
   std::optional<Number> tube_pair_restitution{};
-  std::optional<Number> fill{};
+  std::optional<ParameterRange<base::Dimension::kMass>> mass{};
+  std::optional<Number> fill{};           // of a drum (rig.fill); its mass follows
+  std::optional<Number> particle_size{};  // factor on every diameter of powder.sizes
+  std::optional<EarlierPosterior> prior{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -94,7 +112,11 @@ struct ParameterRanges {
           {.doc = "mu_r between powder and tube"});
     visit("tube_pair_restitution", self.tube_pair_restitution,
           {.doc = "e between powder and tube"});
+    visit("mass", self.mass, {.doc = "filled, in place of powder.mass"});
     visit("fill", self.fill, {.doc = "of a drum, in place of its mass: rig.fill"});
+    visit("particle_size", self.particle_size, {.doc = "factor on every diameter of powder.sizes"});
+    visit("prior", self.prior,
+          {.doc = "of all these parameters together: the posterior of an earlier campaign"});
   }
 };
 
@@ -119,9 +141,16 @@ struct ParameterPlace {
 };
 ParameterPlace PlaceOf(const std::string& parameter);
 
-// Sets a parameter by its name above: the powder's, a wall's or a pair's, or a drum's fill, from
-// which Case::SetMassByFill makes the mass.
+// Sets a parameter by its name above: the powder's, a wall's, a pair's or the bulk's. A drum's
+// fill becomes its mass (Case::SetMassByFill). Where a parameter has nothing to say (`fill` without
+// a drum) it changes nothing.
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value);
+
+// Whether it is one of the bulk, which decides whether the powder fits into its vessel.
+bool IsOfBulk(const std::string& parameter);
+
+// "0.35 ± 0.05" for each parameter that the ranges give a prior, by name.
+std::map<std::string, std::string> PriorTexts(const ParameterRanges& ranges);
 
 // What is wrong with a range, or with the powder at one of its ends, under the range's name.
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,

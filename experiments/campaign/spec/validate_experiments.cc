@@ -181,6 +181,11 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
       "parameters.fill", "has no effect: it is a drum's; leave it out");
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
+  const auto is_drum = [](const ExperimentSpec& e) {
+    return e.rig && e.rig->kind == rigs::RigKind::kDrum;
+  };
+  problems.Require(!spec.parameters || !spec.parameters->fill || std::ranges::any_of(all, is_drum),
+                   "parameters.fill", "is of a drum, and no experiment is one; leave it out");
   if (!spec.experiments) return;
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;

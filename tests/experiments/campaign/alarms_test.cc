@@ -230,8 +230,8 @@ TEST(Alarms, EveryKindHasWordsOfItsOwn) {
     ++of_results;
     texts.insert(AlarmText({.kind = kind}));
   }
-  EXPECT_EQ(of_results, 13);
-  EXPECT_THAT(texts, SizeIs(13));
+  EXPECT_EQ(of_results, 14);
+  EXPECT_THAT(texts, SizeIs(14));
   EXPECT_FALSE(texts.contains(""));
 }
 
@@ -348,7 +348,7 @@ TEST(Verdict, EndsOfABentValleyAreItsRepresentatives) {
     valley.row(i) << 0.1 + 0.8 * along, 0.9 - 0.8 * along * along;
   }
   const Eigen::Vector2d recommended(0.5, 0.7);
-  const auto sets = RepresentativeSets(valley, recommended);
+  const auto sets = RepresentativeSets(valley, recommended, {0, 1});
   ASSERT_EQ(sets.size(), 3u);
   EXPECT_EQ(sets[1], recommended);
   // Each end is the middle of the points between the outermost 4 % and 12 %, some 0.07 of the way.
@@ -356,7 +356,7 @@ TEST(Verdict, EndsOfABentValleyAreItsRepresentatives) {
   const double to = std::max(sets[0][0], sets[2][0]);
   EXPECT_NEAR(from, 0.16, 0.03);
   EXPECT_NEAR(to, 0.84, 0.03);
-  EXPECT_THAT(RepresentativeSets(0.1 * valley, recommended), SizeIs(1));
+  EXPECT_THAT(RepresentativeSets(0.1 * valley, recommended, {0, 1}), SizeIs(1));
 }
 
 }  // namespace

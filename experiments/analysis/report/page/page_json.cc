@@ -81,7 +81,8 @@ PageValue SliceJson(const ModelSlice& slice) {
 PageValue MarginalJson(const Marginal& marginal) {
   return {{"parameter", marginal.parameter},
           {"x", NumbersJson(marginal.x)},
-          {"density", NumbersJson(marginal.density)}};
+          {"density", NumbersJson(marginal.density)},
+          {"prior", NumbersJson(marginal.prior)}};
 }
 
 // Three decimals are finer than any shade.

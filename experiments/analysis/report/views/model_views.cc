@@ -29,7 +29,7 @@ PairMap MapOf(const Evidence& evidence, std::size_t i, std::size_t j, int num_ce
           .value = {}};
 }
 
-// Every pair of columns, as a map whose values `fill` works out.
+// Every pair of columns that is asked for, as a map whose values `fill` works out.
 template <class Fill>
 std::vector<PairMap> EachPair(const Evidence& evidence, const Eigen::MatrixXd& points,
                               int num_cells, Fill&& fill) {
@@ -37,6 +37,9 @@ std::vector<PairMap> EachPair(const Evidence& evidence, const Eigen::MatrixXd& p
   const std::size_t n = evidence.parameters.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
+      if (evidence.parameters[i].range.is_nuisance || evidence.parameters[j].range.is_nuisance) {
+        continue;
+      }
       maps.push_back(MapOf(evidence, i, j, num_cells));
       Eigen::MatrixXd two(points.rows(), 2);
       two << points.col(static_cast<Eigen::Index>(i)), points.col(static_cast<Eigen::Index>(j));
@@ -106,16 +109,24 @@ std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::Vector
 std::vector<Marginal> Marginals(const Evidence& evidence) {
   std::vector<Marginal> marginals;
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
-    const Eigen::VectorXd draws = evidence.model->draws.col(static_cast<Eigen::Index>(k));
+    const auto density_of = [&](const Eigen::MatrixXd& draws) {
+      return MarginalDensity(draws.col(static_cast<Eigen::Index>(k)), kMarginalCells);
+    };
+    const ModelEvidence& model = *evidence.model;
+    const bool uniform = model.prior_draws.rows() == 0;
     marginals.push_back({.parameter = k,
                          .x = Along(evidence.parameters[k], kMarginalCells, 0.5),
-                         .density = MarginalDensity(draws, kMarginalCells)});
+                         .density = density_of(model.draws),
+                         .prior = uniform ? std::vector<double>(kMarginalCells, 1)
+                                          : density_of(model.prior_draws)});
   }
   return marginals;
 }
 
 std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
-  if (evidence.parameters.size() == 2) return {RegionMap(evidence)};
+  const bool all_asked = std::ranges::none_of(
+      evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
+  if (evidence.parameters.size() == 2 && all_asked) return {RegionMap(evidence)};
   const Eigen::VectorXd levels = evidence.model->credible_levels(evidence.model->draws);
   return EachPair(evidence, evidence.model->draws, kRegionCells, [&](const Eigen::MatrixXd& two) {
     return ProjectedLevels(two, levels, kRegionCells);

@@ -18,12 +18,13 @@ struct ModelSlice {
   std::vector<double> high;
 };
 
-// The posterior density of one parameter over its searched range, as a multiple of the even
-// density before any simulation.
+// The posterior density of one parameter over its searched range and that of its prior, as
+// multiples of the even density.
 struct Marginal {
   std::size_t parameter = 0;
   std::vector<double> x;  // SI
   std::vector<double> density;
+  std::vector<double> prior;
 };
 
 // Over two parameters, by cell, x fastest: the share of the posterior in denser cells, so that
@@ -42,7 +43,7 @@ std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::Vector
 
 std::vector<Marginal> Marginals(const Evidence& evidence);
 
-// Every pair of parameters.
+// Every pair of parameters that are asked for.
 std::vector<PairMap> PosteriorPairs(const Evidence& evidence);
 
 }  // namespace talus::analysis

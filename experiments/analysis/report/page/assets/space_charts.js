@@ -139,7 +139,7 @@ function sliceChart(slice, k) {
   }), "small").figure;
 }
 
-// How likely each value of a parameter is, beside the even density before the first simulation.
+// How likely each value of a parameter is, beside what was known before the first simulation.
 function marginalChart(marginal, k) {
   const p = D.parameters[marginal.parameter];
   const v = D.headline ? D.headline.values[marginal.parameter] : null;
@@ -148,7 +148,7 @@ function marginalChart(marginal, k) {
     tooltip: {...tooltipStyle, trigger: "axis", formatter: (list) => {
       const i = list[0].dataIndex;
       return lines([p.symbol + " = " + formatUnit(marginal.x[i], p.unit),
-        format(marginal.density[i], 2) + " times as likely as before the simulations"]);
+        format(marginal.density[i] / marginal.prior[i], 2) + " times as likely as before the simulations"]);
     }},
     xAxis: parameterAxis(p),
     yAxis: valueAxis("density / even density", {min: 0}),
@@ -156,7 +156,8 @@ function marginalChart(marginal, k) {
       {type: "line", data: marginal.x.map((x, i) => [x, marginal.density[i]]), symbol: "none",
        lineStyle: {color: palette[0], width: 2}, areaStyle: {color: palette[0], opacity: .18},
        markLine: v ? verticalMark(v.value) : undefined},
-      {type: "line", data: [[p.low, 1], [p.high, 1]], symbol: "none", silent: true,
+      {type: "line", data: [[p.low, marginal.prior[0]], ...marginal.x.map((x, i) => [x, marginal.prior[i]]),
+        [p.high, marginal.prior[marginal.prior.length - 1]]], symbol: "none", silent: true,
        lineStyle: {color: soft, type: "dashed", width: 1}},
     ],
   }), "small").figure;

@@ -1,0 +1,56 @@
+#include "experiments/campaign/answer/nuisances.h"
+
+#include "base/text/number_text.h"
+
+namespace talus::campaign {
+namespace {
+
+constexpr double kDetermined = 0.5;  // of the prior's 90 % range
+
+double PriorWidth(const ResultParameter& p) {
+  if (!p.prior) return 0.9;
+  return p.Range().ToUnit(p.prior->high) - p.Range().ToUnit(p.prior->low);
+}
+
+}  // namespace
+
+bool Matters(const ResultParameter& nuisance) {
+  return nuisance.nuisance && nuisance.nuisance->narrowing >= kMatters;
+}
+
+std::string NuisanceText(const ResultParameter& p, const std::string& name) {
+  const bool determined = p.Width() < kDetermined * PriorWidth(p);
+  const std::string unit = p.unit.empty() ? "" : " " + p.unit;
+  std::string text = name + ": " + (determined ? "determined, " : "not determined, ") +
+                     base::ShortNumber(p.credible_low, 3) + " … " +
+                     base::ShortNumber(p.credible_high, 3) + unit + ", ";
+  if (!Matters(p)) return text + "does not matter";
+  return text + "matters: measure it (the range of " + p.nuisance->of_range + " would be " +
+         base::ShortNumber(100 * p.nuisance->narrowing, 2) + " % narrower)";
+}
+
+std::vector<std::size_t> AskedParameters(const Answer& answer) {
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < answer.parameters.size(); ++i) {
+    if (!answer.parameters[i].nuisance) asked.push_back(i);
+  }
+  return asked;
+}
+
+Answer AskedPart(const Answer& answer) {
+  const std::vector<std::size_t> asked = AskedParameters(answer);
+  Answer part = answer;
+  part.parameters = OnlyThose(asked, answer.parameters);
+  for (std::vector<double>& set : part.representative) set = OnlyThose(asked, set);
+  if (!part.correlation.empty()) part.correlation = OnlyThose(asked, answer.correlation);
+  for (std::vector<double>& row : part.correlation) row = OnlyThose(asked, row);
+  if (!part.posterior) return part;
+  for (ResultBranch& branch : part.posterior->branches) {
+    branch.values = OnlyThose(asked, branch.values);
+    branch.low = OnlyThose(asked, branch.low);
+    branch.high = OnlyThose(asked, branch.high);
+  }
+  return part;
+}
+
+}  // namespace talus::campaign

@@ -1,0 +1,37 @@
+// What result.json says of a parameter's prior, and of one that is searched but not asked for.
+#pragma once
+
+#include <limits>
+#include <string>
+
+namespace talus::campaign {
+
+// What was known of a parameter beforehand, SI.
+struct ResultPrior {
+  std::string text{};                                     // as the spec gives it: "0.35 ± 0.05"
+  double low = std::numeric_limits<double>::quiet_NaN();  // 90 % of it, inside the searched range
+  double high = std::numeric_limits<double>::quiet_NaN();
+  double offset = 0;  // of the posterior's mean from its, in its standard deviations
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("text", self.text);
+    visit("low_90", self.low);
+    visit("high_90", self.high);
+    visit("offset_sd", self.offset);
+  }
+};
+
+// What a parameter that is not asked for does to those that are.
+struct ResultNuisance {
+  double narrowing = 0;    // the share by which a range would shrink if it were known: narrowing.h
+  std::string of_range{};  // the parameter of that range, the one that would shrink most
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("narrowing", self.narrowing);
+    visit("of_range", self.of_range);
+  }
+};
+
+}  // namespace talus::campaign

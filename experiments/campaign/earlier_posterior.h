@@ -1,0 +1,18 @@
+// Posteriors of other campaigns as priors of this one ("from": "DIR").
+#pragma once
+
+#include "base/json/json_file.h"
+#include "experiments/campaign/spec/campaign_spec.h"
+
+namespace talus::campaign {
+
+// ReadCampaignSpec, and copies into the spec's priors the draws that they are to be made of, so
+// that nothing depends on the other folders later. `begun`, where not null, is the spec that the
+// campaign began with: what it has of a folder stays.
+//
+// Throws ConfigError, too, where a folder is no finished campaign, where its powder is another one
+// (sizes, density of the grains or contact laws differ), or where its parameters are.
+CampaignSpec ReadSpecWithPosteriors(const base::JsonFile& file,
+                                    const CampaignSpec* begun = nullptr);
+
+}  // namespace talus::campaign

@@ -1,0 +1,138 @@
+#include "optimizer/posterior/asked_density.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "base/random.h"
+#include "optimizer/outputs/mirrored_normals.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr Eigen::Index kNodes = 48;   // half of them round the regression; a multiple of 4
+constexpr double kWider = 1.3;        // w
+constexpr int kDraws = 1000;          // of a sample of what is asked for
+constexpr Eigen::Index kBlock = 200;  // points whose nodes are evaluated at a time
+constexpr double kLeast = 1e-8;  // variance: coordinates that are tied or hardly move have some
+
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
+  const Eigen::Index d = covariance.rows();
+  return (kWider * kWider * covariance + kLeast * Eigen::MatrixXd::Identity(d, d)).llt().matrixL();
+}
+
+// ln N(x | 0, L Lᵀ), one x a column.
+Eigen::ArrayXd LogNormal(const Eigen::MatrixXd& root, const Eigen::MatrixXd& x) {
+  const Eigen::MatrixXd white = root.triangularView<Eigen::Lower>().solve(x);
+  return -0.5 * white.colwise().squaredNorm().transpose().array() -
+         root.diagonal().array().log().sum() -
+         0.5 * std::log(2 * std::numbers::pi) * static_cast<double>(root.rows());
+}
+
+}  // namespace
+
+AskedDensity::AskedDensity(LogDensityFunction density, const Domain& domain,
+                           const PosteriorSample& joint, std::uint64_t seed)
+    : density_(std::move(density)), domain_(domain), seed_(seed), asked_(domain.Asked()) {
+  const auto num_nuisances = static_cast<Eigen::Index>(domain_.nuisances.size());
+  normals_ = num_nuisances == 0
+                 ? Eigen::MatrixXd(1, 0)
+                 : MirroredNormals(kNodes / 2, num_nuisances, {seed, base::Stream("nuisances")});
+  const Eigen::RowVectorXd mean = joint.weight.transpose() * joint.points;
+  const Eigen::MatrixXd centred = joint.points.rowwise() - mean;
+  const Eigen::MatrixXd covariance = centred.transpose() * joint.weight.asDiagonal() * centred;
+  const auto& n = domain_.nuisances;
+  asked_mean_ = mean.transpose()(asked_);
+  mean_ = mean.transpose()(n);
+  const auto num_asked = static_cast<Eigen::Index>(asked_.size());
+  const Eigen::MatrixXd of_asked = Eigen::MatrixXd(covariance(asked_, asked_)) +
+                                   kLeast * Eigen::MatrixXd::Identity(num_asked, num_asked);
+  slope_ = of_asked.ldlt().solve(Eigen::MatrixXd(covariance(asked_, n))).transpose();
+  given_root_ = RootOf(covariance(n, n) - slope_ * covariance(asked_, n));
+  root_ = RootOf(covariance(n, n));
+}
+
+Eigen::MatrixXd AskedDensity::NodesAt(const Eigen::VectorXd& point) const {
+  if (domain_.nuisances.empty()) return point.transpose();
+  const Eigen::VectorXd given = mean_ + slope_ * (point(asked_) - asked_mean_);
+  Eigen::MatrixXd nodes = point.transpose().replicate(2 * normals_.rows(), 1);
+  const Eigen::MatrixXd near = (normals_ * given_root_.transpose()).rowwise() + given.transpose();
+  const Eigen::MatrixXd all = (normals_ * root_.transpose()).rowwise() + mean_.transpose();
+  nodes(Eigen::seqN(0, near.rows()), domain_.nuisances) = near;
+  nodes(Eigen::seqN(near.rows(), all.rows()), domain_.nuisances) = all;
+  return nodes;
+}
+
+Eigen::VectorXd AskedDensity::LogProposal(const Eigen::VectorXd& point,
+                                          const Eigen::MatrixXd& nodes) const {
+  if (domain_.nuisances.empty()) return Eigen::VectorXd::Zero(1);
+  const Eigen::VectorXd given = mean_ + slope_ * (point(asked_) - asked_mean_);
+  const Eigen::MatrixXd n = Eigen::MatrixXd(nodes(Eigen::all, domain_.nuisances)).transpose();
+  const Eigen::ArrayXd near = LogNormal(given_root_, n.colwise() - given);
+  const Eigen::ArrayXd all = LogNormal(root_, n.colwise() - mean_);
+  const Eigen::ArrayXd most = near.max(all);
+  return most + (0.5 * (near - most).exp() + 0.5 * (all - most).exp()).log();
+}
+
+// A node outside the domain has no density.
+AskedDensity::Nodes AskedDensity::Weighted(const Eigen::MatrixXd& points) const {
+  const Eigen::Index each = domain_.nuisances.empty() ? 1 : 2 * normals_.rows();
+  Nodes nodes{.points = Eigen::MatrixXd(points.rows() * each, points.cols()),
+              .log_weight = Eigen::VectorXd(points.rows() * each)};
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::VectorXd point = points.row(i);
+    const Eigen::MatrixXd at = NodesAt(point);
+    nodes.points.middleRows(i * each, each) = at;
+    nodes.log_weight.segment(i * each, each) = -LogProposal(point, at);
+  }
+  nodes.log_weight += density_(nodes.points);
+  for (Eigen::Index j = 0; j < nodes.points.rows() && each > 1; ++j) {
+    if (domain_.Contains(nodes.points.row(j))) continue;
+    nodes.log_weight[j] = -std::numeric_limits<double>::infinity();
+  }
+  return nodes;
+}
+
+Eigen::VectorXd AskedDensity::LogDensity(const Eigen::MatrixXd& points) const {
+  if (domain_.nuisances.empty()) return density_(points);
+  Eigen::VectorXd density(points.rows());
+  for (Eigen::Index from = 0; from < points.rows(); from += kBlock) {
+    const Eigen::Index size = std::min(kBlock, points.rows() - from);
+    const Nodes nodes = Weighted(points.middleRows(from, size));
+    const Eigen::Index each = nodes.log_weight.size() / size;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      density[from + i] =
+          LogSumExp(nodes.log_weight.segment(i * each, each)) - std::log(static_cast<double>(each));
+    }
+  }
+  return density;
+}
+
+Eigen::VectorXd AskedDensity::WithTypicalNuisances(const Eigen::VectorXd& point) const {
+  const Nodes nodes = Weighted(point.transpose());
+  const double sum = LogSumExp(nodes.log_weight);
+  if (!std::isfinite(sum)) return point;
+  const Eigen::VectorXd weight = (nodes.log_weight.array() - sum).exp();
+  Eigen::VectorXd typical = point;
+  typical(domain_.nuisances) =
+      (weight.transpose() * Eigen::MatrixXd(nodes.points(Eigen::all, domain_.nuisances)))
+          .transpose();
+  return typical;
+}
+
+// The volume of a draw is ∫ da over the share of the posterior that it stands for: 1 / (M p(a)).
+PosteriorSample AskedDensity::Sample(const PosteriorSample& joint) const {
+  if (domain_.nuisances.empty()) return joint;
+  PosteriorSample sample;
+  sample.points = joint.Draws(kDraws, seed_);
+  sample.log_density = LogDensity(sample.points);
+  sample.weight = Eigen::VectorXd::Constant(kDraws, 1.0 / kDraws);
+  sample.volume = (joint.LogIntegral() - sample.log_density.array()).exp() / kDraws;
+  sample.SetRegion();
+  return sample;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,62 @@
+#include "optimizer/posterior/posterior_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kRegion = 0.9;  // probability of the joint region
+
+}  // namespace
+
+double LogSumExp(const Eigen::VectorXd& x) {
+  const double most = x.maxCoeff();
+  if (!std::isfinite(most)) return most;
+  return most + std::log((x.array() - most).exp().sum());
+}
+
+std::vector<Eigen::Index> Resample(const Eigen::VectorXd& weight, int count, base::Random& random) {
+  std::vector<Eigen::Index> rows;
+  const double offset = random.Uniform();
+  double sum = 0;
+  Eigen::Index i = 0;
+  for (int k = 0; k < count; ++k) {
+    const double goal = (k + offset) / count;
+    while (i + 1 < weight.size() && sum + weight[i] < goal) sum += weight[i++];
+    rows.push_back(i);
+  }
+  return rows;
+}
+
+void PosteriorSample::SetRegion() {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(weight.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return log_density[a] > log_density[b]; });
+  double sum = 0;
+  for (const Eigen::Index i : order) {
+    region_log_density = log_density[i];
+    if ((sum += weight[i]) >= kRegion) break;
+  }
+}
+
+double PosteriorSample::CredibleLevel(double at) const {
+  return std::min(1.0, (log_density.array() > at).select(weight, 0).sum());
+}
+
+double PosteriorSample::RegionVolume() const {
+  return std::min(1.0, (log_density.array() >= region_log_density).select(volume, 0).sum());
+}
+
+double PosteriorSample::LogIntegral() const {
+  return LogSumExp(log_density.array() + volume.array().log());
+}
+
+Eigen::MatrixXd PosteriorSample::Draws(int count, std::uint64_t seed) const {
+  base::Random random(seed, base::Stream("equally likely draws"));
+  return points(Resample(weight, count, random), Eigen::all);
+}
+
+}  // namespace talus::optimizer

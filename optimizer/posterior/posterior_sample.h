@@ -1,0 +1,36 @@
+// A weighted sample of the posterior, and what it tells of regions: credible levels and volumes.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "base/random.h"
+
+namespace talus::optimizer {
+
+// ln Σ exp(x)
+double LogSumExp(const Eigen::VectorXd& x);
+
+// Rows drawn in proportion to their weight, evenly through the sum of weights, which is 1.
+std::vector<Eigen::Index> Resample(const Eigen::VectorXd& weight, int count, base::Random& random);
+
+struct PosteriorSample {
+  Eigen::MatrixXd points;         // one a row
+  Eigen::VectorXd log_density;    // of each, up to a constant
+  Eigen::VectorXd weight;         // of each, for expectations under the posterior; sums to 1
+  Eigen::VectorXd volume;         // of each, for integrals over the cube; sums to about 1
+  double region_log_density = 0;  // at the edge of the joint 90 % region
+
+  // Sets region_log_density.
+  void SetRegion();
+  // Share of the posterior where the density is higher than this.
+  double CredibleLevel(double log_density) const;
+  double RegionVolume() const;
+  // ln ∫ exp(log_density) over the cube.
+  double LogIntegral() const;
+  // Equally likely draws.
+  Eigen::MatrixXd Draws(int count, std::uint64_t seed) const;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,97 @@
+#include "optimizer/space/draws_density.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "optimizer/space/point_rows.h"
+
+namespace talus::optimizer {
+namespace {
+
+constexpr double kRound = 0.05;    // share of the draws that a kernel is shaped by
+constexpr double kNarrowed = 0.5;  // … and its variance over theirs, as each kernel adds its own
+constexpr double kBroad = 0.05;    // weight of the broad Gaussian
+constexpr double kBroader = 4;     // … and its variance over that of the draws
+constexpr double kLeast = 1e-8;    // variance in the unit cube: draws that coincide have some
+
+Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& rows) {
+  const Eigen::MatrixXd centred = rows.rowwise() - rows.colwise().mean();
+  return centred.transpose() * centred / static_cast<double>(rows.rows() - 1);
+}
+
+}  // namespace
+
+DrawsDensity::DrawsDensity(Eigen::MatrixXd draws) : mean_(draws.colwise().mean()) {
+  const Eigen::MatrixXd covariance = CovarianceOf(draws);
+  sd_ = (covariance.diagonal().array() + kLeast).sqrt().matrix().transpose();
+  centres_ = std::move(draws);
+  const auto count = static_cast<double>(centres_.rows());
+  for (Eigen::Index i = 0; i < centres_.rows(); ++i) {
+    kernels_.push_back(MakeKernel(kNarrowed * CovarianceRound(i), (1 - kBroad) / count));
+  }
+  kernels_.push_back(MakeKernel(kBroader * covariance, kBroad));
+  centres_ = Stack(centres_, mean_);
+}
+
+DrawsDensity::Kernel DrawsDensity::MakeKernel(const Eigen::MatrixXd& covariance, double weight) {
+  const Eigen::Index d = covariance.rows();
+  const Eigen::MatrixXd root =
+      (covariance + kLeast * Eigen::MatrixXd::Identity(d, d)).llt().matrixL();
+  return {
+      .root = root,
+      .inverse_root = root.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(d, d)),
+      .log_constant = std::log(weight) - root.diagonal().array().log().sum() -
+                      0.5 * std::log(2 * std::numbers::pi) * static_cast<double>(d)};
+}
+
+Eigen::MatrixXd DrawsDensity::CovarianceRound(Eigen::Index draw) const {
+  const Eigen::VectorXd distance =
+      ((centres_.rowwise() - centres_.row(draw)).array().rowwise() / sd_.array())
+          .square()
+          .rowwise()
+          .sum();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(centres_.rows()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  const auto count = std::max(static_cast<std::ptrdiff_t>(2 * centres_.cols() + 2),
+                              std::lround(kRound * static_cast<double>(centres_.rows())));
+  std::nth_element(order.begin(), order.begin() + count, order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) {
+                     return distance[a] != distance[b] ? distance[a] < distance[b] : a < b;
+                   });
+  order.resize(static_cast<std::size_t>(count));
+  return CovarianceOf(centres_(order, Eigen::all));
+}
+
+Eigen::VectorXd DrawsDensity::LogDensity(const Eigen::MatrixXd& points) const {
+  constexpr Eigen::Index kBlock = 256;  // points at a time: all of them times all kernels are many
+  Eigen::VectorXd density(points.rows());
+  for (Eigen::Index from = 0; from < points.rows(); from += kBlock) {
+    const Eigen::Index size = std::min(kBlock, points.rows() - from);
+    const Eigen::MatrixXd block = points.middleRows(from, size).transpose();
+    Eigen::ArrayXXd logs(size, centres_.rows());
+    for (Eigen::Index k = 0; k < centres_.rows(); ++k) {
+      const Kernel& kernel = kernels_[static_cast<std::size_t>(k)];
+      const Eigen::MatrixXd white =
+          kernel.inverse_root * (block.colwise() - centres_.row(k).transpose());
+      logs.col(k) = kernel.log_constant - 0.5 * white.colwise().squaredNorm().transpose().array();
+    }
+    const Eigen::ArrayXd most = logs.rowwise().maxCoeff();
+    density.segment(from, size) = most + (logs.colwise() - most).exp().rowwise().sum().log();
+  }
+  return density;
+}
+
+Eigen::VectorXd DrawsDensity::Draw(base::Random& random) const {
+  const auto num_draws = static_cast<double>(centres_.rows() - 1);
+  const bool broad = random.Uniform() < kBroad;
+  const Eigen::Index k =
+      broad ? centres_.rows() - 1 : static_cast<Eigen::Index>(random.Uniform() * num_draws);
+  Eigen::VectorXd z(centres_.cols());
+  for (double& one : z) one = random.Normal();
+  return centres_.row(k).transpose() + kernels_[static_cast<std::size_t>(k)].root * z;
+}
+
+}  // namespace talus::optimizer

@@ -1,0 +1,46 @@
+// The density that a set of draws was drawn from: a mixture of normal kernels, one a draw, each as
+// wide and as long as the draws round it lie.
+//
+// A posterior may be a bent, thin valley or several. One covariance for all kernels would fill the
+// bend, and one Gaussian for all draws would miss it; kernels of their own follow it. A twentieth
+// of the mass is one broad Gaussian, so that draws which lie where an observation does not want
+// them can be outvoted.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/random.h"
+
+namespace talus::optimizer {
+
+class DrawsDensity {
+ public:
+  static constexpr Eigen::Index kFewest = 50;  // draws that a density is made of
+
+  // One draw a row, kFewest at least.
+  explicit DrawsDensity(Eigen::MatrixXd draws);
+
+  Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const;  // one point a row
+  Eigen::VectorXd Draw(base::Random& random) const;
+
+  Eigen::Index dimension() const { return centres_.cols(); }
+  const Eigen::RowVectorXd& mean() const { return mean_; }
+  const Eigen::RowVectorXd& sd() const { return sd_; }
+
+ private:
+  struct Kernel {
+    Eigen::MatrixXd root;          // L of its covariance L Lᵀ
+    Eigen::MatrixXd inverse_root;  // L⁻¹
+    double log_constant = 0;       // of its density, its weight included
+  };
+  static Kernel MakeKernel(const Eigen::MatrixXd& covariance, double weight);
+  Eigen::MatrixXd CovarianceRound(Eigen::Index draw) const;
+
+  Eigen::MatrixXd centres_;  // the draws, and last the centre of the broad Gaussian
+  Eigen::RowVectorXd mean_;  // of the draws
+  Eigen::RowVectorXd sd_;
+  std::vector<Kernel> kernels_;
+};
+
+}  // namespace talus::optimizer

@@ -1,0 +1,192 @@
+// What is known beforehand, and what is searched but not asked for, from the spec to the answer.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "experiments/campaign/answer/answer_summary.h"
+#include "experiments/campaign/answer/consider.h"
+#include "experiments/campaign/answer/nuisances.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::campaign {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+// What the fake engine gives at the truth: the balance tells the sliding friction alone, the tapped
+// density the rolling friction alone.
+constexpr const char* kFallen =
+    R"({"name": "balance", "mass_fallen": {"value": "23 mg", "sd": "1 mg"}})";
+constexpr const char* kTapped = R"({"name": "tapped",
+  "rig": {"kind": "tapped_density", "diameter": "12 mm"}, "filling": {"kind": "pour"},
+  "tapped_density": {"value": "1480 kg/m^3", "sd": "3 kg/m^3"}})";
+
+struct Written {
+  std::string experiments = kFallen;
+  std::string sliding = R"("min": 0.1, "max": 0.8)";
+  std::string rolling = R"("min": 0.05, "max": 0.5)";
+  std::string more_parameters = {};
+  std::string density = "2500 kg/m^3";
+  int simulations = 24;
+};
+
+class Priors : public CampaignFixture {
+ protected:
+  fs::path BeginWith(const std::string& name, const Written& w) const {
+    const fs::path in = scratch_.path() / (name + "_in");
+    WriteFakeSpec(in, "");
+    std::ofstream(in / "spec.json") << R"({"experiments": [)" << w.experiments << R"(],
+      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g",
+                 "material": {"density": ")"
+                                    << w.density << R"("}},
+      "coarse_graining": {"scale_factor": 2},
+      "parameters": {"sliding_friction": {)"
+                                    << w.sliding << R"(}, "rolling_friction": {)" << w.rolling
+                                    << "}" << w.more_parameters << R"(},
+      "budget": {"simulations": )" << w.simulations
+                                    << R"(}, "confirm": {"candidates": 1, "replicates": 2},
+      "workers": 1})";
+    BeginCampaign(in / "spec.json", scratch_.path() / name);
+    return scratch_.path() / name;
+  }
+  Answer AnswerOf(const std::string& name, const Written& w) const {
+    const fs::path folder = BeginWith(name, w);
+    EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+    return Result(folder);
+  }
+  std::string ErrorOf(const Written& w) const {
+    try {
+      BeginWith("bad", w);
+    } catch (const base::ConfigError& error) {
+      EXPECT_FALSE(fs::exists(scratch_.path() / "bad"));
+      return error.what();
+    }
+    return "no error";
+  }
+};
+
+double Of(const Answer& answer, std::size_t i, double ResultParameter::*field) {
+  return answer.parameters.at(i).*field;
+}
+
+// Nothing is measured of the rolling friction, so that its posterior is its prior: with two ranges
+// at once, 90 % lie within 1.95 sd.
+TEST_F(Priors, WhatIsNotMeasuredKeepsItsPrior) {
+  const Answer answer = AnswerOf(
+      "kept", {.rolling = R"("min": 0.05, "max": 0.5, "prior": {"mean": 0.2, "sd": 0.02})"});
+  EXPECT_NEAR(Of(answer, 1, &ResultParameter::credible_low), 0.2 - 1.95 * 0.02, 0.01);
+  EXPECT_NEAR(Of(answer, 1, &ResultParameter::credible_high), 0.2 + 1.95 * 0.02, 0.01);
+  ASSERT_TRUE(answer.parameters[1].prior);
+  EXPECT_NEAR(answer.parameters[1].prior->low, 0.2 - 1.645 * 0.02, 0.003);
+  EXPECT_LT(std::abs(answer.parameters[1].prior->offset), 0.3);
+  EXPECT_FALSE(answer.parameters[0].prior);
+  EXPECT_FALSE(HasAlarm(answer, {AlarmKind::kContradictsPrior}));
+  EXPECT_THAT(AnswerSummary(answer, "kept"), HasSubstr("(prior 0.2 ± 0.02, 90 % in"));
+  const ConsideredSet set = ConsiderSet(
+      scratch_.path() / "kept", {{"sliding_friction", "0.45"}, {"rolling_friction", "0.2"}});
+  EXPECT_THAT(ConsideredText(set), HasSubstr("rolling_friction: prior 0.2 ± 0.02, 90 % in"));
+}
+
+TEST_F(Priors, AMeasurementThatContradictsThePriorIsAnAlarm) {
+  const Answer answer = AnswerOf(
+      "odd", {.sliding = R"("min": 0.1, "max": 0.8, "prior": {"median": 0.78, "factor": 1.15})",
+              .simulations = 48});
+  ASSERT_TRUE(HasAlarm(answer, {AlarmKind::kContradictsPrior}));
+  EXPECT_LT(answer.parameters[0].prior->offset, -3);
+  EXPECT_THAT(AnswerSummary(answer, "odd"), HasSubstr("contradict the prior of sliding_friction"));
+}
+
+// Heavy tails give in to a narrow prior, so that nothing moves away from it; then no set fits.
+TEST_F(Priors, APriorThatKeepsEverySetFromFittingIsNamed) {
+  const Answer answer = AnswerOf(
+      "held", {.sliding = R"("min": 0.1, "max": 0.8, "prior": {"mean": 0.75, "sd": 0.01})"});
+  ASSERT_TRUE(HasAlarm(answer, {AlarmKind::kImplausible}));
+  EXPECT_THAT(AnswerSummary(answer, "held"), HasSubstr("off; the prior of sliding_friction, the"));
+}
+
+// The second test alone says nothing of what the first one has found.
+TEST_F(Priors, AnEarlierPosteriorJoinsTwoCampaigns) {
+  const Answer first = AnswerOf("first", {});
+  const Answer joint =
+      AnswerOf("joint", {.experiments = std::string(kFallen) + ", " + kTapped, .simulations = 48});
+  const fs::path second = BeginWith(
+      "second", {.experiments = kTapped, .more_parameters = R"(, "prior": {"from": "../first"})"});
+  fs::remove_all(scratch_.path() / "first");  // the campaign has what it needs
+  ASSERT_EQ(RunFake(second, {}), CampaignEnd::kFinished);
+  const Answer answer = Result(second);
+  for (const std::size_t i : {0u, 1u}) {
+    const double width = joint.parameters[i].Width();
+    const double range = joint.parameters[i].searched_high - joint.parameters[i].searched_low;
+    EXPECT_NEAR(answer.parameters[i].value, joint.parameters[i].value, 0.5 * width * range);
+    EXPECT_NEAR(std::log(answer.parameters[i].Width() / width), 0, std::log(1.5));
+  }
+  EXPECT_NEAR(std::log(answer.posterior->region_volume / joint.posterior->region_volume), 0,
+              std::log(1.8));
+  EXPECT_GT(first.parameters[1].Width(), 0.8);
+}
+
+TEST_F(Priors, OfAnotherPowderOrOtherParametersAreRefused) {
+  AnswerOf("first", {});
+  const auto error_of = [&](Written w) {
+    w.more_parameters = R"(, "prior": {"from": "../first"})";
+    return ErrorOf(w);
+  };
+  EXPECT_THAT(error_of({.density = "4400 kg/m^3"}),
+              HasSubstr("parameters.prior.from: is of another powder: its density is 2500"));
+  EXPECT_THAT(error_of({.rolling = R"("fixed": 0.2)"}),
+              HasSubstr("has found rolling_friction, which is not searched here"));
+  EXPECT_THAT(error_of({.sliding = R"("min": 0.7, "max": 0.8)"}),
+              HasSubstr("lies outside the ranges here for the most part"));
+  EXPECT_THAT(ErrorOf({.more_parameters = R"(, "restitution": {"min": 0.3, "max": 0.9,
+                                                "prior": {"from": "../first"}})"}),
+              HasSubstr("parameters.restitution.prior.from: has not searched restitution"));
+  BeginWith("begun", {});
+  EXPECT_THAT(ErrorOf({.more_parameters = R"(, "prior": {"from": "../begun"})"}),
+              HasSubstr("has no posterior yet"));
+  EXPECT_THAT(ErrorOf({.more_parameters = R"(, "prior": {"from": "../nowhere"})"}),
+              HasSubstr("is no folder of a campaign"));
+}
+
+// The fake heap does not depend on the restitution. The ranges of what is asked for are those of
+// one parameter, not of three together.
+TEST_F(Priors, ANuisanceIsSearchedAndNotAskedFor) {
+  const Answer answer = AnswerOf(
+      "with", {.rolling = R"("min": 0.05, "max": 0.5, "nuisance": true)",
+               .more_parameters = R"(, "restitution": {"min": 0.3, "max": 0.95, "nuisance": true})",
+               .simulations = 60});
+  ASSERT_EQ(answer.parameters.size(), 3u);
+  EXPECT_FALSE(answer.parameters[0].nuisance);
+  ASSERT_TRUE(answer.parameters[2].nuisance);
+  EXPECT_FALSE(Matters(answer.parameters[2]));
+  EXPECT_THAT(NuisanceText(answer.parameters[2], "restitution"), HasSubstr("not determined, 0.3"));
+  EXPECT_EQ(answer.verdict->kind, VerdictKind::kPoint);
+  EXPECT_THAT(answer.verdict->text, HasSubstr("Not asked for: rolling_friction: not determined"));
+  EXPECT_THAT(answer.verdict->text, HasSubstr("does not matter"));
+  EXPECT_NEAR(answer.parameters[0].value, kTrueSliding, 0.05);
+  const Answer alone = AnswerOf("alone", {.rolling = R"("fixed": 0.2)"});
+  const double ratio = answer.parameters[0].Width() / alone.parameters[0].Width();
+  EXPECT_NEAR(std::log(ratio), 0, std::log(1.4));
+  EXPECT_NEAR(std::log(answer.posterior->region_volume / alone.posterior->region_volume), 0,
+              std::log(1.5));
+  const fs::path folder = scratch_.path() / "with";
+  const ConsideredSet set = ConsiderSet(folder, {{"sliding_friction", "0.45"}});
+  EXPECT_LT(set.credible_level.value(), 0.9);
+  EXPECT_THAT(ConsideredText(set), HasSubstr("restitution (nuisance): posterior 90 % in 0.3"));
+}
+
+// Heaps whose slope follows the rolling friction, and a nuisance that the map determines: its
+// range says so. The mass that falls does not depend on it.
+TEST_F(Priors, ADeterminedNuisanceIsCalledSo) {
+  const Answer answer =
+      AnswerOf("tapped", {.experiments = std::string(kFallen) + ", " + kTapped,
+                          .rolling = R"("min": 0.05, "max": 0.5, "nuisance": true)"});
+  EXPECT_THAT(NuisanceText(answer.parameters[1], "rolling_friction"),
+              HasSubstr("rolling_friction: determined, 0."));
+}
+
+}  // namespace
+}  // namespace talus::campaign

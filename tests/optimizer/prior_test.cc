@@ -1,0 +1,151 @@
+#include "optimizer/space/prior.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optimizer/designs/posterior_design.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/parameter_space.h"
+#include "optimizer/space/point_rows.h"
+
+namespace talus::optimizer {
+namespace {
+
+// The integral of the density over [0, 1], by the midpoint rule.
+double Mass(const Prior& prior) {
+  constexpr int kCells = 20000;
+  const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(kCells, 0.5 / kCells, 1 - 0.5 / kCells);
+  return prior.LogDensity(u).array().exp().mean();
+}
+
+// A density of the value must not change with the scale that the value is searched on: the missing
+// slope of the map, or of the logarithm, would.
+TEST(Prior, IsADensityOfTheValueOnEitherScale) {
+  for (const Scale scale : {Scale::kLinear, Scale::kLog}) {
+    for (const bool of_logarithm : {false, true}) {
+      const ScaledRange range{.low = 0.05, .high = 2, .scale = scale};
+      const NormalPrior normal = of_logarithm ? NormalPrior{std::log(0.4), std::log(1.3), true}
+                                              : NormalPrior{0.4, 0.06, false};
+      Prior prior;
+      prior.Add(0, range, normal);
+      // The range leaves out less than 1e-5 of each.
+      EXPECT_NEAR(Mass(prior), 1, 1e-4);
+      Prior half;  // the median as upper end of the range
+      half.Add(0, {.low = 0.05, .high = 0.4, .scale = scale}, normal);
+      EXPECT_NEAR(Mass(half), 0.5, 1e-4);
+    }
+  }
+}
+
+TEST(Prior, DrawsHaveItsMeanAndSpread) {
+  Prior prior;
+  const ScaledRange range{.low = 1e-6, .high = 1e-3, .scale = Scale::kLog};
+  prior.Add(1, range, {std::log(2e-5), std::log(2.0), true});
+  base::Random random(1, base::Stream("test"));
+  const Eigen::MatrixXd draws = prior.Draw(4000, 2, random);
+  const Eigen::ArrayXd logs =
+      draws.col(1).unaryExpr([&](double u) { return std::log(range.ToNative(u)); });
+  EXPECT_NEAR(logs.mean(), std::log(2e-5), 0.04);  // 4 standard errors
+  EXPECT_NEAR(std::sqrt((logs - logs.mean()).square().mean()), std::log(2.0), 0.03);
+  EXPECT_NEAR(draws.col(0).mean(), 0.5, 0.02);  // nothing is said of it
+  const Eigen::VectorXd offset = prior.Offset(draws);
+  EXPECT_TRUE(std::isnan(offset[0]));
+  EXPECT_NEAR(offset[1], 0, 0.06);
+  // Every value twice as large is one standard deviation off.
+  Eigen::MatrixXd twice = draws;
+  twice.col(1).array() += std::log(2.0) / std::log(1e3);
+  EXPECT_NEAR(prior.Offset(twice)[1] - offset[1], 1, 1e-9);
+}
+
+// Draws of a thin arc: one Gaussian for all would give its middle, which is empty, as much density
+// as its ends, and kernels as wide as the arc would make it three times as thick.
+TEST(DrawsDensity, FollowsABentValley) {
+  constexpr int kDraws = 1000;
+  constexpr double kThick = 0.01;  // sd
+  base::Random random(3, base::Stream("arc"));
+  Eigen::MatrixXd draws(kDraws, 2);
+  const auto at = [](double angle, double radius) {
+    return Eigen::RowVector2d(0.1 + radius * std::cos(angle), 0.1 + radius * std::sin(angle));
+  };
+  for (int i = 0; i < kDraws; ++i) {
+    draws.row(i) = at(1.57 * random.Uniform(), 0.7 + kThick * random.Normal());
+  }
+  const DrawsDensity density(draws);
+  const Eigen::MatrixXd square = RSequence(40000, 2, 1);
+  const Eigen::ArrayXd p = density.LogDensity(square).array().exp();
+  EXPECT_NEAR(p.mean(), 1, 0.03);  // some of the broad Gaussian lies outside
+  double across = 0;
+  double inside = 0;
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    const double off = std::hypot(square(i, 0) - 0.1, square(i, 1) - 0.1) - 0.7;
+    if (std::abs(off) > 0.05) continue;
+    across += p[i] * off * off;
+    inside += p[i];
+  }
+  EXPECT_NEAR(std::sqrt(across / inside), kThick, 0.35 * kThick);
+  Eigen::MatrixXd two(2, 2);
+  two << at(0.785, 0.7), at(0.785, 0.5);
+  const Eigen::VectorXd logs = density.LogDensity(two);
+  EXPECT_GT(logs[0] - logs[1], 3);
+  // The chance of a kernel and its draws must be the same density.
+  Eigen::MatrixXd fresh(2000, 2);
+  for (auto row : fresh.rowwise()) row = density.Draw(random).transpose();
+  const double expected = (p * density.LogDensity(square).array()).mean() / p.mean();
+  EXPECT_NEAR(density.LogDensity(fresh).mean(), expected, 0.15);
+}
+
+ParameterSpace TwoParameters() {
+  return {.parameters = {{.name = "friction", .low = 0, .high = 1},
+                         {.name = "restitution", .low = 0.2, .high = 1}}};
+}
+
+TEST(Prior, ComesWithTheDomainOfASpace) {
+  ParameterSpace space = TwoParameters();
+  EXPECT_TRUE(space.MakeDomain().prior.IsUniform());
+  space.parameters[1].prior = NormalPrior{.mean = 0.6, .sd = 0.1};
+  space.parameters[1].is_nuisance = true;
+  const Domain domain = space.MakeDomain();
+  EXPECT_EQ(domain.nuisances, std::vector<Eigen::Index>{1});
+  EXPECT_EQ(domain.Asked(), std::vector<Eigen::Index>{0});
+  Eigen::MatrixXd points(2, 2);
+  points << 0.3, 0.5, 0.7, 0.625;  // 0.6 and 0.7 of restitution
+  const Eigen::VectorXd density = domain.prior.LogDensity(points);
+  EXPECT_NEAR(density[0] - density[1], 0.5, 1e-12);
+}
+
+TEST(Prior, OfEarlierDrawsLeavesOutWhatLiesOutsideTheRanges) {
+  ParameterSpace space = TwoParameters();
+  EarlierDraws earlier;
+  earlier.names = {"restitution", "friction"};
+  for (int i = 0; i < 200; ++i) earlier.values.push_back({0.1 + 0.004 * i, 0.5});
+  const Eigen::MatrixXd inside = space.Inside(earlier);
+  EXPECT_EQ(inside.rows(), 175);  // those from 0.2 on
+  EXPECT_NEAR(inside(0, 0), 0, 1e-12);
+  EXPECT_EQ(inside(0, 1), 0.5);
+}
+
+TEST(PosteriorDesign, GrowsLessWithNuisances) {
+  Domain domain{.num_parameters = 3};
+  EXPECT_EQ(PosteriorDesignSize(domain), 16);
+  domain.num_parameters = 6;
+  EXPECT_EQ(PosteriorDesignSize(domain), 28);
+  domain.nuisances = {3, 4, 5};
+  EXPECT_EQ(PosteriorDesignSize(domain), 22);
+  for (const Eigen::Index k : domain.nuisances) domain.prior.Add(k, {}, {.mean = 0.5, .sd = 0.03});
+  EXPECT_EQ(PosteriorDesignSize(domain), 17);
+}
+
+TEST(PosteriorDesign, LooksForNuisancesWhereTheirPriorIs) {
+  Domain domain{.num_parameters = 2, .nuisances = {1}};
+  domain.prior.Add(1, {}, {.mean = 0.7, .sd = 0.05});
+  double low = 1;
+  for (const Eigen::VectorXd& point : PosteriorDesign(domain, 12, 1)) {
+    EXPECT_NEAR(point[1], 0.7, 0.2);  // 4 standard deviations
+    low = std::min(low, point[0]);
+  }
+  EXPECT_LT(low, 0.1);  // all over the range of what is asked for
+}
+
+}  // namespace
+}  // namespace talus::optimizer
