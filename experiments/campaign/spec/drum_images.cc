@@ -29,6 +29,14 @@ imaging::MeasuredDrum MeasureDrumOf(const ExperimentSpec& e) {
   return imaging::MeasureDrum(drum);
 }
 
+// Photographs that are not taken yet need not keep the cost from being planned; a campaign asks for
+// them when it begins.
+constexpr double kPlannedFill = 0.5;
+
+bool AreThere(const ExperimentSpec& e) {
+  return std::filesystem::exists(e.images.photos.empty() ? e.images.map : e.images.photos);
+}
+
 void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images) {
   if (images.HasImages() && images.plate_diameter == 0) images.plate_diameter = rig.drum.diameter;
 }
@@ -75,11 +83,12 @@ void SetDrumDiameters(CampaignSpec& spec) {
 }
 
 void SetDrumFills(CampaignSpec& spec) {
+  if (spec.parameters && spec.parameters->fill) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!ShowsDrum(all[i]) || all[i].mass || all[i].rig->drum.fill) continue;
     rigs::RigOptions rig = *all[i].rig;
-    rig.drum.fill = MeasureDrumOf(all[i]).surface.fill;
+    rig.drum.fill = AreThere(all[i]) ? MeasureDrumOf(all[i]).surface.fill : kPlannedFill;
     (spec.experiment ? spec.rig : (*spec.experiments)[i].rig) = std::move(rig);
   }
 }

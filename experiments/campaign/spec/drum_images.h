@@ -24,7 +24,8 @@ imaging::Experiment MeasureImages(const ExperimentSpec& experiment);
 // The width of drums' images is their rig's, where it is not given.
 void SetDrumDiameters(CampaignSpec& spec);
 
-// A drum without a mass is as full as its photographs show. Reads them.
+// A drum without a mass is as full as its photographs show, which are read, unless its fill is
+// searched.
 void SetDrumFills(CampaignSpec& spec);
 
 }  // namespace talus::campaign
