@@ -36,8 +36,11 @@ install(FILES ${talus_described}/zsh/_talus
 install(FILES ${talus_described}/fish/talus.fish
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
-# `cpack` in the build folder makes talus_VERSION_ARCH.deb.
-set(CPACK_GENERATOR DEB)
+# `cpack` in the build folder makes talus_VERSION_ARCH.deb, and talus-VERSION-Linux-ARCH.tar.gz, which runs wherever it is
+# unpacked (TalusArchive.cmake).
+set(CPACK_GENERATOR DEB TGZ)
+set(CPACK_SYSTEM_NAME ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/TalusArchive.cmake)
 set(CPACK_PACKAGE_NAME talus)
 set(CPACK_PACKAGE_CONTACT "The talus developers <talus@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
