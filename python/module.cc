@@ -19,10 +19,14 @@ namespace py = pybind11;
 
 void Simulate(const std::string& file, const std::string& folder, bool fresh) {
   const py::gil_scoped_release release;
-  trials::Simulate(file, {.folder = folder, .fresh = fresh, .quiet = true});
+  trials::Simulate(file, {.run = {.folder = folder, .fresh = fresh, .quiet = true}});
 }
 
 GrayArray ReadImage(const std::string& file) { return ArrayOf(imaging::ReadGrayImage(file)); }
+
+GrayArray DecodeImage(const py::bytes& bytes) {
+  return ArrayOf(imaging::DecodeGrayImage(std::string(bytes), "the image"));
+}
 
 GrayArray Project(const SphereArray& spheres, const py::dict& frame, int num_views) {
   return ArrayOf(imaging::ProjectHeap(SpheresOf(spheres), FrameOf(frame), num_views).image);
@@ -63,6 +67,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("simulate", &talus::python::Simulate, py::arg("file"), py::arg("folder"),
              py::arg("fresh") = false);
   module.def("read_image", &talus::python::ReadImage, py::arg("file"));
+  module.def("decode_image", &talus::python::DecodeImage, py::arg("bytes"));
   module.def("project", &talus::python::Project, py::arg("spheres"), py::arg("frame"),
              py::arg("num_views") = talus::imaging::kDefaultViews);
   module.def("compare", &talus::python::Compare, py::arg("heap"), py::arg("reference"),

@@ -49,8 +49,8 @@ void WriteComparison(const analysis::ComparedCampaign& compared, const std::file
 void RunCompare(CompareArguments arguments) {
   if (!arguments.objective.empty()) SearchOn(arguments);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
-  const analysis::Evidence evidence =
-      analysis::GatherEvidence(arguments.campaign, arguments.experiment);
+  analysis::Evidence evidence = analysis::GatherEvidence(arguments.campaign, arguments.experiment);
+  analysis::AddModel(arguments.campaign, evidence);
   const std::vector<analysis::ObjectiveFinding> findings = analysis::CompareObjectives(evidence);
   const analysis::ComparedCampaign compared{evidence, findings};
   base::ClaimOutputFolder(arguments.out, "compare");

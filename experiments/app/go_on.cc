@@ -6,41 +6,77 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/json/json_text.h"
 #include "base/text/shell_text.h"
+#include "experiments/analysis/next/advise.h"
+#include "experiments/analysis/next/next_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/make_parts.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::app {
 namespace {
 
+// A finished campaign as it is told, all of it free of the campaign's lock.
 struct Ended {
   campaign::CampaignEnd end;
-  std::filesystem::path folder;
-  TellOptions tell;
+  std::optional<campaign::Answer> answer;
+  campaign::CampaignSpec spec;
 };
 
-void PrintEnd(const campaign::Campaign& campaign, const Ended& ended) {
-  const auto& [end, folder, tell] = ended;
-  switch (end) {
-    case campaign::CampaignEnd::kFinished:
-      if (tell.quiet) return;
-      if (tell.json) {
-        const auto result = nlohmann::ordered_json::parse(campaign::AnswerJson(*campaign.result()));
-        std::cout << base::JsonText(nlohmann::ordered_json{{"event", "result"}, {"result", result}})
-                  << std::endl;
-        return;
-      }
-      std::cout << campaign::AnswerSummary(*campaign.result(), folder) << "  written to        "
-                << (folder / "result.json").string() << "\n  report            talus report "
-                << base::ShellWord(folder.string()) << std::endl;
-      return;
-    case campaign::CampaignEnd::kInterrupted:
-      throw base::Interrupted("interrupted; `talus resume " + folder.string() + "` goes on");
-    case campaign::CampaignEnd::kFailed:
-      throw base::Error("the campaign has no result; `talus status " + folder.string() +
-                        "` says why");
+Ended RunCampaign(const std::filesystem::path& folder, const campaign::ResumeOptions& options,
+                  const TellOptions& tell) {
+  const base::InterruptGuard interrupt;
+  campaign::Console console(campaign::CampaignFolder{folder}.log(), tell.output());
+  campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
+  campaign::CampaignParts parts{.runner = campaign::MakeRunner(opened.spec, opened.folder.root),
+                                .engine = campaign::MakeEngine(opened.spec)};
+  campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
+                              opened.spec, std::move(parts), console);
+  const campaign::CampaignEnd end = campaign.Run(interrupt);
+  return {.end = end, .answer = campaign.result(), .spec = opened.spec};
+}
+
+void PrintEvent(const char* event, const char* key, const std::string& json) {
+  std::cout << base::JsonText(nlohmann::ordered_json{{"event", event},
+                                                     {key, nlohmann::ordered_json::parse(json)}})
+            << std::endl;
+}
+
+void PrintAnswer(const campaign::Answer& answer, const std::filesystem::path& folder,
+                 const TellOptions& tell) {
+  if (tell.quiet) return;
+  if (tell.json) return PrintEvent("result", "result", campaign::AnswerJson(answer));
+  std::cout << campaign::AnswerSummary(answer, folder) << "  written to        "
+            << (folder / "result.json").string() << "\n  report            talus report "
+            << base::ShellWord(folder.string()) << std::endl;
+}
+
+// Whether a further test is worth looking into without being asked: another set-up comes first
+// where no set fits, and a queue or a foreign engine may make of it more than a few simulations.
+bool IsWorthAdvice(const Ended& ended) {
+  const campaign::Answer& answer = *ended.answer;
+  return ended.spec.next.share > 0 && ended.spec.engine.kind == campaign::EngineKind::kTalus &&
+         ended.spec.runner.kind == campaign::RunnerKind::kLocal && answer.verdict &&
+         answer.verdict->kind != campaign::VerdictKind::kPoint &&
+         !campaign::HasAlarm(answer,
+                             {campaign::AlarmKind::kImplausible, campaign::AlarmKind::kDisagree,
+                              campaign::AlarmKind::kMisses});
+}
+
+// The few simulations that tell which further test would narrow the answer.
+void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const TellOptions& tell) {
+  analysis::AdviceRequest request{
+      .simulate = true, .core_time = ended.spec.next.share * ended.answer->cost.core_hours * 3600};
+  if (!tell.quiet && !tell.json) {
+    std::cerr << "looks into further tests for at most " << trials::DurationText(*request.core_time)
+              << " of core time (the spec's next.share)" << std::endl;
+    request.say = [](const std::string& text) { std::cerr << text << std::endl; };
   }
+  const analysis::NextTable table = analysis::Advise(folder, request);
+  if (tell.json) return PrintEvent("next", "next", analysis::NextJson(table));
+  if (!tell.quiet) std::cout << analysis::NextSummary(table) << std::flush;
 }
 
 }  // namespace
@@ -60,15 +96,18 @@ void AddTellFlags(CLI::App& command, TellOptions& tell) {
 
 void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& options,
           const TellOptions& tell) {
-  const base::InterruptGuard interrupt;
-  campaign::Console console(campaign::CampaignFolder{folder}.log(), tell.output());
-  campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
-  campaign::CampaignParts parts{.runner = campaign::MakeRunner(opened.spec, opened.folder.root),
-                                .engine = campaign::MakeEngine(opened.spec)};
-  campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
-                              opened.spec, std::move(parts), console);
-  const campaign::CampaignEnd end = campaign.Run(interrupt);
-  PrintEnd(campaign, {.end = end, .folder = folder, .tell = tell});
+  const Ended ended = RunCampaign(folder, options, tell);
+  switch (ended.end) {
+    case campaign::CampaignEnd::kInterrupted:
+      throw base::Interrupted("interrupted; `talus resume " + folder.string() + "` goes on");
+    case campaign::CampaignEnd::kFailed:
+      throw base::Error("the campaign has no result; `talus status " + folder.string() +
+                        "` says why");
+    case campaign::CampaignEnd::kFinished:
+      break;
+  }
+  PrintAnswer(*ended.answer, folder, tell);
+  if (IsWorthAdvice(ended)) PrintAdvice(ended, folder, tell);
 }
 
 }  // namespace talus::app

@@ -24,6 +24,7 @@ namespace {
 struct InitArguments {
   std::vector<std::string> photos;
   std::filesystem::path out = "campaign.json";
+  std::vector<std::string> tests;
   campaign::SpecAnswers answers;
 };
 
@@ -66,9 +67,46 @@ std::string Ask(const Question& question) {
   return {};
 }
 
+bool AsksOnTerminal() { return ::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1; }
+
+// A line of input; empty where there is none, or the usual answer is taken.
+std::string AskLine(const std::string& words) {
+  std::string answer;
+  std::cerr << words << ": " << std::flush;
+  std::getline(std::cin, answer);
+  return answer;
+}
+
+std::string WordsOf(const campaign::TestQuestion& question) {
+  std::string words = "  " + question.key + ", " + question.words;
+  if (!question.is_number) return words + " (Enter: " + question.usual + ")";
+  return words + " (\"value ± error\"" +
+         (question.usual_error.empty() ? "" : "; without an error ± " + question.usual_error) +
+         "; Enter: not measured)";
+}
+
+// The other tests that were made of the powder, one after the other, until there are no more.
+void AskTests(campaign::SpecAnswers& answers) {
+  while (std::cin) {
+    const std::string name = AskLine("a further test of the same powder, if one was made (" +
+                                     campaign::TestNames() + "; Enter: none)");
+    if (name.empty()) return;
+    try {
+      campaign::DraftTest test = campaign::ParseDraftTest(name);
+      for (const campaign::TestQuestion& question : campaign::QuestionsOf(test.kind)) {
+        test.answers.emplace_back(question.key, AskLine(WordsOf(question)));
+      }
+      campaign::DraftTestText(test);
+      answers.tests.push_back(std::move(test));
+    } catch (const base::ConfigError& error) {
+      std::cerr << error.what() << '\n';
+    }
+  }
+}
+
 // Asks on a terminal; elsewhere every missing flag is named at once.
 void Complete(campaign::SpecAnswers& answers) {
-  const bool asks = ::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1;
+  const bool asks = AsksOnTerminal();
   base::Problems problems;
   for (const Question& question : kQuestions) {
     std::string& answer = answers.*question.answer;
@@ -79,6 +117,7 @@ void Complete(campaign::SpecAnswers& answers) {
     }
   }
   problems.ThrowIfAny();
+  if (asks && answers.tests.empty()) AskTests(answers);
 }
 
 // Names in the spec are as seen from the spec's own folder.
@@ -149,6 +188,9 @@ void Init(const InitArguments& arguments) {
                             ": is there already; name another file with --out");
   }
   campaign::SpecAnswers answers = arguments.answers;
+  for (const std::string& test : arguments.tests) {
+    answers.tests.push_back(campaign::ParseDraftTest(test));
+  }
   FindPhotographs(arguments, answers);
   Complete(answers);
   const std::string text = campaign::DraftSpec(answers);
@@ -184,6 +226,11 @@ void AddInitCommand(CLI::App& app) {
       "them, such as \"104,310-884,312=30mm\"");
   verb->add_flag("--cohesive", arguments->answers.cohesive,
                  "search the surface energy, too: fine or moist powder");
+  verb->add_option("--test", arguments->tests,
+                   "a further test of the same powder, such as "
+                   "\"tapped_density:diameter=12mm,tapped_density=1480kg/m^3±5kg/m^3\"; any of " +
+                       campaign::TestNames())
+      ->allow_extra_args(false);
   verb->footer("On a terminal it asks for what is not given.");
   verb->callback([arguments] {
     if (arguments->answers.name.empty()) {

@@ -1,43 +1,40 @@
 // talus next
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
-#include "base/files/file.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/next_text.h"
-#include "experiments/analysis/next/rank_next.h"
-#include "experiments/analysis/next/usual_tests.h"
 #include "experiments/app/commands.h"
-#include "experiments/campaign/folder/design_folder.h"
-#include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 
 namespace talus::app {
 namespace {
 
 struct NextArguments {
   std::string folder;
-  std::string candidates;
-  bool simulate = false;
+  analysis::AdviceRequest request;
+  std::string budget;
   bool json = false;
 };
 
-void Next(const NextArguments& arguments) {
-  const campaign::JointView view = campaign::ReadJointView(arguments.folder);
-  // A queue's own files stand beside the designs, not among those of the campaign's trials.
-  analysis::NextOptions options{
-      .tests = arguments.candidates.empty() ? analysis::UsualTests(view)
-                                            : analysis::LoadTests(arguments.candidates),
-      .simulate = arguments.simulate,
-      .parts = {.runner = campaign::MakeRunner(view.spec, campaign::NextFolder(view.folder.root)),
-                .engine = campaign::MakeEngine(view.spec)}};
-  const analysis::NextTable table = analysis::RankNext(view, options);
-  const std::string json = analysis::NextJson(table);
-  const std::filesystem::path folder = campaign::NextFolder(view.folder.root);
-  std::filesystem::create_directories(folder);
-  base::WriteFileAtomically(folder / "next.json", json);
-  std::cout << (arguments.json ? json : analysis::NextText(table)) << std::flush;
+void Next(NextArguments& arguments) {
+  if (!arguments.budget.empty()) {
+    const double core_time = base::ParseQuantity(arguments.budget, base::Dimension::kTime);
+    if (!(core_time > 0)) {
+      throw base::ConfigError("--budget: must be positive, such as \"2 min\", not \"" +
+                              arguments.budget + "\"");
+    }
+    arguments.request.core_time = core_time;
+  }
+  arguments.request.say = [](const std::string& text) { std::cerr << text << std::endl; };
+  const analysis::NextTable table = analysis::Advise(arguments.folder, arguments.request);
+  std::cout << (arguments.json ? analysis::NextJson(table)
+                               : campaign::WithFolder(analysis::NextText(table), arguments.folder))
+            << std::flush;
 }
 
 }  // namespace
@@ -47,10 +44,16 @@ void AddNextCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "next", "Which test, photographs or simulations would teach most about the parameters");
   command->add_option("DIR", arguments->folder, "the campaign's folder")->required();
-  command->add_option("CANDIDATES", arguments->candidates,
+  command->add_option("CANDIDATES", arguments->request.candidates,
                       "JSON file of tests that could be made; default: the usual ones");
-  command->add_flag("--simulate", arguments->simulate,
-                    "run the few simulations of each test that tell what it would teach");
+  CLI::Option* simulate =
+      command->add_flag("--simulate", arguments->request.simulate,
+                        "run the few simulations of each test that tell what it would teach");
+  command
+      ->add_option("--budget", arguments->budget,
+                   "core time for these simulations, such as \"2 min\", the cheapest test first; "
+                   "default: as much as the campaign has taken")
+      ->needs(simulate);
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { Next(*arguments); });
 }

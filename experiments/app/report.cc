@@ -37,6 +37,13 @@ std::string StateOf(const analysis::Evidence& evidence) {
   return state;
 }
 
+// With the model that answers, and the campaign's other experiments.
+analysis::ReportData Complete(const ReportArguments& arguments, analysis::Evidence evidence) {
+  std::vector<analysis::Evidence> others = analysis::GatherOthers(arguments.campaign, evidence);
+  analysis::AddModel(arguments.campaign, evidence, others);
+  return analysis::MakeReportData(std::move(evidence), std::move(others));
+}
+
 // Keeps the page current until the campaign stands still or the user ends it.
 void Watch(const ReportArguments& arguments) {
   const base::InterruptGuard interrupt;
@@ -49,8 +56,7 @@ void Watch(const ReportArguments& arguments) {
         analysis::GatherEvidence(arguments.campaign, arguments.experiment);
     const std::string state = StateOf(evidence) + (worked_on ? "+" : "-");
     if (state != shown) {
-      analysis::AddModel(arguments.campaign, evidence);
-      analysis::ReportData data = analysis::MakeReportData(std::move(evidence));
+      analysis::ReportData data = Complete(arguments, std::move(evidence));
       analysis::Follow(data, history);
       data.region_history = history;
       const auto page =
@@ -91,8 +97,9 @@ void AddReportCommand(CLI::App& app) {
   command->add_flag("--watch", arguments->watch,
                     "write it anew whenever a trial ends, until the campaign does; the open page "
                     "follows by itself");
-  command->add_option("--experiment", arguments->experiment,
-                      "whose trials are shown, in a campaign with several; default: the first");
+  command->add_option(
+      "--experiment", arguments->experiment,
+      "that stands first, in a campaign with several; default: the first with images");
   command->callback([arguments] {
     if (arguments->out.empty()) arguments->out = arguments->campaign / "report";
     if (analysis::IsSearchFolder(arguments->campaign)) {
@@ -105,9 +112,8 @@ void AddReportCommand(CLI::App& app) {
     }
     analysis::Evidence evidence =
         analysis::GatherEvidence(arguments->campaign, arguments->experiment);
-    analysis::AddModel(arguments->campaign, evidence);
     const auto page =
-        analysis::WriteReport(analysis::MakeReportData(std::move(evidence)), arguments->out);
+        analysis::WriteReport(Complete(*arguments, std::move(evidence)), arguments->out);
     std::cout << "The report is " << page.string() << '\n';
   });
 }

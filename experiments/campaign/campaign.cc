@@ -10,6 +10,7 @@
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/repair.h"
+#include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/start.h"
@@ -341,10 +342,15 @@ void Campaign::NoteBest(const journal::TrialRecord& trial) {
 }
 
 void Campaign::Report(const journal::TrialRecord& trial) {
+  std::vector<std::string> names;
+  for (const journal::ParameterRecord& parameter : record_.parameters) {
+    names.push_back(parameter.name);
+  }
   console_.Trial(
       {.trial = trial.id,
        .kind = trial.kind,
        .status = trial.status,
+       .parameters = std::move(names),
        .values = trial.native,
        .scale_factor = trial.scale_factor,
        .experiment = record_.experiments[static_cast<std::size_t>(trial.experiment)].name,
@@ -356,28 +362,18 @@ void Campaign::Report(const journal::TrialRecord& trial) {
 }
 
 void Campaign::ShowStatus() {
-  double seconds = 0;
-  int num_finished = 0;
-  CampaignProgress progress{.budget = spec_.budget.simulations,
+  const BudgetUse use =
+      UseOf(spec_, planner_.trials(), Elapsed(), std::max(1, parts_.runner->Capacity()));
+  CampaignProgress progress{.num_search = use.num_search,
+                            .num_confirm = use.num_confirm,
+                            .budget = spec_.budget.simulations,
+                            .used = UseText(spec_.budget, use, Elapsed()),
+                            .core_seconds_budget = spec_.budget.core_time,
                             .num_running = static_cast<int>(running_.size()),
-                            .unit = std::string(journal::InfoOf(spec_.objective).unit)};
-  for (const journal::TrialRecord& trial : planner_.trials()) {
-    if (trial.kind != journal::TrialKind::kConfirm) ++progress.num_search;
-    if (trial.status == journal::TrialStatus::kRunning || !(trial.duration_s > 0)) continue;
-    seconds += trial.duration_s;
-    ++num_finished;
-  }
+                            .unit = std::string(journal::InfoOf(spec_.objective).unit),
+                            .seconds_left = use.seconds_left};
+  if (spec_.budget.core_time) progress.core_seconds = use.core_seconds;
   if (best_) std::tie(progress.best, progress.best_trial) = *best_;
-  if (spec_.budget.core_time) {
-    progress.core_seconds = planner_.CoreTimeOfSearch();
-    progress.core_seconds_budget = *spec_.budget.core_time;
-  }
-  if (num_finished > 0 && progress.budget > 0) {
-    const int to_go = std::max(0, progress.budget - progress.num_search) +
-                      spec_.confirm.candidates * spec_.confirm.replicates +
-                      progress.num_running / 2;
-    progress.seconds_left = seconds / num_finished * to_go / std::max(1, parts_.runner->Capacity());
-  }
   console_.Status(progress);
 }
 

@@ -10,6 +10,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -116,13 +117,13 @@ std::string StatusText(const std::filesystem::path& root) {
   if (state == "running" && !alive) state = "ended without a word; `talus resume DIR` goes on";
   std::optional<Answer> answer;
   if (!progress.result_json.empty()) answer = ParseAnswer(progress.result_json);
-  if (answer && answer->unsettled) state += ", ended by its budget";
   const int searched = counts.by_kind[0] + counts.by_kind[1] + counts.by_kind[2];
   std::string text = campaign.name + ": " + WithFolder(state, root) + "\n";
-  if (!progress.stop_reason.empty()) text += "  because           " + progress.stop_reason + "\n";
-  text += "  trials            " + std::to_string(searched) +
-          (spec.budget.simulations > 0 ? " of " + std::to_string(spec.budget.simulations) : "") +
-          " (" + std::to_string(counts.by_kind[0]) + " for the noise, " +
+  // With an answer its alarms say it.
+  if (!progress.stop_reason.empty() && !(answer && answer->unsettled))
+    text += "  because           " + progress.stop_reason + "\n";
+  text += "  trials            " + std::to_string(searched) + " (" +
+          std::to_string(counts.by_kind[0]) + " for the noise, " +
           std::to_string(counts.by_kind[1]) + " of the design, " +
           std::to_string(counts.by_kind[2]) + " of the search), " +
           std::to_string(counts.by_kind[3]) + " to confirm\n";
@@ -139,6 +140,11 @@ std::string StatusText(const std::filesystem::path& root) {
     text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
   }
   text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
+  const BudgetUse use = UseOf(spec, trials, progress.elapsed_s, counts.running);
+  text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
+  if (!answer && use.seconds_left) {
+    text += "  time left         at most " + trials::DurationText(*use.seconds_left) + "\n";
+  }
   if (answer) text += "\n" + AnswerSummary(*answer, root);
   return text;
 }

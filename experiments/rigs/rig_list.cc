@@ -33,6 +33,7 @@ constexpr RigEntry Entry(RigKind kind) {
           .make = &Make<R>,
           .restore = &Restore<R>,
           .vessel = &R::VesselOf,
+          .walls = &R::Walls,
           .observables = R::kMeasured,
           .validate = &R::Validate,
           .width = &R::Width,

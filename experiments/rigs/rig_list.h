@@ -18,6 +18,8 @@ struct RigEntry {
   std::unique_ptr<Rig> (*make)(const Case&);
   std::unique_ptr<Rig> (*restore)(const Case&, const std::string& state, engine::Simulation);
   Vessel (*vessel)(const Case&);  // that the powder is filled into
+  // Around it, as they stand at first, so that they hold powder of this height [m].
+  std::vector<engine::Wall> (*walls)(const Case&, double height);
   std::span<const RigObservable> observables;
   // What the rig's own options cannot see by themselves.
   void (*validate)(const Case&, base::Problems&);

@@ -31,6 +31,8 @@ class RigRun : public engine::Run {
   std::string Checkpoint(const engine::RunTiming& timing) const override;
   void WriteResults(const engine::RunTiming& timing) const override;
 
+  const Rig& rig() const { return *rig_; }
+
  private:
   Case case_;
   std::filesystem::path folder_;

@@ -63,8 +63,8 @@ analysis::ParameterInfo Parameter(const std::string& name, const std::string& sy
 }
 
 std::vector<analysis::ParameterInfo> Parameters(int count) {
-  std::vector<analysis::ParameterInfo> all{Parameter("sliding_friction", "μ_t", 0.001, 0.7),
-                                           Parameter("rolling_friction", "μ_r", 0.001, 0.7),
+  std::vector<analysis::ParameterInfo> all{Parameter("sliding_friction", "μₜ", 0.001, 0.7),
+                                           Parameter("rolling_friction", "μᵣ", 0.001, 0.7),
                                            Parameter("surface_energy", "γ", 1e-6, 4e-4)};
   all[2].range.scale = Scale::kLog;
   all[2].unit = "J/m²";
@@ -145,7 +145,11 @@ campaign::Answer MakeAnswer(const analysis::Evidence& evidence, const Eigen::Vec
   answer.objective_unit = "mm²";
   answer.model = "posterior of 50 evaluations";
   answer.conditions = {
-      .youngs_modulus = 26.25e6, .lift_velocity = 0.01, .adhesion = "jkr", .rolling = "epsd"};
+      .youngs_modulus = 26.25e6,
+      .devices = {{.experiment = "heap",
+                   .text = "lifted tube: plate diameter 10 mm, lift velocity 1 cm/s"}},
+      .adhesion = "jkr",
+      .rolling = "epsd"};
   answer.experiments = {{.name = "heap",
                          .has_image = true,
                          .num_heaps = 5,

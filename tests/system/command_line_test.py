@@ -219,7 +219,9 @@ class Progress(unittest.TestCase):
     # As a user at a terminal: it asks for what no flag has said, and again after a wrong answer.
     def test_init_asks_on_a_terminal(self):
         out = self.folder / "asked.json"
-        answers = {"inner diameter of the tube": ["10 mm"], "speed at which": ["fast", "50 mm/s"],
+        answers = {"a further test": ["tilt", "tapped_density", ""], "  diameter": ["12 mm"],
+                   "  tapped_density": ["1480 kg/m^3"],
+                   "inner diameter of the tube": ["10 mm"], "speed at which": ["fast", "50 mm/s"],
                    "mass filled": ["1.6 kilo", "", "1.602 g"], "density": ["4386 kg/m^3"],
                    "median diameter": ["0.1 mm"]}
         asked = []
@@ -243,12 +245,30 @@ class Progress(unittest.TestCase):
             seen = ""
         os.close(ours)
         self.assertEqual(init.wait(timeout=600), 0)
-        self.assertEqual([len(left) for left in answers.values()], [0] * 5)
-        self.assertEqual(len(asked), 8)  # five questions, three asked again
+        self.assertEqual([len(left) for left in answers.values()], [0] * 8)
+        self.assertEqual(len(asked), 13)  # five questions, three asked again; the tests and one test's own two
         self.assertFalse(any(question.startswith("diameter of the plate") for question in asked))
         self.assertIn('"mass": "1.602 g"', out.read_text())
+        self.assertIn('"rig": {"kind": "tapped_density", "diameter": "12 mm"}', out.read_text())
+        self.assertIn('"tapped_density": {"value": "1480 kg/m^3", "sd": "7.4 kg/m^3"}', out.read_text())
         done = talus("validate", str(out), "--without-experiment")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    # Every rig can stand beside the photographed heap, and the spec that init writes of it is in order.
+    def test_init_knows_every_rig(self):
+        flags = ["--plate-diameter", "10 mm", "--tube-diameter", "10 mm", "--lift-velocity", "50 mm/s",
+                 "--mass", "1.602 g", "--density", "4386 kg/m^3", "--grain-diameter", "0.4 mm"]
+        photos = str(SOURCE / "examples/photos/powder_a")
+        tests = {"tapped_density": "diameter=8mm,tapped_density=2600kg/m^3", "drum": "diameter=30mm,angle=35deg±1deg",
+                 "tilting_box": "angle=33deg", "column_collapse": "runout=12mm",
+                 "draw_down": "angle=33deg", "orifice_flow": "discharge_rate=3g/s",
+                 "funnel_heap": "angle_of_repose_triangle=30deg"}
+        for name, answers in tests.items():
+            out = self.folder / f"{name}.json"
+            done = talus("init", photos, "--out", str(out), *flags, "--test", f"{name}:{answers}")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            self.assertIn(f'"kind": "{name}"', out.read_text())
+        self.assertIn('"sd": "13 kg/m^3"', (self.folder / "tapped_density.json").read_text())
 
     def test_a_spec_for_a_heap_on_a_table_names_its_scale(self):
         out = self.folder / "table.json"

@@ -132,7 +132,7 @@ def main(root):
     if name == "lammps" and shutil.which("mpirun"):
         check_ranks(out / "trials/0001")
     text = run("compare", out)
-    assert "SAD" in text and "μ_t" in text, text
+    assert "SAD" in text and "μₜ" in text, text
     run("report", out)
     page = out / "report/report.html"
     assert page.exists() and page.stat().st_size > 50_000, page

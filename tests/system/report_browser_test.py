@@ -248,7 +248,7 @@ class ReportInABrowser(unittest.TestCase):
         self.assertEqual(rows[0][-1], "38 simulations, 2.50 min")
         self.assertEqual(rows[-1][1], "?")  # nothing of it has been simulated
         figure = self.driver.find_element(By.CSS_SELECTOR, "#told-apart figure")
-        self.assertIn("left μ_t 0.150, μ_r 0.500", figure.text)
+        self.assertIn("first μₜ 0.150, μᵣ 0.500", figure.text)
         self.assertEqual(figure.find_element(By.TAG_NAME, "img").get_property("naturalWidth"), 320)
         self.check_log()
         self.keep_screenshot("next")
@@ -269,8 +269,43 @@ class ReportInABrowser(unittest.TestCase):
     def test_verdict_comes_before_any_number(self):
         self.open_report("posterior", 60, 2, "finished", coarse_design=True)
         first = self.driver.execute_script(
-            "return document.querySelector('#answer').children[1].id")
+            "return document.querySelector('#answer').children[1].firstElementChild.id")
         self.assertEqual(first, "verdict")
+
+    # Before anyone scrolls: what was measured beside what is simulated with the answer.
+    def test_first_screen_shows_measured_and_simulated_heap(self):
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
+        pair = self.driver.find_element(By.ID, "heap-pair")
+        self.assertLess(pair.rect["y"] + pair.rect["height"], 1000)
+        images = pair.find_elements(By.TAG_NAME, "img")
+        self.assertEqual(len(images), 2)
+        self.assertTrue(all(image.get_property("naturalWidth") > 50 for image in images))
+        self.assertIn("Measured", pair.text)
+        self.assertIn("Simulated", pair.text)
+
+    # The sheet to print is one, with all that it is for.
+    def test_summary_is_one_page(self):
+        for name, parameters, coarse_design in (("three", 3, False), ("posterior", 2, True)):
+            self.open_report(name, 60, parameters, "finished", coarse_design=coarse_design)
+            sheet = pathlib.Path(self.folder.name) / name / "report" / "summary.html"
+            self.driver.get(sheet.as_uri())
+            text = self.driver.find_element(By.TAG_NAME, "body").text
+            for words in ("Calibrated parameters", "How well it fits", "It holds for", "lift velocity", "report.html"):
+                self.assertIn(words, text)
+            self.assertEqual(len(self.driver.find_elements(By.TAG_NAME, "svg")), 1)
+            self.assertGreaterEqual(len(self.driver.find_elements(By.TAG_NAME, "img")), 2)
+            pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})
+            data = base64.b64decode(pdf["data"])
+            self.assertEqual(len(re.findall(rb"/Type /Page\b(?!s)", data)), 1, name)
+            self.keep_screenshot("summary_" + name)
+
+    def test_each_objective_says_what_it_knows(self):
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
+        rows = self.driver.execute_script(
+            "return [...document.querySelectorAll('#knowledge tbody tr')].map((r) => "
+            "[...r.cells].map((c) => c.textContent))")
+        self.assertEqual(rows[0][0], "whole heap (SAD, RMSE)")
+        self.assertTrue(all("%" in row[1] and "refits" in row[2] for row in rows), rows)
 
     def test_experiment_is_not_compared_with_itself(self):
         self.open_report("three", 60, 3, "finished")

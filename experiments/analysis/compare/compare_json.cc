@@ -43,6 +43,17 @@ Json ModelJson(const Evidence& evidence, const ModelFinding& finding) {
           {"tied_volume_fraction", finding.tied_volume}};
 }
 
+Json KnowledgeJson(const ObjectiveKnowledge& k) {
+  if (!k.absent.empty()) return {{"title", k.title}, {"absent", k.absent}};
+  return {{"title", k.title},
+          {"region_90_volume_fraction", k.region},
+          {"region_90_volume_fraction_low", Number(k.region_low)},
+          {"region_90_volume_fraction_high", Number(k.region_high)},
+          {"credible_level_of_recommended", k.level},
+          {"num_refits", k.num_refits},
+          {"num_refits_holding_recommended", k.num_holding}};
+}
+
 }  // namespace
 
 std::string ComparisonJson(const ComparedCampaign& compared) {
@@ -60,7 +71,12 @@ std::string ComparisonJson(const ComparedCampaign& compared) {
     }
     objectives.push_back(json);
   }
+  Json knowledge = Json::array();
+  for (const ObjectiveKnowledge& k : compared.evidence.knowledge) {
+    knowledge.push_back(KnowledgeJson(k));
+  }
   const Json json{{"name", compared.evidence.name},
+                  {"knowledge", knowledge},
                   {"tie_margin_in_noise_sd", kTieMargin},
                   {"objectives", objectives}};
   return base::JsonText(json, 2) + "\n";

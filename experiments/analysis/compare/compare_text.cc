@@ -4,6 +4,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/aligned.h"
 #include "experiments/analysis/compare/compare_tables.h"
+#include "experiments/analysis/compare/knowledge.h"
 
 namespace talus::analysis {
 namespace {
@@ -38,32 +39,48 @@ Row SetRow(const ObjectiveFinding& f, const std::string& measured,
   return row;
 }
 
-std::string Percent(double fraction) { return base::ShortNumber(100 * fraction, 2) + " %"; }
+// "yes, and so do 4 of 4 parts of the trials"
+std::string HoldsText(const ObjectiveKnowledge& k) {
+  if (!k.absent.empty()) return k.absent;
+  std::string text = k.Holds() ? "yes" : "no";
+  if (k.num_refits > 0) {
+    text += ", and " + std::to_string(k.num_holding) + " of " + std::to_string(k.num_refits) +
+            " refits without a part of the trials do";
+  }
+  return text;
+}
+
+std::string WhatEachKnows(const Evidence& evidence) {
+  if (evidence.knowledge.empty()) return "";
+  std::vector<Row> rows{{"what each knows", "joint 90 % region", "holds the recommended set"}};
+  for (const ObjectiveKnowledge& k : evidence.knowledge) {
+    rows.push_back({k.title, RegionText(k), HoldsText(k)});
+  }
+  const std::string sentence = KnowledgeSentence(evidence.knowledge);
+  return Aligned(rows) + (sentence.empty() ? "" : "  " + sentence + "\n") + "\n";
+}
 
 std::string FromTrials(const ComparedCampaign& compared) {
-  std::vector<Row> rows{Head(compared.evidence, "from the trials", {"tied sets", "tied volume"})};
+  std::vector<Row> rows{Head(compared.evidence, "best of the trials", {"tied sets"})};
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.absent.empty()) continue;
     const ComparedSet& best = f.from_trials.best.front();
     Row row = SetRow(f, Shown(f, best.quantity), best.values);
     row.push_back(std::to_string(f.from_trials.num_tied) + " of " +
                   std::to_string(f.from_trials.num_sets));
-    row.push_back(Percent(f.from_trials.tied_volume));
     rows.push_back(row);
   }
   return rows.size() > 1 ? Aligned(rows) + "\n" : "";
 }
 
 std::string FromModel(const ComparedCampaign& compared) {
-  std::vector<Row> rows{Head(compared.evidence, "from a model", {"tied volume"})};
+  std::vector<Row> rows{Head(compared.evidence, "best by a model", {})};
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.from_model) continue;
     const ModelFinding& model = *f.from_model;
     const std::string measured =
         Shown(f, model.there.quantity) + " ± " + Shown(f, model.there.sd, 2);
-    Row row = SetRow(f, measured, model.values);
-    row.push_back(Percent(model.tied_volume));
-    rows.push_back(row);
+    rows.push_back(SetRow(f, measured, model.values));
   }
   return rows.size() > 1 ? Aligned(rows) + "\n" : "";
 }
@@ -88,7 +105,7 @@ std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f)
 
 std::string ComparisonText(const ComparedCampaign& compared) {
   std::string text = compared.evidence.name + "\n\n";
-  text += FromTrials(compared) + FromModel(compared);
+  text += WhatEachKnows(compared.evidence) + FromTrials(compared) + FromModel(compared);
   for (const ObjectiveFinding& f : compared.findings) {
     if (f.absent.empty()) text += TenBest(compared, f);
   }

@@ -26,7 +26,7 @@ inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 struct ParameterInfo {
   optimizer::Parameter range;  // name, low, high, scale
-  std::string symbol;          // for axes: "μ_r"
+  std::string symbol;          // for axes: "μᵣ"
   std::string unit;            // SI: "J/m²"; empty for a pure number
   std::string column;          // name with unit, for tables: "surface_energy_J_per_m2"
 };
@@ -76,6 +76,20 @@ struct ModelEvidence {
   std::function<optimizer::Moments(const Eigen::MatrixXd&)> predict;
 };
 
+// What one objective knows by itself (knowledge.h).
+struct ObjectiveKnowledge {
+  std::string title;                // "whole heap (SAD, RMSE)", "AOR 1"
+  std::string absent{};             // why nothing is known
+  double region = kUndefined;       // its joint 90 % region, share of the searched ranges
+  double region_low = kUndefined;   // … known to lie between these, 90 %
+  double region_high = kUndefined;  // kUndefined: not known
+  double level = kUndefined;        // credible level of the campaign's recommended set
+  int num_holding = 0;              // refits without some trials whose region holds that set
+  int num_refits = 0;               // … of so many
+
+  bool Holds() const { return level <= 0.9; }
+};
+
 struct NamedText {
   std::string name;
   std::string text;
@@ -101,15 +115,16 @@ struct Evidence {
   std::vector<TrialEvidence> trials;
   std::vector<TrialEvidence> of_others;  // trials of the other experiments, without metrics
   ReferenceEvidence reference;
-  std::optional<campaign::Answer> answer;                       // none before there is one
-  std::vector<FitRow> fit;                                      // of it, to every experiment
-  std::vector<std::string> experiments;                         // all of the campaign's, by name
-  std::optional<ModelEvidence> model;                           // none where no model answers
-  std::string model_absent;                                     // why, where there is none
-  std::vector<StageTime> stages;                                // where the time went
-  std::vector<NamedText> versions;                              // of talus and what it stands on
-  std::string spec;                                             // the text of the spec's file
-  std::string spec_json;                                        // as it was understood
+  std::optional<campaign::Answer> answer;     // none before there is one
+  std::vector<FitRow> fit;                    // of it, to every experiment
+  std::vector<std::string> experiments;       // all of the campaign's, by name
+  std::optional<ModelEvidence> model;         // none where no model answers
+  std::string model_absent;                   // why, where there is none
+  std::vector<ObjectiveKnowledge> knowledge;  // none before the campaign has ended
+  std::vector<StageTime> stages;              // where the time went
+  std::vector<NamedText> versions;            // of talus and what it stands on
+  std::string spec;                           // the text of the spec's file
+  std::string spec_json;                      // as it was understood
   std::function<std::optional<imaging::Profile>(int)> profile;  // ANHP of a trial by its id
 };
 

@@ -100,7 +100,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (standing != nullptr && index < standing->numbers.size()) {
     const campaign::ResultPredictedNumber& number = standing->numbers[index];
-    row.simulated = "predicted " + shown(number.predicted) + " ± " +
+    row.simulated = "predicted " + shown(rigs::Possible(measured.name, number.predicted)) + " ± " +
                     ShortText(unit.per_unit * number.predicted_sd, 2) + ending;
   }
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);

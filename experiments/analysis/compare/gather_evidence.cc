@@ -275,4 +275,15 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   return evidence;
 }
 
+std::vector<Evidence> GatherOthers(const std::filesystem::path& campaign,
+                                   const Evidence& evidence) {
+  std::vector<Evidence> others;
+  for (std::size_t e = 0; e < evidence.experiments.size(); ++e) {
+    if (e != evidence.experiment) {
+      others.push_back(GatherEvidence(campaign, evidence.experiments[e]));
+    }
+  }
+  return others;
+}
+
 }  // namespace talus::analysis

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/compare/knowledge.h"
 #include "experiments/campaign/answer/joint_view.h"
 
 namespace talus::analysis {
@@ -14,32 +15,15 @@ optimizer::Moments NotNegative(optimizer::Moments moments) {
 }
 
 // The one that answers, told again what the journal holds.
-std::shared_ptr<optimizer::PosteriorStrategy> StrategyTold(const std::filesystem::path& campaign) {
-  const campaign::JointView view = campaign::ReadJointView(campaign);
+std::shared_ptr<optimizer::PosteriorStrategy> StrategyTold(const campaign::JointView& view) {
   std::shared_ptr<optimizer::PosteriorStrategy> strategy =
       campaign::MakePosteriorStrategy(view.spec, view.record, view.references);
   for (const optimizer::Observation& observation : view.observations) strategy->Tell(observation);
   return strategy;
 }
 
-}  // namespace
-
-void AddModel(const std::filesystem::path& campaign, Evidence& evidence) {
-  const bool any = std::ranges::any_of(evidence.trials, [](const TrialEvidence& trial) {
-    return trial.state == journal::TrialStatus::kOk && trial.purpose != "confirm";
-  });
-  if (!any) {
-    evidence.model_absent = "no trial has succeeded yet";
-    return;
-  }
-  const std::shared_ptr<optimizer::PosteriorStrategy> strategy = StrategyTold(campaign);
-  const optimizer::Answer answer = strategy->Recommend();
-  if (!answer.posterior) {
-    evidence.model_absent = answer.model;
-    return;
-  }
-  const int experiment = static_cast<int>(evidence.experiment);
-  const auto expected = strategy->Predict(answer.point.transpose(), experiment);
+ModelEvidence ModelOf(const std::shared_ptr<optimizer::PosteriorStrategy>& strategy,
+                      const optimizer::Answer& answer, int experiment) {
   ModelEvidence model;
   model.point = answer.point;
   model.noise_sd = answer.noise_sd;
@@ -48,14 +32,41 @@ void AddModel(const std::filesystem::path& campaign, Evidence& evidence) {
   model.credible_levels = [strategy](const Eigen::MatrixXd& points) {
     return *strategy->CredibleLevels(points);
   };
-  if (expected) {
-    model.expected = NotNegative(*expected).mean[0];
-    model.expected_sd = expected->sd[0];
-    model.predict = [strategy, experiment](const Eigen::MatrixXd& points) {
-      return NotNegative(*strategy->Predict(points, experiment));
-    };
+  const auto expected = strategy->Predict(answer.point.transpose(), experiment);
+  if (!expected) return model;
+  model.expected = NotNegative(*expected).mean[0];
+  model.expected_sd = expected->sd[0];
+  model.predict = [strategy, experiment](const Eigen::MatrixXd& points) {
+    return NotNegative(*strategy->Predict(points, experiment));
+  };
+  return model;
+}
+
+}  // namespace
+
+void AddModel(const std::filesystem::path& campaign, Evidence& evidence,
+              std::span<Evidence> others) {
+  const bool any = std::ranges::any_of(evidence.trials, [](const TrialEvidence& trial) {
+    return trial.state == journal::TrialStatus::kOk && trial.purpose != "confirm";
+  });
+  if (!any) {
+    evidence.model_absent = "no trial has succeeded yet";
+    return;
   }
-  evidence.model = std::move(model);
+  const campaign::JointView view = campaign::ReadJointView(campaign);
+  const std::shared_ptr<optimizer::PosteriorStrategy> strategy = StrategyTold(view);
+  const optimizer::Answer answer = strategy->Recommend();
+  if (!answer.posterior) {
+    evidence.model_absent = answer.model;
+    return;
+  }
+  const auto add = [&](Evidence& shown) {
+    const int experiment = static_cast<int>(shown.experiment);
+    shown.model = ModelOf(strategy, answer, experiment);
+    if (shown.answer) shown.knowledge = KnowledgeOf(view, experiment, answer.point);
+  };
+  add(evidence);
+  std::ranges::for_each(others, add);
 }
 
 }  // namespace talus::analysis

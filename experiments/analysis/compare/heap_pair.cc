@@ -1,24 +1,96 @@
 #include "experiments/analysis/compare/heap_pair.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
+#include "base/text/number_text.h"
+#include "experiments/analysis/compare/crop.h"
+#include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/heap/difference_map.h"
 
 namespace talus::analysis {
+namespace {
 
-void WriteHeapPair(const std::filesystem::path& path, const imaging::GrayImage& left,
-                   const imaging::GrayImage& right) {
-  constexpr int kGap = 8;  // [px]
-  imaging::GrayImage both{
-      .width = left.width + kGap + right.width, .height = left.height, .pixels = {}};
-  both.pixels.assign(static_cast<std::size_t>(both.width) * static_cast<std::size_t>(both.height),
-                     255);
-  for (int y = 0; y < left.height; ++y) {
-    for (int x = 0; x < left.width; ++x) both.at(x, y) = left.at(x, y);
-    for (int x = 0; x < right.width; ++x) both.at(left.width + kGap + x, y) = right.at(x, y);
+constexpr int kGap = 14;             // between panels, and round them [px]
+constexpr double kTitleHeight = 24;  // of a panel so wide [px]
+constexpr double kTitleSize = 0.36;  // … of OpenCV's font
+constexpr int kPanelWidth = 320;     // at least, for the titles [px]
+
+imaging::Profile Cut(const imaging::Profile& profile, const Box& box) {
+  imaging::Profile cut{.image = Cropped(profile.image, box), .frame = profile.frame};
+  cut.frame.width = box.width;
+  cut.frame.height = box.height;
+  cut.frame.center_x -= box.left;
+  cut.frame.baseline -= box.top;
+  return cut;
+}
+
+struct Difference {
+  double area = 0;  // SAD [m²]
+  double most = 0;  // distance from the plate's centre at which the columns differ most [m]
+};
+
+Difference DifferenceOf(const imaging::Profile& first, const imaging::Profile& second) {
+  const imaging::Frame& frame = first.frame;
+  Difference found;
+  double largest = 0;
+  for (int x = 0; x < frame.width; ++x) {
+    double column = 0;  // [px]
+    for (int y = 0; y < frame.height; ++y) {
+      column += std::abs(first.image.at(x, y) - second.image.at(x, y)) / 255.0;
+    }
+    found.area += column * frame.pixel_size * frame.pixel_size;
+    if (column <= largest) continue;
+    largest = column;
+    found.most = std::abs(x + 0.5 - frame.center_x) * frame.pixel_size;
   }
+  return found;
+}
+
+std::string DifferenceTitle(const Difference& difference) {
+  return "red: only first, blue: only second; " + base::ShortNumber(1e6 * difference.area, 2) +
+         " mm2, most at " + base::ShortNumber(1e3 * difference.most, 2) + " mm";
+}
+
+struct Panel {
+  std::string title;
+  imaging::ColorImage image;
+};
+
+}  // namespace
+
+imaging::ColorImage DrawHeapPair(const imaging::Profile& first, const imaging::Profile& second) {
+  const Box box = HeapBox({&first, &second});
+  const imaging::Profile left = Cut(first, box);
+  const imaging::Profile right = Cut(second, box);
+  const std::vector<Panel> panels{
+      {"first", imaging::ToColor(left.image)},
+      {"second", imaging::ToColor(right.image)},
+      {DifferenceTitle(DifferenceOf(left, right)), imaging::DifferenceImage(left, right)}};
+  const int zoom = std::max(1, (kPanelWidth + box.width - 1) / box.width);
+  const int width = zoom * box.width + kGap;
+  // Titles as wide as their panels, however wide these are.
+  const double scale = static_cast<double>(width) / (kPanelWidth + kGap);
+  const int title = static_cast<int>(kTitleHeight * scale);
+  imaging::ColorImage sheet = imaging::MakeCanvas(static_cast<int>(panels.size()) * width + kGap,
+                                                  title + zoom * box.height + 2 * kGap);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const int x = kGap + static_cast<int>(i) * width;
+    imaging::DrawText(sheet, {.text = panels[i].title,
+                              .at = {static_cast<double>(x), kGap + title / 2.0},
+                              .size = kTitleSize * scale});
+    imaging::Paste(panels[i].image, zoom, x, kGap + title, sheet);
+  }
+  return sheet;
+}
+
+void WriteHeapPair(const std::filesystem::path& path, const imaging::Profile& first,
+                   const imaging::Profile& second) {
   std::filesystem::create_directories(path.parent_path());
-  imaging::WritePng(path, both);
+  imaging::WritePng(path, DrawHeapPair(first, second));
 }
 
 }  // namespace talus::analysis

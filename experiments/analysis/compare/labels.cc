@@ -23,18 +23,18 @@ std::string Find(const std::array<Entry, N>& list, std::string_view key) {
 
 std::string SymbolOf(std::string_view parameter) {
   static constexpr std::array kSymbols{
-      Entry{"sliding_friction", "μ_t"},
-      Entry{"rolling_friction", "μ_r"},
+      Entry{"sliding_friction", "μₜ"},
+      Entry{"rolling_friction", "μᵣ"},
       Entry{"surface_energy", "γ"},
       Entry{"restitution", "e"},
       Entry{"youngs_modulus", "Y"},
       Entry{"poisson_ratio", "ν"},
-      Entry{"rolling_damping", "η_r"},
-      Entry{"plate_sliding_friction", "μ_t plate"},
-      Entry{"plate_rolling_friction", "μ_r plate"},
+      Entry{"rolling_damping", "ηᵣ"},
+      Entry{"plate_sliding_friction", "μₜ plate"},
+      Entry{"plate_rolling_friction", "μᵣ plate"},
       Entry{"plate_surface_energy", "γ plate"},
-      Entry{"tube_sliding_friction", "μ_t tube"},
-      Entry{"tube_rolling_friction", "μ_r tube"},
+      Entry{"tube_sliding_friction", "μₜ tube"},
+      Entry{"tube_rolling_friction", "μᵣ tube"},
       Entry{"tube_surface_energy", "γ tube"},
       Entry{"plate_pair_sliding_friction", "μ_t powder–plate"},
       Entry{"plate_pair_rolling_friction", "μ_r powder–plate"},
@@ -70,31 +70,6 @@ std::string MetricTitle(std::string_view metric) {
   };
   if (const rigs::ObservableInfo* info = rigs::FindObservable(metric)) return info->title;
   return Find(kTitles, metric);
-}
-
-std::string PrettyUnit(std::string_view unit) {
-  static constexpr std::array kUnits{
-      Entry{"mm2", "mm²"},          Entry{"deg", "°"},      Entry{"-", ""},
-      Entry{"gray", "grey levels"}, Entry{"J/m^2", "J/m²"}, Entry{"kg/m^3", "kg/m³"},
-      Entry{"kg/m3", "kg/m³"},
-  };
-  return Find(kUnits, unit);
-}
-
-ShownUnit ShownUnitOf(std::string_view unit) {
-  if (unit == "kg") return {"mg", 1e6};
-  if (unit == "m") return {"mm", 1e3};
-  if (unit == "kg/s") return {"g/s", 1e3};
-  return {PrettyUnit(unit), 1};
-}
-
-std::string ShownName(const std::string& metric) {
-  const rigs::ObservableInfo* info = rigs::FindObservable(metric);
-  if (info == nullptr) return metric;
-  static constexpr std::array kEndings{Entry{"_kg", "_mg"}, Entry{"_m", "_mm"},
-                                       Entry{"_kg_per_s", "_g_per_s"}};
-  const std::string ending = rigs::MetricUnitOf(info->dimension).ending;
-  return info->key + Find(kEndings, ending);
 }
 
 }  // namespace talus::analysis

@@ -1,6 +1,7 @@
 #include "experiments/analysis/compare/profile_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -38,7 +39,26 @@ std::vector<Column> Columns(const Evidence& evidence, const std::vector<ShownTri
   return columns;
 }
 
+bool IsRecommended(const Evidence& evidence, const TrialEvidence& trial) {
+  if (!evidence.answer) return false;
+  for (std::size_t k = 0; k < trial.values.size(); ++k) {
+    const double value = evidence.answer->parameters[k].value;
+    if (std::abs(trial.values[k] - value) > 1e-9 * std::abs(value)) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+const TrialEvidence* ConfirmingTrial(const Evidence& evidence) {
+  const TrialEvidence* first = nullptr;
+  for (const TrialEvidence& trial : evidence.trials) {
+    if (trial.purpose != "confirm" || trial.state != journal::TrialStatus::kOk) continue;
+    if (first == nullptr) first = &trial;
+    if (IsRecommended(evidence, trial)) return &trial;
+  }
+  return first;
+}
 
 std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
                                      const std::vector<ObjectiveFinding>& findings) {
@@ -59,11 +79,8 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
     const std::string& title = finding.info.title;
     add(finding.from_trials.best.front().trials.front(), "best by " + title, ", " + title);
   }
-  for (const TrialEvidence& trial : evidence.trials) {
-    if (trial.purpose == "confirm" && trial.state == journal::TrialStatus::kOk) {
-      add(trial.id, "a confirming trial", ", a confirming trial");
-      break;
-    }
+  if (const TrialEvidence* trial = ConfirmingTrial(evidence)) {
+    add(trial->id, "a confirming trial", ", a confirming trial");
   }
   return shown;
 }

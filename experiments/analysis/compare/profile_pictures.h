@@ -15,7 +15,11 @@ struct ShownTrial {
   std::string why;  // "best by SAD, RMSE"
 };
 
-// The first trial of the best set by each objective, and the first confirming one; each once.
+// The first trial that confirms the recommended set; before there is an answer the first that
+// confirms at all, and null without any.
+const TrialEvidence* ConfirmingTrial(const Evidence& evidence);
+
+// The first trial of the best set by each objective, and ConfirmingTrial; each once.
 std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
                                      const std::vector<ObjectiveFinding>& findings);
 

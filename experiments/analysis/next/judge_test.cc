@@ -8,6 +8,7 @@
 #include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::analysis {
@@ -94,16 +95,18 @@ void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetic
   }
   const std::vector<optimizer::Moments> scalars = model.Scalars(sets);
   for (std::size_t s = 0; s < scalars.size(); ++s) {
-    candidate.numbers.push_back({.metric = made.target.scalars[s].name,
-                                 .first = scalars[s].mean[0],
-                                 .second = scalars[s].mean[1]});
+    candidate.numbers.push_back(
+        {.metric = made.target.scalars[s].name,
+         .first = rigs::Possible(made.target.scalars[s].name, scalars[s].mean[0]),
+         .second = rigs::Possible(made.target.scalars[s].name, scalars[s].mean[1])});
   }
   if (!model.has_image()) return;
-  const auto image = [&](Eigen::Index row) {
-    return made.reference.ImageOf(model.MeanImage(sets.row(row).transpose()));
+  const auto heap = [&](Eigen::Index row) -> imaging::Profile {
+    return {.image = made.reference.ImageOf(model.MeanImage(sets.row(row).transpose())),
+            .frame = made.reference.frame().value()};
   };
   candidate.picture = ground.view.folder.root / "next" / (FileName(test) + ".png");
-  WriteHeapPair(candidate.picture, image(0), image(1));
+  WriteHeapPair(candidate.picture, heap(0), heap(1));
 }
 
 }  // namespace

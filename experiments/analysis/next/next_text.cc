@@ -7,6 +7,7 @@
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -44,8 +45,9 @@ std::string ApartText(const NextCandidate& c) {
   std::string text =
       "            tells apart best " + SetText(c.apart[0]) + " and " + SetText(c.apart[1]);
   for (const ToldApart& number : c.numbers) {
-    text += "; " + number.metric + " " + base::ShortNumber(number.first) + " and " +
-            base::ShortNumber(number.second);
+    text += "; " + rigs::ShownName(number.metric) + " " +
+            rigs::ShownNumber(number.metric, number.first) + " and " +
+            rigs::ShownNumber(number.metric, number.second);
   }
   if (!c.picture.empty()) text += ": " + c.picture.string();
   return text + "\n";
@@ -99,8 +101,26 @@ std::string NextText(const NextTable& table) {
             "            expected to leave " + WidthsText(table, c.learning->width) + "\n";
     if (!c.apart.empty()) text += ApartText(c);
   }
-  if (unknown) text += "--simulate runs the few simulations that tell what a test would teach\n";
+  if (unknown) {
+    text +=
+        "?: `talus next DIR --simulate` runs the few simulations that tell what a test would "
+        "teach, `--budget` says in how much core time\n";
+  }
   return text;
+}
+
+std::string NextSummary(const NextTable& table) {
+  constexpr int kMost = 3;
+  std::string text;
+  int shown = 0;
+  for (const NextCandidate& c : table.candidates) {
+    if (c.kind != NextKind::kTest || !c.learning || shown == kMost) continue;
+    text += (shown++ == 0 ? "  further tests     " : "                    ") + c.name +
+            ": expected to leave " + WidthsText(table, c.learning->width) + "\n";
+  }
+  if (shown == 0) return "";
+  return text + "                    (width of the joint 90 % ranges now: " +
+         WidthsText(table, table.width) + "; `talus next DIR` lists all)\n";
 }
 
 std::string NextJson(const NextTable& table) {

@@ -12,6 +12,7 @@
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/rigs/observables/observable.h"
+#include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
@@ -153,21 +154,36 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
   }
 }
 
+// Grain steps of a test's simulation over those of the first experiment's.
+double RelativeCost(const JointView& view, const TestCandidate& test, double factor) {
+  return campaign::GrainStepsOf(SpecOf(view, test), 0, factor) /
+         campaign::GrainStepsOf(view.spec, 0, factor);
+}
+
 // As many simulations as the first experiment took, each as much dearer as its grains go on.
 void EstimateCost(const JointView& view, const TestCandidate& test, Cost& cost,
                   NextCandidate& candidate) {
-  const campaign::CampaignSpec spec = SpecOf(view, test);
   for (const double factor : view.spec.coarse_graining.Levels()) {
     const int count = CountAt(view, 0, factor);
     candidate.num_simulations += count;
-    candidate.core_time += count * cost.OfOne(0, factor) * campaign::GrainStepsOf(spec, 0, factor) /
-                           campaign::GrainStepsOf(view.spec, 0, factor);
+    candidate.core_time += count * cost.OfOne(0, factor) * RelativeCost(view, test, factor);
   }
 }
 
-NextCandidate TestOf(const Ground& ground, const TestCandidate& test, const NextOptions& options,
-                     Cost& cost) {
-  const JointView& view = ground.view;
+// Of a design's simulations that are still to be made [core seconds].
+double DesignCost(const JointView& view, const TestCandidate& test, int num_made, Cost& cost) {
+  const double factor = view.spec.coarse_graining.Levels().front();
+  return (kDesignSize - num_made) * cost.OfOne(0, factor) * RelativeCost(view, test, factor);
+}
+
+// A test that can be simulated, with what is known of it.
+struct Design {
+  std::size_t candidate = 0;  // by its place among the tests
+  std::optional<TestDesign> stored;
+  double cost = 0;  // of what is to be simulated [core seconds]
+};
+
+NextCandidate CandidateOf(const JointView& view, const TestCandidate& test, Cost& cost) {
   NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
   if (const std::string why = WhyNot(view, test); !why.empty()) {
     candidate.what = "cannot be simulated: " + why;
@@ -175,13 +191,59 @@ NextCandidate TestOf(const Ground& ground, const TestCandidate& test, const Next
   }
   candidate.what = "carry it out in " + base::Counted(test.runs, "run");
   EstimateCost(view, test, cost, candidate);
-  const auto design = options.simulate ? SimulateDesign(view, test, ground.draws, options.parts)
-                                       : StoredDesign(view, test, *options.parts.engine);
-  if (!design) return candidate;
-  candidate.num_made = design->num_simulations;
-  candidate.core_time_made = design->core_time;
-  JudgeTest(ground, test, *design, candidate);
   return candidate;
+}
+
+// The cheapest first.
+std::vector<Design> DesignsOf(const JointView& view, const NextOptions& options,
+                              const std::vector<NextCandidate>& candidates, Cost& cost) {
+  std::vector<Design> designs;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].num_simulations == 0) continue;
+    Design design{.candidate = i,
+                  .stored = StoredDesign(view, options.tests[i], *options.parts.engine)};
+    const int made = design.stored ? design.stored->num_simulations : 0;
+    design.cost = DesignCost(view, options.tests[i], made, cost);
+    designs.push_back(std::move(design));
+  }
+  std::ranges::stable_sort(designs, {}, &Design::cost);
+  return designs;
+}
+
+std::string CostText(const TestCandidate& test, const Design& design) {
+  const int made = design.stored ? design.stored->num_simulations : 0;
+  return test.name + ": " + base::Counted(kDesignSize - made, "simulation") + ", about " +
+         trials::DurationText(design.cost) + " of core time";
+}
+
+// Simulates the designs that the core time allows, and judges every test that has one.
+std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& options,
+                                      Cost& cost) {
+  const JointView& view = ground.view;
+  std::vector<NextCandidate> candidates;
+  for (const TestCandidate& test : options.tests) {
+    candidates.push_back(CandidateOf(view, test, cost));
+  }
+  double left = options.core_time;
+  for (Design& design : DesignsOf(view, options, candidates, cost)) {
+    const TestCandidate& test = options.tests[design.candidate];
+    if (options.simulate && design.cost > 0 && design.cost <= left) {
+      options.say(CostText(test, design));
+      const double before = design.stored ? design.stored->core_time : 0;
+      design.stored = SimulateDesign(view, test, ground.draws, options.parts);
+      left -= design.stored->core_time - before;
+    }
+    NextCandidate& candidate = candidates[design.candidate];
+    if (!design.stored) {
+      candidate.what += ", judged by " + base::Counted(kDesignSize, "coarse simulation") + " of " +
+                        trials::DurationText(design.cost) + " of core time together";
+      continue;
+    }
+    candidate.num_made = design.stored->num_simulations;
+    candidate.core_time_made = design.stored->core_time;
+    JudgeTest(ground, test, *design.stored, candidate);
+  }
+  return candidates;
 }
 
 }  // namespace
@@ -208,9 +270,8 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   Cost cost(view);
   AddMoreOfTheSame(ground, cost, table.candidates);
   AddNumbers(ground, table.candidates);
-  for (const TestCandidate& test : options.tests) {
-    table.candidates.push_back(TestOf(ground, test, options, cost));
-  }
+  const std::vector<NextCandidate> tests = JudgeTests(ground, options, cost);
+  table.candidates.insert(table.candidates.end(), tests.begin(), tests.end());
   const auto bits = [](const NextCandidate& c) { return c.learning ? c.learning->bits : -1; };
   std::stable_sort(
       table.candidates.begin(), table.candidates.end(),

@@ -1,6 +1,9 @@
 // What to do next, by what it is expected to teach about the parameters.
 #pragma once
 
+#include <functional>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "experiments/analysis/next/next_table.h"
@@ -11,7 +14,11 @@ namespace talus::analysis {
 
 struct NextOptions {
   std::vector<TestCandidate> tests{};
-  bool simulate = false;            // the designs of the tests that have none
+  bool simulate = false;  // the designs of the tests that have none, the cheapest first
+  // … as long as the next one fits within this core time [s]
+  double core_time = std::numeric_limits<double>::infinity();
+  // Told before a design is simulated.
+  std::function<void(const std::string&)> say = [](const std::string&) {};
   campaign::CampaignParts parts{};  // that simulate
 };
 

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDesignSize = 16;
-
 campaign::DesignFolder FolderOf(const campaign::JointView& view, const TestCandidate& test) {
   return {campaign::NextFolder(view.folder.root) / FileName(test)};
 }

@@ -13,6 +13,8 @@
 
 namespace talus::analysis {
 
+inline constexpr int kDesignSize = 16;  // simulations of a design
+
 struct DesignTrial {
   Eigen::VectorXd point;       // unit cube
   imaging::GrayImage profile;  // empty without a frame

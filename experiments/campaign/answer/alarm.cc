@@ -18,8 +18,8 @@ std::string BudgetText(const Alarm& a) {
   const std::string remedy = a.value ? "about " + std::to_string(std::llround(*a.value)) +
                                            " more simulations would meet it"
                                      : "go on with more simulations";
-  return "the budget ended the search before its stopping rule did: " + a.reason.value_or("") +
-         "; " + remedy + " (" + ResumeCommand(a.value.value_or(kMoreSimulations)) + ")";
+  return a.reason.value_or("") + "; " + remedy + " (" +
+         ResumeCommand(a.value.value_or(kMoreSimulations)) + ")";
 }
 
 std::string Quoted(const std::optional<std::string>& name) {
@@ -113,7 +113,7 @@ std::string AlarmText(const Alarm& a) {
       return a.parameter.value_or("") + " and " + a.other_parameter.value_or("") +
              " are known together only (correlation " +
              base::ShortNumber(std::round(100 * a.value.value_or(0)) / 100) +
-             "): use them as a pair, or measure one of them in another test";
+             "): use them as a pair; a different test may tell them apart (`talus next DIR`)";
     case AlarmKind::kPoorModel:
       return "the model is not sure of itself: of the simulations left out of the fit one by "
              "one, " +

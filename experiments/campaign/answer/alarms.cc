@@ -240,7 +240,8 @@ std::vector<Alarm> PriorAlarms(const Answer& answer) {
 
 std::vector<Alarm> BudgetAlarms(const Answer& answer) {
   if (!answer.unsettled) return {};
-  Alarm alarm{.kind = AlarmKind::kBudgetEnded, .reason = answer.unsettled->why};
+  Alarm alarm{.kind = AlarmKind::kBudgetEnded,
+              .reason = answer.stop.Text() + ", and " + answer.unsettled->why};
   if (std::isfinite(answer.unsettled->num_more)) alarm.value = answer.unsettled->num_more;
   return {alarm};
 }

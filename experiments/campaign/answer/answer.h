@@ -98,12 +98,24 @@ struct ResultExperiment {
   }
 };
 
+// What an experiment is made with.
+struct ResultDevice {
+  std::string experiment{};
+  std::string text{};  // "drum: diameter 84 mm, speed 10 rpm"
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("experiment", self.experiment);
+    visit("text", self.text);
+  }
+};
+
 // A calibrated set, above all γ, holds only together with these.
 struct ResultConditions {
   double scale_factor = 1;
   double surface_energy_exponent = 1;
-  double youngs_modulus = 0;              // [Pa]
-  std::optional<double> lift_velocity{};  // of lifted tubes, where there are any [m/s]
+  double youngs_modulus = 0;            // [Pa]
+  std::vector<ResultDevice> devices{};  // of each experiment
   std::string adhesion{};
   std::string rolling{};
 
@@ -112,7 +124,7 @@ struct ResultConditions {
     visit("scale_factor", self.scale_factor);
     visit("surface_energy_exponent", self.surface_energy_exponent);
     visit("youngs_modulus_Pa", self.youngs_modulus);
-    visit("lift_velocity_m_per_s", self.lift_velocity);
+    visit("devices", self.devices);
     visit("adhesion", self.adhesion);
     visit("rolling", self.rolling);
   }

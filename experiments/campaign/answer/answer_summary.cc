@@ -1,11 +1,14 @@
 #include "experiments/campaign/answer/answer_summary.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -62,8 +65,11 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultConfirme
   for (std::size_t i = 0; i < experiment.numbers.size(); ++i) {
     const ResultNumber& n = experiment.numbers[i];
     text += (text.empty() ? "" : "; ") + n.name;
-    if (confirmed != nullptr) text += " " + base::ShortNumber(confirmed->scalars.at(i).mean) + ",";
-    text += " measured " + base::ShortNumber(n.value) + " ± " + base::ShortNumber(n.standard_error);
+    if (confirmed != nullptr) {
+      text += " " + rigs::ShownNumber(n.name, confirmed->scalars.at(i).mean) + ",";
+    }
+    text += " measured " + rigs::ShownNumber(n.name, n.value) + " ± " +
+            rigs::ShownNumber(n.name, n.standard_error);
   }
   return text;
 }
@@ -96,11 +102,22 @@ std::string ExperimentLines(const Answer& answer) {
   return text;
 }
 
+// "candidate 2", "an end 1": each role counted by itself.
+std::string NameOfCandidate(const Answer& answer, std::size_t index) {
+  const CandidateRole role = answer.confirmed[index].role;
+  if (role == CandidateRole::kRecommended) return "confirmed";
+  const auto last = answer.confirmed.begin() + static_cast<std::ptrdiff_t>(index) + 1;
+  const auto number =
+      std::ranges::count(answer.confirmed.begin(), last, role, &ResultCandidate::role);
+  return role == CandidateRole::kEnd ? "an end " + std::to_string(number)
+                                     : "candidate " + std::to_string(number + 1);
+}
+
 std::string ConfirmedLines(const Answer& answer) {
   std::string text;
   for (std::size_t i = 0; i < answer.confirmed.size(); ++i) {
     const ResultCandidate& c = answer.confirmed[i];
-    text += Padded(i == 0 ? "  confirmed" : "  candidate " + std::to_string(i + 1), 20) + "with " +
+    text += Padded("  " + NameOfCandidate(answer, i), 20) + "with " +
             std::to_string(c.experiments.front().num_trials) + " fresh seeds at scale factor " +
             base::ShortNumber(c.scale_factor);
     for (std::size_t k = 0; i > 0 && k < c.values.size(); ++k) {
@@ -112,6 +129,7 @@ std::string ConfirmedLines(const Answer& answer) {
         text += "; " + e.name + " " + base::ShortNumber(value) + " " + answer.objective_unit;
       }
     }
+    if (i > 0 && Misses(answer, c)) text += "; misses";
     text += "\n";
   }
   return text;
@@ -160,18 +178,19 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
       text += "    " + fact + "\n";
     }
   }
-  text += "  stopped because   " + r.stop.Text() + "\n";
+  // Where the budget ended it, the alarm says so.
+  if (!r.unsettled) text += "  stopped because   " + r.stop.Text() + "\n";
   if (r.verdict && r.verdict->kind != VerdictKind::kPoint) {
     text +=
         "  next              `talus next DIR` ranks what would narrow it; `talus report DIR` shows "
         "it\n";
   }
   text += "  holds for         scale factor " + base::ShortNumber(r.conditions.scale_factor) +
-          ", Y " + base::ShortNumber(r.conditions.youngs_modulus) + " Pa" +
-          (r.conditions.lift_velocity
-               ? ", lift velocity " + base::ShortNumber(*r.conditions.lift_velocity) + " m/s"
-               : "") +
-          ", adhesion " + r.conditions.adhesion + ", rolling " + r.conditions.rolling + "\n";
+          ", Y " + base::ShortNumber(r.conditions.youngs_modulus) + " Pa" + ", adhesion " +
+          r.conditions.adhesion + ", rolling " + r.conditions.rolling + "\n";
+  for (const ResultDevice& device : r.conditions.devices) {
+    text += "                    " + device.experiment + ", " + device.text + "\n";
+  }
   text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
           std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
           " core hours, " + base::ShortNumber(r.cost.elapsed / 60) + " min\n";

@@ -11,7 +11,9 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/answer/representatives.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/rigs/case/device_text.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
@@ -96,8 +98,9 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
 }
 
 ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& evidence,
-                            const Eigen::VectorXd& point) {
-  ResultCandidate candidate{.values = FreeValues(planner.space(), point)};
+                            const Candidate& simulated) {
+  const Eigen::VectorXd& point = simulated.point;
+  ResultCandidate candidate{.role = simulated.role, .values = FreeValues(planner.space(), point)};
   for (std::size_t e = 0; e < evidence.references.size(); ++e) {
     const auto trials = Confirming(planner, point, static_cast<int>(e));
     for (const journal::TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
@@ -190,43 +193,13 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
 
 void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
                      const CampaignEvidence& evidence, Answer& result) {
-  for (const Eigen::VectorXd& point : planner.Candidates(answer)) {
-    ResultCandidate candidate = CandidateOf(planner, evidence, point);
+  for (const Candidate& simulated : planner.Candidates(answer)) {
+    ResultCandidate candidate = CandidateOf(planner, evidence, simulated);
     const auto succeeded = [](const ResultConfirmed& c) { return c.num_trials > 0; };
     if (std::ranges::any_of(candidate.experiments, succeeded)) {
       result.confirmed.push_back(std::move(candidate));
     }
   }
-}
-
-// Draws in the joint 90 % region: a set outside it does not fit equally.
-Eigen::MatrixXd InRegion(const Eigen::MatrixXd& draws, const Planner& planner) {
-  const auto levels = planner.CredibleLevels(draws);
-  if (!levels) return draws;
-  std::vector<Eigen::Index> inside;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if ((*levels)[i] <= 0.9) inside.push_back(i);
-  }
-  return draws(inside, Eigen::all);
-}
-
-// The sets to look at stand on the posterior's draws.
-void AddRepresentatives(const optimizer::Answer& answer, const Planner& planner, Answer& result) {
-  if (!answer.posterior) return;
-  const Eigen::MatrixXd points = InRegion(answer.posterior->draws, planner);
-  const std::vector<Eigen::Index> asked = planner.domain().Asked();
-  for (const Eigen::VectorXd& set : RepresentativeSets(points, answer.point, asked)) {
-    result.representative.push_back(FreeValues(planner.space(), set));
-  }
-}
-
-bool HasLiftedTube(const CampaignSpec& spec) {
-  const int count = static_cast<int>(ExperimentsOf(spec).size());
-  for (int e = 0; e < count; ++e) {
-    const rigs::Case rig_case = TypicalCase(spec, e, spec.coarse_graining.Target());
-    if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) return true;
-  }
-  return false;
 }
 
 ResultConditions ConditionsOf(const CampaignSpec& spec) {
@@ -236,7 +209,12 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
       .youngs_modulus = spec.powder.material.youngs_modulus,
       .adhesion = std::string(base::NameOf(spec.models.adhesion)),
       .rolling = std::string(base::NameOf(spec.models.rolling))};
-  if (HasLiftedTube(spec)) conditions.lift_velocity = spec.device.lift_velocity;
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    conditions.devices.push_back({.experiment = experiments[e].name,
+                                  .text = rigs::DeviceText(TypicalCase(
+                                      spec, static_cast<int>(e), spec.coarse_graining.Target()))});
+  }
   return conditions;
 }
 
@@ -325,9 +303,15 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
     result.posterior = DescribePosterior(*answer->posterior, planner.space());
   }
   AddHeldOut(planner, evidence, result);
-  AddRepresentatives(*answer, planner, result);
   AddExperiments(*answer, planner, evidence, result);
   AddConfirmation(*answer, planner, evidence, result);
+  if (answer->posterior) {
+    result.representative =
+        Representatives({.answer = *answer,
+                         .planner = planner,
+                         .result = result,
+                         .finest = evidence.spec.coarse_graining.Levels().back()});
+  }
   AddAgreement(planner, evidence, result);
   result.conditions = ConditionsOf(evidence.spec);
   result.cost = CostOf(planner, evidence);

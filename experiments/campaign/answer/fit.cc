@@ -19,6 +19,21 @@ double ScatterOfOne(const ResultConfirmed& confirmed) {
   return std::sqrt(std::max(0.0, (one * one - all * all) * n / (n - 1)));
 }
 
+Meets ImageMeets(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
+  if (!confirmed.profile_sad_mm2) return Meets::kUnknown;
+  if (confirmed.over_floor) {
+    return *confirmed.over_floor <= kCloseRuns ? Meets::kYes : Meets::kNo;
+  }
+  const double own = SadWithoutScatter(confirmed);
+  const bool misses = experiment.powder_area && own > kMostShare * *experiment.powder_area &&
+                      own > kCloseRuns * ScatterOfOne(confirmed);
+  return misses ? Meets::kNo : Meets::kUnknown;
+}
+
+bool MissesNumber(const ResultNumber& measured, const ResultScalar& simulated) {
+  return std::abs(simulated.mean - measured.value) > kCloseNumber * measured.standard_error;
+}
+
 bool IsImplausible(const Answer& answer, const std::string& experiment) {
   const ResultStanding* standing = StandingOf(answer, experiment);
   return standing != nullptr && standing->implausibility > kImplausible;
@@ -38,16 +53,8 @@ MeasurementFit ImageFit(const Answer& answer, const ResultExperiment& experiment
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
   if (confirmed == nullptr || !confirmed->profile_sad_mm2) return fit;
   if (experiment.powder_area) fit.share = *confirmed->profile_sad_mm2 / *experiment.powder_area;
-  if (confirmed->over_floor) {
-    fit.off = *confirmed->over_floor;
-    if (fit.meets != Meets::kNo) fit.meets = fit.off <= kCloseRuns ? Meets::kYes : Meets::kNo;
-    return fit;
-  }
-  const double own = SadWithoutScatter(*confirmed);
-  if (experiment.powder_area && own > kMostShare * *experiment.powder_area &&
-      own > kCloseRuns * ScatterOfOne(*confirmed)) {
-    fit.meets = Meets::kNo;
-  }
+  if (confirmed->over_floor) fit.off = *confirmed->over_floor;
+  if (fit.meets != Meets::kNo) fit.meets = ImageMeets(experiment, *confirmed);
   return fit;
 }
 
@@ -69,6 +76,20 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   if (std::isfinite(fit.off)) fit.meets = fit.off <= kCloseNumber ? Meets::kYes : Meets::kNo;
   if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
   return fit;
+}
+
+bool Misses(const Answer& answer, const ResultCandidate& candidate) {
+  for (const ResultConfirmed& confirmed : candidate.experiments) {
+    const auto experiment =
+        std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);
+    // An experiment without a standing is held out.
+    if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
+    if (ImageMeets(*experiment, confirmed) == Meets::kNo) return true;
+    for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
+      if (MissesNumber(experiment->numbers[i], confirmed.scalars.at(i))) return true;
+    }
+  }
+  return false;
 }
 
 std::vector<MeasurementFit> FitsOf(const Answer& answer) {

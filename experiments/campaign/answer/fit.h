@@ -39,6 +39,9 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
 // Every measurement, in the campaign's order.
 std::vector<MeasurementFit> FitsOf(const Answer& answer);
 
+// Whether a set that was simulated again misses an image or a number.
+bool Misses(const Answer& answer, const ResultCandidate& candidate);
+
 // The SAD that the set would have without the scatter of its simulations.
 double SadWithoutScatter(const ResultConfirmed& confirmed);
 

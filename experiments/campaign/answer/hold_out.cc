@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/text/number_text.h"
 #include "experiments/journal/objective.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -124,11 +125,11 @@ std::vector<std::string> HeldOutFacts(const ResultHeldOut& h, const std::string&
                     " ± " + base::ShortNumber(h.predicted_sd) + " from those of " + h.name);
   }
   for (const PredictedNumber& n : h.numbers) {
-    facts.push_back(n.name + ": predicted " + base::ShortNumber(n.mean) + " ± " +
-                    base::ShortNumber(n.sd) + ", measured " + base::ShortNumber(n.measured) +
-                    " ± " + base::ShortNumber(n.measured_sd) + "; " +
-                    (n.IsInside() ? "inside " : "outside ") + base::ShortNumber(n.low) + " to " +
-                    base::ShortNumber(n.high));
+    const auto shown = [&](double value) { return rigs::ShownNumber(n.name, value); };
+    facts.push_back(n.name + ": predicted " + shown(n.mean) + " ± " + shown(n.sd) + ", measured " +
+                    shown(n.measured) + " ± " + shown(n.measured_sd) + "; " +
+                    (n.IsInside() ? "inside " : "outside ") + shown(n.low) + " to " +
+                    shown(n.high));
   }
   facts.push_back("implausibility " + base::ShortNumber(h.implausibility) + ", " +
                   base::ShortNumber(h.least_implausibility) +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "experiments/campaign/plan/candidates.h"
 
 namespace talus::campaign {
 
@@ -50,12 +51,14 @@ struct ResultConfirmed {
 
 // A set that was simulated again with fresh seeds.
 struct ResultCandidate {
+  CandidateRole role = CandidateRole::kRecommended;
   std::vector<double> values{};  // in the order of the parameters, SI
   double scale_factor = 1;
   std::vector<ResultConfirmed> experiments{};  // in the campaign's order
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
+    visit("role", self.role);
     visit("values", self.values);
     visit("scale_factor", self.scale_factor);
     visit("experiments", self.experiments);

@@ -2,7 +2,6 @@
 // several separate sets. headline.h puts it in words.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
@@ -10,11 +9,9 @@
 #include <vector>
 
 #include "base/field.h"
+#include "experiments/campaign/plan/candidates.h"
 
 namespace talus::campaign {
-
-// Share of a searched range above which a 90 % range is no point.
-inline constexpr double kWideRange = 0.25;
 
 enum class VerdictKind {
   kPoint,    // every 90 % range is narrow
@@ -40,13 +37,6 @@ inline constexpr double kTied = 0.8;
 // The two parameters that are correlated most strongly, where by `least` or more in size.
 std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
     const std::vector<std::vector<double>>& correlation, double least = kTied);
-
-// Representatives of points that fit equally (unit cube, one a row): the ends of their longest
-// direction in the coordinates asked for, with the recommended one between; the recommended one
-// alone where they are close together.
-std::vector<Eigen::VectorXd> RepresentativeSets(const Eigen::MatrixXd& points,
-                                                const Eigen::VectorXd& recommended,
-                                                const std::vector<Eigen::Index>& asked);
 
 }  // namespace talus::campaign
 

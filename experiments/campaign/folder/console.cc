@@ -24,10 +24,13 @@ void PrintEvent(const char* event, const nlohmann::ordered_json& fields) {
 
 }  // namespace
 
-Console::Console(std::filesystem::path log, Output output)
+Console::Console(std::filesystem::path log, Output output,
+                 std::chrono::steady_clock::duration period)
     : log_(std::move(log)),
       output_(output),
-      terminal_(output == Output::kStandardError && ::isatty(STDERR_FILENO) == 1) {}
+      terminal_(output == Output::kStandardError && ::isatty(STDERR_FILENO) == 1),
+      period_(period),
+      said_(std::chrono::steady_clock::now()) {}
 
 Console::~Console() { ClearStatus(); }
 
@@ -60,7 +63,13 @@ void Console::Status(const CampaignProgress& progress) {
     const std::string text = base::JsonText(json);
     if (std::exchange(last_status_, text) != text) PrintEvent("progress", json);
   }
-  if (!terminal_) return;
+  if (!terminal_) {
+    const auto now = std::chrono::steady_clock::now();
+    if (output_ != Output::kStandardError || now - said_ < period_) return;
+    said_ = now;
+    std::cerr << ProgressText(progress) << std::endl;
+    return;
+  }
   base::EraseTerminalLine(STDERR_FILENO);
   std::cerr << ProgressText(progress) << std::flush;
   status_shown_ = true;

@@ -10,7 +10,8 @@ std::string ProgressText(const TrialProgress& trial) {
   std::string text =
       "trial " + std::to_string(trial.trial) + " (" + std::string(base::NameOf(trial.kind)) + ")";
   for (std::size_t i = 0; i < trial.values.size(); ++i) {
-    text += (i == 0 ? " at " : " ") + base::ShortNumber(trial.values[i]);
+    text +=
+        (i == 0 ? " at " : ", ") + trial.parameters[i] + " " + base::ShortNumber(trial.values[i]);
   }
   if (!trial.experiment.empty()) text += ", " + trial.experiment;
   if (trial.scale_factor) text += " at scale factor " + base::ShortNumber(*trial.scale_factor);
@@ -26,11 +27,9 @@ std::string ProgressText(const TrialProgress& trial) {
 }
 
 std::string ProgressText(const CampaignProgress& campaign) {
-  std::string text = "trial " + std::to_string(campaign.num_search);
-  if (campaign.budget > 0) text += " of " + std::to_string(campaign.budget);
-  if (campaign.core_seconds_budget) {
-    text += ", " + trials::DurationText(campaign.core_seconds) + " of " +
-            trials::DurationText(*campaign.core_seconds_budget) + " core time";
+  std::string text = campaign.used;
+  if (campaign.num_confirm > 0) {
+    text += ", then " + std::to_string(campaign.num_confirm) + " to confirm";
   }
   text += ", " + std::to_string(campaign.num_running) + " running";
   if (campaign.best) {

@@ -16,20 +16,22 @@ struct TrialProgress {
   std::int64_t trial = 0;
   journal::TrialKind kind = journal::TrialKind::kSearch;
   journal::TrialStatus status = journal::TrialStatus::kRunning;
-  std::vector<double> values{};          // native units, in the order of the free parameters
-  std::optional<double> scale_factor{};  // where the campaign has several
-  std::string experiment{};              // its name, where the campaign has several
-  std::optional<double> objective{};     // none where it is not defined
-  std::string unit{};                    // of the objective, for people: "mm²"
-  bool best = false;                     // the lowest objective so far
-  std::string reason{};                  // of a failure
-  double duration = 0;                   // [s]
+  std::vector<std::string> parameters{};  // names of the free ones
+  std::vector<double> values{};           // … in this order, native units
+  std::optional<double> scale_factor{};   // where the campaign has several
+  std::string experiment{};               // its name, where the campaign has several
+  std::optional<double> objective{};      // none where it is not defined
+  std::string unit{};                     // of the objective, for people: "mm²"
+  bool best = false;                      // the lowest objective so far
+  std::string reason{};                   // of a failure
+  double duration = 0;                    // [s]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("trial", self.trial);
     visit("kind", self.kind);
     visit("status", self.status);
+    visit("parameters", self.parameters);
     visit("values", self.values);
     visit("scale_factor", self.scale_factor);
     visit("experiment", self.experiment);
@@ -43,7 +45,9 @@ struct TrialProgress {
 
 struct CampaignProgress {
   int num_search = 0;       // trials asked for, without the confirming ones
-  int budget = 0;           // of those; 0: core time is the budget
+  int num_confirm = 0;      // … the confirming ones: the search has ended once there are any
+  int budget = 0;           // of those of the search; 0: core time is the budget
+  std::string used{};       // of the budget, for people
   double core_seconds = 0;  // used by the search, where that is the budget [s]
   std::optional<double> core_seconds_budget{};
   int num_running = 0;
@@ -55,6 +59,7 @@ struct CampaignProgress {
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("num_search", self.num_search);
+    visit("num_confirm", self.num_confirm);
     visit("budget", self.budget);
     visit("core_seconds", self.core_seconds);
     visit("core_seconds_budget", self.core_seconds_budget);
@@ -66,10 +71,10 @@ struct CampaignProgress {
   }
 };
 
-// "trial 7 (search) at 0.3 0.1: 1.2 mm², the best so far, 12 s"
+// "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1: 1.2 mm², the best so far, 12 s"
 std::string ProgressText(const TrialProgress& trial);
 
-// "trial 7 of 60, 2 running, best 1.2 mm² (trial 5), at most 3 min left"
+// "7 of 60 simulations, 2 running, best 1.2 mm² (trial 5), at most 3 min left"
 std::string ProgressText(const CampaignProgress& campaign);
 
 }  // namespace talus::campaign

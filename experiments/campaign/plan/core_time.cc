@@ -8,15 +8,11 @@
 #include "experiments/rigs/load_case.h"
 
 namespace talus::campaign {
-namespace {
 
-// 0 where it is not known.
-double Measured(const journal::TrialRecord& trial, int num_cores) {
+double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores) {
   const double seconds = trial.cpu_s > 0 ? trial.cpu_s : trial.duration_s * num_cores;
   return std::isfinite(seconds) ? seconds : 0;
 }
-
-}  // namespace
 
 double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor) {
   const rigs::CaseSize size = rigs::EstimateCase(TypicalCase(spec, experiment, scale_factor));
@@ -46,7 +42,7 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
   measured_.clear();
   double sum = 0;
   for (const journal::TrialRecord& trial : trials) {
-    const double seconds = Measured(trial, CoresOfTrial(spec_));
+    const double seconds = MeasuredCoreTime(trial, CoresOfTrial(spec_));
     if (seconds == 0) continue;
     GrainSteps({trial.experiment, trial.scale_factor});
     Total& total = measured_[{trial.experiment, trial.scale_factor}];
@@ -55,7 +51,7 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
     sum += seconds;
   }
   for (const journal::TrialRecord& trial : trials) {
-    if (Measured(trial, CoresOfTrial(spec_)) == 0)
+    if (MeasuredCoreTime(trial, CoresOfTrial(spec_)) == 0)
       sum += OfOne(trial.experiment, trial.scale_factor);
   }
   return sum;

@@ -18,6 +18,9 @@ inline constexpr double kUsualSpeed = 4e7;
 // Grain steps of a trial in the middle of the ranges.
 double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor);
 
+// Processor time of a trial that has ended [core seconds]; 0 where it is not known.
+double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores);
+
 class CoreTime {
  public:
   explicit CoreTime(const CampaignSpec& spec) : spec_(spec) {}

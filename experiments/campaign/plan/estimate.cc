@@ -129,7 +129,7 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
     dearest = std::max(dearest, trial.core_seconds);
   }
   e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);
-  const int num_confirming = spec.confirm.candidates * spec.confirm.replicates;
+  const int num_confirming = spec.confirm.MostTrials();
   if (spec.budget.simulations > 0) e.num_trials = spec.budget.simulations + num_confirming;
   e.num_workers = LocalWorkers(spec, NumCores());
   const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations

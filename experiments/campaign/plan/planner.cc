@@ -16,7 +16,6 @@ namespace talus::campaign {
 namespace {
 
 constexpr int kMostAsked = 8;                 // the strategies' limit
-constexpr double kDifferent = 0.05;           // between two candidates, in the unit cube
 constexpr double kSame = 1e-3;                // of a candidate that is confirmed already
 constexpr std::size_t kFailuresToGiveUp = 8;  // as the first trials of all: the set-up is wrong
 // Confirmations after different searches must not share numbers.
@@ -312,20 +311,22 @@ std::int64_t Planner::ConfirmSet(const Eigen::VectorXd& candidate) const {
   return next;
 }
 
-std::vector<Eigen::VectorXd> Planner::Candidates(const optimizer::Answer& answer) const {
-  std::vector<Eigen::VectorXd> candidates;
-  const auto add = [&](const Eigen::VectorXd& point) {
-    const bool near = std::any_of(candidates.begin(), candidates.end(), [&](const auto& other) {
-      return (other - point).template lpNorm<Eigen::Infinity>() < kDifferent;
-    });
-    if (!near && static_cast<int>(candidates.size()) < spec_.confirm.candidates) {
-      candidates.push_back(point);
-    }
-  };
-  add(answer.point);
-  if (!answer.posterior) return candidates;
-  for (const optimizer::PosteriorBranch& branch : answer.posterior->branches) add(branch.point);
-  return candidates;
+Eigen::MatrixXd Planner::Region(const optimizer::PosteriorSummary& posterior) const {
+  const Eigen::MatrixXd& draws = posterior.draws;
+  const auto levels = CredibleLevels(draws);
+  if (!levels) return draws;
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    if ((*levels)[i] <= kRegionLevel) inside.push_back(i);
+  }
+  return draws(inside, Eigen::all);
+}
+
+std::vector<Candidate> Planner::Candidates(const optimizer::Answer& answer) const {
+  if (spec_.confirm.candidates == 0) return {};
+  EqualSets equal{.asked = domain_.Asked()};
+  if (answer.posterior) equal.region = Region(*answer.posterior);
+  return CandidatesOf(answer, equal, spec_.confirm);
 }
 
 bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
@@ -339,8 +340,8 @@ bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
     if (!answer) return false;
     candidates_ = Candidates(*answer);
   }
-  for (const Eigen::VectorXd& candidate : *candidates_) {
-    const std::int64_t set = ConfirmSet(candidate);
+  for (const Candidate& candidate : *candidates_) {
+    const std::int64_t set = ConfirmSet(candidate.point);
     for (int e = 0; e < static_cast<int>(references_.size()); ++e) {
       const auto done =
           std::count_if(trials_.begin(), trials_.end(), [&](const journal::TrialRecord& t) {
@@ -348,7 +349,7 @@ bool Planner::PlanConfirmation(std::vector<journal::TrialRecord>& planned) {
           });
       if (done >= spec_.confirm.replicates) continue;
       journal::TrialRecord trial = Make(journal::TrialKind::kConfirm,
-                                        {.point = candidate,
+                                        {.point = candidate.point,
                                          .experiment = e,
                                          .scale_factor = spec_.confirm.scale_factor.value_or(0)});
       trial.set = set;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "experiments/campaign/plan/candidates.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/stop.h"
 #include "experiments/campaign/record/reference.h"
@@ -45,8 +46,10 @@ class Planner {
   // What the trials so far say; nothing before the first that succeeded.
   std::optional<optimizer::Answer> Recommend();
 
-  // The sets to be confirmed: the recommended one first, then the posterior's other branches.
-  std::vector<Eigen::VectorXd> Candidates(const optimizer::Answer& answer) const;
+  // The sets to be confirmed; none where the spec asks for none.
+  std::vector<Candidate> Candidates(const optimizer::Answer& answer) const;
+  // The posterior's draws inside the joint 90 % region, where a set fits as well as any.
+  Eigen::MatrixXd Region(const optimizer::PosteriorSummary& posterior) const;
   // TrialRecord::set of the trials that confirm a candidate: theirs where there are any.
   std::int64_t ConfirmSet(const Eigen::VectorXd& candidate) const;
 
@@ -97,7 +100,7 @@ class Planner {
   const std::unique_ptr<optimizer::PosteriorStrategy> posterior_;  // makes the answer
   const std::unique_ptr<optimizer::Strategy> proposer_;            // null: posterior_ chooses, too
   std::vector<journal::TrialRecord> trials_;
-  std::optional<std::vector<Eigen::VectorXd>> candidates_;  // of this confirmation
+  std::optional<std::vector<Candidate>> candidates_;  // of this confirmation
   std::optional<Stop> stop_;
   CoreTime core_time_;
   const int most_threads_ = base::MostLoopThreads();

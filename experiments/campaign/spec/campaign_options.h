@@ -70,6 +70,7 @@ struct PosteriorOptions {
 struct ConfirmOptions {
   int candidates = 2;                    // sets that are simulated again at the end, >= 0
   int replicates = 3;                    // fresh seeds of each, >= 1
+  bool ends = true;                      // … and the two ends of a curve or region
   std::optional<double> scale_factor{};  // >= 1; default: that of the search
 
   template <class Self, class Visitor>
@@ -77,8 +78,30 @@ struct ConfirmOptions {
     visit("candidates", self.candidates,
           {.doc = "best sets that are simulated again at the end, >= 0"});
     visit("replicates", self.replicates, {.doc = "fresh seeds of each, >= 1"});
+    visit("ends", self.ends,
+          {.doc = "whether the two ends of a curve or region are simulated again, too: only sets "
+                  "that give what was measured are shown as fitting equally"});
     visit("scale_factor", self.scale_factor,
           {.doc = "of the confirmation, to see whether coarse graining matters; >= 1"});
+  }
+  void Validate(base::Problems& problems) const;
+
+  // Trials of one experiment, at most.
+  int MostTrials() const {
+    constexpr int kEnds = 2;
+    return candidates == 0 ? 0 : (candidates + (ends ? kEnds : 0)) * replicates;
+  }
+};
+
+// What is looked into once the answer is known.
+struct AdviceOptions {
+  double share = 0.2;  // core time for it / core time of the campaign [-], in [0, 10]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("share", self.share,
+          {.doc = "where the answer is no point: core time, over that of the campaign, for the few "
+                  "simulations that tell what a further test would teach; in [0, 10], 0 none"});
   }
   void Validate(base::Problems& problems) const;
 };

@@ -21,8 +21,9 @@ namespace {
 using nlohmann::ordered_json;
 
 // Keys that a running campaign may be given anew: what to spend and where, not what to find.
-constexpr std::string_view kMayChange[] = {"name",    "budget",         "confirm",      "workers",
-                                           "threads", "trial_time_cap", "retry_failed", "runner"};
+constexpr std::string_view kMayChange[] = {"name",           "budget",       "confirm",
+                                           "next",           "workers",      "threads",
+                                           "trial_time_cap", "retry_failed", "runner"};
 
 constexpr double kLongest = 366 * 86400.0;  // [s]
 constexpr int kMostReplicates = 1000;
@@ -177,6 +178,10 @@ void ConfirmOptions::Validate(base::Problems& problems) const {
                    "must be from 1 to 1000");
   problems.Require(!scale_factor || *scale_factor >= 1, "scale_factor", scale_factor.value_or(1),
                    "must be at least 1");
+}
+
+void AdviceOptions::Validate(base::Problems& problems) const {
+  problems.Require(share >= 0 && share <= 10, "share", share, "must be from 0 to 10");
 }
 
 void CampaignSpec::Validate(base::Problems& problems) const {

@@ -47,6 +47,7 @@ struct CampaignSpec {
   int replicates = 1;  // seeds of each proposed set, >= 1
   PosteriorOptions posterior;
   ConfirmOptions confirm;
+  AdviceOptions next;
   std::uint64_t seed = 1;
   int workers = 0;                   // trials at the same time, >= 0; 0: as many as cores
   int threads = 1;                   // of a trial, >= 1
@@ -92,6 +93,7 @@ struct CampaignSpec {
     visit("replicates", self.replicates, {.doc = "seeds of each proposed set, >= 1"});
     visit("posterior", self.posterior, {.doc = "what the observations are held to say"});
     visit("confirm", self.confirm, {.doc = "what is simulated again at the end"});
+    visit("next", self.next, {.doc = "what is looked into where the answer is no point"});
     visit("seed", self.seed, {.doc = "every random choice follows from it"});
     visit("workers", self.workers, {.doc = "trials at the same time; 0: as many as cores"});
     visit("threads", self.threads, {.doc = "of one trial, >= 1"});

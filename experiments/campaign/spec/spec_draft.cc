@@ -112,6 +112,15 @@ std::string ScaleOf(const SpecAnswers& answers) {
          " // two points in pixels, and their distance\n";
 }
 
+// The heap alone, or with the other tests of the powder, which one parameter set is to meet.
+std::string Experiments(const SpecAnswers& answers) {
+  const std::string heap = Photographs(answers) + ScaleOf(answers);
+  if (answers.tests.empty()) return "  \"experiment\": {\n" + heap + "  },\n";
+  std::string text = "  \"experiments\": [\n    {\"name\": \"heap\",\n" + heap + "    }";
+  for (const DraftTest& test : answers.tests) text += ",\n" + DraftTestText(test);
+  return text + "\n  ],\n";
+}
+
 }  // namespace
 
 std::string DraftSpec(const SpecAnswers& answers) {
@@ -120,11 +129,8 @@ std::string DraftSpec(const SpecAnswers& answers) {
          ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
          "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
          "{\n  \"name\": " +
-         Quoted(answers.name) + ",\n  \"experiment\": {\n" + Photographs(answers) +
-         ScaleOf(answers) +
-         "  },\n"
-         "  \"powder\": {\n    \"material\": {\n      \"density\": " +
-         Quoted(answers.density) +
+         Quoted(answers.name) + ",\n" + Experiments(answers) +
+         "  \"powder\": {\n    \"material\": {\n      \"density\": " + Quoted(answers.density) +
          ", // of the grains, not of the bulk\n"
          "      \"youngs_modulus\": \"10 MPa\", // softer than real: the heap hardly sees it, the "
          "time step does\n"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/campaign/spec/draft_test.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
@@ -22,7 +23,8 @@ struct SpecAnswers {
   std::string mass;
   std::string density;
   std::string grain_diameter;
-  bool cohesive = false;  // search the surface energy, too
+  bool cohesive = false;           // search the surface energy, too
+  std::vector<DraftTest> tests{};  // made of the same powder beside the heap
 };
 
 // The text of a spec that `talus validate` accepts: comments say what each part is for and what to

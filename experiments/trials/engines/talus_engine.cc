@@ -80,7 +80,7 @@ TalusEngine::TalusEngine(std::filesystem::path program) : program_(std::move(pro
 
 std::filesystem::path TalusEngine::ThisProgram() {
   // A launcher that starts it with libraries of its own says how it is called.
-  if (const char* named = std::getenv("TALUS_PROGRAM")) return named;
+  if (const char* named = std::getenv("TALUS_PROGRAM")) return std::filesystem::absolute(named);
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 

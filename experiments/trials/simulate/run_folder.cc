@@ -151,7 +151,9 @@ void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Sto
     base::WriteFileAtomically(folder / kCheckpoint, run.Checkpoint(watch.Total()));
   };
   double saved = 0;
+  job.look(run);
   while (run.Advance()) {
+    job.look(run);
     Report(run, log);
     log.Progress(run.Progress());
     if (interrupt.Asked() != base::Interrupt::kNone) {
@@ -164,6 +166,7 @@ void Loop(const RunJob& job, engine::Run& run, const fs::path& folder, const Sto
       saved = watch.Elapsed();
     }
   }
+  job.look(run);
   Report(run, log);
 }
 

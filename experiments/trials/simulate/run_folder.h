@@ -22,6 +22,8 @@ struct RunJob {
   double checkpoint_interval = 0;  // wall-clock [s]; 0: only when interrupted
   std::function<std::unique_ptr<engine::Run>()> start;
   std::function<std::unique_ptr<engine::Run>(const engine::RunCheckpoint&)> go_on;
+  // Called at the start and after each slice.
+  std::function<void(const engine::Run&)> look = [](const engine::Run&) {};
 };
 
 struct RunFolderOptions {

@@ -1,5 +1,6 @@
 #include "experiments/trials/simulate/simulate.h"
 
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -9,11 +10,21 @@
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_run.h"
 #include "experiments/trials/engines/command_engine.h"
+#include "experiments/trials/simulate/film.h"
 
 namespace talus::trials {
 namespace {
 
-void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
+void RefuseFilm(const base::JsonFile& input, const SimulateOptions& options) {
+  if (options.film.empty()) return;
+  throw base::ConfigError(input.path.string() +
+                          ": --film is for the case of a bulk test simulated by this program; a "
+                          "scene writes states (outputs.times), which ParaView plays");
+}
+
+void SimulateScene(base::JsonFile input, const SimulateOptions& all) {
+  RefuseFilm(input, all);
+  const RunFolderOptions& options = all.run;
   const std::filesystem::path source = input.path;
   const engine::LoadedScene loaded = engine::LoadScene(std::move(input));
   const RunJob job{
@@ -34,25 +45,35 @@ void SimulateScene(base::JsonFile input, const RunFolderOptions& options) {
   DriveRun(job, options);
 }
 
-void SimulateTest(base::JsonFile input, const RunFolderOptions& options) {
+void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
+  RunFolderOptions options = all.run;
   const rigs::Case rig_case = rigs::LoadCase(input);
-  const RunJob job{
-      .kind = std::string(base::NameOf(rig_case.rig.kind)),
-      .input_hash = rigs::CaseHash(rig_case),
-      .source = input.path,
-      .input_name = "case.json",
-      .input = rigs::CaseText(rig_case),
-      .checkpoint_interval = rig_case.checkpoint_interval,
-      .start = [&] { return std::make_unique<rigs::RigRun>(rig_case, options.folder); },
-      .go_on =
-          [&](const engine::RunCheckpoint& checkpoint) {
-            return std::make_unique<rigs::RigRun>(rig_case, options.folder, checkpoint);
-          }};
+  std::optional<Film> film;
+  if (!all.film.empty()) {
+    film.emplace(all.film, rig_case);
+    options.fresh = true;  // a film begins with the filling
+  }
+  RunJob job{.kind = std::string(base::NameOf(rig_case.rig.kind)),
+             .input_hash = rigs::CaseHash(rig_case),
+             .source = input.path,
+             .input_name = "case.json",
+             .input = rigs::CaseText(rig_case),
+             .checkpoint_interval = rig_case.checkpoint_interval,
+             .start = [&] { return std::make_unique<rigs::RigRun>(rig_case, options.folder); },
+             .go_on =
+                 [&](const engine::RunCheckpoint& checkpoint) {
+                   return std::make_unique<rigs::RigRun>(rig_case, options.folder, checkpoint);
+                 }};
+  if (film) {
+    job.look = [&](const engine::Run& run) { film->Look(static_cast<const rigs::RigRun&>(run)); };
+  }
   DriveRun(job, options);
+  if (film) film->Write();
 }
 
-void SimulateCommand(base::JsonFile input, const RunFolderOptions& options) {
-  SimulateCommandCase(LoadCommandCase(input), options.folder, options.fresh);
+void SimulateCommand(base::JsonFile input, const SimulateOptions& options) {
+  RefuseFilm(input, options);
+  SimulateCommandCase(LoadCommandCase(input), options.run.folder, options.run.fresh);
 }
 
 constexpr InputKind kKinds[] = {
@@ -63,7 +84,7 @@ constexpr InputKind kKinds[] = {
 
 }  // namespace
 
-void Simulate(const std::filesystem::path& input, const RunFolderOptions& options) {
+void Simulate(const std::filesystem::path& input, const SimulateOptions& options) {
   base::JsonFile file = base::ReadJsonFile(input);
   std::string known;
   for (const InputKind& kind : kKinds) {

@@ -6,9 +6,12 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "experiments/analysis/next/heap_pair.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
+#include "experiments/analysis/next/test_design.h"
 #include "experiments/analysis/next/usual_tests.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -90,6 +93,60 @@ TEST_F(NextTest, ADesignIsSimulatedOnceAndShowsTheSetsThatItTellsApart) {
   EXPECT_FALSE(Find(Rank(view, tests, false), again.name).learning.has_value());
   Rank(view, tests, true);
   EXPECT_TRUE(Find(Rank(view, tests, false), again.name).learning.has_value());
+}
+
+// A lift that is ten times as slow takes several times as long to simulate.
+TEST_F(NextTest, DesignsAreSimulatedWithinTheirBudgetTheCheapestFirst) {
+  const JointView view = Run();
+  TestCandidate slow{.name = "slow lift"};
+  slow.device = view.spec.device;
+  slow.device->lift_velocity /= 10;
+  campaign::CoreTime core_time(view.spec);
+  core_time.Of(view.trials);
+  std::vector<std::string> said;
+  NextOptions options{.tests = {slow, {.name = "again"}},
+                      .simulate = true,
+                      .core_time = 1.5 * kDesignSize * core_time.OfOne(0, 2),
+                      .say = [&](const std::string& text) { said.push_back(text); }};
+  options.parts = {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+                   .engine = std::make_unique<FakeEngine>(kSharp)};
+  const NextTable table = RankNext(view, options);
+  EXPECT_TRUE(Find(table, "again").learning.has_value());
+  EXPECT_FALSE(Find(table, "slow lift").learning.has_value());
+  EXPECT_THAT(Find(table, "slow lift").what, HasSubstr("judged by 16 coarse simulations"));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_THAT(said[0], HasSubstr("again: 16 simulations"));
+  EXPECT_THAT(NextSummary(table), HasSubstr("again: expected to leave sliding_friction"));
+  EXPECT_EQ(NextSummary(Rank(view, {}, false)), "");
+}
+
+// Two rectangles, of which the second is lower and wider: the difference has both colours, and two
+// panels of grey stand before it.
+TEST(HeapPair, ShowsWhereTwoHeapsDiffer) {
+  const auto heap = [](int half_width, int height) {
+    imaging::Profile profile{.image = {.width = 120, .height = 80, .pixels = {}},
+                             .frame = campaign::FakeFrame()};
+    profile.image.pixels.assign(120 * 80, 255);
+    for (int x = 60 - half_width; x < 60 + half_width; ++x) {
+      for (int y = 76 - height; y < 76; ++y) profile.image.at(x, y) = 0;
+    }
+    return profile;
+  };
+  imaging::ColorImage pair = DrawHeapPair(heap(20, 30), heap(30, 20));
+  EXPECT_GT(pair.width, 3 * 320);
+  int red = 0, blue = 0, coloured_before = 0;
+  for (int y = 50; y < pair.height; ++y) {
+    for (int x = 0; x < pair.width; ++x) {
+      const auto [r, g, b] = pair.at(x, y);
+      red += r == 255 && g == 0 && b == 0;
+      blue += r == 0 && g == 0 && b == 255;
+      if (3 * x < 2 * pair.width - 60) coloured_before += r != g || g != b;
+    }
+  }
+  // 40 x 10 px only in the first, 2 x 10 x 20 px only in the second, each some pixels wide.
+  EXPECT_GT(red, 300);
+  EXPECT_EQ(red, blue);
+  EXPECT_EQ(coloured_before, 0);
 }
 
 TEST_F(NextTest, ADesignOfAnotherDeviceIsNotTakenForThis) {

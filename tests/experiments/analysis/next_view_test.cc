@@ -54,7 +54,7 @@ TEST(NextTable, OfTheCampaignIsShownWithItsPicturesAndAmongTheSteps) {
                                  [](const NextStep& s) { return s.remaining == 0.5 * 0.25; });
   ASSERT_NE(step, data.next_steps.end());
   EXPECT_EQ(step->what, "Wide plate: carry it out in 3 runs");
-  EXPECT_THAT(step->leaves, HasSubstr("μ_t known within 0.17 (now 0.35)"));
+  EXPECT_THAT(step->leaves, HasSubstr("μₜ known within 0.17 (now 0.35)"));
   for (const NextStep& s : data.next_steps) EXPECT_THAT(s.what, Not(HasSubstr("rough plate")));
   const json next = json::parse(PageJson(data))["next"];
   EXPECT_EQ(next["candidates"][0]["bits"], 1.91);

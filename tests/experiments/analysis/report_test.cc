@@ -212,7 +212,7 @@ TEST_F(Report, PageHoldsTheHeadlineWithSymbolsAndTheBranches) {
   EXPECT_EQ(headline["verdict_kind"], "curve");
   EXPECT_EQ(headline["sentences"][0], "Sets are found that fit every measurement.");
   EXPECT_THAT(headline["sentences"].back().get<std::string>(),
-              HasSubstr("rolling friction μ_r given sliding friction μ_t, not both"));
+              HasSubstr("rolling friction μᵣ given sliding friction μₜ, not both"));
   EXPECT_EQ(headline["traded"], json({0, 1}));
   EXPECT_EQ(headline["branches"].size(), 1u);
   EXPECT_EQ(headline["fits"], true);
@@ -247,7 +247,7 @@ TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {
   evidence.parameters[0].range.name = "plate_sliding_friction";
   const std::vector<NextStep> steps = NextSteps(evidence, {});
   const auto measured = std::find_if(steps.begin(), steps.end(), [](const NextStep& step) {
-    return step.what.starts_with("Measure μ_t on a tilted plate");
+    return step.what.starts_with("Measure μₜ on a tilted plate");
   });
   ASSERT_NE(measured, steps.end());
   // The valley is 0.02 thick and 0.6 long, so knowing one leaves less than a tenth of the area.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files/file.h"
@@ -23,8 +24,9 @@ namespace fs = std::filesystem;
 
 analysis::ReportData DataOf(const fs::path& folder, const std::string& experiment = {}) {
   analysis::Evidence evidence = analysis::GatherEvidence(folder, experiment);
-  analysis::AddModel(folder, evidence);
-  return analysis::MakeReportData(std::move(evidence));
+  std::vector<analysis::Evidence> others = analysis::GatherOthers(folder, evidence);
+  analysis::AddModel(folder, evidence, others);
+  return analysis::MakeReportData(std::move(evidence), std::move(others));
 }
 
 std::string CompareText(const fs::path& folder, const std::string& experiment = {}) {
@@ -99,6 +101,31 @@ TEST_F(NumbersAlone, AreComparedByTheirDistanceFromWhatWasMeasured) {
   EXPECT_NEAR(best.values[1], kTrueRolling, 0.05);
 }
 
+// The drawn heap's top follows sliding friction and its slope rolling friction: an angle sees one
+// of the two, the whole heap both.
+TEST_F(TwoExperiments, AnAngleOfReposeKnowsLessThanTheWholeHeap) {
+  const fs::path folder = Begin("run");
+  RunFake(folder, {});
+  const analysis::ReportData data = DataOf(folder, "heap");
+  const auto& knowledge = data.evidence.knowledge;
+  ASSERT_GE(knowledge.size(), 2u);
+  const analysis::ObjectiveKnowledge& heap = knowledge.front();
+  EXPECT_EQ(heap.title, "whole heap (SAD, RMSE)");
+  EXPECT_TRUE(heap.Holds());
+  EXPECT_EQ(heap.num_refits, 4);
+  EXPECT_LE(heap.region_low, heap.region);
+  EXPECT_GE(heap.region_high, heap.region);
+  double largest = 0;
+  for (const analysis::ObjectiveKnowledge& angle : knowledge) {
+    if (angle.absent.empty()) largest = std::max(largest, angle.region);
+  }
+  EXPECT_GT(largest, 3 * heap.region);
+  const std::vector<analysis::ObjectiveFinding> findings =
+      analysis::CompareObjectives(data.evidence);
+  EXPECT_THAT(analysis::ComparisonText({data.evidence, findings}),
+              HasSubstr("holds the recommended set"));
+}
+
 TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
   const fs::path folder = Begin("run");
   RunFake(folder, {});
@@ -119,6 +146,14 @@ TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
     EXPECT_EQ(fit[2]["measured"], "23 ± 1 mg");
     EXPECT_FALSE(data.outlines.empty());
     EXPECT_FALSE(page["slices"].empty());
+    // The other one stands beside it, with its own trials, profiles and measures.
+    ASSERT_EQ(page["others"].size(), 1u);
+    const json& other = page["others"][0];
+    EXPECT_NE(other["campaign"]["experiment"], shown);
+    EXPECT_EQ(other["trials"]["id"].size() + page["trials"]["id"].size(), 24u);
+    EXPECT_FALSE(other["outlines"].empty());
+    EXPECT_FALSE(other["measures"].empty());
+    EXPECT_FALSE(other["objectives"].empty());
   }
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(folder));
   const std::string csv = analysis::TrialsCsv(journal.Campaign(), journal.Trials());

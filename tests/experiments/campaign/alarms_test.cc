@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/journal.h"
@@ -357,6 +358,47 @@ TEST(Verdict, EndsOfABentValleyAreItsRepresentatives) {
   EXPECT_NEAR(from, 0.16, 0.03);
   EXPECT_NEAR(to, 0.84, 0.03);
   EXPECT_THAT(RepresentativeSets(0.1 * valley, recommended, {0, 1}), SizeIs(1));
+}
+
+TEST(Candidates, EndsOfAValleyAreConfirmedAfterRecommendedSetAndBranches) {
+  Eigen::MatrixXd valley(500, 2);
+  for (Eigen::Index i = 0; i < valley.rows(); ++i) {
+    const double along = static_cast<double>(i) / 499;
+    valley.row(i) << 0.1 + 0.8 * along, 0.9 - 0.8 * along;
+  }
+  optimizer::Answer answer;
+  answer.point = Eigen::Vector2d(0.5, 0.5);
+  answer.posterior.emplace().branches.emplace_back().point = answer.point;
+  const auto candidates = CandidatesOf(answer, valley, {.candidates = 1});
+  ASSERT_THAT(candidates, SizeIs(3));
+  EXPECT_EQ(candidates[0].role, CandidateRole::kRecommended);
+  EXPECT_EQ(candidates[1].role, CandidateRole::kEnd);
+  EXPECT_EQ(candidates[2].role, CandidateRole::kEnd);
+  EXPECT_THAT(CandidatesOf(answer, valley, {.candidates = 1, .ends = false}), SizeIs(1));
+  EXPECT_THAT(CandidatesOf(answer, 0.1 * valley, {.candidates = 1}), SizeIs(1));  // a point
+  EXPECT_EQ((ConfirmOptions{.candidates = 1, .replicates = 3}.MostTrials()), 9);
+  EXPECT_EQ((ConfirmOptions{.candidates = 0, .replicates = 3}.MostTrials()), 0);
+}
+
+// What is shown as fitting equally is held to the same bounds as the recommended set.
+TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
+  Answer answer = ConfirmedAt(4);
+  answer.experiments[0].numbers = {
+      {.name = "mass_fallen_kg", .value = 5e-6, .standard_error = 1e-6}};
+  ResultCandidate end{.role = CandidateRole::kEnd,
+                      .experiments = {{.name = "heap",
+                                       .num_trials = 3,
+                                       .profile_sad_mm2 = 1.0,
+                                       .over_floor = 1.4,
+                                       .scalars = {{.name = "mass_fallen_kg", .mean = 6e-6}}}}};
+  EXPECT_FALSE(Misses(answer, end));
+  end.experiments[0].over_floor = 1.6;
+  EXPECT_TRUE(Misses(answer, end));
+  end.experiments[0].over_floor = 1.4;
+  end.experiments[0].scalars[0].mean = 7.5e-6;  // 2.5 standard errors
+  EXPECT_TRUE(Misses(answer, end));
+  answer.posterior->experiments.clear();  // held out: nothing is asked of it
+  EXPECT_FALSE(Misses(answer, end));
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTwoSizes = R"(,
   "coarse_graining": {"scale_factors": [2, 1]}, "budget": {"simulations": 16},
-  "confirm": {"candidates": 1, "replicates": 2}, "workers": 1)";
+  "confirm": {"candidates": 1, "replicates": 2, "ends": false}, "workers": 1)";
 
 using JointCampaign = CampaignFixture;
 
@@ -110,7 +110,7 @@ TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
   EXPECT_THAT(cut.unsettled->why, HasSubstr("of what the measurements leave open"));
   EXPECT_GT(cut.unsettled->share, 1e-6);
   EXPECT_TRUE(SaysThatTheBudgetEndedIt(cut));
-  EXPECT_THAT(StatusText(early), HasSubstr("finished, ended by its budget"));
+  EXPECT_THAT(StatusText(early), HasSubstr("the budget of "));
   EXPECT_THAT(StatusText(early),
               HasSubstr("talus resume " + early.string() + " --add-simulations "));
   EXPECT_THAT(base::ReadFile(early / "result.json"), HasSubstr("talus resume DIR"));

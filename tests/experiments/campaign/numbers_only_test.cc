@@ -100,6 +100,27 @@ TEST_F(NumbersOnly, StandBesideImagesEachWithItsRigAndFilling) {
             static_cast<std::size_t>(searched[1] + 2));
 }
 
+// A density that follows rolling friction alone leaves sliding friction open: the ends of what fits
+// are simulated again, and stand in the answer as they were.
+TEST_F(NumbersOnly, TheEndsOfWhatTheyLeaveOpenAreSimulatedAndShownAsTheyFit) {
+  const fs::path folder = BeginWith("run", kTapped);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const Answer result = Result(folder);
+  ASSERT_EQ(result.confirmed.size(), 3u);
+  EXPECT_EQ(result.confirmed[0].role, CandidateRole::kRecommended);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(result.confirmed[i].role, CandidateRole::kEnd);
+    EXPECT_EQ(result.confirmed[i].experiments.at(0).num_trials, 2);
+  }
+  EXPECT_GT(std::abs(result.confirmed[1].values[0] - result.confirmed[2].values[0]), 0.3);
+  EXPECT_THAT(result.representative, testing::Contains(result.confirmed[0].values));
+  for (const ResultCandidate& end : {result.confirmed[1], result.confirmed[2]}) {
+    const double off = std::abs(end.experiments.at(0).scalars.at(0).mean - 1480) / 3;
+    EXPECT_EQ(std::ranges::find(result.representative, end.values) != result.representative.end(),
+              off <= 2);
+  }
+}
+
 // The number follows one parameter, so that it alone decides that one: within 3 kg/m³, the error of
 // the value, and the seeds' 4 kg/m³, over a slope of 350 kg/m³: 0.07 wide, and three times as much
 // for a surrogate of so few trials (SurrogateCaution).

@@ -29,15 +29,22 @@ void AddModelViews(ReportData& data) {
   data.pairs = PosteriorPairs(evidence);
 }
 
-}  // namespace
-
-ReportData MakeReportData(Evidence evidence) {
+// What differs from one experiment of a campaign to the other.
+ReportData ExperimentData(Evidence evidence) {
   ReportData data;
   data.evidence = std::move(evidence);
   data.findings = CompareTrials(data.evidence);
   data.objective = OwnCriterion(data.evidence, CriteriaOf(data.evidence));
-  AddModelViews(data);
   AddProfileViews(data);
+  return data;
+}
+
+}  // namespace
+
+ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others) {
+  ReportData data = ExperimentData(std::move(evidence));
+  for (Evidence& other : others) data.others.push_back(ExperimentData(std::move(other)));
+  AddModelViews(data);
   data.next_table = ReadNextTable(data.evidence);
   data.predictions = ReadPredictions(data.evidence);
   data.next_steps = NextSteps(data.evidence, data.next_table);

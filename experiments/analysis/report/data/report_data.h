@@ -55,11 +55,13 @@ struct ReportData {
   std::vector<MeasuredProfile> measures;
   std::vector<OutlineCurve> outlines;  // the experiment's first
   std::vector<Picture> pictures;
+  std::vector<ReportData> others;  // of a campaign's further experiments, with what differs there
 
   const ObjectiveFinding& own() const { return findings[objective]; }
 };
 
-ReportData MakeReportData(Evidence evidence);
+// `others`: the same campaign with its further experiments shown.
+ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others = {});
 
 // Share of the searched plane that the joint 90 % region takes of the two parameters that it ties
 // closest; undefined without a posterior.

@@ -163,7 +163,7 @@ PageValue HeadlineJson(const ReportData& data) {
                                campaign::AlarmKind::kMisses})},
       {"trade_off", TradeOffWords(e)},
       {"traded", traded ? PageValue{traded->first, traded->second} : PageValue::array()},
-      {"unsettled", UnsettledWords(a)},
+      {"unsettled", a.unsettled.has_value()},
       {"use", UseWords(a)},
       {"branches", a.posterior ? ListJson(a.posterior->branches, BranchJson) : PageValue::array()},
       {"representatives",

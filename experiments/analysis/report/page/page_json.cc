@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/json/json_text.h"
+#include "experiments/analysis/compare/knowledge.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/data/methods.h"
@@ -55,6 +56,17 @@ PageValue FindingJson(const ObjectiveFinding& f) {
             {"num_tied", f.from_trials.num_tied},
             {"tied_volume", NumberJson(f.from_trials.tied_volume)},
             {"best", ListJson(f.from_trials.best, set)}}}};
+}
+
+PageValue KnowledgeJson(const ObjectiveKnowledge& k) {
+  return {{"title", k.title},
+          {"absent", k.absent},
+          {"region", NumberJson(k.region)},
+          {"low", NumberJson(k.region_low)},
+          {"high", NumberJson(k.region_high)},
+          {"holds", k.Holds()},
+          {"num_holding", k.num_holding},
+          {"num_refits", k.num_refits}};
 }
 
 // What the model that answers expects; null while none does.
@@ -150,7 +162,6 @@ void AddProfiles(const ReportData& data, PageValue& page) {
 }
 
 void AddModel(const ReportData& data, PageValue& page) {
-  page["objectives"] = ListJson(data.findings, FindingJson);
   page["slices"] = ListJson(data.slices, SliceJson);
   page["marginals"] = ListJson(data.marginals, MarginalJson);
   page["pairs"] = ListJson(data.pairs, PairJson);
@@ -164,12 +175,24 @@ void AddModel(const ReportData& data, PageValue& page) {
 
 void AddAnswer(const ReportData& data, PageValue& page) {
   const auto& answer = data.evidence.answer;
-  page["headline"] = answer ? HeadlineJson(data) : PageValue(nullptr);
   page["next"] = data.next_table ? NextTableJson(*data.next_table) : PageValue(nullptr);
   page["predictions"] = ListJson(data.predictions, PredictionJson);
   page["warnings"] = answer ? PageValue(AlarmWords(data.evidence)) : PageValue::array();
   page["held_out"] = answer ? PageValue(HeldOutWords(*answer)) : PageValue::array();
   page["conditions"] = answer ? PageValue(ConditionWords(answer->conditions)) : PageValue::array();
+}
+
+// What differs from one experiment to the other.
+PageValue ExperimentJson(const ReportData& data) {
+  PageValue page{{"campaign", CampaignJson(data)},
+                 {"metrics", MetricsJson(data.evidence)},
+                 {"trials", TrialsJson(data.evidence)},
+                 {"objectives", ListJson(data.findings, FindingJson)},
+                 {"knowledge", ListJson(data.evidence.knowledge, KnowledgeJson)},
+                 {"knowledge_sentence", KnowledgeSentence(data.evidence.knowledge)},
+                 {"headline", data.evidence.answer ? HeadlineJson(data) : PageValue(nullptr)}};
+  AddProfiles(data, page);
+  return page;
 }
 
 void AddProvenance(const ReportData& data, PageValue& page) {
@@ -187,14 +210,12 @@ void AddProvenance(const ReportData& data, PageValue& page) {
 }  // namespace
 
 std::string PageJson(const ReportData& data) {
-  PageValue page{{"colors", ColorsJson()},
-                 {"campaign", CampaignJson(data)},
-                 {"parameters", ParametersJson(data.evidence)},
-                 {"metrics", MetricsJson(data.evidence)},
-                 {"trials", TrialsJson(data.evidence)}};
+  PageValue page = ExperimentJson(data);
+  page["colors"] = ColorsJson();
+  page["parameters"] = ParametersJson(data.evidence);
   AddAnswer(data, page);
   AddModel(data, page);
-  AddProfiles(data, page);
+  page["others"] = ListJson(data.others, ExperimentJson);
   AddProvenance(data, page);
   return base::JsonText(page);
 }

@@ -16,7 +16,7 @@ namespace {
 using campaign::AlarmKind;
 using campaign::Answer;
 
-// "sliding friction μ_t"
+// "sliding friction μₜ"
 std::string LongName(const ParameterInfo& parameter) {
   std::string name = parameter.range.name;
   if (name == parameter.symbol) return name;
@@ -56,19 +56,6 @@ std::string TradeOffWords(const Evidence& evidence) {
 double WidthThen(const Answer& answer) {
   if (!answer.unsettled || !answer.posterior) return kUndefined;
   return WidthWithoutSurrogate(answer.unsettled->share, answer.posterior->fewest_at_finest);
-}
-
-std::string UnsettledWords(const Answer& answer) {
-  if (!answer.unsettled) return "";
-  std::string text = "The budget ended the search before its stopping rule did";
-  if (std::isfinite(answer.unsettled->num_more)) {
-    text += ": about " + std::to_string(std::llround(answer.unsettled->num_more)) +
-            " more simulations would meet it";
-    if (const double width = WidthThen(answer); std::isfinite(width)) {
-      text += " and leave ranges about " + base::ShortNumber(width, 2) + " times as wide";
-    }
-  }
-  return text + ".";
 }
 
 bool AsksForSimulations(const Answer& answer) {
@@ -114,8 +101,8 @@ std::vector<std::string> ConditionWords(const campaign::ResultConditions& c) {
   std::vector<std::string> words{
       "Young's modulus of the grains " + base::ShortNumber(c.youngs_modulus / 1e6) + " MPa",
       "adhesion model " + c.adhesion + ", rolling model " + c.rolling};
-  if (c.lift_velocity) {
-    words.push_back("lift velocity " + base::ShortNumber(*c.lift_velocity * 100) + " cm/s");
+  for (const campaign::ResultDevice& device : c.devices) {
+    words.push_back(device.experiment + ", " + device.text);
   }
   words.push_back(c.scale_factor == 1
                       ? "grains at their true size"

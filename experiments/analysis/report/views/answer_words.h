@@ -10,16 +10,15 @@
 
 namespace talus::analysis {
 
-// campaign::Headline with symbols beside the names: "sliding friction μ_t".
+// campaign::Headline with symbols beside the names: "sliding friction μₜ".
 std::vector<std::string> HeadlineWords(const Evidence& evidence);
 
 // The two parameters that change together most, where they do so clearly, and how.
 std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const campaign::Answer& answer);
 std::string TradeOffWords(const Evidence& evidence);
 
-// What more simulations would do where the budget ended the search; empty where it did not.
-std::string UnsettledWords(const campaign::Answer& answer);
-// The ranges' width after these simulations over today's [-]; undefined where that is not known.
+// The ranges' width after the simulations that would settle the search over today's [-]; undefined
+// where that is not known.
 double WidthThen(const campaign::Answer& answer);
 
 // Whether an alarm asks for more simulations.

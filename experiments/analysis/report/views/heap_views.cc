@@ -38,13 +38,15 @@ Eigen::VectorXd PointOf(const Evidence& evidence, const std::vector<double>& val
   return point;
 }
 
-// Trials at the search's scale factor whose sets lie in the joint 90 % region: only the heap of a
-// set that fits may stand for one.
+// Trials at the search's scale factor, and confirming ones, whose sets lie in the joint 90 %
+// region: only the heap of a set that fits may stand for one.
 std::vector<const TrialEvidence*> FittingTrials(const Evidence& evidence) {
   std::vector<const TrialEvidence*> trials;
   for (const TrialEvidence& trial : evidence.trials) {
     if (trial.state != journal::TrialStatus::kOk) continue;
-    if (trial.scale_factor == evidence.scale_factor) trials.push_back(&trial);
+    if (trial.scale_factor == evidence.scale_factor || trial.purpose == "confirm") {
+      trials.push_back(&trial);
+    }
   }
   if (!evidence.model || trials.empty()) return trials;
   Eigen::MatrixXd points(static_cast<Eigen::Index>(trials.size()), trials.front()->point.size());
@@ -149,7 +151,8 @@ std::vector<RepresentativeView> RepresentativeViews(const Evidence& evidence) {
   if (sets.empty()) sets.push_back(recommended);
   const std::vector<const TrialEvidence*> trials = FittingTrials(evidence);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    RepresentativeView view{.values = sets[i], .is_recommended = i == sets.size() / 2, .heap = {}};
+    RepresentativeView view{
+        .values = sets[i], .is_recommended = sets[i] == recommended, .heap = {}};
     const Eigen::VectorXd point = PointOf(evidence, sets[i]);
     if (evidence.model && evidence.model->predict) {
       const optimizer::Moments at = evidence.model->predict(point.transpose());
@@ -168,9 +171,7 @@ PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>
   PhotoOverlay overlay{.photographs = {}, .simulated = {}};
   if (shown.empty() || !evidence.reference.has_image()) return overlay;
   overlay.trial = shown.front().trial;
-  for (const ShownTrial& s : shown) {
-    if (s.trial->purpose == "confirm") overlay.trial = s.trial;
-  }
+  if (const TrialEvidence* confirming = ConfirmingTrial(evidence)) overlay.trial = confirming;
   const std::vector<base::Sphere> grains = GrainsOf(evidence, overlay.trial->id);
   const auto profile = evidence.profile(overlay.trial->id);
   if (grains.empty() || !profile) return overlay;

@@ -47,8 +47,13 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::
   // Beside the table, wherever the campaign was when that was written.
   const fs::path path = folder / fs::path(json["picture"].get<std::string>()).filename();
   if (!fs::exists(path)) return candidate;
-  candidate.picture =
-      MakePicture("next_" + path.stem().string(), candidate.name, imaging::ReadGrayImage(path));
+  const imaging::GrayImage size = imaging::ReadGrayImage(path);
+  candidate.picture = {.name = "next_" + path.stem().string(),
+                       .title = candidate.name,
+                       .caption = {},
+                       .width = size.width,
+                       .height = size.height,
+                       .png = base::ReadFile(path)};
   return candidate;
 }
 

@@ -50,7 +50,6 @@ const kindText = {
 function verdict(h) {
   const lines = [...h.sentences.map((sentence) => element("p", {}, element("strong", {}, sentence))),
     h.verdict_kind && h.fits ? element("p", {class: "gloss"}, kindText[h.verdict_kind]) : null,
-    h.unsettled ? element("p", {class: "gloss"}, h.unsettled) : null,
     h.trade_off ? element("p", {class: "gloss"}, h.trade_off) : null,
     h.fit_sentence ? element("p", {class: "gloss"}, h.fit_sentence) : null,
     h.use ? element("p", {class: "gloss"}, element("strong", {}, "Use it now? "), h.use) : null];
@@ -131,16 +130,15 @@ function facts(h) {
 const widthText = (p, w) => p.log ? "a factor of " + format((p.high / p.low) ** w, 2)
   : formatUnit(w * (p.high - p.low), p.unit, 2);
 
-// What a test would show of the two sets that it tells apart best: their heaps, and their numbers.
+// What a test would show of the two sets that it tells apart best: their heaps and what differs, and their numbers.
 function toldApart(c) {
   return element("figure", {class: "card"}, element("h3", {}, c.name),
-    c.uri ? element("img", {src: c.uri, alt: "Two simulated heaps that fit equally and that " + c.name + " tells apart",
-      width: c.picture_width, height: c.picture_height}) : null,
-    c.apart_by.length ? table("Numbers of " + c.name,
-      [{title: "", text: true}, {title: c.uri ? "left" : "first"}, {title: c.uri ? "right" : "second"}],
+    c.uri ? element("img", {src: c.uri, alt: "Two simulated heaps that fit equally and that " + c.name +
+      " tells apart, and their difference", width: c.picture_width, height: c.picture_height}) : null,
+    c.apart_by.length ? table("Numbers of " + c.name, [{title: "", text: true}, {title: "first"}, {title: "second"}],
       c.apart_by.map((n) => [n.title, ...n.values.map((x) => formatUnit(x, n.unit))])) : null,
-    element("figcaption", {}, "Both fit so far: " + (c.uri ? "left " : "first ") + setText(c.apart[0]) +
-      (c.uri ? ", right " : ", second ") + setText(c.apart[1]) + ". This is how they come out of it."));
+    element("figcaption", {}, "Both fit so far: first " + setText(c.apart[0]) + ", second " + setText(c.apart[1]) +
+      ". This is how they come out of it" + (c.uri ? "; look where the difference has colour." : ".")));
 }
 
 // What `talus next` has found: every candidate, and what the best ones would show.
@@ -158,7 +156,7 @@ function nextTable() {
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
       "possible." + (D.next.candidates.some((c) => c.bits === null)
         ? " ?: talus next " + D.campaign.folder + " --simulate runs the simulations that tell." : ""))),
-    telling.length ? element("div", {class: "grid three stacked", id: "told-apart"}, telling.slice(0, 3).map(toldApart))
+    telling.length ? element("div", {class: "stacked", id: "told-apart"}, telling.slice(0, 3).map(toldApart))
       : null];
 }
 
@@ -167,7 +165,7 @@ function representativeHeaps(h) {
   const o = D.campaign.objective;
   if (!h.representatives.some((set) => set.uri)) return null;
   const others = h.representatives.filter((set) => !set.recommended);
-  return element("div", {class: "grid three stacked", id: "representatives"}, h.representatives.map((set) =>
+  return element("div", {class: "grid three stacked", id: idOf("representatives")}, h.representatives.map((set) =>
     set.uri ? element("figure", {class: "card"},
       element("h3", {}, (set.recommended ? "Recommended: " : "Set " + (others.indexOf(set) + 1) + ": ") +
         setText(set.values)),
@@ -187,12 +185,14 @@ function answerSection() {
   const region = closest ? card(pairChart(closest, 0, "region", "")) : null;
   const values = element("div", {class: "card"},
     element("div", {class: "answer"}, D.parameters.map((p, k) => valueTile(p, h.values[k]))));
-  const next = nextSteps(h), heaps = representativeHeaps(h);
+  const next = nextSteps(h), shown = views.map((view) => within(view, () => representativeHeaps(view.headline))).filter(Boolean);
+  const heaps = shown.length > 1 ? [element("div", {class: "grid two"}, shown)] : shown;
   const oneHeap = h.representatives.filter((set) => set.uri).length === 1;
-  return [verdict(h), alarms(),
+  const said = verdict(h), seen = heapPairs();
+  return [said && seen ? element("div", {class: "grid first-screen"}, said, seen) : said || seen, alarms(),
     element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), oneHeap ? heaps : null),
       element("div", {}, next, region ? fitList(h) : null)),
-    predictionLines(), branches(h), oneHeap ? null : heaps, ...nextTable(), facts(h),
+    predictionLines(), branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), facts(h),
     D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
       element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))) : null,
     D.conditions.length ? element("div", {class: "card"}, element("h3", {}, "It holds for"),

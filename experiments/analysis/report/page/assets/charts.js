@@ -1,6 +1,20 @@
 // Every chart goes through `chart`, which sizes it, redraws it when the page changes and lists it in
 // `talusCharts` with whether it drew.
-const D = JSON.parse(document.getElementById("data").textContent);  // what the program wrote into the page
+let D = JSON.parse(document.getElementById("data").textContent);  // what the program wrote into the page
+// The page once for each experiment that it shows: what differs between them, over what they share.
+const views = [D, ...D.others.map((other, k) => ({...D, ...other, suffix: "-" + (k + 1)}))];
+// Calls with the page of one of them.
+function within(view, make) {
+  const outer = D;
+  D = view;
+  try {
+    return make();
+  } finally {
+    D = outer;
+  }
+}
+// One id in the whole page, whichever experiment it is of.
+const idOf = (id) => id + (D.suffix || "");
 
 let ink, soft, line, paper, axisLine, starColor;
 // The page's colours as the reader's system has them; paper is always light.
@@ -58,7 +72,8 @@ function drawSpace(made) {
 
 // Draws `makeOption(width)` into a new element when that scrolls near the window: a long page opens
 // at once. Returns {figure, redraw}.
-function chart(id, title, caption, makeOption, size = "") {
+function chart(name, title, caption, makeOption, size = "") {
+  const id = idOf(name), view = D;
   const place = element("div", {class: "chart " + size, id, role: "img", "aria-label": title});
   const figure = element("figure", {}, element("h3", {}, title), place,
       caption ? element("figcaption", {}, caption) : null);
@@ -68,7 +83,11 @@ function chart(id, title, caption, makeOption, size = "") {
   const redraw = () => {
     if (!made) return;
     const onPaper = window.matchMedia("print").matches;  // where the place itself is not shown
-    const option = makeOption(onPaper ? made.getWidth() : place.clientWidth);
+    const option = within(view, () => makeOption(onPaper ? made.getWidth() : place.clientWidth));
+    if (option.tooltip && option.tooltip.formatter) {  // it is called later, when another page may be at hand
+      const text = option.tooltip.formatter;
+      option.tooltip = {...option.tooltip, formatter: (e) => within(view, () => text(e))};
+    }
     if (option.height_px) place.style.height = option.height_px + "px";
     delete option.height_px;
     if (!onPaper) made.resize();
@@ -111,7 +130,7 @@ function chart(id, title, caption, makeOption, size = "") {
 
 // Shapes, too, for those who see no colours.
 const symbols = ["circle", "diamond", "triangle", "rect", "roundRect", "pin"];
-const scaleFactors = [...new Set(D.trials.scale)].sort((a, b) => b - a);
+const scaleFactors = [...new Set(views.flatMap((view) => view.trials.scale))].sort((a, b) => b - a);
 
 // The same in every chart.
 function scaleLook(factor) {

@@ -6,6 +6,13 @@ function section(id, title, lead, parts) {
   document.getElementById("main").append(element("section", {id, "aria-labelledby": id + "-title"},
     element("h2", {id: id + "-title"}, title), lead ? element("p", {class: "lead"}, lead) : null, shown));
 }
+// What each experiment's own part shows, side by side.
+function eachExperiment(make) {
+  if (views.length === 1) return make();
+  const columns = views.map((view) => within(view, () => [view, make().filter(Boolean)])).filter(([, parts]) => parts.length);
+  return columns.length ? [element("div", {class: "grid two experiments"}, columns.map(([view, parts]) =>
+    element("div", {}, element("h3", {}, view.campaign.experiment), parts)))] : [];
+}
 const card = (figure) => element("div", {class: "card"}, figure);
 
 const modelLead = () => "All from the model that gives the answer: the posterior of the parameters, given every " +
@@ -24,31 +31,32 @@ function modelSection() {
     ...sensitivityTable()];
 }
 
+function profileParts() {
+  return [D.overlay ? overlayFigure()
+      : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to lay the heap over: " + D.overlay_absent) : null,
+    D.outlines.length ? card(outlineChart()) : null, D.pictures.length ? pictures() : null];
+}
+
 function build() {
-  const o = D.campaign.objective, c = D.campaign;
-  const known = doneTrials().length > 0 && D.objectives.some((objective) => !objective.absent);
-  // What follows the first section is of one experiment.
-  const of = c.num_experiments > 1 ? "Of the experiment \u201c" + c.experiment + "\u201d: talus report " + c.folder +
-    " --experiment NAME shows another. " : "";
+  const any = (some) => views.some((view) => within(view, some));
+  const known = any(() => doneTrials().length > 0 && D.objectives.some((objective) => !objective.absent));
+  const tried = any(() => D.trials.id.length > 0), has_image = any(() => D.campaign.has_image);
   document.getElementById("name").textContent = D.campaign.name;
   document.getElementById("standing").append(...standing());
   section("answer", "Answer", "", answerSection());
   section("predictions", "Predictions", "What the calibrated sets give in other tests or processes, simulated by talus " +
     "predict: the range of a single run, and where its uncertainty comes from.", predictionSection());
-  section("convergence-section", "Convergence", of, known ? [card(convergenceChart())] : []);
-  section("space-section", "Parameter space", of, known ? [card(spaceChart())] : []);
+  section("convergence-section", "Convergence", "", known ? eachExperiment(() => [card(convergenceChart())]) : []);
+  section("space-section", "Parameter space", "", known ? eachExperiment(() => [card(spaceChart())]) : []);
   section("model", "Model", D.model ? modelLead() : "", modelSection());
-  if (c.has_image) section("profiles", "Profiles", of + "The average profile of the experiment (AEHP) and the average profiles of " +
+  if (has_image) section("profiles", "Profiles", "The average profile of the experiment (AEHP) and the average profiles of " +
     "the best simulations (ANHP). In a signed map, blue is where the simulation has too little powder, red " +
-    "where it has too much.", [D.overlay ? overlayFigure()
-      : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to lay the heap over: " + D.overlay_absent) : null,
-      D.outlines.length ? card(outlineChart()) : null,
-      D.pictures.length ? pictures() : null]);
-  section("measures", c.has_image ? "Angles and measures" : "Measures", of, [measuresTable()]);
-  section("compare", "Objectives", of, D.objectives.length ? comparisonSection() : []);
-  section("trials-section", "Trials", of, D.trials.id.length ? [card(trialTable())] : []);
-  section("failures", "Failures", of, D.trials.id.length ? failuresSection() : []);
-  section("time", "Time", of, D.trials.id.length ? [card(timeChart()), ...stagesTable()] : []);
+    "where it has too much.", eachExperiment(profileParts));
+  section("measures", has_image ? "Angles and measures" : "Measures", "", eachExperiment(() => [measuresTable()]));
+  section("compare", "Objectives", "", D.objectives.length ? eachExperiment(comparisonSection) : []);
+  section("trials-section", "Trials", "", tried ? eachExperiment(() => [card(trialTable())]) : []);
+  section("failures", "Failures", "", tried ? eachExperiment(failuresSection) : []);
+  section("time", "Time", "", tried ? [...eachExperiment(() => [card(timeChart())]), ...stagesTable()] : []);
   section("methods", "For a methods section", "Written from this campaign's journal; check it before you use it.",
     [element("div", {class: "card"}, element("p", {id: "methods-text"}, D.methods))]);
   section("spec", "Spec and versions", "", [
@@ -56,6 +64,8 @@ function build() {
       [{title: "What", text: true}, {title: "Version", text: true}],
       D.versions.map((v) => [v.name, v.version]))),
     element("div", {class: "card"}, element("h3", {}, "The spec as it was given"), element("pre", {}, D.spec))]);
+  if (D.headline) document.getElementById("footer").append("On one sheet of paper: ", element("a", {href: "summary.html"}, "summary.html"),
+    " beside this page. ");
   document.getElementById("footer").append(
     "Charts by Apache ECharts " + echarts.version + " (Apache-2.0) and ECharts-GL (BSD-3-Clause), both in this " +
     "page: it needs no network.");

@@ -8,7 +8,7 @@ function standing() {
   if (running) parts.push(running + " running");
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
-    parts.join(" · ") + (c.stop_reason ? ". Why it stopped: " + c.stop_reason : "")];
+    parts.join(" · ") + (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : "")];
 }
 
 function sensitivityTable() {
@@ -28,23 +28,35 @@ const shareBar = (x) => x === null || x === undefined ? "–" : element("span", 
 const experimentOf = (o) => !o.is_distance ? "–" : formatUnit(o.reference, o.unit, 4) +
   (o.reference_error === null ? "" : " ± " + format(o.reference_error, 2));
 
+// The posterior that each objective gives by itself.
+function knowledgeTable() {
+  if (!D.knowledge.length) return [];
+  const region = (k) => k.low === null ? percent(k.region) : percent(k.region) + " (" + percent(k.low) + " to " + percent(k.high) + ")";
+  const holds = (k) => (k.holds ? "yes" : "no") + (k.num_refits ? "; " + k.num_holding + " of " + k.num_refits + " refits do" : "");
+  return [element("div", {class: "card", id: idOf("knowledge")}, element("h3", {}, "What each objective knows by itself"),
+    table("What each objective knows", [{title: "Objective", text: true}, {title: "Joint 90\u00a0% region", unit: "of the searched ranges"},
+        {title: "Holds the recommended set", text: true}],
+      D.knowledge.map((k) => k.absent ? [k.title, "–", k.absent] : [k.title, region(k), holds(k)])),
+    D.knowledge_sentence ? element("p", {}, D.knowledge_sentence) : null,
+    element("p", {class: "note"}, "The posterior of each alone, from the same trials with the same statistics: the smaller " +
+      "its region, the more it says. In brackets: 90\u00a0% of what the share may be with other trials; refits leave out " +
+      "a quarter of the trials in turn."))];
+}
+
 function comparisonSection() {
   const answered = D.objectives.filter((o) => !o.absent);
   const columns = [{title: "Objective", text: true}, {title: "Measured"}, {title: "Experiment"},
-    ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit})), {title: "Sets that tie"},
-    {title: "Tied volume"}];
+    ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit})), {title: "Sets that tie"}];
   const first = answered.map((o) => {
     const b = o.trials.best[0];
     return [o.title, formatUnit(b.quantity, o.unit, 4), experimentOf(o),
       ...b.values.map((x) => format(x)),
-      o.noise_sd === null ? "–" : o.trials.num_tied + " of " + o.trials.num_sets,
-      o.noise_sd === null ? "–" : shareBar(o.trials.tied_volume)];
+      o.noise_sd === null ? "–" : o.trials.num_tied + " of " + o.trials.num_sets];
   });
   const parts = [
-    element("p", {class: "lead"}, "The best set by each objective, and how much of the searched volume " +
-      "ties with it: sets whose objective is within the scatter of one simulation. The smaller " +
-      "that volume, the more unique the answer. A dash: no set was simulated twice, so that the scatter is not " +
-      "known."),
+    ...knowledgeTable(),
+    element("p", {class: "lead"}, "The best set by each objective, and how many sets tie with it: those whose objective " +
+      "is within the scatter of one simulation. A dash: no set was simulated twice, so that the scatter is not known."),
     element("div", {class: "card"}, table("Best sets", columns, first))];
   const silent = D.objectives.filter((o) => o.absent);
   if (silent.length) {

@@ -92,7 +92,7 @@ function spaceChart() {
       : n >= 3 ? "This browser has no WebGL, so the space is shown in two dimensions."
       : "Rings mark the ten best sets of an objective; the star is the recommended set.",
       option, "tall");
-  const chooser = element("select", {id: "space-objective",
+  const chooser = element("select", {id: idOf("space-objective"),
       onchange: (e) => { colorBy = Number(e.target.value); made.redraw(); }},
       [...(scaleFactors.length > 1 ? [element("option", {value: -1, selected: true}, "scale factor")] : []),
        ...answered.map((o, k) => element("option", {value: k, selected: k === colorBy}, o.title))]);

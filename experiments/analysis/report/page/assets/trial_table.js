@@ -36,9 +36,9 @@ function condition(word, columns) {
 }
 
 function trialTable() {
-  const columns = trialColumns();
-  let sorted = 0, falling = false, page = 0, rows = D.trials.id.map((_, i) => i);
-  const body = element("tbody"), count = element("span", {id: "trial-count", role: "status"});
+  const columns = trialColumns(), t = D.trials;
+  let sorted = 0, falling = false, page = 0, rows = t.id.map((_, i) => i);
+  const body = element("tbody"), count = element("span", {id: idOf("trial-count"), role: "status"});
   const heads = columns.map((c, k) => element("th",
       {class: [c.text ? "text" : "", c.more ? "more" : ""].join(" ").trim() || undefined,
        scope: "col", tabindex: 0, "data-key": c.key,
@@ -46,7 +46,7 @@ function trialTable() {
       c.title, ...(c.unit ? [element("br"), element("small", {}, c.unit)] : [])));
   const back = element("button", {onclick: () => { --page; show(); }}, "Previous");
   const next = element("button", {onclick: () => { ++page; show(); }}, "Next");
-  const filter = element("input", {type: "search", id: "trial-filter", size: 34,
+  const filter = element("input", {type: "search", id: idOf("trial-filter"), size: 34,
     placeholder: "words or conditions: state=ok " + (D.metrics[0] ? D.metrics[0].name + "<1" : ""),
     "aria-label": "Filter the trials", oninput: () => { page = 0; arrange(); }});
 
@@ -61,7 +61,7 @@ function trialTable() {
         .map((word) => condition(word, columns));
     const value = columns[sorted].value;
     const order = (a, b) => typeof a === "string" ? a.localeCompare(b) : a - b;
-    rows = D.trials.id.map((_, i) => i).filter((i) => tests.every((test) => test(i)));
+    rows = t.id.map((_, i) => i).filter((i) => tests.every((test) => test(i)));
     rows.sort((i, j) => {  // what has no value comes last, whichever way
       const a = value(i), b = value(j);
       if (a === null || b === null) return (a === null) - (b === null) || i - j;
@@ -74,7 +74,7 @@ function trialTable() {
   function show() {
     const from = page * rowsPerPage, part = rows.slice(from, from + rowsPerPage);
     body.replaceChildren(...part.map((i) => element("tr",
-        {class: D.trials.state[i] === "failed" ? "failed" : undefined}, columns.map((c) =>
+        {class: t.state[i] === "failed" ? "failed" : undefined}, columns.map((c) =>
         element("td", {class: c.text ? "text" : c.more ? "more" : undefined},
             c.text || c.key === "trial" ? c.value(i) : c.key === "scale_factor" ? tick(c.value(i)) : format(c.value(i), 4))))));
     count.textContent = rows.length === 0 ? "no trial fits" :
@@ -82,7 +82,7 @@ function trialTable() {
     back.disabled = page === 0;
     next.disabled = from + rowsPerPage >= rows.length;
   }
-  const grid = element("table", {id: "trials", "aria-label": "Trials"}, element("thead", {}, element("tr", {}, heads)), body);
+  const grid = element("table", {id: idOf("trials"), class: "trials", "aria-label": "Trials"}, element("thead", {}, element("tr", {}, heads)), body);
   arrange();
   return element("div", {}, element("div", {class: "row"}, filter, count, back, next,
       element("label", {}, element("input", {type: "checkbox",

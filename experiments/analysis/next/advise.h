@@ -1,0 +1,24 @@
+// `talus next` for a campaign's folder, also at the end of a campaign: the table, kept as
+// DIR/next/next.json, which the report shows.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiments/analysis/next/next_table.h"
+
+namespace talus::analysis {
+
+struct AdviceRequest {
+  std::filesystem::path candidates{};  // file of tests that could be made; empty: the usual ones
+  bool simulate = false;               // designs, within the core time
+  std::optional<double> core_time{};   // [s]; default: as much as the campaign has taken
+  std::function<void(const std::string&)> say = [](const std::string&) {};
+};
+
+// Throws base::Error while there are too few trials for a posterior.
+NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& request);
+
+}  // namespace talus::analysis

@@ -1,0 +1,28 @@
+// How much of its budget a campaign has used, and how long it will still take at most: by the pace
+// that it has had, its own pauses and proposals counted.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "experiments/campaign/spec/campaign_spec.h"
+#include "experiments/journal/records.h"
+
+namespace talus::campaign {
+
+struct BudgetUse {
+  int num_search = 0;       // trials of noise and search that were started
+  int num_confirm = 0;      // … of the confirmation, which begins when the search has ended
+  double core_seconds = 0;  // of those of the search that have ended; not more than the budget [s]
+  std::optional<double> seconds_left{};  // at most; none before a trial has ended
+};
+
+// `elapsed`: that the campaign was worked on [s]; `at_a_time`: trials that run side by side, >= 1.
+BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials,
+                double elapsed, int at_a_time);
+
+// "21 of 60 simulations, 12 s of 25 s core time, 1 min of 10 min"
+std::string UseText(const BudgetOptions& budget, const BudgetUse& use, double elapsed);
+
+}  // namespace talus::campaign

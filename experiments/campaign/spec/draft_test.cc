@@ -1,0 +1,201 @@
+#include "experiments/campaign/spec/draft_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+#include "base/error.h"
+#include "base/json/json_text.h"
+#include "base/text/number_text.h"
+#include "experiments/rigs/rig_list.h"
+
+namespace talus::campaign {
+namespace {
+
+struct BenchUnit {
+  const char* text = "";
+  double per_unit = 1;  // number in it / SI
+};
+
+BenchUnit UnitOf(base::Dimension dimension) {
+  switch (dimension) {
+    case base::Dimension::kLength:
+      return {" mm", 1e3};
+    case base::Dimension::kAngularVelocity:
+      return {" rpm", 30 / std::numbers::pi};
+    case base::Dimension::kAngle:
+      return {" deg", 180 / std::numbers::pi};
+    case base::Dimension::kTime:
+      return {" s", 1};
+    default:
+      return {};
+  }
+}
+
+std::string InUnit(double value, base::Dimension dimension) {
+  const BenchUnit unit = UnitOf(dimension);
+  return base::ShortNumber(unit.per_unit * value) + unit.text;
+}
+
+// Of a rig's options what has a dimension: sizes, speeds, angles.
+struct OptionCollector {
+  std::vector<TestQuestion> questions{};
+
+  void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
+    if (info.dimension == base::Dimension::kNone) return;
+    questions.push_back({.key = std::string(key),
+                         .words = info.doc,
+                         .dimension = info.dimension,
+                         .usual = InUnit(value, info.dimension)});
+  }
+  template <class Other>
+  void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
+};
+
+rigs::Case CaseOfKind(rigs::RigKind kind) {
+  rigs::Case rig_case;
+  rig_case.rig.kind = kind;
+  return rig_case;
+}
+
+std::string UsualError(const rigs::ObservableInfo& info) {
+  if (info.usual_error.relative > 0)
+    return base::ShortNumber(100 * info.usual_error.relative) + " %";
+  if (info.usual_error.absolute > 0) {
+    const std::string unit = info.dimension == base::Dimension::kAngle ? " deg" : "";
+    return base::ShortNumber(info.usual_error.absolute) + unit;
+  }
+  return "";
+}
+
+std::string Listed(const std::vector<TestQuestion>& questions) {
+  std::string text;
+  for (const TestQuestion& question : questions) {
+    text += (text.empty() ? "" : ", ") + question.key;
+  }
+  return text;
+}
+
+// The standard error of a value: as given after ±, or the usual one of it.
+struct MeasuredText {
+  std::string value;
+  std::string error;
+};
+
+MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) {
+  for (const std::string_view sign : {"±", "+-"}) {
+    const std::size_t at = text.find(sign);
+    if (at == std::string::npos) continue;
+    return {text.substr(0, at), text.substr(at + sign.size())};
+  }
+  if (question.usual_error.empty()) {
+    throw base::ConfigError(question.key + ": give its standard error, too: \"" + text + " ± …\"");
+  }
+  if (!question.usual_error.ends_with('%')) return {text, question.usual_error};
+  // A share of the value, in the value's own unit.
+  const std::size_t number_end = text.find_first_not_of("0123456789.eE+-");
+  const double value = base::ParseQuantity(text.substr(0, number_end), base::Dimension::kNone);
+  const double share = base::ParseQuantity(question.usual_error, base::Dimension::kNone);
+  return {text, base::ShortNumber(share * value) +
+                    (number_end == std::string::npos ? "" : text.substr(number_end))};
+}
+
+std::string InQuotes(const std::string& text) { return base::JsonText(nlohmann::json(text)); }
+
+std::string Spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
+  const rigs::Case rig_case = CaseOfKind(kind);
+  OptionCollector collector;
+  rigs::RigOptions::Visit(rig_case.rig, collector);
+  for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
+    if (!measured.usual) continue;
+    const rigs::ObservableInfo& info = rigs::InfoOf(measured.observable);
+    collector.questions.push_back({.key = info.key,
+                                   .words = std::string(info.title) + ", " + info.doc,
+                                   .dimension = info.dimension,
+                                   .is_number = true,
+                                   .usual_error = UsualError(info)});
+  }
+  return collector.questions;
+}
+
+std::string TestNames() {
+  std::string names;
+  for (const auto& [name, kind] : base::Names<rigs::RigKind>::kList) {
+    if (kind == rigs::RigKind::kLiftedTube) continue;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
+}
+
+DraftTest ParseDraftTest(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  std::optional<DraftTest> test;
+  for (const auto& [known, kind] : base::Names<rigs::RigKind>::kList) {
+    if (known == name && kind != rigs::RigKind::kLiftedTube) test = DraftTest{.kind = kind};
+  }
+  if (!test) {
+    throw base::ConfigError("--test: \"" + name + "\" is no test that can be added; write one of " +
+                            TestNames());
+  }
+  const std::vector<TestQuestion> questions = QuestionsOf(test->kind);
+  std::size_t at = colon;
+  while (at != std::string::npos) {
+    const std::size_t next = text.find(',', at + 1);
+    const std::string part = text.substr(at + 1, next == std::string::npos ? next : next - at - 1);
+    const std::size_t equals = part.find('=');
+    const std::string key = part.substr(0, equals);
+    if (equals == std::string::npos ||
+        std::ranges::find(questions, key, &TestQuestion::key) == questions.end()) {
+      throw base::ConfigError("--test: \"" + part + "\" is no KEY=VALUE of " + name +
+                              "; its keys are " + Listed(questions));
+    }
+    test->answers.emplace_back(key, part.substr(equals + 1));
+    at = next;
+  }
+  return *test;
+}
+
+std::string DraftTestText(const DraftTest& test) {
+  const std::string kind(base::NameOf(test.kind));
+  std::string rig = "\"rig\": {\"kind\": " + InQuotes(kind);
+  std::string numbers;
+  for (const TestQuestion& question : QuestionsOf(test.kind)) {
+    const auto given =
+        std::ranges::find(test.answers, question.key, &std::pair<std::string, std::string>::first);
+    const bool is_given = given != test.answers.end() && !given->second.empty();
+    if (!question.is_number) {
+      rig += ", " + InQuotes(question.key) + ": " +
+             InQuotes(is_given ? given->second : question.usual);
+    } else if (is_given) {
+      const MeasuredText measured = SplitNumber(question, given->second);
+      numbers += ",\n      " + InQuotes(question.key) +
+                 ": {\"value\": " + InQuotes(measured.value) +
+                 ", \"sd\": " + InQuotes(measured.error) + "} // standard error of the mean";
+    }
+  }
+  if (numbers.empty()) {
+    std::vector<TestQuestion> asked = QuestionsOf(test.kind);
+    std::erase_if(asked, [](const TestQuestion& q) { return !q.is_number; });
+    throw base::ConfigError("--test " + kind +
+                            ": needs a number that it has measured: " + Listed(asked));
+  }
+  const bool pours =
+      test.kind == rigs::RigKind::kTappedDensity || test.kind == rigs::RigKind::kFunnelHeap;
+  return "    {\"name\": " + InQuotes(Spaced(kind)) + ", // docs/rigs.md has every key\n      " +
+         rig + "}" + (pours ? ",\n      \"filling\": {\"kind\": \"pour\"}" : "") + numbers +
+         "\n    }";
+}
+
+}  // namespace talus::campaign

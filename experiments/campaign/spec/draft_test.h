@@ -1,0 +1,41 @@
+// A further bulk test for the first spec: any rig, in the words that the bench knows it by.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "experiments/rigs/options/rig_options.h"
+
+namespace talus::campaign {
+
+// What is to be known of a test: a size or speed of its rig, or a number that it has measured.
+struct TestQuestion {
+  std::string key;    // in the spec: "diameter", "tapped_density"
+  std::string words;  // what it is
+  base::Dimension dimension = base::Dimension::kNone;
+  std::string usual{};  // of the rig's own, with its unit; empty: it must be given
+  bool is_number = false;
+  std::string usual_error{};  // of a number, as the bench states it: "0.5 %", "1 deg"
+};
+
+// All of a rig's: what it is made with, then what it usually measures.
+std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind);
+
+struct DraftTest {
+  rigs::RigKind kind = rigs::RigKind::kTappedDensity;
+  std::vector<std::pair<std::string, std::string>> answers{};  // by key; with their units
+};
+
+// "tapped_density:diameter=12mm,tapped_density=1480kg/m^3". Throws ConfigError that names the rigs,
+// or the keys of this one.
+DraftTest ParseDraftTest(const std::string& text);
+
+// The rigs that can be added to a photographed heap, by name, with commas.
+std::string TestNames();
+
+// Its entry of a spec's `experiments`. Throws ConfigError where no number is given.
+std::string DraftTestText(const DraftTest& test);
+
+}  // namespace talus::campaign

@@ -1,0 +1,118 @@
+#include "experiments/trials/simulate/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/text/number_text.h"
+#include "imaging/drawing/canvas.h"
+#include "imaging/formats/images/gif_file.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/spheres/render.h"
+
+namespace talus::trials {
+namespace {
+
+constexpr int kWidth = 420;          // [px]
+constexpr int kMostHeight = 560;     // [px]
+constexpr double kFrameTime = 0.06;  // [s]
+constexpr imaging::Color kTube{120, 150, 175};
+
+// Where a point of the scene is in the picture of a camera in front.
+imaging::CanvasPoint At(const imaging::Camera& camera, const base::Vec3& p) {
+  const double up = p.z * std::cos(camera.elevation) + p.y * std::sin(camera.elevation);
+  return {.x = camera.center_x + p.x / camera.pixel_size,
+          .y = camera.baseline - up / camera.pixel_size};
+}
+
+// The two rims of an upright tube and its outermost lines: what is inside stays seen.
+void DrawTube(const engine::OpenCylinder& tube, const imaging::Camera& camera,
+              imaging::ColorImage& image) {
+  constexpr int kSides = 48;
+  for (const double share : {0.0, 1.0}) {
+    const base::Vec3 center = tube.base + share * tube.length * tube.axis;
+    std::vector<imaging::CanvasPoint> rim;
+    for (int i = 0; i < kSides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kSides;
+      rim.push_back(At(camera, center + base::Vec3{tube.radius * std::cos(angle),
+                                                   tube.radius * std::sin(angle), 0}));
+    }
+    imaging::DrawPolygon(image, rim, {.color = kTube});
+  }
+  for (const double side : {-1.0, 1.0}) {
+    const base::Vec3 foot = tube.base + base::Vec3{side * tube.radius, 0, 0};
+    imaging::DrawLine(image, At(camera, foot), At(camera, foot + tube.length * tube.axis),
+                      {.color = kTube});
+  }
+}
+
+// All of the filled powder, and room beside the plate for what falls.
+imaging::Camera CameraOf(std::vector<base::Sphere> filled, double plate_diameter) {
+  constexpr double kRoom = 0.65;  // from the plate's centre, of its diameter
+  filled.push_back({.position = {kRoom * plate_diameter, 0, 0}, .radius = 0});
+  const imaging::Camera camera = imaging::WholeHeap(filled, plate_diameter, kWidth);
+  if (camera.height <= kMostHeight) return camera;
+  return imaging::WholeHeap(filled, plate_diameter, kWidth * kMostHeight / camera.height);
+}
+
+bool IsUpright(const engine::OpenCylinder& tube) { return std::abs(tube.axis.z) > 0.999; }
+
+}  // namespace
+
+Film::Film(std::filesystem::path out, const rigs::Case& rig_case) : out_(std::move(out)) {
+  const std::string ending = out_.extension().string();
+  if (ending == ".mp4" || ending == ".webm" || ending == ".avi" || ending == ".mov") {
+    throw base::ConfigError(
+        "--film: writes .gif, or one PNG a frame into a folder, not \"" + ending +
+        "\"; make it of the folder: ffmpeg -framerate 16 -i FOLDER/%04d.png film" + ending);
+  }
+  if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) {
+    plate_diameter_ = rig_case.rig.lifted_tube.plate_diameter;
+  }
+}
+
+void Film::Look(const rigs::RigRun& run) {
+  const engine::Simulation& simulation = run.rig().simulation();
+  if (simulation.time() < next_) return;
+  Scene scene;
+  for (const engine::Particle& p : simulation.Particles()) {
+    scene.spheres.push_back({p.position, p.radius});
+  }
+  for (std::size_t i = 0; i < simulation.Walls().size(); ++i) {
+    const auto* tube = std::get_if<engine::OpenCylinder>(&simulation.Walls()[i].shape);
+    if (tube == nullptr || !IsUpright(*tube) || simulation.IsRemoved(static_cast<int>(i))) continue;
+    scene.tubes.push_back(*tube);
+  }
+  scenes_.push_back(std::move(scene));
+  if (scenes_.size() == kMostFrames) {
+    for (std::size_t i = 0; 2 * i < scenes_.size(); ++i) scenes_[i] = std::move(scenes_[2 * i]);
+    scenes_.resize(scenes_.size() / 2);
+    interval_ = simulation.time() / static_cast<double>(scenes_.size());
+  }
+  next_ = simulation.time() + interval_;
+}
+
+void Film::Write() const {
+  if (scenes_.empty()) return;
+  const imaging::Camera camera = CameraOf(scenes_.front().spheres, plate_diameter_);
+  std::vector<imaging::ColorImage> frames;
+  for (const Scene& scene : scenes_) {
+    frames.push_back(imaging::RenderSpheres(scene.spheres, camera));
+    for (const engine::OpenCylinder& tube : scene.tubes) DrawTube(tube, camera, frames.back());
+  }
+  if (out_.extension() == ".gif") {
+    base::WriteFileAtomically(out_, imaging::EncodeGif(frames, kFrameTime));
+    return;
+  }
+  std::filesystem::create_directories(out_);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    imaging::WritePng(out_ / (base::FileNumber(static_cast<std::int64_t>(i) + 1) + ".png"),
+                      frames[i]);
+  }
+}
+
+}  // namespace talus::trials

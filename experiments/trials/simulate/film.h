@@ -1,0 +1,41 @@
+// A film of a bulk test as it is simulated, drawn as the report draws heaps.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "base/sphere.h"
+#include "engine/bodies/wall.h"
+#include "experiments/rigs/case/case.h"
+#include "experiments/rigs/rig_run.h"
+
+namespace talus::trials {
+
+class Film {
+ public:
+  // A file that ends with .gif, or a folder for one PNG a frame. Throws ConfigError for a film that
+  // needs another program.
+  Film(std::filesystem::path out, const rigs::Case& rig_case);
+
+  // Keeps the scene as it is now, if it is time for a frame. However long the test, there are at
+  // most kMostFrames: where there would be more, every second one goes.
+  void Look(const rigs::RigRun& run);
+
+  void Write() const;
+
+ private:
+  static constexpr std::size_t kMostFrames = 160;
+
+  struct Scene {
+    std::vector<base::Sphere> spheres;
+    std::vector<engine::OpenCylinder> tubes;
+  };
+
+  std::filesystem::path out_;
+  double plate_diameter_ = 0;  // 0: none is drawn [m]
+  std::vector<Scene> scenes_;
+  double next_ = 0;      // when the next frame is due [s]
+  double interval_ = 0;  // between two frames; 0: each slice of the simulation [s]
+};
+
+}  // namespace talus::trials

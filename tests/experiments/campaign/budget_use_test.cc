@@ -1,0 +1,105 @@
+// Budget used and time left: of trials that are as long as each other, closed forms.
+#include "experiments/campaign/plan/budget_use.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/campaign/folder/progress.h"
+
+namespace talus::campaign {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kTrial = 10;  // [s] of each, wall clock and core time
+
+CampaignSpec SpecOf(const BudgetOptions& budget) {
+  CampaignSpec spec;
+  spec.experiment.emplace();
+  spec.budget = budget;
+  spec.confirm = {.candidates = 1, .replicates = 3, .ends = false};
+  return spec;
+}
+
+std::vector<journal::TrialRecord> Trials(int num_ended, int num_running,
+                                         journal::TrialKind kind = journal::TrialKind::kSearch) {
+  std::vector<journal::TrialRecord> trials(static_cast<std::size_t>(num_ended + num_running));
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    trials[i].id = static_cast<std::int64_t>(i) + 1;
+    trials[i].kind = kind;
+    trials[i].scale_factor = 1;
+    if (static_cast<int>(i) >= num_ended) continue;
+    trials[i].status = journal::TrialStatus::kOk;
+    trials[i].duration_s = kTrial;
+    trials[i].cpu_s = kTrial;
+  }
+  return trials;
+}
+
+// Two at a time: 20 trials took 100 s, so 40 more take 200 s, and 3 that confirm 15 s.
+TEST(BudgetUse, SimulationsAreLeftAtThePaceSoFar) {
+  const BudgetUse use = UseOf(SpecOf({.simulations = 60}), Trials(20, 2), 100, 2);
+  EXPECT_EQ(use.num_search, 22);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 200 + 15);
+}
+
+// 200 of 500 core seconds in 100 s: 150 s more.
+TEST(BudgetUse, CoreTimeIsLeftAtThePaceSoFar) {
+  const CampaignSpec spec = SpecOf({.simulations = 0, .core_time = 500});
+  const BudgetUse use = UseOf(spec, Trials(20, 2), 100, 2);
+  EXPECT_DOUBLE_EQ(use.core_seconds, 200);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 150 + 15);
+  EXPECT_EQ(UseText(spec.budget, use, 100), "22 simulations, 3 min of 8 min core time");
+}
+
+// The trials under way at the budget's end go beyond it; what is said never does.
+TEST(BudgetUse, NoMoreThanTheBudgetIsUsed) {
+  const CampaignSpec spec = SpecOf({.simulations = 0, .core_time = 25});
+  const BudgetUse use = UseOf(spec, Trials(3, 0), 15, 2);
+  EXPECT_DOUBLE_EQ(use.core_seconds, 25);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 15);  // the confirmation
+  EXPECT_THAT(UseText(spec.budget, use, 15), HasSubstr("25 s of 25 s core time"));
+}
+
+TEST(BudgetUse, TheWallClockEndsASearchSooner) {
+  const CampaignSpec spec = SpecOf({.simulations = 60, .wall_clock = 120});
+  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(), 20 + 15);
+}
+
+TEST(BudgetUse, OnceItConfirmsOnlyThatIsLeft) {
+  std::vector<journal::TrialRecord> trials = Trials(30, 0);
+  for (const journal::TrialRecord& trial : Trials(1, 1, journal::TrialKind::kConfirm)) {
+    trials.push_back(trial);
+  }
+  const BudgetUse use = UseOf(SpecOf({.simulations = 60}), trials, 160, 2);
+  EXPECT_EQ(use.num_confirm, 2);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 2 * kTrial / 2);
+}
+
+TEST(BudgetUse, NothingIsSaidBeforeATrialHasEnded) {
+  EXPECT_FALSE(UseOf(SpecOf({.simulations = 60}), Trials(0, 2), 5, 2).seconds_left.has_value());
+}
+
+TEST(Progress, TrialLinesNameTheirParameters) {
+  const TrialProgress trial{.trial = 7,
+                            .parameters = {"sliding_friction", "rolling_friction"},
+                            .values = {0.3, 0.1},
+                            .objective = 1.2,
+                            .unit = "mm²",
+                            .duration = 12};
+  EXPECT_EQ(ProgressText(trial),
+            "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1: 1.2 mm², 12 s");
+}
+
+TEST(Progress, SaysWhatIsUsedAndWhatIsLeft) {
+  EXPECT_EQ(ProgressText(CampaignProgress{.used = "7 of 60 simulations",
+                                          .num_running = 2,
+                                          .best = 1.2,
+                                          .best_trial = 5,
+                                          .unit = "mm²",
+                                          .seconds_left = 170}),
+            "7 of 60 simulations, 2 running, best 1.2 mm² (trial 5), at most 3 min left");
+}
+
+}  // namespace
+}  // namespace talus::campaign

@@ -1,0 +1,133 @@
+#!/usr/bin/python3
+"""film_and_paraview_test.py TALUS: a film of a lift, and a campaign's heap with plate and tube for ParaView."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import types
+
+FRAME = {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70,
+         "plate_diameter": 0.01}
+CASE = {"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g",
+                   "material": {"youngs_modulus": "1 MPa"}}, "device": {"lift_velocity": "5 cm/s"}, "frame": FRAME}
+
+
+def run(talus, *arguments, status=0):
+    ended = subprocess.run([talus, *map(str, arguments)], capture_output=True, text=True)
+    assert ended.returncode == status, (arguments, ended.stdout, ended.stderr)
+    return ended.stdout + ended.stderr
+
+
+def frames_of(gif):
+    """Image blocks of a GIF, by its own structure."""
+    at, count = 13 + 3 * 256, 0
+    while gif[at] != 0x3b:
+        if gif[at] == 0x2c:
+            count += 1
+            at += 11
+        else:
+            at += 2
+        while gif[at]:
+            at += gif[at] + 1
+        at += 1
+    return count
+
+
+def check_film(talus, root):
+    (root / "case.json").write_text(json.dumps(CASE))
+    film, folder = root / "heap.gif", root / "frames"
+    run(talus, "simulate", root / "case.json", "--out", root / "heap", "--film", film, "--quiet")
+    gif = film.read_bytes()
+    assert gif.startswith(b"GIF89a") and 5 < frames_of(gif) <= 160, frames_of(gif)
+    plain = json.loads((root / "heap/result.json").read_text())
+    # Filmed anew, though it is done already, and with the same result.
+    run(talus, "simulate", root / "case.json", "--out", root / "heap", "--film", folder, "--quiet")
+    pictures = sorted(folder.iterdir())
+    assert len(pictures) > 5 and pictures[0].name == "0001.png"
+    again = json.loads((root / "heap/result.json").read_text())
+    for result in (plain, again):
+        result.pop("timing"), result.pop("checksum_xxh3", None)
+    assert plain == again
+    said = run(talus, "simulate", root / "case.json", "--out", root / "other", "--film", root / "heap.mp4", status=2)
+    assert "ffmpeg" in said, said
+    (root / "scene.json").write_text('{"materials": [{}]}')
+    said = run(talus, "simulate", root / "scene.json", "--out", root / "scene", "--film", film, status=2)
+    assert "--film is for the case of a bulk test" in said, said
+
+
+class Recorded:
+    """Stands in for ParaView's objects: takes any property and any call."""
+
+    def __init__(self, kind, **keys):
+        self.kind = kind
+        self.__dict__.update(keys)
+
+    def __getattr__(self, name):
+        return lambda *arguments, **keys: Recorded(name)
+
+
+def open_state(state):
+    """What the state asks ParaView for."""
+    made = []
+    simple = types.ModuleType("paraview.simple")
+
+    def record(kind):
+        def make(*arguments, **keys):
+            made.append(Recorded(kind, arguments=arguments, **keys))
+            return made[-1]
+        return make
+    names = ("GetActiveViewOrCreate XMLPolyDataReader Elevation Glyph Show ColorBy GetColorTransferFunction "
+             "GetScalarBar ResetCamera Render").split()
+    simple.__dict__.update({name: record(name) for name in names}, __all__=names)
+    sys.modules.update({"paraview": types.ModuleType("paraview"), "paraview.simple": simple})
+    exec(compile(state.read_text(), str(state), "exec"), {})
+    return made
+
+
+def read_with_vtk(file):
+    """Points, polygons and bounds, where VTK is here; else nothing."""
+    try:
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+    except ImportError:
+        return None
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    data = reader.GetOutput()
+    return data.GetNumberOfPoints(), data.GetNumberOfPolys(), data.GetBounds()
+
+
+def check_vtk(talus, root):
+    spec = {"experiment": {"map": str(root / "heap/profile.png"), "plate_diameter": "10 mm", "frame": FRAME},
+            "powder": CASE["powder"], "device": CASE["device"],
+            "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
+            "strategy": {"kind": "sobol", "num_points": 3}, "budget": {"simulations": 3}, "confirm": {"candidates": 0}}
+    (root / "spec.json").write_text(json.dumps(spec))
+    run(talus, "calibrate", root / "spec.json", "--out", root / "run", "--quiet")
+    run(talus, "export", root / "run", "--vtk")
+    out = root / "run/vtk"
+    assert sorted(file.name for file in out.glob("*.vtp")) == ["heap.vtp", "plate.vtp", "tube.vtp"]
+    made = open_state(out / "state.py")
+    readers = [m for m in made if m.kind == "XMLPolyDataReader"]
+    assert [pathlib.Path(m.FileName[0]).name for m in readers] == ["heap.vtp", "tube.vtp", "plate.vtp"]
+    assert all(pathlib.Path(m.FileName[0]).exists() for m in readers)
+    grains = next(m for m in made if m.kind == "Glyph")
+    assert grains.ScaleArray == ["POINTS", "diameter_m"] and grains.ScaleFactor == 1 and grains.GlyphMode == "All Points"
+    assert sum(m.kind == "Show" for m in made) == 3
+    plate = read_with_vtk(out / "plate.vtp")
+    if plate is not None:
+        points, polygons, bounds = plate
+        assert points == 128 and polygons == 66  # two ends and 64 sides of the solid plate
+        assert abs(bounds[1] - 5e-3) < 1e-5 and abs(bounds[5]) < 1e-12, bounds  # its top is z = 0
+    run(talus, "export", root / "run", "--vtk", "--trial", 2, "--out", root / "second")
+    said = run(talus, "export", root / "run", "--vtk", "--trial", 99, "--out", root / "third", status=2)
+    assert "--trial names another trial" in said, said
+    said = run(talus, "export", root / "run", "--trial", 1, status=2)
+    assert "--vtk" in said, said
+
+
+with tempfile.TemporaryDirectory(prefix="talus_film_") as scratch:
+    check_film(sys.argv[1], pathlib.Path(scratch))
+    check_vtk(sys.argv[1], pathlib.Path(scratch))
+print("the film plays and ParaView has its state")
