@@ -10,7 +10,7 @@ class ConfigError(ValueError): ...
 class Strategy:
     """Chooses the next parameter sets of expensive, noisy evaluations.
 
-    ``parameters``: dictionaries with ``name``, ``low``, ``high`` and, if wanted, ``scale`` ("linear" or
+    ``parameters``: dictionaries with ``name``, ``min``, ``max`` and, if wanted, ``scale`` ("linear" or
     "log"), ``guess``, ``fixed``, ``levels``. ``options``: those of a campaign's ``strategy``, such as
     ``{"kind": "gp"}``. With ``target``, the measured image, evaluations may bring images; ``pixel_area``
     makes the sum of absolute differences an area. Equal arguments and evaluations make equal proposals.
@@ -40,3 +40,6 @@ def compare(heap: numpy.ndarray, reference: numpy.ndarray,
 
 def read_image(file: str) -> numpy.ndarray:
     """A grey image from a file."""
+
+def decode_image(bytes: bytes) -> numpy.ndarray:
+    """A grey image from what a file of it would hold."""

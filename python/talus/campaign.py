@@ -1,11 +1,35 @@
-"""A campaign's folder as tables and arrays. Reads only, so the campaign may be running."""
+"""A campaign's folder as tables and arrays, and what can be asked of it."""
+import html
 import json
 import pathlib
 import sqlite3
 
+from . import program
+from ._core import ConfigError, decode_image
+
+
+def calibrate(spec, out=None, hold_out=None, progress=True):
+    """Runs the campaign of a spec, a file or a dictionary as its JSON has it, to its end, and returns it.
+
+    `out` is its folder, by default the spec's name without ending. `progress`: a function that is called
+    with each event (a dictionary, as `talus calibrate --json` has them a line), True for a line on
+    standard error, False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
+    if isinstance(spec, dict):
+        if out is None:
+            raise ConfigError("out: is needed for a spec that is no file")
+        file = pathlib.Path(out).with_suffix(".json")
+        file.write_text(json.dumps(spec, indent=1))
+    else:
+        file = pathlib.Path(spec)
+    folder = pathlib.Path(out) if out is not None else pathlib.Path(file.stem)
+    program.run(["calibrate", file, "--out", folder] +
+                (["--hold-out", hold_out] if hold_out is not None else []), progress)
+    return Campaign(folder)
+
 
 class Campaign:
-    """The campaign in a folder that `talus calibrate` has made."""
+    """The campaign in a folder that `talus calibrate` has made. Reads only, but for resume and next, so
+    it may be running."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -20,6 +44,15 @@ class Campaign:
             journal.close()
 
     @property
+    def name(self):
+        return self._query("select name from campaign")[0][0]
+
+    @property
+    def state(self):
+        """"running", "finished" or "interrupted"."""
+        return self._query("select state from campaign")[0][0]
+
+    @property
     def spec(self):
         """The spec as it was understood, all defaults filled in: a dictionary."""
         return json.loads(self._query("select spec_json from campaign")[0][0])
@@ -28,6 +61,17 @@ class Campaign:
     def parameters(self):
         """Names of the calibrated parameters."""
         return [name for (name,) in self._query("select name from parameters order by position")]
+
+    @property
+    def units(self):
+        """SI unit of each parameter, "" of a pure number: a dictionary."""
+        return dict(self._query("select name, unit from parameters order by position"))
+
+    @property
+    def ranges(self):
+        """What is searched of each parameter: a dictionary of (min, max)."""
+        return {name: (low, high) for name, low, high in
+                self._query("select name, low, high from parameters order by position")}
 
     @property
     def experiments(self):
@@ -41,7 +85,8 @@ class Campaign:
         return json.loads(file.read_text()) if file.exists() else None
 
     def trials(self):
-        """One row a trial, by id: what it was, its parameters and its metrics [pandas.DataFrame]."""
+        """One row a trial, by id: what it was, its parameters and its metrics [pandas.DataFrame]. Units
+        of the columns stand in attrs["units"], the searched ranges in attrs["ranges"]."""
         import pandas
         columns = ["trial", "kind", "status", "reason", "experiment", "scale_factor", "seed", "duration_s",
                    "cpu_s", "num_particles", "num_steps"]
@@ -49,46 +94,175 @@ class Campaign:
             "select t.id, t.kind, t.status, t.reason, e.name, t.scale_factor, t.seed, t.duration_s, t.cpu_s,"
             " t.num_particles, t.num_steps from trials t join experiments e on e.position = t.experiment"
             " order by t.id"), columns=columns).set_index("trial")
+        units = {"duration_s": "s", "cpu_s": "s", **self.units}
         for position, name in enumerate(self.parameters):
             table[name] = pandas.Series(dict(self._query(
                 "select trial, value from points where position = ?", position)), dtype=float)
-        for (name,) in self._query("select distinct name from metrics order by name"):
+        for name, unit in self._query("select name, max(unit) from metrics group by name order by name"):
             table[name] = pandas.Series(dict(self._query(
                 "select trial, value from metrics where name = ?", name)), dtype=float)
+            units[name] = unit
+        table.attrs = {"units": units, "ranges": self.ranges}
         return table
 
     def posterior(self):
-        """Equally likely draws of the parameters, SI, one a row [pandas.DataFrame]. Raises
-        FileNotFoundError where the campaign has no posterior yet."""
+        """Equally likely draws of the parameters, SI, one a row [pandas.DataFrame], with attrs["units"]
+        and attrs["ranges"]. Raises FileNotFoundError where the campaign has no posterior yet."""
         import pandas
         file = self.folder / "posterior.csv"
         if not file.exists():
-            raise FileNotFoundError(f"{file}: is not there; campaigns with several grain sizes or "
-                                    "experiments write it when they end")
+            raise FileNotFoundError(f"{file}: is not there; a campaign writes its posterior when it ends "
+                                    "with enough trials for one")
         draws = pandas.read_csv(file)
         draws.columns = self.parameters
+        draws.attrs = {"units": self.units, "ranges": self.ranges}
         return draws
+
+    def datasets(self):
+        """The groups of to_inference_data() as xarray datasets: "posterior" (chain, draw) and
+        "observed_data", the numbers that were measured."""
+        import xarray
+        draws = self.posterior()
+        posterior = xarray.Dataset({name: (("chain", "draw"), draws[name].to_numpy()[None, :],
+                                           {"units": self.units[name], "searched_min": self.ranges[name][0],
+                                            "searched_max": self.ranges[name][1]})
+                                    for name in self.parameters},
+                                   coords={"chain": [0], "draw": range(len(draws))},
+                                   attrs={"campaign": self.name, "created_by": "talus"})
+        groups = {"posterior": posterior}
+        numbers = self._query("select e.name, s.name, s.value, s.standard_error from experiment_scalars s"
+                              " join experiments e on e.position = s.experiment order by s.experiment, s.position")
+        if numbers:
+            groups["observed_data"] = xarray.Dataset(
+                {f"{experiment}: {name}": ((), value, {"standard_error": error})
+                 for experiment, name, value, error in numbers})
+        return groups
+
+    def to_inference_data(self):
+        """The posterior for ArviZ, which must be installed: an InferenceData, of ArviZ 1 a DataTree."""
+        try:
+            import arviz
+        except ImportError as error:
+            raise ImportError("to_inference_data() needs ArviZ (pip install arviz); datasets() gives the same as "
+                              "xarray datasets") from error
+        groups = self.datasets()
+        if hasattr(arviz, "InferenceData"):
+            return arviz.InferenceData(**groups)
+        import xarray
+        return xarray.DataTree.from_dict(groups)
+
+    def _frame(self, experiment):
+        """Name, position and frame of an experiment; None: the first."""
+        names = self.experiments
+        name = names[0] if experiment is None else experiment
+        if name not in names:
+            raise ConfigError(f"{name}: is no experiment of {self.folder}; it has {', '.join(names)}")
+        position = names.index(name)
+        frame = self._query("select frame_json from experiments where position = ?", position)[0][0]
+        return name, position, json.loads(frame) if frame else {}
+
+    def _on_plate(self, images, frame, lead):
+        """Images of a frame with coordinates: x from the plate's centre, z above the plate [m]."""
+        import numpy
+        import xarray
+        images = numpy.asarray(images)
+        height, width = images.shape[-2:]
+        pixel = frame["pixel_size"]
+        x = (numpy.arange(width) + .5 - frame["center_x_px"]) * pixel
+        z = (frame["baseline_px"] - numpy.arange(height) - .5) * pixel
+        array = xarray.DataArray(images, coords={**lead, "z": z, "x": x}, dims=(*lead, "z", "x"),
+                                 attrs={"long_name": "0 powder, 255 none", **frame})
+        array.x.attrs = {"units": "m", "long_name": "distance from the plate's centre"}
+        array.z.attrs = {"units": "m", "long_name": "height above the plate"}
+        return array
 
     def profile(self, trial):
         """A trial's average numerical heap profile [array of bytes, rows and columns]."""
-        return self._image(self.folder / "trials" / f"{trial:04}" / "profile.png")
+        found = self._query("select png from profiles where trial = ?", trial)
+        if not found:
+            raise FileNotFoundError(f"trial {trial} of {self.folder}: has no profile")
+        return decode_image(found[0][0])
 
-    def profiles(self):
-        """All profiles of the first experiment [xarray.DataArray: trial, row, column]."""
+    def profiles(self, experiment=None):
+        """All profiles of an experiment, by default the first [xarray.DataArray: trial, z, x], with x from
+        the plate's centre and z above it in metres."""
         import numpy
-        import xarray
-        first = self.experiments[0]
+        name, _, frame = self._frame(experiment)
         table = self.trials()
-        ids = [i for i in table.index[(table.status == "ok") & (table.experiment == first)]
-               if (self.folder / "trials" / f"{i:04}" / "profile.png").exists()]
-        return xarray.DataArray(numpy.stack([self.profile(i) for i in ids]),
-                                coords={"trial": ids}, dims=("trial", "row", "column"))
+        known = {trial for (trial,) in self._query("select trial from profiles")}
+        ids = [i for i in table.index[(table.status == "ok") & (table.experiment == name)] if i in known]
+        if not ids:
+            raise FileNotFoundError(f"{name}: has no profiles")
+        return self._on_plate(numpy.stack([self.profile(i) for i in ids]), frame, {"trial": ids})
 
-    def aehp(self):
-        """The first experiment's average profile [array of bytes, rows and columns]."""
-        return self._image(self.folder / "aehp.png")
+    def aehp(self, experiment=None):
+        """An experiment's average profile, by default the first's [xarray.DataArray: z, x]."""
+        name, position, frame = self._frame(experiment)
+        png = self._query("select aehp_png from experiments where position = ?", position)[0][0]
+        if not png:
+            raise FileNotFoundError(f"{name}: has no image, only numbers")
+        return self._on_plate(decode_image(png), frame, {})
 
-    @staticmethod
-    def _image(file):
-        from ._core import read_image
-        return read_image(str(file))
+    def consider(self, **values):
+        """Where a parameter set stands, as `talus consider` says it: a dictionary with its credible_level,
+        what is expected at each experiment, and the nearest trials."""
+        return program.ask("consider", self.folder, *(f"{name}={value!r}" for name, value in values.items()))
+
+    def next(self, candidates=None, simulate=False, budget=None):
+        """What to do next, the most informative first [pandas.DataFrame]: expected bits, cost, and the
+        width of each joint range that it leaves (in shares of what is searched; now: attrs["width_90"]).
+        `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds."""
+        import pandas
+        if budget is not None and not simulate:
+            raise ConfigError("budget: is for simulate=True")
+        table = program.ask("next", self.folder, *([] if candidates is None else [candidates]),
+                            *(["--simulate"] if simulate else []),
+                            *([] if budget is None else ["--budget", f"{budget} s"]))
+        rows = [{**{key: row[key] for key in ("name", "kind", "what", "bits", "num_simulations", "core_time_s")},
+                 **{f"width_{name}": (row["width_90"] or {}).get(name) for name in self.parameters}}
+                for row in table["candidates"]]
+        frame = pandas.DataFrame(rows).set_index("name")
+        frame.attrs = {"width_90": table["width_90"], "units": {"core_time_s": "s"}}
+        return frame
+
+    def resume(self, add_simulations=None, progress=True):
+        """Goes on, or extends a finished campaign; `progress` as of calibrate."""
+        program.run(["resume", self.folder] +
+                    (["--add-simulations", add_simulations] if add_simulations is not None else []), progress)
+        return self
+
+    def report(self):
+        """Writes the report and returns its path."""
+        import subprocess
+        subprocess.run([program.program(), "report", self.folder], check=True, stdout=subprocess.DEVNULL)
+        return self.folder / "report" / "report.html"
+
+    def _rows(self):
+        """Name, value and range of each parameter, for people."""
+        result = self.result
+        if result is None:
+            return [(name, "", "") for name in self.parameters]
+        return [(p["name"], f"{p['value']:.4g} {p['unit']}".strip(),
+                 "" if p["credible_90_low"] is None else
+                 f"{p['credible_90_low']:.3g} to {p['credible_90_high']:.3g}") for p in result["parameters"]]
+
+    def _said(self):
+        result = self.result
+        if result is None:
+            return "no answer yet"
+        return result["verdict"]["text"] if result.get("verdict") else ""
+
+    def __repr__(self):
+        count = self._query("select count(*) from trials")[0][0]
+        lines = [f"<talus.Campaign \"{self.name}\", {self.state}, {count} trials, in {self.folder}"]
+        lines += [f"  {name}" + (f" {value}" if value else "") + (f" (90 %: {span})" if span else "")
+                  for name, value, span in self._rows()]
+        return "\n".join([*lines, "  " + self._said()]) + ">"
+
+    def _repr_html_(self):
+        count = self._query("select count(*) from trials")[0][0]
+        rows = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self._rows())
+        return (f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.state)}, {count} trials, in "
+                f"<code>{html.escape(str(self.folder))}</code></p><table><thead><tr><th>parameter</th><th>recommended</th>"
+                f"<th>90&nbsp;%, for all together</th></tr></thead><tbody>{rows}</tbody></table>"
+                f"<p>{html.escape(self._said())}</p>")

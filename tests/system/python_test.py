@@ -2,10 +2,11 @@
 """python_test.py TALUS MODULE_DIR: the Python module reads campaigns, drives strategies, simulates and
 compares."""
 import json
+import os
 import pathlib
-import subprocess
 import sys
 import tempfile
+import types
 
 sys.path.insert(0, sys.argv[2])
 import numpy
@@ -48,6 +49,11 @@ def check_ask_tell():
     assert abs(numpy.log10(answer["values"]["energy"]) + 4) < 0.2, answer
     low, high = answer["ranges_90"]["friction"]
     assert low <= answer["values"]["friction"] <= high
+    # As in specs: min and max.
+    named = [{"name": "friction", "min": 0.1, "max": 0.9}, {"name": "energy", "min": 1e-6, "max": 1e-3, "scale": "log"}]
+    assert talus.Strategy(named, {"kind": "gp"}, seed=3).ask() == talus.Strategy(parameters, {"kind": "gp"}, seed=3).ask()
+    raises(talus.ConfigError, "min and low", talus.Strategy, [{"name": "a", "min": 0, "low": 0, "max": 1}])
+    assert repr(talus.Strategy(named)) == "<talus.Strategy of friction, energy>"
     strategy = talus.Strategy(parameters)
     raises(talus.ConfigError, "energy", strategy.tell, {"friction": 0.5}, 1.0)
     raises(talus.ConfigError, "needs a value", strategy.tell, {"friction": 0.5, "energy": 1e-4})
@@ -105,21 +111,65 @@ def check_campaign(program, root):
             "powder": CASE["powder"], "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
             "strategy": {"kind": "sobol", "num_points": 4}, "budget": {"simulations": 4},
             "noise": {"replicates": 0}, "confirm": {"candidates": 0}}
-    (root / "spec.json").write_text(json.dumps(spec))
-    subprocess.run([program, "calibrate", root / "spec.json", "--out", root / "run", "--quiet"], check=True)
-    campaign = talus.Campaign(root / "run")
-    assert campaign.parameters == ["sliding_friction"]
+    os.environ["TALUS_PROGRAM"] = program
+    events = []
+    spec["name"] = "a <drawn> heap"
+    campaign = talus.calibrate(spec, out=root / "run", progress=events.append)
+    assert {event["event"] for event in events} >= {"trial", "progress", "result"}, events
+    trial = next(event for event in events if event["event"] == "trial")
+    assert trial["parameters"] == ["sliding_friction"] and len(trial["values"]) == 1
+    assert campaign.parameters == ["sliding_friction"] and campaign.ranges == {"sliding_friction": (0.1, 0.9)}
     trials = campaign.trials()
     assert len(trials) == 4 and (trials.status == "ok").all()
     assert trials.sliding_friction.between(0.1, 0.9).all() and (trials.sad_mm2 >= 0).all()
+    assert trials.attrs["units"]["sad_mm2"] == "mm2" and trials.attrs["ranges"]["sliding_friction"] == (0.1, 0.9)
     assert campaign.result["parameters"][0]["name"] == "sliding_friction"
     assert campaign.spec["budget"]["simulations"] == 4
-    assert campaign.profiles().dims == ("trial", "row", "column") and len(campaign.profiles()) == 4
-    assert campaign.profile(1).shape == campaign.aehp().shape == (80, 120)
+    check_profiles(campaign)
     raises(FileNotFoundError, "posterior", campaign.posterior)
     raises(FileNotFoundError, "holds no campaign", talus.Campaign, root)
-    (root / "run/posterior.csv").write_text("sliding_friction\n0.5\n0.6\n")
-    assert campaign.posterior().sliding_friction.tolist() == [0.5, 0.6]
+    raises(talus.ConfigError, "out: is needed", talus.calibrate, spec)
+    (root / "bad.json").write_text("{}")
+    raises(talus.ConfigError, "powder", talus.calibrate, root / "bad.json", out=root / "bad", progress=False)
+    raises(talus.ConfigError, "budget: is for simulate", campaign.next, budget=3)
+    raises(talus.ConfigError, "sliding_friction", campaign.consider, sliding_friction=3.0)
+    assert campaign.consider(sliding_friction=0.5)["values"] == {"sliding_friction": 0.5}
+    assert repr(campaign).startswith('<talus.Campaign "a <drawn> heap", finished, 4 trials')
+    shown = campaign._repr_html_()
+    assert "a &lt;drawn&gt; heap" in shown and "<td>sliding_friction</td>" in shown, shown
+    assert campaign.resume(add_simulations=1, progress=False).trials().shape[0] >= 4
+    assert campaign.report().stat().st_size > 1e5
+    check_inference_data(campaign)
+
+
+def check_profiles(campaign):
+    """The sphere heaps stand on the plate, z = 0, round its centre, x = 0."""
+    profiles = campaign.profiles()
+    assert profiles.dims == ("trial", "z", "x") and len(profiles) == 4
+    assert profiles.x.attrs["units"] == profiles.z.attrs["units"] == "m"
+    assert abs(float(profiles.x[0]) + 59.5e-4) < 1e-9 and abs(float(profiles.z[0]) - 69.5e-4) < 1e-9
+    powder = profiles.sel(trial=1) < 128
+    assert bool(powder.any()) and not bool(powder.where(profiles.z < -1e-4, False).any())
+    assert campaign.aehp().shape == campaign.profile(1).shape == (80, 120)
+    raises(talus.ConfigError, "is no experiment", campaign.profiles, "drum")
+    raises(FileNotFoundError, "has no profile", campaign.profile, 99)
+
+
+def check_inference_data(campaign):
+    """What ArviZ is given, by a stand-in that keeps it: the dependency is not a hard one."""
+    (campaign.folder / "posterior.csv").write_text("sliding_friction\n0.5\n0.6\n")
+    draws = campaign.posterior()
+    assert draws.sliding_friction.tolist() == [0.5, 0.6] and draws.attrs["units"] == {"sliding_friction": ""}
+    sys.modules["arviz"] = None
+    raises(ImportError, "needs ArviZ", campaign.to_inference_data)
+    stand_in = types.ModuleType("arviz")
+    stand_in.InferenceData = lambda **groups: groups
+    sys.modules["arviz"] = stand_in
+    posterior = campaign.to_inference_data()["posterior"]
+    del sys.modules["arviz"]
+    assert posterior.sliding_friction.dims == ("chain", "draw")
+    assert posterior.sliding_friction.values.tolist() == [[0.5, 0.6]]
+    assert posterior.sliding_friction.attrs == {"units": "", "searched_min": 0.1, "searched_max": 0.9}
 
 
 check_ask_tell()

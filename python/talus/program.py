@@ -1,0 +1,86 @@
+"""The program `talus`: campaigns are run by it, so that a notebook and a cluster do the same."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+from ._core import ConfigError, Error
+
+
+def program():
+    """Path of `talus`: $TALUS_PROGRAM, or the one on the path."""
+    found = os.environ.get("TALUS_PROGRAM") or shutil.which("talus")
+    if found is None:
+        raise FileNotFoundError("the program `talus` is not on the path; put it there, or name it in TALUS_PROGRAM")
+    return os.path.abspath(found)
+
+
+def _raise(code, text):
+    words = text.strip().removeprefix("talus: ") or f"talus ended with status {code}"
+    if code == 2:
+        raise ConfigError(words)
+    if code == 130:
+        raise KeyboardInterrupt(words)
+    raise Error(words)
+
+
+def ask(*arguments):
+    """What a verb says with --json."""
+    ended = subprocess.run([program(), *map(str, arguments), "--json"], capture_output=True, text=True)
+    if ended.returncode:
+        _raise(ended.returncode, ended.stderr)
+    return json.loads(ended.stdout)
+
+
+class Progress:
+    """Tells of a campaign while it runs: a line that changes in place, elsewhere a line a minute."""
+    PERIOD = 60  # seconds between two lines
+
+    def __init__(self, stream=None):
+        self.stream = stream or sys.stderr
+        self.in_place = self.stream.isatty() or "ipykernel" in sys.modules
+        self.said = None
+
+    def __call__(self, event):
+        if event["event"] == "message":
+            self._line(event["text"])
+        elif event["event"] == "progress":
+            self._status(event)
+        elif event["event"] == "result" and self.in_place:
+            print(file=self.stream)
+
+    def _line(self, text):
+        print(("\r\033[K" if self.in_place else "") + text, file=self.stream, flush=True)
+
+    def _status(self, event):
+        import time
+        text = f"{event['num_search']} simulations"
+        if event["num_confirm"]:
+            text += f", {event['num_confirm']} to confirm"
+        if event["best_objective"] is not None:
+            text += f", best {event['best_objective']:.3g} {event['unit']}"
+        if event["seconds_left"] is not None:
+            text += f", at most {event['seconds_left']:.0f} s left"
+        now = time.monotonic()
+        if self.in_place:
+            print("\r\033[K" + text, end="", file=self.stream, flush=True)
+        elif self.said is None or now - self.said >= self.PERIOD:
+            self.said = now
+            print(text, file=self.stream, flush=True)
+
+
+def run(arguments, progress):
+    """Runs a verb that works on a campaign; `progress` is called with each event, True: Progress()."""
+    tell = Progress() if progress is True else progress or (lambda event: None)
+    with subprocess.Popen([program(), *map(str, arguments), "--json"], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True) as process:
+        try:
+            for line in process.stdout:
+                tell(json.loads(line))
+        except KeyboardInterrupt:  # the program has heard it, too, and ends by itself
+            process.wait()
+            raise
+        words = process.stderr.read()
+    if process.returncode:
+        _raise(process.returncode, words)
