@@ -62,7 +62,18 @@ void RefuseUnreadable(const CLI::ParseError& error) {
   throw talus::base::ConfigError(what.substr(name) + ": must be a number, not too large");
 }
 
+// CLI11 takes the next flag for the value of "--scale=".
+void RefuseEmptyValues(std::span<char*> arguments) {
+  for (const std::string argument : arguments) {
+    if (argument == "--") return;  // what follows is another program's
+    if (argument.starts_with("--") && argument.ends_with("=")) {
+      throw talus::base::ConfigError("talus: " + argument + " has no value; give one after the =");
+    }
+  }
+}
+
 int Run(int argc, char** argv) {
+  RefuseEmptyValues({argv, static_cast<std::size_t>(argc)});
   CLI::App app("calibrates discrete element models of powders from photographs of heaps", "talus");
   talus::app::DescribeCommandLine(app);
   try {

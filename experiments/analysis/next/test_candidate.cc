@@ -91,6 +91,10 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
 
 std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
   base::Problems problems(test.name, {});
+  for (const campaign::ExperimentSpec& made : campaign::ExperimentsOf(view.spec)) {
+    problems.Require(made.name != test.name, "name",
+                     "is that of an experiment of the campaign: give the test its own");
+  }
   rigs::ValidateCase(TypicalOf(view, test), problems);
   if (problems.empty()) {
     const auto known = rigs::EntryOf(TypicalOf(view, test)).observables;

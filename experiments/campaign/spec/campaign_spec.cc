@@ -37,6 +37,12 @@ std::string Short(const ordered_json& value) {
 void FindChanges(const ordered_json& old_value, const ordered_json& new_value,
                  const std::string& path, std::vector<std::string>& changes) {
   if (old_value == new_value) return;
+  if (old_value.is_array() && new_value.is_array() && old_value.size() == new_value.size()) {
+    for (std::size_t i = 0; i < old_value.size(); ++i) {
+      FindChanges(old_value[i], new_value[i], path + "[" + std::to_string(i) + "]", changes);
+    }
+    return;
+  }
   if (!old_value.is_object() || !new_value.is_object()) {
     changes.push_back(path + ": " + Short(old_value) + " → " + Short(new_value));
     return;

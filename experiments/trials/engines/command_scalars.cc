@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/number_text.h"
 #include "experiments/rigs/observables/observable.h"
 
 namespace talus::trials {
@@ -32,6 +33,18 @@ journal::MetricRecord ScalarOf(const std::string& name, std::optional<double> va
     scalar.undefined = "the command gives no value";
   }
   return scalar;
+}
+
+// Masses, lengths, times and ratios; an angle may lie on either side.
+void RequirePossible(const std::string& file, const std::vector<journal::MetricRecord>& scalars) {
+  for (const journal::MetricRecord& scalar : scalars) {
+    const rigs::ObservableInfo* info = rigs::FindObservable(scalar.name);
+    if (info == nullptr || info->dimension == base::Dimension::kAngle) continue;
+    if (scalar.undefined.empty() && scalar.value < 0) {
+      throw base::Error("left " + file + " with \"" + scalar.name + "\" " +
+                        base::ShortNumber(scalar.value) + ", which cannot be negative");
+    }
+  }
 }
 
 std::string Trimmed(const std::string& text) {
@@ -115,7 +128,10 @@ std::vector<journal::MetricRecord> ReadScalars(const fs::path& folder) {
   const fs::path file = ScalarFile(folder);
   if (file.empty()) return {};
   const std::string text = base::ReadFile(file, kMostBytes);
-  return file.filename() == kJson ? ParseJsonScalars(text) : ParseCsvScalars(text);
+  std::vector<journal::MetricRecord> scalars =
+      file.filename() == kJson ? ParseJsonScalars(text) : ParseCsvScalars(text);
+  RequirePossible(file.filename(), scalars);
+  return scalars;
 }
 
 void RemoveScalars(const fs::path& folder) {

@@ -200,8 +200,13 @@ TEST_F(NextTest, WhatCannotBeSimulatedIsSaidAndNotTried) {
   TestCandidate narrow{.name = "narrow"};
   narrow.device = view.spec.device;
   narrow.device->tube_inner_diameter = 1e-3;  // grains of the coarse factor are 0.8 mm
-  const NextTable table = Rank(view, {narrow}, true);
+  const TestCandidate taken{.name = campaign::ExperimentsOf(view.spec).front().name};
+  const NextTable table = Rank(view, {narrow, taken}, true);
   EXPECT_THAT(Find(table, "narrow").what, HasSubstr("must be above three (scaled) grain"));
+  const bool said = std::ranges::any_of(table.candidates, [](const NextCandidate& candidate) {
+    return candidate.what.find("is that of an experiment of the campaign") != std::string::npos;
+  });
+  EXPECT_TRUE(said);
   EXPECT_FALSE(fs::exists(folder_ / "next"));
 }
 

@@ -183,6 +183,23 @@ TEST(Spec, OnlyBudgetWorkersAndTheLikeMayChange) {
                                                        "coarse_graining.scale_factor: 1.0 → 1.5"));
 }
 
+TEST(Spec, AChangeInOneOfSeveralExperimentsIsNamedByItsKey) {
+  auto json = nlohmann::ordered_json::parse(SpecText(Read(kGood)));
+  nlohmann::ordered_json first = json["experiment"];
+  first["name"] = "first";
+  first["device"] = json["device"];
+  nlohmann::ordered_json second = first;
+  second["name"] = "second";
+  json.erase("experiment");
+  json["experiments"] = {first, second};
+  const std::string before = SpecText(ParseSpecText(json.dump()));
+  json["experiments"][1]["device"]["lift_velocity"] = 0.03;
+  const std::string after = SpecText(ParseSpecText(json.dump()));
+  EXPECT_THAT(
+      ForbiddenChanges(before, after),
+      ::testing::ElementsAre(::testing::StartsWith("experiments[1].device.lift_velocity: ")));
+}
+
 TEST(Spec, TheExamplesAreInOrder) {
   for (const char* name : {"demo", "ti6al4v", "al6061", "wet_sand", "drum_mcc"}) {
     const std::filesystem::path path =

@@ -61,8 +61,11 @@ class CommandEngineTest : public ::testing::Test {
     return {.profile = imaging::ReadGrayImage(root_ / "trial/profile.png"), .note = {}};
   }
   std::string FailureOf() {
+    return FailureOf([&] { Run(); });
+  }
+  static std::string FailureOf(const std::function<void()>& action) {
     try {
-      Run();
+      action();
     } catch (const base::Error& error) {
       return error.what();
     }
@@ -125,6 +128,11 @@ TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
   EXPECT_THROW(scalars_of(), base::Error);
   Deck("run.sh", "true");  // neither numbers nor a result
   EXPECT_THROW(scalars_of(), base::Error);
+  Deck("run.sh", "echo 'discharge_time_s,-3' >scalars.csv");
+  EXPECT_THAT(FailureOf(scalars_of),
+              HasSubstr("\"discharge_time_s\" -3, which cannot be negative"));
+  Deck("run.sh", "echo 'angle_deg,-3' >scalars.csv");
+  EXPECT_EQ(scalars_of().at(0).value, -3);
 }
 
 // The last value of a doubled name counted, and a mark before the first name made another of it.
@@ -231,6 +239,9 @@ TEST_F(CommandEngineTest, FailuresOfTheCommandCarryTheEndOfItsLog) {
   Deck("run.sh", "echo 'x,y,z,r' >heap.csv; echo '1,2,3,1e-3' >>heap.csv\n");  // in millimetres
   EXPECT_THAT(FailureOf(), HasSubstr("left nothing on the plate, of 1 spheres in heap.csv; are "
                                      "length_unit, up and plate_center right?"));
+  fs::remove_all(root_ / "trial");
+  Deck("run.sh", "echo 'x,y,z,r' >heap.csv; echo '0,0,1,1' >>heap.csv\n");  // and on the axis
+  EXPECT_THAT(FailureOf(), HasSubstr("with a sphere of 2 m, which is wider than the plate of"));
 }
 
 TEST_F(CommandEngineTest, MistakesAreFoundBeforeAnythingRuns) {
