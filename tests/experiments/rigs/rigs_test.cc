@@ -341,7 +341,7 @@ TEST(FunnelHeap, RoughGrainsStandSteeperAndEveryGrainIsWeighed) {
     const auto rig = Ran(c);
     angles.push_back(Value(c, *rig, "angle_of_repose_triangle_deg"));
     const double weighed = Value(c, *rig, "mass_on_plate_kg") + Value(c, *rig, "mass_fallen_kg");
-    EXPECT_NEAR(weighed, 0.8e-3, 2e-6);                       // to a whole number of grains
+    EXPECT_NEAR(weighed, 0.8e-3, 2e-6);  // to a whole number of grains
     indices.push_back(Value(c, *rig, "static_cohesive_index"));
   }
   EXPECT_GT(angles[1], angles[0] + 5);
