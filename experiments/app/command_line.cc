@@ -42,6 +42,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddConsiderCommand(app);
   AddNextCommand(app);
   AddPredictCommand(app);
+  AddSensitivityCommand(app);
   AddCompareCommand(app);
   AddReportCommand(app);
   AddCardCommand(app);

@@ -8,11 +8,16 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/json/json_text.h"
+#include "base/json/json_writer.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/next_text.h"
+#include "experiments/analysis/sensitivity/moved_trials.h"
+#include "experiments/analysis/sensitivity/sensitivity.h"
+#include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::app {
@@ -79,6 +84,33 @@ void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const 
   if (!tell.quiet) std::cout << analysis::NextSummary(table) << std::flush;
 }
 
+// What the spec allows of it at the end of a campaign.
+void FindSensitivityWithin(double share, const std::filesystem::path& folder,
+                           const TellOptions& tell) {
+  const campaign::JointView view = campaign::ReadJointView(folder);
+  analysis::SensitivityOptions options{
+      .most_replicates = analysis::kFirstReplicates,
+      .parts = {
+          .runner = campaign::MakeRunner(view.spec, analysis::SensitivityFolder(view.folder.root)),
+          .engine = campaign::MakeEngine(view.spec)}};
+  const double takes = analysis::FirstCoreTime(view, options);
+  const double allowed = share * campaign::CoreTime(view.spec).OfSearch(view.trials);
+  if (takes > allowed) {
+    if (tell.quiet || tell.json) return;
+    std::cout << "  sensitivity       not simulated, as it takes " << trials::DurationText(takes)
+              << " of processor time and the spec allows " << trials::DurationText(allowed)
+              << ": talus sensitivity " << base::ShellWord(folder.string()) << std::endl;
+    return;
+  }
+  const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
+  analysis::WriteSensitivity(table, view.folder.root);
+  if (tell.json) {
+    PrintEvent("sensitivity", "sensitivity", base::JsonText(base::ToJson(table)));
+  } else if (!tell.quiet) {
+    std::cout << analysis::SensitivityText(table) << std::flush;
+  }
+}
+
 }  // namespace
 
 campaign::Console::Output TellOptions::output() const {
@@ -108,6 +140,9 @@ void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& op
   }
   PrintAnswer(*ended.answer, folder, tell);
   if (IsWorthAdvice(ended)) PrintAdvice(ended, folder, tell);
+  if (ended.spec.budget.sensitivity_share > 0) {
+    FindSensitivityWithin(ended.spec.budget.sensitivity_share, folder, tell);
+  }
 }
 
 }  // namespace talus::app

@@ -225,6 +225,29 @@ std::vector<Moments> ExperimentModel::Scalars(const Eigen::MatrixXd& points) con
   return all;
 }
 
+Eigen::VectorXd ExperimentModel::OutputsOf(std::span<const float> field,
+                                           const std::vector<double>& scalars) const {
+  Eigen::VectorXd outputs(num_outputs());
+  const Eigen::Index num_modes = outputs_.num_modes();
+  if (has_image()) {
+    outputs.head(num_modes) = outputs_.modes().Coefficients(setup_.code->Encode(field));
+  }
+  for (std::size_t s = 0; s < scalars.size(); ++s) {
+    outputs[num_modes + static_cast<Eigen::Index>(s)] =
+        Compress(setup_.target->scalars[s], scalars[s]);
+  }
+  return outputs;
+}
+
+Eigen::VectorXd ExperimentModel::NoiseAt(double scale_factor) const {
+  const int level = setup_.levels->LevelOf(scale_factor);
+  Eigen::VectorXd variance(num_outputs());
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    variance[k] = outputs_.output(k).noise_variance(level);
+  }
+  return variance;
+}
+
 std::vector<float> ExperimentModel::MeanImage(const Eigen::VectorXd& x) const {
   return setup_.code->Decode(
       objective_->MeanImage(outputs_.PredictModes(x.transpose()).mean.row(0).transpose()));

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "optimizer/moments.h"
@@ -110,6 +111,14 @@ class ExperimentModel {
 
   // Each scalar at the target, expected and its surrogate's sd, in its own unit; one a column.
   std::vector<Moments> Scalars(const Eigen::MatrixXd& points) const;
+
+  // The outputs of one simulation: the coefficients of its image and its numbers, compressed; NaN
+  // for a number that is undefined. `field` is empty without images.
+  Eigen::VectorXd OutputsOf(std::span<const float> field, const std::vector<double>& scalars) const;
+  // Variance of each output of one simulation at a scale factor.
+  Eigen::VectorXd NoiseAt(double scale_factor) const;
+  // From now on the experiment has measured so much more of each output.
+  void MoveMeasured(const Eigen::VectorXd& by) { measured_ += by; }
 
   // The mean image at the target, as FieldObjective's; wants an image.
   std::vector<float> MeanImage(const Eigen::VectorXd& x) const;

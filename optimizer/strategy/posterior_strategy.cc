@@ -134,11 +134,13 @@ const Posterior& PosteriorStrategy::Model() {
   return *posterior_;
 }
 
+PosteriorSample PosteriorStrategy::SampleOf(const Posterior& posterior) const {
+  const int start = domain_.num_parameters <= 2 ? 3000 : 6000;
+  return posterior.Sample(domain_, start, 1, options_.seed);
+}
+
 const PosteriorSample& PosteriorStrategy::Sample() {
-  if (!sample_) {
-    const int start = domain_.num_parameters <= 2 ? 3000 : 6000;
-    sample_ = Model().Sample(domain_, start, 1, options_.seed);
-  }
+  if (!sample_) sample_ = SampleOf(Model());
   return *sample_;
 }
 

@@ -44,6 +44,9 @@ class PosteriorStrategy : public Strategy {
   // The objective of an experiment with an image by the model that Recommend answers with, at the
   // target scale factor: one point a row.
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment);
+  // Recommend's point had the experiments measured so much more of each output, a vector of outputs
+  // for each; wants CanModel.
+  Eigen::VectorXd PointIfMeasured(const std::vector<Eigen::VectorXd>& more);
   // Model and sample of all that was told.
   const Posterior& Model();
   const PosteriorSample& Sample();
@@ -84,6 +87,7 @@ class PosteriorStrategy : public Strategy {
                                    std::span<const Proposal> asked) const;
   double CostOf(std::size_t experiment, int level) const;
   Posterior MakePosterior();
+  PosteriorSample SampleOf(const Posterior& posterior) const;
   std::vector<double> UnlearntScaleFactors() const;
   int FewestAtFinest() const;
   void Summarise(Answer& answer);

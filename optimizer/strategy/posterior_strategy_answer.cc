@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "optimizer/posterior/branches.h"
 #include "optimizer/posterior/credible_ranges.h"
+#include "optimizer/posterior/measured_shift.h"
 #include "optimizer/posterior/narrowing.h"
 #include "optimizer/posterior/rank_correlation.h"
 #include "optimizer/posterior/sobol_indices.h"
@@ -138,6 +139,11 @@ Answer PosteriorStrategy::Recommend() {
                 100 * summary.tempered_coverage, summary.temper);
   answer.model = text;
   return answer;
+}
+
+Eigen::VectorXd PosteriorStrategy::PointIfMeasured(const std::vector<Eigen::VectorXd>& more) {
+  const Posterior moved = WithMeasuredMoved(Model(), more);
+  return FindBranches(moved, SampleOf(moved), options_.seed).front().point;
 }
 
 std::optional<Eigen::VectorXd> PosteriorStrategy::CredibleLevels(const Eigen::MatrixXd& points) {

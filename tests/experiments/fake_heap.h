@@ -62,18 +62,19 @@ inline double TappedDensity(double rolling, double scatter, std::uint64_t seed) 
 }
 
 struct FakeEngineOptions {
-  bool die_once = false;          // every third trial is ended by SIGKILL when it is run first
-  bool fail_at_low = false;       // no heap below μ_t = 0.3
-  bool fail_fast_at_low = false;  // the same, where the tube is lifted fast
-  bool fail_once = false;         // every trial's first seed fails
-  double sleep = 0;               // of each trial [s]
-  bool no_command = false;        // the program is not there
-  bool vanish = false;            // every trial's folder is taken away while it runs
-  int hang_at = 0;                // the trial with this id never ends; none if 0
-  bool no_numbers = false;        // the masses and densities are not there
-  bool undefined = false;         // … or have no value
-  double mass_scatter = 1e-6;     // of the mass fallen, from seed to seed [kg]
-  double density_scatter = 4;     // of the tapped density, from seed to seed [kg/m³]
+  bool die_once = false;              // every third trial is ended by SIGKILL when it is run first
+  bool fail_at_low = false;           // no heap below μ_t = 0.3
+  bool fail_fast_at_low = false;      // the same, where the tube is lifted fast
+  bool fail_once = false;             // every trial's first seed fails
+  double sleep = 0;                   // of each trial [s]
+  bool no_command = false;            // the program is not there
+  bool vanish = false;                // every trial's folder is taken away while it runs
+  int hang_at = 0;                    // the trial with this id never ends; none if 0
+  bool no_numbers = false;            // the masses and densities are not there
+  bool undefined = false;             // … or have no value
+  double restitution_as_rolling = 0;  // a lower restitution acts as so many times more μ_r
+  double mass_scatter = 1e-6;         // of the mass fallen, from seed to seed [kg]
+  double density_scatter = 4;         // of the tapped density, from seed to seed [kg/m³]
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -84,7 +85,9 @@ class FakeEngine : public trials::TrialEngine {
     trials::PrepareFolder(folder, "case.json", rigs::CaseText(rig_case));
     const engine::Material& m = rig_case.powder.material;
     const auto seed = rig_case.seed;
-    imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, m.rolling_friction, seed));
+    const double rolling =
+        m.rolling_friction + options_.restitution_as_rolling * (0.9 - m.restitution);
+    imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, rolling, seed));
     std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
     if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
       script = "sleep 3600\n";

@@ -128,6 +128,8 @@ VERBS = {  # name: what is done before, the verb, what goes on when there is roo
                        ["add-experiment", "out", "further.json", "--quiet"], add_again, is_answered_with_both),
     "next": (["calibrate", "learning.json", "--out", "out", "--quiet"], ["next", "out"], None,
              content("out/next/next.json")),
+    "sensitivity": (["calibrate", "learning.json", "--out", "out", "--quiet"],
+                    ["sensitivity", "out", "rolling_damping=0.2"], None, content("out/sensitivity.json")),
     "simulate": ([], ["simulate", "scene.json", "--out", "out"], None, without("timing", "out/result.json")),
     "optimize": ([], ["optimize", "problem.json", "--out", "out", "--quiet", "--", "sh", "evaluate.sh"],
                  None, content("out/result.json")),

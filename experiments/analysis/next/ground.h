@@ -1,4 +1,4 @@
-// What the posterior needs to judge a further measurement.
+// What is known before a further measurement: the draws of a posterior, or of what is searched.
 #pragma once
 
 #include <memory>
@@ -6,21 +6,20 @@
 
 #include "experiments/campaign/answer/joint_view.h"
 #include "optimizer/posterior/expected_learning.h"
-#include "optimizer/posterior/posterior.h"
+#include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::analysis {
 
 struct Ground {
   const campaign::JointView& view;
-  const optimizer::Posterior& posterior;
+  double temper = 1;       // the posterior's
   Eigen::MatrixXd draws;   // equally likely, one a row
   double model_error = 1;  // PosteriorOptions
 
   // `variance` of each output once measured, before tempering.
   optimizer::ExpectedLearning Learn(const Eigen::MatrixXd& mean,
                                     const Eigen::VectorXd& variance) const {
-    return optimizer::Learn(draws, {.mean = mean, .variance = posterior.temper() * variance},
-                            view.spec.seed);
+    return optimizer::Learn(draws, {.mean = mean, .variance = temper * variance}, view.spec.seed);
   }
 };
 

@@ -126,9 +126,11 @@ void JudgeTest(const Ground& ground, const TestCandidate& test, const TestDesign
   TellDesign(design, made, *strategy);
   const optimizer::ExperimentModel& model = strategy->Model().models().front();
   const optimizer::OutputPredictions at = model.Predict(ground.draws);
-  candidate.learning = ground.Learn(
-      at.mean,
-      VarianceOf(ground, at, test, design, static_cast<Eigen::Index>(made.target.scalars.size())));
+  candidate.predicted = {
+      .mean = at.mean,
+      .variance = VarianceOf(ground, at, test, design,
+                             static_cast<Eigen::Index>(made.target.scalars.size()))};
+  candidate.learning = ground.Learn(candidate.predicted.mean, candidate.predicted.variance);
   TellApart(ground, test, made, model, candidate);
 }
 

@@ -34,6 +34,7 @@ struct NextCandidate {
   std::string what{};  // in words
   // Not known where the test's design has not been simulated.
   std::optional<optimizer::ExpectedLearning> learning{};
+  optimizer::PredictedMeasurement predicted{};  // of a test: what `learning` is of
   int num_simulations = 0;  // that it will take, about, with those that are made
   int num_made = 0;         // of these, for its design
   double core_time = 0;     // of all these simulations [s]

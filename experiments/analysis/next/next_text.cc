@@ -24,15 +24,6 @@ std::string WidthText(const NextTable& table, std::size_t parameter, double widt
   return base::ShortNumber(width * (p.high - p.low), 2);
 }
 
-std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
-  std::string text;
-  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + table.parameters[i].name + " " +
-            WidthText(table, i, width[static_cast<Eigen::Index>(i)]);
-  }
-  return text;
-}
-
 std::string SetText(const std::vector<double>& values) {
   std::string text = "(";
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -80,6 +71,15 @@ const char* KindName(NextKind kind) {
 }
 
 }  // namespace
+
+std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
+  std::string text;
+  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + table.parameters[i].name + " " +
+            WidthText(table, i, width[static_cast<Eigen::Index>(i)]);
+  }
+  return text;
+}
 
 std::string NextText(const NextTable& table) {
   std::string text = "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";

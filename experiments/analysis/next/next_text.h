@@ -7,6 +7,9 @@
 
 namespace talus::analysis {
 
+// "sliding_friction 0.12, surface_energy × 3": widths in the unit cube, as people read them.
+std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width);
+
 std::string NextText(const NextTable& table);
 // The tests that would teach most, for the end of a campaign; empty where none has been judged.
 std::string NextSummary(const NextTable& table);

@@ -108,11 +108,12 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
        .core_time = count * cost.OfOne(known.experiment, finest) * std::pow(finest / finer, 4)});
 }
 
-void AddMoreOfTheSame(const Ground& ground, Cost& cost, std::vector<NextCandidate>& all) {
+void AddMoreOfTheSame(const Ground& ground, const optimizer::Posterior& posterior, Cost& cost,
+                      std::vector<NextCandidate>& all) {
   const std::vector<int> answered = ground.view.Answered();
   for (std::size_t i = 0; i < answered.size(); ++i) {
     Known known{.experiment = answered[i],
-                .at = ground.posterior.models()[i].Predict(ground.draws),
+                .at = posterior.models()[i].Predict(ground.draws),
                 .surrogate = {}};
     known.surrogate = known.at.variance.colwise().mean().transpose();
     all.push_back(MoreRuns(ground, known));
@@ -230,7 +231,7 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
     if (options.simulate && design.cost > 0 && design.cost <= left) {
       options.say(CostText(test, design));
       const double before = design.stored ? design.stored->core_time : 0;
-      design.stored = SimulateDesign(view, test, ground.draws, options.parts);
+      design.stored = SimulateDesign(view, test, {.draws = ground.draws}, options.parts);
       left -= design.stored->core_time - before;
     }
     NextCandidate& candidate = candidates[design.candidate];
@@ -256,7 +257,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
                       "`talus resume`");
   }
   const Ground ground{.view = view,
-                      .posterior = strategy->Model(),
+                      .temper = strategy->Model().temper(),
                       .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
                       .model_error = view.spec.posterior.model_error};
   NextTable table{.parameters = view.record.parameters};
@@ -268,7 +269,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   }
   table.width = ground.Learn(Eigen::MatrixXd(kDraws, 0), {}).width;
   Cost cost(view);
-  AddMoreOfTheSame(ground, cost, table.candidates);
+  AddMoreOfTheSame(ground, strategy->Model(), cost, table.candidates);
   AddNumbers(ground, table.candidates);
   const std::vector<NextCandidate> tests = JudgeTests(ground, options, cost);
   table.candidates.insert(table.candidates.end(), tests.begin(), tests.end());

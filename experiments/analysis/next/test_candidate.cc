@@ -24,15 +24,7 @@ struct CandidateFile {
   }
   void Validate(base::Problems& problems) const {
     problems.Require(!candidates.empty(), "candidates", "is empty: give one or more");
-    std::map<std::string, std::string> folders;  // and the name of the test that has it
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const std::string& name = candidates[i].name;
-      const auto [other, is_new] = folders.emplace(FileName(candidates[i]), name);
-      if (is_new) continue;
-      problems.Add("candidates[" + std::to_string(i) + "].name",
-                   "\"" + name + "\" and \"" + other->second + "\" would share the folder next/" +
-                       other->first + ": give each its own name");
-    }
+    ValidateNames(candidates, problems);
   }
 };
 
@@ -68,6 +60,18 @@ imaging::Frame UsualFrame(double plate, double grain) {
 void TestCandidate::Validate(base::Problems& problems) const {
   base::RequireName(problems, "name", name);
   problems.Require(runs >= 1 && runs <= 1000, "runs", runs, "must be from 1 to 1000");
+}
+
+void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems& problems) {
+  std::map<std::string, std::string> folders;  // and the name of the test that has it
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const std::string& name = candidates[i].name;
+    const auto [other, is_new] = folders.emplace(FileName(candidates[i]), name);
+    if (is_new) continue;
+    problems.Add("candidates[" + std::to_string(i) + "].name",
+                 "\"" + name + "\" and \"" + other->second + "\" would share the folder next/" +
+                     other->first + ": give each its own name");
+  }
 }
 
 std::vector<TestCandidate> LoadTests(const std::filesystem::path& file) {

@@ -44,6 +44,9 @@ struct TestCandidate {
   void Validate(base::Problems& problems) const;
 };
 
+// Names that would share a folder.
+void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems& problems);
+
 // What `talus next DIR CANDIDATES` reads: {"candidates": [{"name": …, "device": …}, …]}.
 std::vector<TestCandidate> LoadTests(const std::filesystem::path& file);
 

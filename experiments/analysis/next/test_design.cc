@@ -28,10 +28,10 @@ std::string TextOf(const campaign::JointView& view, const TestCandidate& test) {
                        FrameOf(view, test))));
 }
 
-std::vector<std::vector<double>> PointsOf(const Eigen::MatrixXd& draws) {
+std::vector<std::vector<double>> PointsOf(const DesignPlace& place) {
   std::vector<std::vector<double>> points;
-  for (const Eigen::Index row : FarApart(draws, kDesignSize)) {
-    const Eigen::RowVectorXd taken = draws.row(row);
+  for (const Eigen::Index row : FarApart(place.draws, place.size)) {
+    const Eigen::RowVectorXd taken = place.draws.row(row);
     points.emplace_back(taken.data(), taken.data() + taken.size());
   }
   return points;
@@ -107,12 +107,12 @@ std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const Te
 }
 
 TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& test,
-                          const Eigen::MatrixXd& draws, const campaign::CampaignParts& parts) {
+                          const DesignPlace& place, const campaign::CampaignParts& parts) {
   std::optional<campaign::DesignRecord> record = ReadRecord(view, test);
   if (!record) {
     record = campaign::DesignRecord{.test = TextOf(view, test),
                                     .scale_factor = view.spec.coarse_graining.Levels().front(),
-                                    .points = PointsOf(draws)};
+                                    .points = PointsOf(place)};
     // Where there is one of the same name and another device, it makes room.
     FolderOf(view, test).Make(*record);
     base::WriteFileAtomically(FolderOf(view, test).root / "experiment.json",

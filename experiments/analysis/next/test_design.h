@@ -33,9 +33,15 @@ struct TestDesign {
 std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const TestCandidate& test,
                                        trials::TrialEngine& engine);
 
-// Simulates what of it is missing at points spread over `draws` of the posterior (one a row).
-// Throws base::Interrupted when the user ends it; what has ended is kept.
+// Where a design's points lie.
+struct DesignPlace {
+  const Eigen::MatrixXd& draws;  // one a row; the points are spread over them
+  int size = kDesignSize;        // how many
+};
+
+// Simulates what of it is missing. Throws base::Interrupted when the user ends it; what has ended
+// is kept.
 TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& test,
-                          const Eigen::MatrixXd& draws, const campaign::CampaignParts& parts);
+                          const DesignPlace& place, const campaign::CampaignParts& parts);
 
 }  // namespace talus::analysis

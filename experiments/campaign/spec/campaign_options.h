@@ -15,6 +15,7 @@ struct BudgetOptions {
   int min_simulations = 0;             // before the strategy may end the search, >= 0
   std::optional<double> core_time{};   // [s], of the trials of noise and search together, > 0
   std::optional<double> wall_clock{};  // [s], all sessions together, > 0
+  double sensitivity_share = 0;        // of the search's core time, in [0, 1]; 0: not by itself
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -29,6 +30,10 @@ struct BudgetOptions {
     visit("wall_clock", self.wall_clock,
           {.dimension = base::Dimension::kTime,
            .doc = "no new trial of the search after this time of work, > 0"});
+    visit("sensitivity_share", self.sensitivity_share,
+          {.doc = "at the end `talus sensitivity` runs by itself where its first simulations take "
+                  "this share of the search's processor time at most, such as 0.05; in [0, 1], 0 "
+                  "never"});
   }
   void Validate(base::Problems& problems) const;
 };

@@ -159,6 +159,8 @@ void BudgetOptions::Validate(base::Problems& problems) const {
                    "must be positive");
   problems.Require(min_simulations >= 0 && min_simulations <= kMostSimulations, "min_simulations",
                    min_simulations, "must be from 0 to 1000000");
+  problems.Require(sensitivity_share >= 0 && sensitivity_share <= 1, "sensitivity_share",
+                   sensitivity_share, "must be in [0, 1]");
   problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
                    "must be positive");
 }

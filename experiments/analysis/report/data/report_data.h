@@ -14,6 +14,7 @@
 #include "experiments/analysis/report/views/next_steps.h"
 #include "experiments/analysis/report/views/next_table_view.h"
 #include "experiments/analysis/report/views/predictions_view.h"
+#include "experiments/analysis/report/views/sensitivity_view.h"
 
 namespace talus::analysis {
 
@@ -46,9 +47,10 @@ struct ReportData {
   std::vector<PairMap> pairs;
   std::vector<RepresentativeView> representative;  // of the recommended set and its equals
   std::vector<NextStep> next_steps;
-  std::optional<NextTableView> next_table;  // none where `talus next` has not been run
-  std::vector<PredictionView> predictions;  // of `talus predict`
-  std::vector<RegionPoint> region_history;  // of a page that is watched
+  std::optional<NextTableView> next_table;     // none where `talus next` has not been run
+  std::vector<PredictionView> predictions;     // of `talus predict`
+  std::optional<SensitivityView> sensitivity;  // none where `talus sensitivity` has not been run
+  std::vector<RegionPoint> region_history;     // of a page that is watched
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
   std::string overlay_absent;                  // why there are no photographs to show

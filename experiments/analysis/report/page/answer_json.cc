@@ -3,6 +3,7 @@
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/views/answer_words.h"
+#include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
 
@@ -144,6 +145,26 @@ PageValue PredictionJson(const PredictionView& view) {
           {"different", UriJson(view.different)},
           {"different_size", {view.different.width, view.different.height}},
           {"different_sets", ListJson(p.different, set)}};
+}
+
+PageValue SensitivityJson(const SensitivityView& view) {
+  const auto shift = [](const AnswerShift& s) {
+    return PageValue{{"to", NumberJson(s.to)},
+                     {"error", NumberJson(s.standard_error)},
+                     {"exceeds", s.Exceeds()},
+                     {"told", s.IsTold()}};
+  };
+  const auto move = [&](const FixedMove& m) {
+    return PageValue{{"name", m.name},
+                     {"from", m.from},
+                     {"to", m.to},
+                     {"why_not", m.why_not},
+                     {"answer", ListJson(m.answer, shift)}};
+  };
+  return {{"outdated", view.is_outdated},
+          {"scale_factor", NumberJson(view.table.scale_factor)},
+          {"alarms", SensitivityAlarms(view.table)},
+          {"moves", ListJson(view.table.moves, move)}};
 }
 
 PageValue HeadlineJson(const ReportData& data) {

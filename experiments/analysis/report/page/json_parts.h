@@ -34,5 +34,6 @@ PageValue TrialsJson(const Evidence& evidence);  // by column: half the size of 
 PageValue HeadlineJson(const ReportData& data);  // needs an answer
 PageValue NextTableJson(const NextTableView& table);
 PageValue PredictionJson(const PredictionView& view);
+PageValue SensitivityJson(const SensitivityView& view);
 
 }  // namespace talus::analysis

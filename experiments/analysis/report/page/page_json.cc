@@ -177,6 +177,7 @@ void AddAnswer(const ReportData& data, PageValue& page) {
   const auto& answer = data.evidence.answer;
   page["next"] = data.next_table ? NextTableJson(*data.next_table) : PageValue(nullptr);
   page["predictions"] = ListJson(data.predictions, PredictionJson);
+  page["sensitivity"] = data.sensitivity ? SensitivityJson(*data.sensitivity) : PageValue(nullptr);
   page["warnings"] = answer ? PageValue(AlarmWords(data.evidence)) : PageValue::array();
   page["held_out"] = answer ? PageValue(HeldOutWords(*answer)) : PageValue::array();
   page["conditions"] = answer ? PageValue(ConditionWords(answer->conditions)) : PageValue::array();

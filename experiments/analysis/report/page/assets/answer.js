@@ -160,6 +160,22 @@ function nextTable() {
       : null];
 }
 
+// What `talus sensitivity` has found: what the answer would be with each fixed thing at another value.
+function sensitivity() {
+  const s = D.sensitivity;
+  if (!s) return null;
+  const cell = (p, a) => !a ? "?" : formatUnit(a.to, p.unit) + " ± " + format(a.error, 1) + (a.exceeds ? " !" : a.told ? "" : " ?");
+  return element("div", {class: "card", id: "sensitivity"}, element("h3", {}, "What the answer owes to what was held fixed"),
+    s.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus sensitivity again.") : null,
+    element("ul", {class: "plain"}, s.alarms.map((line) => element("li", {}, line + "."))),
+    table("Answers with one fixed thing moved", [{title: "Moved", text: true, wide: true},
+        ...D.parameters.map((p, k) => ({title: p.symbol, unit: "now " + formatUnit(D.headline.values[k].value, p.unit)}))],
+      s.moves.map((m) => [m.name + " " + m.to + " in place of " + m.from + (m.why_not ? ": not known, " + m.why_not : ""),
+        ...D.parameters.map((p, k) => cell(p, m.answer[k]))])),
+    element("p", {class: "note"}, "Simulated at scale factor " + s.scale_factor + ", with the standard error of that. !: beyond " +
+      "half of the stated range. ?: not told from the noise."));
+}
+
 // Heaps of sets that fit equally, side by side; of one set alone, its heap.
 function representativeHeaps(h) {
   const o = D.campaign.objective;
@@ -192,7 +208,7 @@ function answerSection() {
   return [said && seen ? element("div", {class: "grid first-screen"}, said, seen) : said || seen, alarms(),
     element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), oneHeap ? heaps : null),
       element("div", {}, next, region ? fitList(h) : null)),
-    predictionLines(), branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), facts(h),
+    predictionLines(), branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), sensitivity(), facts(h),
     D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
       element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))) : null,
     D.conditions.length ? element("div", {class: "card"}, element("h3", {}, "It holds for"),

@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""sensitivity_twins.py TALUS FOLDER [--campaign both] [--scale-factor F] [--replicates N]: does a campaign with another
+fixed value find the answer that `talus sensitivity` foretells?
+
+FOLDER is that of dem_twins.py. Each of its campaigns is asked what a restitution of 0.6 in place of 0.9, and a
+friction between powder and plate of 0.8 of what its answer has, would move the answer to. Then a campaign with that
+value, the same data, seed and core time finds its own answer. A friction of the pair that is 0.8 of what the *set* makes
+it cannot be fixed: the second campaign has the number that the first one's answer makes of it, and so has the move.
+
+One line a powder and move: the shifts foretold and found of each parameter in half ranges, and whether the two are
+within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+FACTOR = 1.5
+SMALL = 0.25  # half ranges
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
+    return done.stdout
+
+
+def parameters(folder):
+    return {p["name"]: p for p in json.loads((folder / "result.json").read_text())["parameters"]}
+
+
+def foretold(options, folder, name, value):
+    extra = ["--replicates", options.replicates]
+    if options.scale_factor:
+        extra += ["--scale-factor", options.scale_factor]
+    move = json.loads(run(options.talus, "sensitivity", folder, f"{name}={value}", *extra, "--json"))["moves"][0]
+    return {a["parameter"]: (a["shift_in_half_ranges"], a["shift_error_in_half_ranges"]) for a in move["answer"]}
+
+
+def found(options, twin, name, value, now):
+    """The same of a campaign with this value."""
+    spec = json.loads((twin / f"{options.campaign}.json").read_text())
+    if name == "restitution":
+        spec["powder"]["material"]["restitution"] = value
+    else:
+        spec["pairs"] = [{"between": ["powder", "plate"], "sliding_friction": value}]
+    place = twin / f"{options.campaign}_{name}"
+    place.with_suffix(".json").write_text(json.dumps(spec))
+    if not (place / "result.json").exists():
+        run(options.talus, "calibrate", place.with_suffix(".json"), "--out", place, "--quiet")
+    then = parameters(place)
+    return {k: (then[k]["value"] - p["value"]) / ((p["credible_90_high"] - p["credible_90_low"]) / 2)
+            for k, p in now.items()}
+
+
+def is_right(a, b):
+    return max(abs(a), abs(b)) < SMALL or (a * b > 0 and 1 / FACTOR <= a / b <= FACTOR)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("talus")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--campaign", default="both")
+    parser.add_argument("--scale-factor", type=float)
+    parser.add_argument("--replicates", type=int, default=16)
+    options = parser.parse_args()
+    right, count = 0, 0
+    for twin in sorted(options.folder.glob("twin??")):
+        first = twin / options.campaign
+        now = parameters(first)
+        moves = {"restitution": 0.6,
+                 "plate_pair_sliding_friction": round(0.8 * now["sliding_friction"]["value"], 6)}
+        for name, value in moves.items():
+            told = foretold(options, first, name, value)
+            is_found = found(options, twin, name, value, now)
+            agree = all(is_right(told[k][0], is_found[k]) for k in now)
+            right += agree
+            count += 1
+            print(f"{twin.name} {name} {value:.4g}: " + "; ".join(
+                f"{k} foretold {told[k][0]:+.2f} ± {told[k][1]:.2f}, found {is_found[k]:+.2f}" for k in now) +
+                f" half ranges{'' if agree else ', apart'}", flush=True)
+    print(f"{right} of {count} within a factor of {FACTOR}, or both below {SMALL} of the half range")
+
+
+main()

@@ -1,0 +1,54 @@
+// The simulations of a sensitivity study: the recommended set as it is and with one fixed thing
+// moved, with common seeds, in DIR/sensitivity.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/sensitivity/moves.h"
+#include "experiments/campaign/answer/joint_view.h"
+#include "experiments/campaign/campaign.h"
+#include "optimizer/posterior/posterior.h"
+
+namespace talus::analysis {
+
+struct SensitivitySetting {
+  const campaign::JointView& view;
+  const optimizer::Posterior& posterior;
+  Eigen::VectorXd point;    // the recommended set, unit cube
+  double scale_factor = 1;  // of the simulations
+  const campaign::CampaignParts& parts;
+};
+
+// DIR/sensitivity, absolute.
+std::filesystem::path SensitivityFolder(const std::filesystem::path& campaign);
+
+// So many simulations of each experiment; `move` null: as recommended.
+struct MovedSet {
+  const Move* move = nullptr;
+  int replicates = 0;
+};
+
+// An experiment's case with the move; `experiment` is the campaign's index.
+rigs::Case MovedCase(const SensitivitySetting& setting, const Move* move, int experiment,
+                     int replicate);
+
+// Whether the move changes the experiment at all: a drum knows no lift.
+bool ActsOn(const SensitivitySetting& setting, const Move& move, int experiment);
+
+// Runs what is missing of all these sets.
+void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);
+
+// What the simulations of an experiment have shown.
+struct MovedOutputs {
+  Eigen::MatrixXd outputs;  // of those that succeeded, one a row; NaN where a number is undefined
+  int num_failed = 0;
+  double core_time = 0;  // [s]
+};
+// `answered` is the index of the experiment among the posterior's.
+MovedOutputs OutputsOf(const SensitivitySetting& setting, const MovedSet& set,
+                       std::size_t answered);
+
+}  // namespace talus::analysis

@@ -1,0 +1,252 @@
+#include "experiments/analysis/sensitivity/moves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.h"
+#include "base/json/json_reader.h"
+#include "base/nearest.h"
+#include "base/text/number_text.h"
+#include "engine/laws/material_pair.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/load_case.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::ParameterPlace;
+
+// The field with a name, of a material or a pair.
+struct FieldNamed {
+  std::string_view name;
+  double& value;
+  void operator()(std::string_view key, double field, base::FieldInfo = {}) {
+    if (key == name) value = field;
+  }
+  void operator()(std::string_view key, const std::optional<double>& field, base::FieldInfo = {}) {
+    if (key == name && field) value = *field;
+  }
+};
+
+// What campaign::SetParameter sets, as it stands.
+double ValueOf(const rigs::Case& c, const std::string& parameter) {
+  const ParameterPlace place = campaign::PlaceOf(parameter);
+  const engine::Material& powder = c.powder.material;
+  const auto& wall = place.body == rigs::kFloor ? c.materials.floor : c.materials.walls;
+  const engine::Material own =
+      place.body == rigs::kPowder ? powder : wall.value_or(rigs::WallMaterial()).Over(powder);
+  double value = 0;
+  FieldNamed visitor{place.property, value};
+  if (place.is_pair) {
+    const auto stated = rigs::StatedWith(c.pairs, place.body);
+    const engine::PairProperties all = engine::Joined(powder, own, stated);
+    engine::PairProperties::Visit(all, visitor);
+  } else {
+    engine::Material::Visit(own, visitor);
+  }
+  return value;
+}
+
+std::string WithUnit(double value, const std::string& unit) {
+  return base::ShortNumber(value) + (unit.empty() ? "" : " " + unit);
+}
+
+// Whether it, or a wall's property whose place its pair would take, is searched.
+bool IsSearched(const campaign::JointView& view, const std::string& parameter) {
+  const ParameterPlace place = campaign::PlaceOf(parameter);
+  return std::ranges::any_of(view.space.Free(), [&](int i) {
+    const std::string& name = view.space.parameters[static_cast<std::size_t>(i)].name;
+    const ParameterPlace searched = campaign::PlaceOf(name);
+    return name == parameter ||
+           (place.is_pair && searched.body == place.body && searched.property == place.property);
+  });
+}
+
+using Change = double (*)(double);
+
+// A parameter by what the change makes of it, in each experiment of what it is there.
+void AddParameter(const campaign::JointView& view, const rigs::Case& c, const std::string& name,
+                  Change change, std::vector<Move>& moves) {
+  const double from = ValueOf(c, name);
+  if (IsSearched(view, name) || from == 0) return;
+  const std::string unit = campaign::UnitOf(name);
+  moves.push_back({.name = name,
+                   .from = WithUnit(from, unit),
+                   .to = WithUnit(change(from), unit),
+                   .apply =
+                       [name, change](rigs::Case& moved) {
+                         campaign::SetParameter(moved, name, change(ValueOf(moved, name)));
+                       },
+                   .placeholders = {name}});
+}
+
+// A tenth either way of grains that are all alike; else every diameter's ratio to the median to the
+// power 1.25.
+void Widen(engine::SizeDistribution& sizes) {
+  constexpr double kEitherWay = 0.1;
+  constexpr double kPower = 1.25;
+  constexpr int kPoints = 24;
+  const engine::SizeCurve curve(sizes);
+  const double median = curve.VolumeQuantile(0.5);
+  engine::SizeDistribution wide{.by = engine::Weighting::kVolume};
+  if (curve.smallest() == curve.largest()) {
+    wide.kind = engine::SizeKind::kUniform;
+    wide.min = (1 - kEitherWay) * median;
+    wide.max = (1 + kEitherWay) * median;
+  } else {
+    wide.kind = engine::SizeKind::kCumulative;
+    for (int i = 0; i <= kPoints; ++i) {
+      const double share = static_cast<double>(i) / kPoints;
+      const double diameter = median * std::pow(curve.VolumeQuantile(share) / median, kPower);
+      if (!wide.diameters.empty() && diameter <= wide.diameters.back()) continue;
+      wide.diameters.push_back(diameter);
+      wide.shares.push_back(share);
+    }
+  }
+  sizes = wide;
+}
+
+void AddPowder(const rigs::Case& c, std::vector<Move>& moves) {
+  constexpr double kMoreMass = 1.05;
+  const bool alike = c.powder.sizes.kind == engine::SizeKind::kMono;
+  moves.push_back({.name = "sizes",
+                   .from = alike ? "one diameter" : "as given",
+                   .to = alike ? "10 % either way" : "a quarter wider",
+                   .apply = [](rigs::Case& moved) { Widen(moved.powder.sizes); },
+                   .placeholders = {"grains", "smallest_diameter", "largest_diameter"}});
+  moves.push_back({.name = "mass",
+                   .from = WithUnit(1e3 * c.powder.mass, "g"),
+                   .to = WithUnit(1e3 * kMoreMass * c.powder.mass, "g"),
+                   .apply = [](rigs::Case& moved) { moved.powder.mass *= kMoreMass; },
+                   .placeholders = {"grains", "mass", "num_grains"}});
+}
+
+void AddHandling(const rigs::Case& c, std::vector<Move>& moves) {
+  constexpr double kFaster = 1.5;
+  if (c.rig.kind == rigs::RigKind::kLiftedTube) {
+    const double speed = c.rig.lifted_tube.lift_velocity;
+    moves.push_back({.name = "lift_velocity",
+                     .from = WithUnit(1e3 * speed, "mm/s"),
+                     .to = WithUnit(1e3 * kFaster * speed, "mm/s"),
+                     .apply =
+                         [](rigs::Case& moved) {
+                           if (moved.rig.kind != rigs::RigKind::kLiftedTube) return;
+                           moved.rig.lifted_tube.lift_velocity *= kFaster;
+                         },
+                     .placeholders = {"lift_velocity", "lifted_time", "end_time"}});
+  }
+  const bool dense = c.filling.kind == rigs::FillingKind::kDense;
+  const auto other = dense ? rigs::FillingKind::kPour : rigs::FillingKind::kDense;
+  moves.push_back({.name = "filling",
+                   .from = std::string(base::NameOf(c.filling.kind)),
+                   .to = std::string(base::NameOf(other)),
+                   .apply = [other](rigs::Case& moved) { moved.filling = {.kind = other}; }});
+}
+
+// The other of two choices of a contact law.
+template <class Option>
+Move Other(const std::string& name, Option engine::ContactModels::*part, Option from, Option to) {
+  return {.name = name,
+          .from = std::string(base::NameOf(from)),
+          .to = std::string(base::NameOf(to)),
+          .apply = [part, to](rigs::Case& moved) { moved.models.*part = to; }};
+}
+
+void AddLaws(const rigs::Case& c, std::vector<Move>& moves) {
+  using engine::JkrRollingLimit, engine::JkrSlidingSpring;
+  const engine::ContactModels& models = c.models;
+  if (models.rolling == engine::Rolling::kEpsd) {
+    const double from = models.full_mobilisation_damping;
+    const double to = from < 0.5 ? 1 : 0;
+    moves.push_back(
+        {.name = "full_mobilisation_damping",
+         .from = base::ShortNumber(from),
+         .to = base::ShortNumber(to),
+         .apply = [to](rigs::Case& moved) { moved.models.full_mobilisation_damping = to; },
+         .placeholders = {"full_mobilisation_damping"}});
+  }
+  if (models.adhesion != engine::Adhesion::kJkr) return;
+  const bool net = models.jkr_rolling_limit == JkrRollingLimit::kNetForce;
+  moves.push_back(Other("jkr_rolling_limit", &engine::ContactModels::jkr_rolling_limit,
+                        models.jkr_rolling_limit,
+                        net ? JkrRollingLimit::kFromPullOff : JkrRollingLimit::kNetForce));
+  const bool kept = models.jkr_sliding_spring == JkrSlidingSpring::kKept;
+  moves.push_back(Other("jkr_sliding_spring", &engine::ContactModels::jkr_sliding_spring,
+                        models.jkr_sliding_spring,
+                        kept ? JkrSlidingSpring::kShortened : JkrSlidingSpring::kKept));
+}
+
+std::vector<std::string> ParameterNames() {
+  std::vector<std::string> names;
+  const campaign::ParameterRanges ranges;
+  campaign::ParameterRanges::Visit(ranges, [&](std::string_view name, const auto&,
+                                               base::FieldInfo) { names.emplace_back(name); });
+  return names;
+}
+
+}  // namespace
+
+std::vector<Move> UsualMoves(const campaign::JointView& view, const rigs::Case& c) {
+  std::vector<Move> moves;
+  AddParameter(
+      view, c, "restitution", [](double e) { return e > 0.6 ? e - 0.3 : e + 0.3; }, moves);
+  if (c.models.rolling == engine::Rolling::kEpsd) {
+    AddParameter(
+        view, c, "rolling_damping", [](double eta) { return 0.5 * eta; }, moves);
+  }
+  AddParameter(
+      view, c, "youngs_modulus", [](double y) { return 2 * y; }, moves);
+  for (const char* pair : {"plate_pair_sliding_friction", "tube_pair_sliding_friction"}) {
+    AddParameter(
+        view, c, pair, [](double mu) { return 0.8 * mu; }, moves);
+  }
+  AddPowder(c, moves);
+  AddHandling(c, moves);
+  AddLaws(c, moves);
+  return moves;
+}
+
+Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::string& name,
+            const std::string& text) {
+  const std::vector<std::string> known = ParameterNames();
+  if (std::ranges::find(known, name) == known.end()) {
+    const std::string near = base::Nearest(name, known);
+    throw base::ConfigError(name + ": is no parameter" +
+                            (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  if (IsSearched(view, name)) {
+    throw base::ConfigError(name + ": is searched, and its value the answer; name something fixed");
+  }
+  double to = 0;
+  try {
+    to = campaign::ParseProperty(name, text);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(name + ": " + error.what());
+  }
+  const double from = ValueOf(c, name);
+  if (from == to) {
+    throw base::ConfigError(name + ": is " + text + " in the campaign already; name another value");
+  }
+  const std::string unit = campaign::UnitOf(name);
+  Move move{.name = name,
+            .from = WithUnit(from, unit),
+            .to = WithUnit(to, unit),
+            .apply = [name, to](rigs::Case& moved) { campaign::SetParameter(moved, name, to); },
+            .placeholders = {name}};
+  if (const std::string why = WhyNotMoved(move, c); !why.empty()) throw base::ConfigError(why);
+  return move;
+}
+
+std::string WhyNotMoved(const Move& move, rigs::Case rig_case) {
+  move.apply(rig_case);
+  base::Problems problems(move.name + " " + move.to, {});
+  base::TreeValidator(problems).Check(rig_case);
+  if (problems.empty()) rigs::ValidateCase(rig_case, problems);
+  return problems.Text();
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,39 @@
+// What the answer owes to what was held fixed.
+//
+// One thing is moved at the recommended set, every experiment is simulated with it, and the shift δ
+// of the outputs is what all simulations would show more: the answer is made anew, from the trials
+// that there are, as if the experiments had measured so much less (measured_shift.h). Replicates
+// are doubled until it is told from the noise whether the answer moves beyond half of a range.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/sensitivity/moves.h"
+#include "experiments/analysis/sensitivity/sensitivity_table.h"
+#include "experiments/campaign/answer/joint_view.h"
+#include "experiments/campaign/campaign.h"
+
+namespace talus::analysis {
+
+struct SensitivityOptions {
+  std::vector<std::pair<std::string, std::string>> moves{};  // name, value; none: the usual ones
+  std::optional<double> scale_factor{};  // one of the campaign's; default: the coarsest
+  int most_replicates = 16;              // of each experiment and move, >= kFirstReplicates
+  campaign::CampaignParts parts{};
+  std::function<void(const std::string&)> tell{};  // what goes on, a line each; may be empty
+};
+
+inline constexpr int kFirstReplicates = 4;
+
+// Throws base::Error while there are too few trials for a posterior, ConfigError where an option
+// cannot be.
+SensitivityTable FindSensitivity(const campaign::JointView& view,
+                                 const SensitivityOptions& options);
+
+// Processor time of its first simulations, which may be all [s].
+double FirstCoreTime(const campaign::JointView& view, const SensitivityOptions& options);
+
+}  // namespace talus::analysis

@@ -1,0 +1,121 @@
+#include "experiments/analysis/sensitivity/sensitivity_text.h"
+
+#include <algorithm>
+
+#include "base/files/file.h"
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
+#include "base/text/counted.h"
+#include "base/text/number_text.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::analysis {
+namespace {
+
+using base::ShortNumber;
+
+std::string PlusMinus(double value, double error) {
+  return ShortNumber(value, 3) + " ± " + ShortNumber(error, 1);
+}
+
+std::string MoveText(const FixedMove& move) {
+  return move.name + " " + move.to + " in place of " + move.from;
+}
+
+std::string OutputsText(const FixedMove& move, bool many_experiments) {
+  std::string text;
+  for (const OutputShift& output : move.outputs) {
+    text += (text.empty() ? "" : ", ") + (many_experiments ? output.experiment + " " : "") +
+            output.output + " " + ShortNumber(output.shift, 2) + " (chance " +
+            ShortNumber(output.noise, 2) + ")";
+  }
+  return text.empty() ? "no output, as it acts on no experiment" : text;
+}
+
+std::string AnswerText(const FixedMove& move) {
+  std::string text;
+  for (const AnswerShift& shift : move.answer) {
+    text += (text.empty() ? "" : ", ") + shift.parameter + " " +
+            PlusMinus(shift.to, shift.standard_error);
+    if (shift.Exceeds()) {
+      text += " (!)";
+    } else if (!shift.IsTold()) {
+      text += " (?)";
+    }
+  }
+  return text;
+}
+
+bool HasSeveralExperiments(const SensitivityTable& table) {
+  for (const FixedMove& move : table.moves) {
+    for (const OutputShift& output : move.outputs) {
+      if (output.experiment != move.outputs.front().experiment) return true;
+    }
+  }
+  return false;
+}
+
+std::string HeadText(const SensitivityTable& table) {
+  std::string text = "  as it stands      ";
+  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
+    const SensitivityParameter& p = table.parameters[i];
+    text += (i == 0 ? "" : ", ") + p.name + " " + ShortNumber(p.value, 3) +
+            (p.unit.empty() ? "" : " " + p.unit) + " (" + ShortNumber(p.low, 3) + " to " +
+            ShortNumber(p.high, 3) + ")";
+  }
+  text += "\n  simulated         " + base::Counted(table.num_simulations, "simulation") +
+          " at scale factor " + ShortNumber(table.scale_factor);
+  if (table.core_time > 0) {
+    text += ", " + trials::DurationText(table.core_time) + " of processor time";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> SensitivityAlarms(const SensitivityTable& table) {
+  std::vector<std::string> alarms;
+  for (const FixedMove& move : table.moves) {
+    for (const AnswerShift& shift : move.answer) {
+      if (!shift.Exceeds()) continue;
+      alarms.push_back(MoveText(move) + " would move " + shift.parameter + " from " +
+                       ShortNumber(shift.from, 3) + " to " +
+                       PlusMinus(shift.to, shift.standard_error) +
+                       ", beyond half of its stated range: make sure of " + move.name +
+                       ", or add a test that tells it");
+    }
+  }
+  return alarms;
+}
+
+std::string SensitivityText(const SensitivityTable& table) {
+  std::string text = HeadText(table);
+  const bool many = HasSeveralExperiments(table);
+  for (const FixedMove& move : table.moves) {
+    text += "  " + MoveText(move) + "\n";
+    if (!move.why_not.empty()) {
+      text += "            not known: " + move.why_not + "\n";
+      continue;
+    }
+    text += "            answer " + AnswerText(move) + "\n            shifts " +
+            OutputsText(move, many) + "; " + base::Counted(move.replicates, "simulation");
+    if (move.num_failed > 0) text += ", " + std::to_string(move.num_failed) + " failed";
+    text += "\n";
+  }
+  text +=
+      "  Shifts of outputs are in what one simulation scatters by. (!) beyond half of the stated "
+      "range, (?) not\n  told from the noise.\n";
+  for (const std::string& alarm : SensitivityAlarms(table)) text += "  ALARM  " + alarm + "\n";
+  return text;
+}
+
+std::filesystem::path SensitivityFile(const std::filesystem::path& campaign) {
+  return campaign / "sensitivity.json";
+}
+
+void WriteSensitivity(const SensitivityTable& table, const std::filesystem::path& campaign) {
+  base::WriteFileAtomically(SensitivityFile(campaign),
+                            base::JsonText(base::ToJson(table), 2) + "\n");
+}
+
+}  // namespace talus::analysis

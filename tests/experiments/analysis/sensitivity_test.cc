@@ -1,0 +1,150 @@
+#include "experiments/analysis/sensitivity/sensitivity.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "base/error.h"
+#include "experiments/analysis/sensitivity/moved_trials.h"
+#include "experiments/analysis/sensitivity/sensitivity_text.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::FakeEngine;
+using campaign::JointView;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// Drawn heaps whose slope follows μ_r + 0.2 (0.9 - e): at e = 0.6 the same heap wants a μ_r that is
+// lower by 0.06, and no other μ_t.
+class SensitivityTest : public campaign::CampaignFixture {
+ protected:
+  static constexpr campaign::FakeEngineOptions kBouncing{.restitution_as_rolling = 0.2};
+
+  static constexpr const char* kBudget = R"(, "coarse_graining": {"scale_factors": [2, 1]},
+      "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)";
+
+  JointView Run() {
+    folder_ = Begin(kBudget);
+    campaign::RunFake(folder_, kBouncing);
+    return campaign::ReadJointView(folder_);
+  }
+  static SensitivityTable Find(const JointView& view,
+                               std::vector<std::pair<std::string, std::string>> moves,
+                               const campaign::FakeEngineOptions& engine = kBouncing) {
+    SensitivityOptions options{.moves = std::move(moves)};
+    options.parts = {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+                     .engine = std::make_unique<FakeEngine>(engine)};
+    return FindSensitivity(view, options);
+  }
+  static std::string ErrorOf(const JointView& view, const std::string& name,
+                             const std::string& value) {
+    try {
+      Find(view, {{name, value}});
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static const FixedMove& Move(const SensitivityTable& table, const std::string& name) {
+    for (const FixedMove& move : table.moves) {
+      if (move.name == name) return move;
+    }
+    throw base::Error("no move " + name);
+  }
+  static const AnswerShift& Of(const FixedMove& move, const std::string& parameter) {
+    for (const AnswerShift& shift : move.answer) {
+      if (shift.parameter == parameter) return shift;
+    }
+    throw base::Error("no parameter " + parameter);
+  }
+  fs::path folder_;
+};
+
+TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
+  const JointView view = Run();
+  const SensitivityTable table = Find(view, {{"restitution", "0.6"}});
+  const FixedMove& move = Move(table, "restitution");
+  EXPECT_EQ(move.from, "0.9");
+  const AnswerShift& rolling = Of(move, "rolling_friction");
+  // The slopes scatter by 0.01, so that four and eight of them leave 0.006, and the draws 0.01.
+  EXPECT_NEAR(rolling.to - rolling.from, -0.06, 0.02);
+  EXPECT_GT(rolling.standard_error, 0.001);
+  EXPECT_LT(rolling.standard_error, 0.015);
+  EXPECT_TRUE(rolling.Exceeds());
+  const AnswerShift& sliding = Of(move, "sliding_friction");
+  EXPECT_NEAR(sliding.to, sliding.from, 0.03);
+  EXPECT_FALSE(sliding.Exceeds());
+  ASSERT_EQ(move.outputs.size(), 1u);
+  EXPECT_GT(move.outputs[0].shift, 2 * move.outputs[0].noise);
+  ASSERT_EQ(SensitivityAlarms(table).size(), 1u);
+  EXPECT_THAT(SensitivityText(table),
+              HasSubstr("ALARM  restitution 0.6 in place of 0.9 would move rolling_friction"));
+}
+
+// The answer is foretold without a campaign; one that is told of the other value finds it.
+TEST_F(SensitivityTest, CampaignWithTheOtherValueFindsWhatIsForetold) {
+  const JointView view = Run();
+  const SensitivityTable table = Find(view, {{"restitution", "0.6"}});
+  const AnswerShift& foretold = Of(Move(table, "restitution"), "rolling_friction");
+  const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / "other_in", kBudget);
+  std::string text = base::ReadFile(spec);
+  const std::string searched = "\"parameters\": {";
+  text.insert(text.find(searched) + searched.size(), "\"restitution\": {\"fixed\": 0.6}, ");
+  std::ofstream(spec) << text;
+  const fs::path other = scratch_.path() / "other";
+  campaign::BeginCampaign(spec, other);
+  campaign::RunFake(other, kBouncing);
+  // 24 simulations leave its answer uncertain; what is foretold is one of those that it leaves.
+  const campaign::ResultParameter& found = Result(other).parameters[1];
+  EXPECT_GT(foretold.to, found.credible_low);
+  EXPECT_LT(foretold.to, found.credible_high);
+  EXPECT_GT(foretold.from, found.credible_high) << "and the answer as it stands is none of them";
+}
+
+// What changes nothing is told apart from what matters, by more replicates where it must be.
+TEST_F(SensitivityTest, UsualMovesAreJudgedAndOnlyRestitutionMatters) {
+  const JointView view = Run();
+  const SensitivityTable table = Find(view, {});
+  EXPECT_EQ(table.moves.front().name, "restitution");
+  for (const char* name :
+       {"rolling_damping", "youngs_modulus", "plate_pair_sliding_friction", "sizes", "mass",
+        "tube_pair_sliding_friction", "lift_velocity", "filling", "full_mobilisation_damping"}) {
+    EXPECT_FALSE(Move(table, name).Exceeds()) << name;
+    EXPECT_GE(Move(table, name).replicates, kFirstReplicates) << Move(table, name).why_not;
+  }
+  EXPECT_EQ(table.scale_factor, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "sensitivity.json")) << "the caller writes it";
+}
+
+TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
+  const JointView view = Run();
+  JointView plate = view;
+  plate.space.parameters.push_back({.name = "plate_sliding_friction", .low = 0.1, .high = 0.6});
+  const auto moves = UsualMoves(plate, campaign::TypicalCase(view.spec, 0, 2));
+  for (const analysis::Move& move : moves) EXPECT_NE(move.name, "plate_pair_sliding_friction");
+  EXPECT_THAT(ErrorOf(view, "rolling_friction", "0.2"), HasSubstr("is searched"));
+  EXPECT_THAT(ErrorOf(view, "restitution", "0.9"), HasSubstr("in the campaign already"));
+  EXPECT_THAT(ErrorOf(view, "restitution", "1.5"), HasSubstr("must be in (0, 1]"));
+  EXPECT_THAT(ErrorOf(view, "restitutoin", "0.5"), HasSubstr("did you mean \"restitution\"?"));
+}
+
+TEST_F(SensitivityTest, SimulationsAreRunOnce) {
+  const JointView view = Run();
+  const SensitivityTable first = Find(view, {{"restitution", "0.6"}});
+  // An engine without a program: whatever it had to run would be missing.
+  const SensitivityTable again =
+      Find(view, {{"restitution", "0.6"}}, {.no_command = true, .restitution_as_rolling = 0.2});
+  EXPECT_EQ(again.num_simulations, first.num_simulations);
+  EXPECT_EQ(Of(Move(again, "restitution"), "rolling_friction").to,
+            Of(Move(first, "restitution"), "rolling_friction").to);
+  EXPECT_EQ(Move(again, "restitution").num_failed, 0);
+}
+
+}  // namespace
+}  // namespace talus::analysis

@@ -1,0 +1,66 @@
+#include "optimizer/posterior/measured_shift.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "optimizer/strategy/posterior_strategy.h"
+
+namespace talus::optimizer {
+namespace {
+
+// One number, y = 10 + 5 x with a scatter of 0.05, measured as 12.5: x = 0.5. So x moves by 1/5 of
+// what y moves.
+class MeasuredShift : public ::testing::Test {
+ protected:
+  static constexpr double kSlope = 5;
+  static constexpr double kMeasured = 12.5;
+
+  MeasuredShift()
+      : target_{.name = "y", .value = kMeasured, .standard_error = 0.05},
+        strategy_({.scale_factors = {1}, .target = 1}, Domain{.num_parameters = 1},
+                  {ExperimentTarget{.name = "test", .scalars = {target_}}}) {
+    base::Random random(1, base::Stream("measured shift"));
+    for (int i = 0; i < 24; ++i) {
+      const double x = (i + 0.5) / 24;
+      const double y = 10 + kSlope * x + 0.05 * random.Normal();
+      strategy_.Tell({.point = Eigen::VectorXd::Constant(1, x), .scalars = {y}});
+    }
+  }
+  Eigen::VectorXd Move(double y) const {
+    return Eigen::VectorXd::Constant(
+        1, Compress(target_, kMeasured + y) - Compress(target_, kMeasured));
+  }
+
+  ScalarTarget target_;
+  PosteriorStrategy strategy_;
+};
+
+TEST_F(MeasuredShift, PointFollowsWhatIsMeasured) {
+  ASSERT_TRUE(strategy_.CanModel());
+  const double now = strategy_.PointIfMeasured({Eigen::VectorXd::Zero(1)})[0];
+  EXPECT_EQ(now, strategy_.Recommend().point[0]);
+  // The model's error and the draws leave 0.02.
+  EXPECT_NEAR(strategy_.PointIfMeasured({Move(1)})[0], now + 1 / kSlope, 0.02);
+  EXPECT_NEAR(strategy_.PointIfMeasured({Move(-1)})[0], now - 1 / kSlope, 0.02);
+}
+
+TEST_F(MeasuredShift, ResponseIsTheInverseSlope) {
+  const Eigen::MatrixXd response =
+      ResponseToMeasured(strategy_.Model(), strategy_.Sample().Draws(1000, 1));
+  ASSERT_EQ(response.size(), 1);
+  // d output/dx = slope × d Compress/dy; 1000 draws tell the covariance within a tenth.
+  const double output_per_x = kSlope * Move(1e-3)[0] / 1e-3;
+  EXPECT_NEAR(response(0, 0) * output_per_x, 1, 0.15);
+}
+
+// Its outputs are what the model is told of it.
+TEST_F(MeasuredShift, OutputsOfASimulationAreTheCompressedNumbers) {
+  const ExperimentModel& model = strategy_.Model().models().front();
+  EXPECT_DOUBLE_EQ(model.OutputsOf({}, {13.0})[0], Compress(target_, 13.0));
+  EXPECT_NEAR(std::sqrt(model.NoiseAt(1)[0]) / Move(0.05)[0], 1, 0.5);
+}
+
+}  // namespace
+}  // namespace talus::optimizer
