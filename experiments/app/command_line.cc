@@ -35,6 +35,7 @@ void DescribeCommandLine(CLI::App& app) {
   AddInitCommand(app);
   AddMeasureCommand(app);
   AddValidateCommand(app);
+  AddDesignCommand(app);
   AddCalibrateCommand(app);
   AddResumeCommand(app);
   AddAddExperimentCommand(app);

@@ -19,6 +19,7 @@ void AddConsiderCommand(CLI::App& app);
 void AddNextCommand(CLI::App& app);
 void AddPredictCommand(CLI::App& app);
 void AddSensitivityCommand(CLI::App& app);
+void AddDesignCommand(CLI::App& app);
 void AddExportCommand(CLI::App& app);
 void AddOptimizeCommand(CLI::App& app);
 void AddResumeCommand(CLI::App& app);

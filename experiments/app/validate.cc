@@ -9,6 +9,7 @@
 #include "base/json/json_reader.h"
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
+#include "experiments/analysis/design/design_spec.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/plan/cores.h"
@@ -124,6 +125,12 @@ void ValidateProblem(const base::JsonFile& file, bool) {
             << "  evaluations       at most " << problem.evaluations << '\n';
 }
 
+void ValidateDesign(const base::JsonFile& file, bool) {
+  const analysis::DesignSpec design = analysis::LoadDesignSpec(file.path);
+  std::cout << file.path.string() << ": is a plan for `talus design` in order\n"
+            << "  candidates        " << design.candidates.size() << '\n';
+}
+
 void ValidateCommandCase(const base::JsonFile& file, bool) {
   trials::LoadCommandCase(file);
   std::cout << file.path.string() << ": is a case of another engine in order\n";
@@ -135,10 +142,11 @@ struct ValidatedKind {
   void (*validate)(const base::JsonFile& file, bool with_experiment);
 };
 constexpr ValidatedKind kKinds[] = {
-    {"budget", &ValidateCampaign},      {"experiment", &ValidateCampaign},
-    {"experiments", &ValidateCampaign}, {"engine", &ValidateCommandCase},
-    {"powder", &ValidateHeap},          {"materials", &ValidateScene},
-    {"evaluations", &ValidateProblem},  {"target", &ValidateProblem}};
+    {"candidates", &ValidateDesign},   {"budget", &ValidateCampaign},
+    {"experiment", &ValidateCampaign}, {"experiments", &ValidateCampaign},
+    {"engine", &ValidateCommandCase},  {"powder", &ValidateHeap},
+    {"materials", &ValidateScene},     {"evaluations", &ValidateProblem},
+    {"target", &ValidateProblem}};
 
 void Validate(const std::string& path, bool with_experiment) {
   const base::JsonFile file = base::ReadJsonFile(path);

@@ -1,0 +1,176 @@
+#include "experiments/analysis/design/design_text.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/json/json_text.h"
+#include "base/text/counted.h"
+#include "base/text/number_text.h"
+#include "base/units.h"
+#include "experiments/analysis/next/next_text.h"
+#include "experiments/campaign/plan/core_time.h"
+#include "experiments/trials/simulate/run_log.h"
+
+namespace talus::analysis {
+namespace {
+
+using base::ShortNumber;
+
+constexpr std::size_t kShown = 4;  // of one size
+
+std::string NamesOf(const DesignTable& table, const DesignChoice& choice) {
+  std::string names;
+  for (const std::size_t t : choice.tests) {
+    names += (names.empty() ? "" : " + ") + table.tests.candidates[t].name;
+  }
+  return names;
+}
+
+std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice>& choices) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, choices.size()); ++i) {
+    char bits[16];
+    std::snprintf(bits, sizeof bits, "%5.2f", choices[i].learning.bits);
+    text += std::string(bits) + " bits  " + NamesOf(table, choices[i]) +
+            "\n            expected to leave " +
+            WidthsText(table.tests, choices[i].learning.width) + "\n";
+  }
+  return text;
+}
+
+std::string InUnit(double value, base::Dimension dimension) {
+  if (dimension == base::Dimension::kLength) return ShortNumber(1e3 * value) + " mm";
+  if (dimension == base::Dimension::kVelocity) return ShortNumber(1e3 * value) + " mm/s";
+  const std::string unit(base::SiUnit(dimension));
+  return ShortNumber(value) + (unit.empty() ? "" : " " + unit);
+}
+
+// "length 5 mm, width 5 mm, taps count 100": the keys of a rig.
+struct Keys {
+  std::string& text;
+  std::string prefix{};
+
+  void operator()(std::string_view key, double value, base::FieldInfo info = {}) {
+    text += (text.empty() ? "" : ", ") + prefix + std::string(key) + " " +
+            InUnit(value, info.dimension);
+  }
+  void operator()(std::string_view key, int value, base::FieldInfo info = {}) {
+    (*this)(key, static_cast<double>(value), info);
+  }
+  void operator()(std::string_view key, const std::optional<double>& value,
+                  base::FieldInfo info = {}) {
+    if (value) (*this)(key, *value, info);
+  }
+  void operator()(std::string_view key, const rigs::TapRule& taps, base::FieldInfo = {}) {
+    rigs::TapRule::Visit(taps, Keys{text, std::string(key) + " "});
+  }
+  void operator()(std::string_view, const rigs::RigKind&, base::FieldInfo = {}) {}
+};
+
+std::string SizesText(const rigs::Case& c) {
+  std::string text;
+  if (c.rig.kind == rigs::RigKind::kLiftedTube) {
+    const rigs::LiftedTubeOptions& tube = c.rig.lifted_tube;
+    return "tube " + ShortNumber(1e3 * tube.tube_inner_diameter) + " mm, plate " +
+           ShortNumber(1e3 * tube.plate_diameter) + " mm, lifted at " +
+           ShortNumber(1e3 * tube.lift_velocity) + " mm/s";
+  }
+  rigs::RigOptions::Visit(c.rig, Keys{text});
+  return std::string(base::NameOf(c.rig.kind)) + ": " + text;
+}
+
+std::string NumbersText(const campaign::JointView& view, const TestCandidate& test) {
+  std::string text;
+  for (const ExpectedNumber& number : NumbersOf(view, test)) {
+    text += (text.empty() ? "" : ", ") + number.metric;
+    if (number.relative_error > 0) {
+      text += " ± " + ShortNumber(100 * number.relative_error) + " %";
+    } else if (number.standard_error > 0) {
+      text += " ± " + ShortNumber(number.standard_error);
+    }
+  }
+  return text;
+}
+
+// Seconds with their fractions where there are few.
+std::string TimeText(double seconds) {
+  constexpr double kFew = 10;
+  return seconds < kFew ? ShortNumber(seconds, 2) + " s" : trials::DurationText(seconds);
+}
+
+std::string TestText(const campaign::JointView& view, const TestCandidate& test,
+                     const NextCandidate& judged) {
+  const rigs::Case c =
+      campaign::TypicalCase(SpecOf(view, test), 0, view.spec.coarse_graining.Levels().front());
+  std::string text = "  " + test.name + "\n    " + base::Counted(test.runs, "run") + " of " +
+                     ShortNumber(1e3 * c.powder.mass) + " g, filled " +
+                     std::string(base::NameOf(c.filling.kind)) + "; " + SizesText(c) + "\n";
+  if (FrameOf(view, test)) {
+    text +=
+        "    photograph every run from several sides by turning the plate, with light from "
+        "behind\n";
+  }
+  const std::string numbers = NumbersText(view, test);
+  if (!numbers.empty()) text += "    measure " + numbers + "\n";
+  if (judged.num_made > 0 && judged.core_time_made > 0) {
+    const double one = judged.core_time_made / judged.num_made;
+    const campaign::CampaignSpec spec = SpecOf(view, test);
+    const std::vector<double> levels = view.spec.coarse_graining.Levels();
+    const double coarse = campaign::GrainStepsOf(spec, 0, levels.front());
+    text += "    a simulation takes";
+    for (const double factor : levels) {
+      text += (factor == levels.front() ? " " : ", ") +
+              TimeText(one * campaign::GrainStepsOf(spec, 0, factor) / coarse) +
+              " at scale factor " + ShortNumber(factor);
+    }
+    text += " of core time\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string DesignText(const DesignTable& table, const campaign::JointView& view,
+                       const std::vector<TestCandidate>& tests) {
+  static constexpr const char* kHeads[] = {"one test", "two tests", "three tests"};
+  std::string text = "searched: " + WidthsText(table.tests, table.tests.width) + "\n";
+  std::set<std::size_t> best;
+  for (std::size_t size = 0; size < table.choices.size(); ++size) {
+    if (table.choices[size].empty()) continue;
+    text += std::string(kHeads[size]) + "\n" + ChoicesText(table, table.choices[size]);
+    const std::vector<std::size_t>& first = table.choices[size].front().tests;
+    best.insert(first.begin(), first.end());
+  }
+  for (const NextCandidate& candidate : table.tests.candidates) {
+    if (!candidate.learning) text += "   -        " + candidate.name + " " + candidate.what + "\n";
+  }
+  if (!best.empty()) text += "what the best ones need\n";
+  for (const std::size_t t : best) text += TestText(view, tests[t], table.tests.candidates[t]);
+  return text;
+}
+
+std::string DesignJson(const DesignTable& table) {
+  auto json = nlohmann::ordered_json::parse(NextJson(table.tests));
+  json.erase("after_trial");
+  json["scale_factor"] = table.scale_factor;
+  json["choices"] = nlohmann::ordered_json::array();
+  for (const std::vector<DesignChoice>& choices : table.choices) {
+    for (const DesignChoice& choice : choices) {
+      nlohmann::ordered_json entry{{"tests", nlohmann::ordered_json::array()},
+                                   {"bits", choice.learning.bits}};
+      for (const std::size_t t : choice.tests) {
+        entry["tests"].push_back(table.tests.candidates[t].name);
+      }
+      for (std::size_t i = 0; i < table.tests.parameters.size(); ++i) {
+        entry["width_90"][table.tests.parameters[i].name] =
+            choice.learning.width[static_cast<Eigen::Index>(i)];
+      }
+      json["choices"].push_back(std::move(entry));
+    }
+  }
+  return base::JsonText(json, 2) + "\n";
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,103 @@
+#include "experiments/analysis/design/rank_designs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text/counted.h"
+#include "experiments/analysis/next/ground.h"
+#include "experiments/analysis/next/judge_test.h"
+#include "experiments/analysis/next/test_design.h"
+#include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/point_rows.h"
+
+namespace talus::analysis {
+namespace {
+
+constexpr std::size_t kMostTests = 3;
+
+// So many that a few hundred remain in what two tests leave.
+constexpr int kDraws = 8000;
+constexpr int kDesignSize = 32;
+
+NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
+                     const campaign::CampaignParts& parts) {
+  NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
+  if (const std::string why = WhyNot(ground.view, test); !why.empty()) {
+    candidate.what = "cannot be simulated: " + why;
+    return candidate;
+  }
+  candidate.what = "carry it out in " + base::Counted(test.runs, "run");
+  const TestDesign design =
+      SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kDesignSize}, parts);
+  candidate.num_made = design.num_simulations;
+  candidate.core_time_made = design.core_time;
+  JudgeTest(ground, test, design, candidate);
+  return candidate;
+}
+
+optimizer::ExpectedLearning Together(const Ground& ground,
+                                     const std::vector<NextCandidate>& candidates,
+                                     const std::vector<std::size_t>& tests) {
+  Eigen::Index num_outputs = 0;
+  for (const std::size_t t : tests) num_outputs += candidates[t].predicted.mean.cols();
+  optimizer::PredictedMeasurement all{.mean = Eigen::MatrixXd(ground.draws.rows(), num_outputs),
+                                      .variance = Eigen::VectorXd(num_outputs)};
+  Eigen::Index left = 0;
+  for (const std::size_t t : tests) {
+    const optimizer::PredictedMeasurement& one = candidates[t].predicted;
+    all.mean.middleCols(left, one.mean.cols()) = one.mean;
+    all.variance.segment(left, one.mean.cols()) = one.variance;
+    left += one.mean.cols();
+  }
+  return ground.Learn(all.mean, all.variance);
+}
+
+// All sets of so many of the tests that could be judged.
+void AddChoices(const std::vector<std::size_t>& judged, std::size_t size, std::size_t from,
+                std::vector<std::size_t>& begun, std::vector<DesignChoice>& choices) {
+  if (begun.size() == size) {
+    choices.push_back({.tests = begun, .learning = {}});
+    return;
+  }
+  for (std::size_t i = from; i < judged.size(); ++i) {
+    begun.push_back(judged[i]);
+    AddChoices(judged, size, i + 1, begun, choices);
+    begun.pop_back();
+  }
+}
+
+}  // namespace
+
+DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestCandidate>& tests,
+                        const campaign::CampaignParts& parts) {
+  const optimizer::Domain domain = view.space.MakeDomain();
+  const Ground ground{
+      .view = view,
+      .draws = optimizer::Inside(
+          domain, optimizer::RSequence(kDraws, domain.num_parameters, view.spec.seed)),
+      .model_error = view.spec.posterior.model_error};
+  DesignTable table{.tests = {.parameters = view.record.parameters},
+                    .scale_factor = view.spec.coarse_graining.Levels().front()};
+  for (const int i : view.space.Free()) {
+    table.tests.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);
+  }
+  table.tests.width = ground.Learn(Eigen::MatrixXd(ground.draws.rows(), 0), {}).width;
+  std::vector<std::size_t> judged;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    table.tests.candidates.push_back(TestOf(ground, tests[t], parts));
+    if (table.tests.candidates.back().learning) judged.push_back(t);
+  }
+  for (std::size_t size = 1; size <= std::min(kMostTests, judged.size()); ++size) {
+    std::vector<DesignChoice>& choices = table.choices.emplace_back();
+    std::vector<std::size_t> begun;
+    AddChoices(judged, size, 0, begun, choices);
+    for (DesignChoice& choice : choices) {
+      choice.learning = Together(ground, table.tests.candidates, choice.tests);
+    }
+    std::ranges::stable_sort(choices, std::ranges::greater(),
+                             [](const DesignChoice& c) { return c.learning.bits; });
+  }
+  return table;
+}
+
+}  // namespace talus::analysis

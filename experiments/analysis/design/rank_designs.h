@@ -1,0 +1,32 @@
+// Which tests are expected to decide, before any is made: `talus next` with the searched ranges in
+// place of a posterior, for one, two and three tests together.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "experiments/analysis/next/next_table.h"
+#include "experiments/analysis/next/test_candidate.h"
+#include "experiments/campaign/campaign.h"
+
+namespace talus::analysis {
+
+// Tests made together.
+struct DesignChoice {
+  std::vector<std::size_t> tests;  // of DesignTable::tests.candidates
+  optimizer::ExpectedLearning learning;
+};
+
+struct DesignTable {
+  NextTable tests;  // each by itself, in the spec's order
+  double scale_factor = 1;
+  // Of one test, two, three: by size, the most informative first.
+  std::vector<std::vector<DesignChoice>> choices{};
+};
+
+// Simulates each test's design where that has not been done. Throws base::Interrupted when the
+// user ends it; what has ended is kept.
+DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestCandidate>& tests,
+                        const campaign::CampaignParts& parts);
+
+}  // namespace talus::analysis

@@ -1,0 +1,58 @@
+// talus design
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "base/files/file.h"
+#include "experiments/analysis/design/design_spec.h"
+#include "experiments/analysis/design/design_text.h"
+#include "experiments/analysis/design/rank_designs.h"
+#include "experiments/app/commands.h"
+#include "experiments/campaign/folder/design_folder.h"
+#include "experiments/campaign/make_parts.h"
+
+namespace talus::app {
+namespace {
+
+struct DesignArguments {
+  std::string spec;
+  std::string out;
+  bool json = false;
+};
+
+void Design(const DesignArguments& arguments) {
+  const analysis::DesignSpec design = analysis::LoadDesignSpec(arguments.spec);
+  const std::filesystem::path folder =
+      arguments.out.empty() ? std::filesystem::path(arguments.spec).stem().concat("_design")
+                            : std::filesystem::path(arguments.out);
+  std::filesystem::create_directories(folder);
+  const campaign::JointView view = analysis::ViewOf(design, folder);
+  const campaign::CampaignParts parts{
+      .runner = campaign::MakeRunner(view.spec, campaign::NextFolder(folder)),
+      .engine = campaign::MakeEngine(view.spec)};
+  const analysis::DesignTable table = analysis::RankDesigns(view, design.candidates, parts);
+  const std::string json = analysis::DesignJson(table);
+  base::WriteFileAtomically(folder / "design.json", json);
+  std::cout << (arguments.json ? json : analysis::DesignText(table, view, design.candidates))
+            << std::flush;
+}
+
+}  // namespace
+
+void AddDesignCommand(CLI::App& app) {
+  auto arguments = std::make_shared<DesignArguments>();
+  CLI::App* command =
+      app.add_subcommand("design", "Before the bench: which one, two or three tests would decide");
+  command
+      ->add_option("SPEC", arguments->spec,
+                   "a campaign's spec without data; `candidates` are the tests that could be made")
+      ->required();
+  command->add_option("--out", arguments->out,
+                      "folder for its simulations; default: the spec's name and _design");
+  command->add_flag("--json", arguments->json, "as JSON");
+  command->callback([arguments] { Design(*arguments); });
+}
+
+}  // namespace talus::app

@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/json/json_schema.h"
+#include "experiments/analysis/design/design_spec.h"
+#include "experiments/analysis/design/design_text.h"
+#include "experiments/analysis/design/rank_designs.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::FakeEngine;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kPowder = R"(
+  "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+  "coarse_graining": {"scale_factors": [2, 1]},
+  "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
+                 "rolling_friction": {"min": 0.05, "max": 0.5}})";
+
+// Heaps tell both frictions, a tapped density the rolling one.
+constexpr const char* kCandidates = R"(, "candidates": [
+  {"name": "heap", "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm",
+    "center_x_px": 60, "baseline_px": 76, "plate_diameter": "10 mm"}},
+  {"name": "tapped density", "rig": {"kind": "tapped_density", "diameter": "10 mm"},
+   "tapped_density": {"sd": "8 kg/m^3"}}])";
+
+class DesignTest : public campaign::CampaignFixture {
+ protected:
+  fs::path Write(const std::string& members) const {
+    const fs::path path = scratch_.path() / "plan.json";
+    std::ofstream(path) << "{" << members << "}";
+    return path;
+  }
+  DesignTable Rank(const DesignSpec& design, const campaign::FakeEngineOptions& engine) const {
+    const campaign::JointView view = ViewOf(design, scratch_.path());
+    const campaign::CampaignParts parts{.runner = campaign::MakeRunner(view.spec, scratch_.path()),
+                                        .engine = std::make_unique<FakeEngine>(engine)};
+    return RankDesigns(view, design.candidates, parts);
+  }
+  std::string ErrorOf(const std::string& members) const {
+    try {
+      LoadDesignSpec(Write(members));
+    } catch (const base::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(DesignTest, RangesAreThoseThatTheMeasurementsLeave) {
+  const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
+  const DesignTable table = Rank(design, {});
+  ASSERT_EQ(table.choices.size(), 2u);
+  ASSERT_EQ(table.choices[0].size(), 2u);
+  EXPECT_THAT(table.choices[0][0].tests, ElementsAre(0u));  // the heap
+  const optimizer::ExpectedLearning& tapped = table.choices[0][1].learning;
+  // 350 kg/m³ per unit of μ_r; 8 kg/m³ of the balance and 4 √(1/3 + 1) of three runs and the
+  // model's error are 0.0265 in μ_r, 0.059 of what is searched: ± 1.9 of them, more with heavy
+  // tails and at most 1.6 times as much.
+  EXPECT_GT(tapped.width[1], 3.4 * 0.059);
+  EXPECT_LT(tapped.width[1], 1.6 * 3.8 * 0.059);
+  EXPECT_GT(tapped.width[0], 0.85);  // of μ_t nothing
+  const optimizer::ExpectedLearning& both = table.choices[1].at(0).learning;
+  EXPECT_THAT(table.choices[1][0].tests, ElementsAre(0u, 1u));
+  EXPECT_GT(both.bits, table.choices[0][0].learning.bits);
+  EXPECT_LT(both.width[0], 0.3);
+  const std::string text = DesignText(table, ViewOf(design, scratch_.path()), design.candidates);
+  EXPECT_THAT(text, HasSubstr("heap + tapped density"));
+  EXPECT_THAT(text, HasSubstr("3 runs of 0.5 g"));
+  EXPECT_THAT(text, HasSubstr("tapped_density: diameter 10 mm"));
+}
+
+TEST_F(DesignTest, SimulationsAreMadeOnce) {
+  const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
+  const DesignTable first = Rank(design, {});
+  const DesignTable again = Rank(design, {.no_command = true});
+  EXPECT_EQ(again.choices[1][0].learning.bits, first.choices[1][0].learning.bits);
+  EXPECT_EQ(first.tests.candidates[0].num_made, 32);
+}
+
+TEST_F(DesignTest, UsualTestsStandForThoseThatAreNotNamed) {
+  const DesignSpec design = LoadDesignSpec(Write(kPowder));
+  ASSERT_EQ(design.candidates.size(), 7u);
+  EXPECT_EQ(design.candidates[0].name, "heap");
+  EXPECT_EQ(design.candidates[1].name, "wide plate, 5 cm/s");
+}
+
+TEST_F(DesignTest, WhatCannotBeIsRefusedWithItsPlace) {
+  const std::string spec = kPowder;
+  EXPECT_THAT(ErrorOf(spec + R"(, "experiment": {"map": "m.png", "plate_diameter": "10 mm"})"),
+              HasSubstr("experiment: is measured already"));
+  EXPECT_THAT(ErrorOf(spec + R"(, "candidates": [{"name": "a b"}, {"name": "a-b"}])"),
+              HasSubstr("candidates[1].name"));
+  EXPECT_THAT(ErrorOf(spec + R"(, "candidates": [{"name": "a", "runs": 0}])"),
+              HasSubstr("candidates[0].runs"));
+  EXPECT_THAT(ErrorOf(spec + R"(, "candidate": [])"), HasSubstr("did you mean \"candidates\"?"));
+  EXPECT_THAT(ErrorOf(R"("coarse_graining": {"scale_factor": 2})"), HasSubstr("powder"));
+}
+
+// After a change: TALUS_UPDATE_SCHEMAS=1 experiments_analysis_design_test.
+TEST_F(DesignTest, ShippedSchemaIsTheParsers) {
+  const fs::path path = TALUS_SOURCE_DIR "/docs/design.schema.json";
+  const std::string schema = base::FileSchema<DesignSpec>("talus design").dump(2) + "\n";
+  if (std::getenv("TALUS_UPDATE_SCHEMAS") != nullptr) base::WriteFileAtomically(path, schema);
+  EXPECT_EQ(base::ReadFile(path), schema);
+}
+
+}  // namespace
+}  // namespace talus::analysis
