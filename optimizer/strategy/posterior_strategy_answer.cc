@@ -143,7 +143,10 @@ Answer PosteriorStrategy::Recommend() {
 
 Eigen::VectorXd PosteriorStrategy::PointIfMeasured(const std::vector<Eigen::VectorXd>& more) {
   const Posterior moved = WithMeasuredMoved(Model(), more);
-  return FindBranches(moved, SampleOf(moved), options_.seed).front().point;
+  const PosteriorSample joint = SampleOf(moved);
+  const AskedDensity asked([&](const Eigen::MatrixXd& points) { return moved.LogDensity(points); },
+                           domain_, joint, options_.seed);
+  return FindBranches(asked, asked.Sample(joint), options_.seed).front().point;
 }
 
 std::optional<Eigen::VectorXd> PosteriorStrategy::CredibleLevels(const Eigen::MatrixXd& points) {

@@ -20,6 +20,9 @@ namespace {
 
 using campaign::ParameterPlace;
 
+// A parameter that makes the mass of a drum's powder; it is moved as the mass.
+constexpr const char* kFill = "fill";
+
 // The field with a name, of a material or a pair.
 struct FieldNamed {
   std::string_view name;
@@ -110,7 +113,7 @@ void Widen(engine::SizeDistribution& sizes) {
   sizes = wide;
 }
 
-void AddPowder(const rigs::Case& c, std::vector<Move>& moves) {
+void AddPowder(const campaign::JointView& view, const rigs::Case& c, std::vector<Move>& moves) {
   constexpr double kMoreMass = 1.05;
   const bool alike = c.powder.sizes.kind == engine::SizeKind::kMono;
   moves.push_back({.name = "sizes",
@@ -118,6 +121,7 @@ void AddPowder(const rigs::Case& c, std::vector<Move>& moves) {
                    .to = alike ? "10 % either way" : "a quarter wider",
                    .apply = [](rigs::Case& moved) { Widen(moved.powder.sizes); },
                    .placeholders = {"grains", "smallest_diameter", "largest_diameter"}});
+  if (IsSearched(view, kFill)) return;
   moves.push_back({.name = "mass",
                    .from = WithUnit(1e3 * c.powder.mass, "g"),
                    .to = WithUnit(1e3 * kMoreMass * c.powder.mass, "g"),
@@ -183,8 +187,10 @@ void AddLaws(const rigs::Case& c, std::vector<Move>& moves) {
 std::vector<std::string> ParameterNames() {
   std::vector<std::string> names;
   const campaign::ParameterRanges ranges;
-  campaign::ParameterRanges::Visit(ranges, [&](std::string_view name, const auto&,
-                                               base::FieldInfo) { names.emplace_back(name); });
+  const auto add = [&](std::string_view name, const auto&, base::FieldInfo) {
+    if (name != kFill) names.emplace_back(name);
+  };
+  campaign::ParameterRanges::Visit(ranges, add);
   return names;
 }
 
@@ -204,7 +210,7 @@ std::vector<Move> UsualMoves(const campaign::JointView& view, const rigs::Case& 
     AddParameter(
         view, c, pair, [](double mu) { return 0.8 * mu; }, moves);
   }
-  AddPowder(c, moves);
+  AddPowder(view, c, moves);
   AddHandling(c, moves);
   AddLaws(c, moves);
   return moves;

@@ -173,12 +173,6 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
     ValidateDrumImages(all[i], place, problems);
     CheckCohesiveIndex(all[i], place, problems);
   }
-  const auto is_drum = [](const ExperimentSpec& e) {
-    return e.rig && e.rig->kind == rigs::RigKind::kDrum;
-  };
-  problems.Require(
-      !spec.parameters || !spec.parameters->fill || std::any_of(all.begin(), all.end(), is_drum),
-      "parameters.fill", "has no effect: it is a drum's; leave it out");
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
   const auto is_drum = [](const ExperimentSpec& e) {
