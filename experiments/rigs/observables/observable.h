@@ -37,7 +37,14 @@ enum class Observable {
   kReposeAngle3,
   kReposeTriangle,
   kStaticCohesiveIndex,
-  kCohesiveIndex
+  kCohesiveIndex,
+  kPackingFraction,
+  kThickness,
+  kCoverage,
+  kRoughness,
+  kLayerMass,
+  kMassAhead,
+  kSizeDrift
 };
 
 // The error that a careful laboratory reaches: of the value, or in the observable's unit.
@@ -166,6 +173,40 @@ inline constexpr std::array kObservables = [] {
       {O::kCohesiveIndex, "cohesive_index", Dimension::kLength, "Cohesive index",
        "how much a drum's surface moves: the integral of its pictures' standard deviation over "
        "their area, over the diameter; needs rig.camera"},
+      {O::kPackingFraction,
+       "packing_fraction",
+       Dimension::kNone,
+       "Packing fraction",
+       "of the spread layer: grains' volume over plate area times gap",
+       {.relative = 0.03}},
+      {O::kThickness,
+       "thickness",
+       Dimension::kLength,
+       "Thickness",
+       "mean height of the spread layer's surface, bare places counted as 0",
+       {.relative = 0.05}},
+      {O::kCoverage,
+       "coverage",
+       Dimension::kNone,
+       "Coverage",
+       "share of the plate that grains hide from above",
+       {.absolute = 0.02}},
+      {O::kRoughness,
+       "roughness",
+       Dimension::kLength,
+       "Roughness",
+       "standard deviation of the height of the spread layer's surface",
+       {.relative = 0.1}},
+      {O::kLayerMass,
+       "layer_mass",
+       Dimension::kMass,
+       "Mass of the layer",
+       "that the blade leaves on the plate; over length times width the mass per area",
+       {.relative = 0.02}},
+      {O::kMassAhead, "mass_ahead", Dimension::kMass, "Mass ahead",
+       "of the blade when it has crossed the plate"},
+      {O::kSizeDrift, "size_drift", Dimension::kNone, "Size drift",
+       "mean diameter by volume at the end of the layer over that at its beginning"},
   });
 }();
 

@@ -14,6 +14,7 @@
 #include "experiments/rigs/options/funnel_heap_options.h"
 #include "experiments/rigs/options/lifted_tube_options.h"
 #include "experiments/rigs/options/orifice_flow_options.h"
+#include "experiments/rigs/options/spreading_options.h"
 #include "experiments/rigs/options/tapped_density_options.h"
 #include "experiments/rigs/options/tilting_box_options.h"
 
@@ -27,7 +28,8 @@ enum class RigKind {
   kDrawDown,
   kDrum,
   kOrificeFlow,
-  kFunnelHeap
+  kFunnelHeap,
+  kSpreading
 };
 
 // Whether its powder moves when it is measured, so that a camera can take pictures of it.
@@ -42,6 +44,7 @@ constexpr bool IsFilmed(RigKind kind) {
     case RigKind::kLiftedTube:
     case RigKind::kTappedDensity:
     case RigKind::kFunnelHeap:
+    case RigKind::kSpreading:
       return false;
   }
   return false;
@@ -58,6 +61,7 @@ struct RigOptions {
   DrumOptions drum;
   OrificeFlowOptions orifice_flow;
   FunnelHeapOptions funnel_heap;
+  SpreadingOptions spreading;
   std::optional<CameraOptions> camera{};  // default: one picture, at the end
 
   template <class Self, class Visitor>
@@ -100,6 +104,8 @@ struct RigOptions {
         return body(self.orifice_flow);
       case RigKind::kFunnelHeap:
         return body(self.funnel_heap);
+      case RigKind::kSpreading:
+        return body(self.spreading);
     }
   }
 };
@@ -116,5 +122,6 @@ struct talus::base::Names<talus::rigs::RigKind> {
                                     std::pair{"draw_down", R::kDrawDown},
                                     std::pair{"drum", R::kDrum},
                                     std::pair{"orifice_flow", R::kOrificeFlow},
-                                    std::pair{"funnel_heap", R::kFunnelHeap}};
+                                    std::pair{"funnel_heap", R::kFunnelHeap},
+                                    std::pair{"spreading", R::kSpreading}};
 };

@@ -1,4 +1,4 @@
-// What the report shows of `talus next`.
+// What the report shows of `talus next` and `talus predict`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/next_table_view.h"
 #include "experiments/analysis/report/write_report.h"
@@ -78,6 +80,59 @@ TEST(NextTable, ADamagedOneIsNamedWithTheRemedy) {
     EXPECT_THAT(error.what(), HasSubstr("next.json"));
     EXPECT_THAT(error.what(), HasSubstr("run it again"));
   }
+}
+
+// The folder of a synthetic campaign with what `talus predict` leaves there.
+Evidence WithPrediction(const std::string& name, const std::string& text) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2, .coarse_design = true});
+  evidence.folder = std::filesystem::path(testing::TempDir()) / ("talus_predicted_" + name);
+  std::filesystem::remove_all(evidence.folder);
+  std::filesystem::create_directories(evidence.folder / "predict/mixer");
+  base::WriteFileAtomically(evidence.folder / "predict/mixer/prediction.json", text);
+  imaging::WritePng(
+      evidence.folder / "predict/mixer/mean_profile.png",
+      imaging::GrayImage{.width = 4, .height = 2, .pixels = {0, 0, 0, 0, 9, 9, 9, 9}});
+  return evidence;
+}
+
+TEST(Predictions, StandOnThePageWithTheirPicturesInTheUnitsThatPeopleRead) {
+  const Prediction prediction{
+      .name = "mixer",
+      .test = "drum",
+      .last_trial = 1,
+      .num_runs = 36,
+      .num_ended = 36,
+      .draws = {{.weight = 0.4, .values = {0.2, 0.1}}, {.weight = 0.6, .values = {0.5, 0.1}}},
+      .numbers = {{.name = "mass_left_kg",
+                   .is_usual = true,
+                   .num_defined = 36,
+                   .mean = 2e-6,
+                   .low = 1e-6,
+                   .high = 3e-6,
+                   .parameters_share = 0.25}},
+      .mean_profile = "mean_profile.png",
+      .most_different = "lost.png",
+      .different = {1, 0}};
+  const ReportData data =
+      MakeReportData(WithPrediction("whole", base::JsonText(base::ToJson(prediction), 2)));
+  ASSERT_EQ(data.predictions.size(), 1u);
+  EXPECT_TRUE(data.predictions[0].is_outdated);
+  const json shown = json::parse(PageJson(data))["predictions"][0];
+  EXPECT_EQ(shown["name"], "mixer");
+  EXPECT_EQ(shown["numbers"][0]["mean"], 2);  // mg
+  EXPECT_EQ(shown["numbers"][0]["unit"], "mg");
+  EXPECT_EQ(shown["numbers"][0]["parameters_share"], 0.25);
+  EXPECT_TRUE(shown["numbers"][0]["run_sd"].is_null());
+  EXPECT_THAT(shown["mean"].get<std::string>(), StartsWith("data:image/png;base64,"));
+  EXPECT_TRUE(shown["different"].is_null());  // a picture that is gone is left out
+  EXPECT_EQ(shown["different_sets"][0][0], 0.5);
+  WriteReport(data, data.evidence.folder / "report");
+  EXPECT_TRUE(std::filesystem::exists(data.evidence.folder /
+                                      "report/figures/predict_mixer_mean_profile.png"));
+}
+
+TEST(Predictions, ADamagedFileIsNamed) {
+  EXPECT_THROW(MakeReportData(WithPrediction("damaged", "{\"name\": 3}")), base::ConfigError);
 }
 
 }  // namespace

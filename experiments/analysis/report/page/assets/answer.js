@@ -206,9 +206,10 @@ function answerSection() {
   const oneHeap = h.representatives.filter((set) => set.uri).length === 1;
   const said = verdict(h), seen = heapPairs();
   return [said && seen ? element("div", {class: "grid first-screen"}, said, seen) : said || seen, alarms(),
+    predictionLines(),
     element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), oneHeap ? heaps : null),
       element("div", {}, next, region ? fitList(h) : null)),
-    predictionLines(), branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), sensitivity(), facts(h),
+    branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), sensitivity(), facts(h),
     D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),
       element("ul", {class: "plain"}, D.held_out.map((line) => element("li", {}, line)))) : null,
     D.conditions.length ? element("div", {class: "card"}, element("h3", {}, "It holds for"),
