@@ -102,6 +102,7 @@ class Campaign(Escapes):
             self.assertEqual(done.returncode, 0, (verb, done.stderr))
             self.assert_tame(done.stdout + done.stderr, verb)
         for arguments in (["validate", NAME], ["status", NAME], ["next", self.out / NAME],
+                          ["predict", self.out, NAME],
                           ["calibrate", self.folder / "spec.json", "--out", self.folder],
                           ["consider", self.out, NAME + "=1"], ["card", NAME], [NAME]):
             done = talus(*arguments)

@@ -50,6 +50,9 @@ SCENE = {
     "spheres": [{"diameter": "1 mm", "position": [0, 0, "2 mm"]}], "walls": [{"shape": "plane"}],
     "outputs": {"times": [0, 0.001]}, "stop": {"time": 0.002},
 }
+CASE = {"powder": SPEC["powder"], "device": SPEC["device"],
+        "frame": {"width_px": 60, "height_px": 40, "pixel_size": "200 um", "center_x_px": 30, "baseline_px": 36,
+                  "plate_diameter": "10 mm"}}
 PROBLEM = {"parameters": [{"name": "a", "low": 0, "high": 1}], "evaluations": 3,
            "strategy": {"kind": "sobol", "num_points": 3}}
 
@@ -67,7 +70,7 @@ def inputs(folder):
     (folder / "deck/run.sh").write_text(DECK)
     (folder / "evaluate.sh").write_text("cat >/dev/null; echo '{\"value\": 1}'\n")
     for name, content in [("spec", SPEC), ("learning", LEARNING), ("further", FURTHER), ("scene", SCENE),
-                          ("problem", PROBLEM)]:
+                          ("problem", PROBLEM), ("case", CASE)]:
         (folder / f"{name}.json").write_text(json.dumps(content))
 
 
@@ -130,6 +133,9 @@ VERBS = {  # name: what is done before, the verb, what goes on when there is roo
              content("out/next/next.json")),
     "sensitivity": (["calibrate", "learning.json", "--out", "out", "--quiet"],
                     ["sensitivity", "out", "rolling_damping=0.2"], None, content("out/sensitivity.json")),
+    "predict": (["calibrate", "learning.json", "--out", "out", "--quiet"],
+                ["predict", "out", "case.json", "--draws", "2", "--seeds", "1"], None,
+                content("out/predict/case/draws.csv", "out/predict/case/most_different.png")),
     "simulate": ([], ["simulate", "scene.json", "--out", "out"], None, without("timing", "out/result.json")),
     "optimize": ([], ["optimize", "problem.json", "--out", "out", "--quiet", "--", "sh", "evaluate.sh"],
                  None, content("out/result.json")),
