@@ -7,17 +7,23 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/json/json_text.h"
+#include "base/json/json_writer.h"
+#include "experiments/analysis/batches/batches.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
+#include "experiments/app/set_argument.h"
 
 namespace talus::app {
 namespace {
 
 struct CompareArguments {
-  std::string campaign;
+  std::vector<std::string> folders;
+  std::string campaign;  // the only one of these
+  std::vector<std::string> matters;
   std::filesystem::path out;
   std::string objective;
   std::string experiment;
@@ -46,7 +52,35 @@ void WriteComparison(const analysis::ComparedCampaign& compared, const std::file
   base::WriteFileAtomically(out / "compare.json", analysis::ComparisonJson(compared));
 }
 
+void RunBatches(const CompareArguments& arguments) {
+  if (!arguments.objective.empty() || !arguments.experiment.empty()) {
+    throw base::ConfigError("--objective and --experiment are of one campaign; " +
+                            std::to_string(arguments.folders.size()) +
+                            " folders are compared as batches of a powder");
+  }
+  const analysis::BatchComparison comparison = analysis::CompareBatches(
+      {arguments.folders.begin(), arguments.folders.end()}, ReadSetArgument(arguments.matters));
+  const std::filesystem::path& out = arguments.out;
+  if (!out.empty()) {
+    base::ClaimOutputFolder(out, "compare");
+    base::WriteFileAtomically(out / "batches.csv", analysis::BatchesCsv(comparison));
+    base::WriteFileAtomically(out / "batches.json",
+                              base::JsonText(base::ToJson(comparison), 2) + "\n");
+    for (const analysis::BatchParameter& parameter : comparison.parameters) {
+      base::WriteFileAtomically(out / ("batches_" + parameter.name + ".svg"),
+                                analysis::BatchesSvg(comparison, parameter));
+    }
+  }
+  std::cout << analysis::BatchesText(comparison);
+  if (!out.empty()) std::cout << "  Tables and charts are in " << out.string() << '\n';
+}
+
 void RunCompare(CompareArguments arguments) {
+  if (arguments.folders.size() > 1) return RunBatches(arguments);
+  if (!arguments.matters.empty()) {
+    throw base::ConfigError("--matters: is for batches; give the folders of two campaigns or more");
+  }
+  arguments.campaign = arguments.folders.front();
   if (!arguments.objective.empty()) SearchOn(arguments);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
   analysis::Evidence evidence = analysis::GatherEvidence(arguments.campaign, arguments.experiment);
@@ -65,10 +99,16 @@ void RunCompare(CompareArguments arguments) {
 void AddCompareCommand(CLI::App& app) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Which set each objective prefers, and how unique its answer is");
-  command->add_option("DIR", arguments->campaign, "folder of the campaign; it may be running")
+      "compare", "Which set each objective prefers; or whether batches of a powder differ");
+  command
+      ->add_option("DIR", arguments->folders,
+                   "folder of the campaign; several are compared as batches with the first")
       ->required();
-  command->add_option("--out", arguments->out, "folder to write into; default: DIR/compare");
+  command->add_option("--out", arguments->out,
+                      "folder to write into; default: DIR/compare, and of batches none");
+  command->add_option("--matters", arguments->matters,
+                      "of batches, NAME=VALUE: a difference of this parameter that would matter; "
+                      "default: a tenth of its searched range");
   std::vector<std::string> objectives;
   for (const auto& [name, objective] : base::Names<journal::Objective>::kList)
     objectives.emplace_back(name);

@@ -1,0 +1,118 @@
+// Batches of a powder, calibrated by campaigns of the same kind: do they differ, and in what?
+//
+// Each is set against the first. The posteriors are independent, so draws of the two in pairs give
+// draws of the difference. Photographs are compared without any model by a permutation test: were
+// the runs dealt out to the two batches by chance, how often would the mean profiles differ as
+// much?
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "experiments/campaign/answer/joint_view.h"
+
+namespace talus::analysis {
+
+// Median and 90 % of a posterior, SI.
+struct BatchRange {
+  double median = 0;
+  double low = 0;
+  double high = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("median", self.median);
+    visit("low_90", self.low);
+    visit("high_90", self.high);
+  }
+};
+
+// This batch less the first.
+struct BatchDifference {
+  BatchRange range{};      // of the difference
+  double matters = 0;      // a difference that is asked for [SI]
+  double probability = 0;  // that it is larger than that, either way
+  bool is_found = false;   // the 90 % leave out 0
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("difference", self.range);
+    visit("matters", self.matters);
+    visit("probability_larger", self.probability);
+    visit("is_found", self.is_found);
+  }
+};
+
+struct BatchParameter {
+  std::string name{};
+  std::string unit{};
+  std::vector<BatchRange> batches{};
+  std::vector<BatchDifference> differences{};  // of all but the first batch
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("unit", self.unit);
+    visit("batches", self.batches);
+    visit("differences", self.differences);
+  }
+};
+
+// The photographs of an experiment beside those of the first batch.
+struct BatchPictures {
+  std::string batch{};
+  std::string experiment{};
+  std::string absent{};      // why they are not compared; empty where they are
+  double sad_mm2 = 0;        // between the mean profiles
+  double probability = 1;    // of one as large by chance
+  int num_arrangements = 0;  // of the runs that this is counted over
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("batch", self.batch);
+    visit("experiment", self.experiment);
+    visit("absent", self.absent);
+    visit("sad_mm2", self.sad_mm2);
+    visit("probability_by_chance", self.probability);
+    visit("num_arrangements", self.num_arrangements);
+  }
+};
+
+struct BatchComparison {
+  std::vector<std::string> batches{};  // by their folders
+  std::vector<BatchParameter> parameters{};
+  std::vector<BatchPictures> pictures{};
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("batches", self.batches);
+    visit("parameters", self.parameters);
+    visit("pictures", self.pictures);
+  }
+};
+
+// At least two folders. `matters` is the difference that counts of a parameter, by name and as text
+// with its unit; default: a tenth of the searched range of the first batch. Throws ConfigError
+// where the campaigns have searched different parameters, or a name is none of them.
+BatchComparison CompareBatches(const std::vector<std::filesystem::path>& folders,
+                               const std::map<std::string, std::string>& matters);
+
+// Share of the ways to deal `first` and `second` out anew in which their means differ by as much as
+// they do, this one among them: all ways where they are few, else 5000 by chance.
+struct PermutationTest {
+  double distance_px = 0;  // SAD of the means
+  double probability = 1;
+  int num_arrangements = 0;
+};
+PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
+                        const std::vector<imaging::GrayImage>& second, std::uint64_t seed);
+
+std::string BatchesText(const BatchComparison& comparison);
+std::string BatchesCsv(const BatchComparison& comparison);  // a batch and parameter a line
+// A parameter over the batches, for quality control.
+std::string BatchesSvg(const BatchComparison& comparison, const BatchParameter& parameter);
+
+}  // namespace talus::analysis

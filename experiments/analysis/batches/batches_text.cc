@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/text/csv.h"
+#include "base/text/number_text.h"
+#include "experiments/analysis/batches/batches.h"
+#include "experiments/analysis/report/charts/svg_chart.h"
+
+namespace talus::analysis {
+namespace {
+
+using base::ShortNumber;
+
+constexpr double kBeyondChance = 0.05;
+
+std::string RangeText(const BatchRange& range, const std::string& unit) {
+  return ShortNumber(range.median) + " (90 % in " + ShortNumber(range.low) + " … " +
+         ShortNumber(range.high) + ")" + (unit.empty() ? "" : " " + unit);
+}
+
+std::string PicturesText(const BatchPictures& p) {
+  if (!p.absent.empty()) return "not compared: " + p.absent;
+  const bool differ = p.probability < kBeyondChance;
+  return ShortNumber(p.sad_mm2) + " mm² between the mean profiles, " +
+         (differ ? "beyond" : "within") + " the scatter of the runs (" +
+         ShortNumber(p.probability, 2) + " by chance, " + std::to_string(p.num_arrangements) +
+         " arrangements)";
+}
+
+// What is known to differ, in one line a batch.
+std::string VerdictText(const BatchComparison& c, std::size_t batch) {
+  std::string found;
+  for (const BatchParameter& p : c.parameters) {
+    if (!p.differences[batch - 1].is_found) continue;
+    found += (found.empty() ? "" : ", ") + p.name + " by " +
+             ShortNumber(p.differences[batch - 1].range.median);
+  }
+  for (const BatchPictures& p : c.pictures) {
+    if (p.batch != c.batches[batch] || !p.absent.empty() || p.probability >= kBeyondChance)
+      continue;
+    found += (found.empty() ? "" : ", ") + std::string("the photographs of ") + p.experiment;
+  }
+  return found.empty() ? "no difference found" : "differs: " + found;
+}
+
+}  // namespace
+
+std::string BatchesText(const BatchComparison& c) {
+  std::string text = "compared with " + c.batches.front() + "\n";
+  for (std::size_t b = 1; b < c.batches.size(); ++b) {
+    text += "  " + c.batches[b] + ": " + VerdictText(c, b) + "\n";
+    for (const BatchParameter& p : c.parameters) {
+      const BatchDifference& d = p.differences[b - 1];
+      text += "    " + p.name + "  " + RangeText(p.batches.front(), "") + " → " +
+              RangeText(p.batches[b], p.unit) + "; difference " + RangeText(d.range, "") +
+              ", larger than " + ShortNumber(d.matters) + " with probability " +
+              ShortNumber(d.probability, 2) + "\n";
+    }
+    for (const BatchPictures& p : c.pictures) {
+      if (p.batch == c.batches[b]) text += "    " + p.experiment + "  " + PicturesText(p) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string BatchesCsv(const BatchComparison& c) {
+  base::Csv csv;
+  for (const char* head :
+       {"batch", "parameter", "unit", "median", "low_90", "high_90", "difference",
+        "difference_low_90", "difference_high_90", "matters", "probability_larger"}) {
+    csv.Cell(head);
+  }
+  csv.EndRow();
+  for (std::size_t b = 0; b < c.batches.size(); ++b) {
+    for (const BatchParameter& p : c.parameters) {
+      const BatchRange& r = p.batches[b];
+      csv.Cell(c.batches[b]).Cell(p.name).Cell(p.unit).Cells({r.median, r.low, r.high});
+      if (b > 0) {
+        const BatchDifference& d = p.differences[b - 1];
+        csv.Cells({d.range.median, d.range.low, d.range.high, d.matters, d.probability});
+      } else {
+        csv.Cells(std::vector<double>(5, std::nan("")));
+      }
+      csv.EndRow();
+    }
+  }
+  return csv.Take();
+}
+
+std::string BatchesSvg(const BatchComparison& c, const BatchParameter& p) {
+  double low = p.batches.front().low;
+  double high = p.batches.front().high;
+  for (const BatchRange& r : p.batches) {
+    low = std::min(low, r.low);
+    high = std::max(high, r.high);
+  }
+  const double margin = high > low ? 0.1 * (high - low) : 1;
+  SvgChart chart(
+      {.title = "batch", .low = 0.5, .high = static_cast<double>(c.batches.size()) + 0.5},
+      {.title = p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
+       .low = low - margin,
+       .high = high + margin});
+  std::vector<SvgPoint> medians;
+  for (std::size_t b = 0; b < p.batches.size(); ++b) {
+    const auto x = static_cast<double>(b + 1);
+    chart.Line({{x, p.batches[b].low}, {x, p.batches[b].high}}, {.color = kSoft},
+               b == 0 ? "90 %" : "");
+    medians.push_back({x, p.batches[b].median});
+  }
+  chart.Points(medians, {.color = PaletteColor(0), .width = 7}, "median");
+  return chart.Text();
+}
+
+}  // namespace talus::analysis

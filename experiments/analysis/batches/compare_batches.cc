@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "base/problems.h"
+#include "base/random.h"
+#include "experiments/analysis/batches/batches.h"
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "imaging/formats/images/image_file.h"
+#include "imaging/heap/metrics.h"
+#include "imaging/spheres/projection.h"
+
+namespace talus::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using campaign::JointView;
+
+constexpr int kPairs = 4000;  // draws of a difference
+constexpr int kMostArrangements = 5000;
+
+// Values of the free parameters, one draw a row, SI.
+struct Batch {
+  JointView view;
+  std::vector<std::vector<double>> draws;
+};
+
+std::vector<std::vector<double>> DrawsOf(const JointView& view, std::uint64_t stream) {
+  const auto strategy = campaign::StrategyOf(view, view.Answered());
+  if (!strategy->CanModel()) {
+    throw base::Error(view.folder.root.string() +
+                      ": has too few trials of each experiment for a posterior; go on with "
+                      "`talus resume`");
+  }
+  const Eigen::MatrixXd points = strategy->Sample().Draws(kPairs, view.spec.seed);
+  std::vector<std::vector<double>> draws;
+  for (const auto& point : points.rowwise()) {
+    draws.push_back(campaign::FreeValues(view.space, point.transpose()));
+  }
+  // The draws of two posteriors come in the same order of the cube: pairs of them would be alike.
+  base::Random random(view.spec.seed, base::Stream("pairs of batches"), stream);
+  for (std::size_t i = draws.size() - 1; i > 0; --i) {
+    std::swap(draws[i], draws[random.Below(i + 1)]);
+  }
+  return draws;
+}
+
+std::vector<double> Column(const Batch& batch, std::size_t parameter) {
+  std::vector<double> values;
+  for (const std::vector<double>& draw : batch.draws) values.push_back(draw[parameter]);
+  return values;
+}
+
+BatchRange RangeOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return {.median = at(0.5), .low = at(0.05), .high = at(0.95)};
+}
+
+BatchDifference DifferenceOf(const std::vector<double>& first, const std::vector<double>& second,
+                             double matters) {
+  std::vector<double> difference;
+  for (std::size_t i = 0; i < first.size(); ++i) difference.push_back(second[i] - first[i]);
+  const auto larger =
+      std::ranges::count_if(difference, [&](double d) { return std::abs(d) > matters; });
+  BatchDifference found{
+      .range = RangeOf(difference),
+      .matters = matters,
+      .probability = static_cast<double>(larger) / static_cast<double>(difference.size())};
+  found.is_found = found.range.low > 0 || found.range.high < 0;
+  return found;
+}
+
+std::vector<std::string> NamesOf(const Batch& batch) {
+  std::vector<std::string> names;
+  for (const journal::ParameterRecord& p : batch.view.record.parameters) names.push_back(p.name);
+  return names;
+}
+
+void RequireSameParameters(const std::vector<Batch>& batches) {
+  for (const Batch& batch : batches) {
+    if (NamesOf(batch) == NamesOf(batches.front())) continue;
+    throw base::ConfigError(
+        batch.view.folder.root.string() + ": has searched other parameters than " +
+        batches.front().view.folder.root.string() + "; batches are compared by the same ones");
+  }
+}
+
+std::vector<double> MattersOf(const Batch& first, const std::map<std::string, std::string>& given) {
+  std::vector<double> matters;
+  base::Problems problems;
+  const std::vector<std::string> names = NamesOf(first);
+  for (const journal::ParameterRecord& p : first.view.record.parameters) {
+    constexpr double kShare = 0.1;  // of the searched range
+    const auto own = given.find(p.name);
+    matters.push_back(own == given.end() ? kShare * (p.high - p.low)
+                                         : campaign::ParseProperty(p.name, own->second));
+    problems.Require(matters.back() > 0, p.name, matters.back(), "must be positive");
+  }
+  for (const auto& [name, value] : given) {
+    if (std::ranges::find(names, name) != names.end()) continue;
+    const std::string near = base::Nearest(name, names);
+    problems.Add(name, near.empty() ? "is no calibrated parameter of these campaigns"
+                                    : "is not known here; did you mean \"" + near + "\"?");
+  }
+  problems.ThrowIfAny();
+  return matters;
+}
+
+// The runs of an experiment, its plate's middle at the same pixel of equal canvases in both
+// batches.
+struct AlignedRuns {
+  std::vector<imaging::GrayImage> first, second;
+};
+
+std::vector<imaging::GrayImage> OnCanvas(const journal::ExperimentRecord& e,
+                                         const imaging::Frame& frame, int half_width, int height) {
+  std::vector<imaging::GrayImage> images;
+  const int left = half_width - static_cast<int>(std::lround(frame.center_x));
+  const int top = height - static_cast<int>(std::lround(frame.baseline));
+  for (const journal::RunRecord& run : e.runs) {
+    const imaging::GrayImage image = imaging::DecodeGrayImage(run.png, e.name + ", " + run.name);
+    imaging::GrayImage& canvas = images.emplace_back(
+        imaging::GrayImage{.width = 2 * half_width, .height = height, .pixels = {}});
+    canvas.pixels.assign(
+        static_cast<std::size_t>(2 * half_width) * static_cast<std::size_t>(height), 255);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const int to_x = x + left;
+        const int to_y = y + top;
+        if (to_x < 0 || to_y < 0 || to_x >= canvas.width || to_y >= canvas.height) continue;
+        canvas.at(to_x, to_y) = image.at(x, y);
+      }
+    }
+  }
+  return images;
+}
+
+AlignedRuns Align(const journal::ExperimentRecord& a, const imaging::Frame& frame_a,
+                  const journal::ExperimentRecord& b, const imaging::Frame& frame_b) {
+  const auto half = [](const imaging::Frame& f) {
+    return static_cast<int>(std::ceil(std::max(f.center_x, f.width - f.center_x))) + 1;
+  };
+  const int half_width = std::max(half(frame_a), half(frame_b));
+  const int height = static_cast<int>(std::lround(std::max(frame_a.baseline, frame_b.baseline)));
+  return {OnCanvas(a, frame_a, half_width, height), OnCanvas(b, frame_b, half_width, height)};
+}
+
+BatchPictures ComparePictures(const Batch& first, const Batch& batch, std::size_t e) {
+  const journal::ExperimentRecord& a = first.view.record.experiments[e];
+  BatchPictures pictures{.batch = batch.view.folder.root.string(), .experiment = a.name};
+  const auto& others = batch.view.record.experiments;
+  const auto found = std::ranges::find(others, a.name, &journal::ExperimentRecord::name);
+  if (found == others.end()) {
+    pictures.absent = "the batch has no experiment of this name";
+    return pictures;
+  }
+  if (a.runs.size() < 2 || found->runs.size() < 2) {
+    pictures.absent = "fewer than two photographed runs show no scatter to compare with";
+    return pictures;
+  }
+  const auto at = static_cast<std::size_t>(found - others.begin());
+  const imaging::Frame frame_a = first.view.references[e].frame().value();
+  const imaging::Frame frame_b = batch.view.references[at].frame().value();
+  if (std::abs(frame_a.pixel_size / frame_b.pixel_size - 1) > 1e-3) {
+    pictures.absent = "the pixels differ in size; give both specs the same pixel_size";
+    return pictures;
+  }
+  const AlignedRuns runs = Align(a, frame_a, *found, frame_b);
+  const PermutationTest test = Permute(runs.first, runs.second, first.view.spec.seed);
+  const double pixel = 1e3 * frame_a.pixel_size;
+  pictures.sad_mm2 = test.distance_px * pixel * pixel;
+  pictures.probability = test.probability;
+  pictures.num_arrangements = test.num_arrangements;
+  return pictures;
+}
+
+double BinomialUpTo(std::size_t n, std::size_t k, double most) {
+  double ways = 1;
+  for (std::size_t i = 1; i <= k && ways <= most; ++i) {
+    ways *= static_cast<double>(n - k + i) / static_cast<double>(i);
+  }
+  return ways;
+}
+
+}  // namespace
+
+PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
+                        const std::vector<imaging::GrayImage>& second, std::uint64_t seed) {
+  std::vector<imaging::GrayImage> all = first;
+  all.insert(all.end(), second.begin(), second.end());
+  // Which of all are dealt to the first; sorted, so that every way comes once.
+  std::vector<int> to_first(all.size(), 0);
+  std::fill(to_first.begin(), to_first.begin() + static_cast<std::ptrdiff_t>(first.size()), 1);
+  const auto distance = [&](const std::vector<int>& dealt) {
+    std::vector<imaging::GrayImage> a, b;
+    for (std::size_t i = 0; i < all.size(); ++i) (dealt[i] == 1 ? a : b).push_back(all[i]);
+    return imaging::Sad(imaging::MeanImage(a), imaging::MeanImage(b));
+  };
+  PermutationTest test{.distance_px = distance(to_first)};
+  int as_large = 0;
+  const auto count = [&](const std::vector<int>& dealt) {
+    as_large += distance(dealt) >= test.distance_px * (1 - 1e-12);
+    ++test.num_arrangements;
+  };
+  if (BinomialUpTo(all.size(), first.size(), kMostArrangements) <= kMostArrangements) {
+    std::vector<int> dealt = to_first;
+    std::sort(dealt.begin(), dealt.end());
+    do {
+      count(dealt);
+    } while (std::next_permutation(dealt.begin(), dealt.end()));
+  } else {
+    count(to_first);
+    base::Random random(seed, base::Stream("batches"));
+    while (test.num_arrangements < kMostArrangements) {
+      std::vector<int> dealt = to_first;
+      for (std::size_t i = dealt.size() - 1; i > 0; --i) {
+        std::swap(dealt[i], dealt[random.Below(i + 1)]);
+      }
+      count(dealt);
+    }
+  }
+  test.probability = static_cast<double>(as_large) / test.num_arrangements;
+  return test;
+}
+
+BatchComparison CompareBatches(const std::vector<fs::path>& folders,
+                               const std::map<std::string, std::string>& matters) {
+  std::vector<Batch> batches;
+  BatchComparison comparison;
+  for (const fs::path& folder : folders) {
+    batches.push_back({.view = campaign::ReadJointView(folder), .draws = {}});
+    comparison.batches.push_back(folder.string());
+  }
+  RequireSameParameters(batches);
+  const std::vector<double> counts = MattersOf(batches.front(), matters);
+  for (std::size_t b = 0; b < batches.size(); ++b) {
+    batches[b].draws = DrawsOf(batches[b].view, b);
+  }
+  for (std::size_t p = 0; p < counts.size(); ++p) {
+    const journal::ParameterRecord& record = batches.front().view.record.parameters[p];
+    BatchParameter parameter{.name = record.name, .unit = record.unit};
+    const std::vector<double> first = Column(batches.front(), p);
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+      const std::vector<double> values = Column(batches[b], p);
+      parameter.batches.push_back(RangeOf(values));
+      if (b > 0) parameter.differences.push_back(DifferenceOf(first, values, counts[p]));
+    }
+    comparison.parameters.push_back(std::move(parameter));
+  }
+  for (std::size_t b = 1; b < batches.size(); ++b) {
+    for (std::size_t e = 0; e < batches.front().view.record.experiments.size(); ++e) {
+      if (!batches.front().view.references[e].has_image()) continue;
+      comparison.pictures.push_back(ComparePictures(batches.front(), batches[b], e));
+    }
+  }
+  return comparison;
+}
+
+}  // namespace talus::analysis

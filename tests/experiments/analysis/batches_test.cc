@@ -1,0 +1,92 @@
+// Batches of a powder, with drawn heaps in place of simulations.
+#include "experiments/analysis/batches/batches.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::analysis {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::vector<imaging::GrayImage> Heaps(double sliding, int count, std::uint64_t seed) {
+  std::vector<imaging::GrayImage> heaps;
+  for (int i = 0; i < count; ++i) {
+    heaps.push_back(campaign::DrawHeap(sliding, 0.2, seed + static_cast<std::uint64_t>(i)));
+  }
+  return heaps;
+}
+
+// Four runs and four: 70 ways to deal them out, of which only this one and its mirror are as far
+// apart.
+TEST(Permute, RunsOfTwoPowdersAreToldApartByEveryArrangement) {
+  const PermutationTest test = Permute(Heaps(0.3, 4, 1), Heaps(0.6, 4, 100), 1);
+  EXPECT_EQ(test.num_arrangements, 70);
+  EXPECT_DOUBLE_EQ(test.probability, 2.0 / 70);
+  EXPECT_GT(test.distance_px, 0);
+}
+
+// Forty pairs of batches of one powder: a test at 5 % claims two of them on average, more than six
+// with a probability of 1 %.
+TEST(Permute, RunsOfOnePowderDifferByChanceOnly) {
+  int claimed = 0;
+  for (std::uint64_t pair = 0; pair < 40; ++pair) {
+    claimed +=
+        Permute(Heaps(0.4, 4, 1000 * pair), Heaps(0.4, 4, 1000 * pair + 500), 1).probability < 0.05;
+  }
+  EXPECT_LE(claimed, 6);
+}
+
+TEST(Permute, ManyRunsAreDealtOutByChance) {
+  EXPECT_EQ(Permute(Heaps(0.4, 10, 1), Heaps(0.4, 10, 50), 1).num_arrangements, 5000);
+}
+
+class BatchesTest : public campaign::CampaignFixture {
+ protected:
+  // A campaign that has met a heap of these.
+  fs::path Run(const std::string& name, double sliding) const {
+    const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / (name + "_in"),
+                                                  R"(, "budget": {"simulations": 24},
+        "confirm": {"candidates": 0}, "workers": 1)");
+    imaging::WritePng(spec.parent_path() / "map.png", campaign::DrawHeap(sliding, 0.2, 12345));
+    campaign::BeginCampaign(spec, scratch_.path() / name);
+    campaign::RunFake(scratch_.path() / name, {});
+    return scratch_.path() / name;
+  }
+};
+
+TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
+  const fs::path first = Run("first", 0.4);
+  const fs::path equal = Run("equal", 0.4);
+  const fs::path shifted = Run("shifted", 0.6);
+  const BatchComparison c = CompareBatches({first, equal, shifted}, {{"sliding_friction", "0.1"}});
+  ASSERT_EQ(c.parameters.size(), 2u);
+  const BatchParameter& sliding = c.parameters[0];
+  EXPECT_FALSE(sliding.differences[0].is_found);
+  EXPECT_LT(sliding.differences[0].probability, 0.2);
+  EXPECT_TRUE(sliding.differences[1].is_found);
+  EXPECT_NEAR(sliding.differences[1].range.median, 0.2, 0.05);
+  EXPECT_GT(sliding.differences[1].probability, 0.9);
+  EXPECT_FALSE(c.parameters[1].differences[1].is_found);            // rolling is the same
+  EXPECT_DOUBLE_EQ(c.parameters[1].differences[0].matters, 0.045);  // a tenth of 0.05 to 0.5
+  EXPECT_THAT(c.pictures[0].absent, HasSubstr("fewer than two photographed runs"));
+  const std::string text = BatchesText(c);
+  EXPECT_THAT(text, HasSubstr("equal: no difference found"));
+  EXPECT_THAT(text, HasSubstr("shifted: differs: sliding_friction by 0."));
+  const std::string csv = BatchesCsv(c);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 * 2);
+  EXPECT_THAT(BatchesSvg(c, sliding), HasSubstr("sliding_friction"));
+}
+
+TEST_F(BatchesTest, OtherParametersAreRefused) {
+  const fs::path first = Run("first", 0.4);
+  EXPECT_THROW(CompareBatches({first, first}, {{"slidin_friction", "0.1"}}), base::ConfigError);
+  EXPECT_THROW(CompareBatches({first, first}, {{"sliding_friction", "-1"}}), base::ConfigError);
+}
+
+}  // namespace
+}  // namespace talus::analysis
