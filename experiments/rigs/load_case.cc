@@ -7,6 +7,7 @@
 #include "base/text/number_text.h"
 #include "engine/scene/filling.h"
 #include "experiments/rigs/filling/pouring.h"
+#include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/phased/pace.h"
 #include "experiments/rigs/rig_list.h"
 
@@ -87,9 +88,19 @@ imaging::Frame UsualFrame(const Case& c) {
 
 CaseSize EstimateCase(const Case& c) {
   const RigEntry& entry = EntryOf(c);
+  const Vessel vessel = entry.vessel(c);
   CaseSize size{EstimatePowder(c)};
-  size.filled_height = FilledHeight(c, entry.vessel(c));
-  size.simulated_time = SimulatedTime(c, entry.test_time(c, size.filled_height));
+  size.filled_height = FilledHeight(c, vessel);
+  const double test_time = entry.test_time(c, size.filled_height);
+  const bool poured = c.filling.kind == FillingKind::kPour;
+  const double pouring = poured ? MakePour(c, vessel).Duration() : 0;
+  size.simulated_time = pouring + SimulatedTime(c, test_time);
+  // Half of the grains are there while they are poured. Those that leave the plate do so late in
+  // the test: they are there for most of it, and hardly when the heap comes to rest.
+  const double leave = c.rig.kind == RigKind::kLiftedTube ? 1 - ExpectHeap(c).share : 0;
+  const double time =
+      size.simulated_time - pouring / 2 - leave * (0.15 * test_time + 0.9 * kRestTime);
+  size.grain_time = time * static_cast<double>(size.num_grains);
   return size;
 }
 

@@ -13,6 +13,7 @@ namespace talus::rigs {
 struct CaseSize : PowderSize {
   double filled_height = 0;   // of a loose filling [m]
   double simulated_time = 0;  // expected, of all phases [s]
+  double grain_time = 0;      // of all grains, each while it is simulated [s]
 };
 CaseSize EstimateCase(const Case& rig_case);
 

@@ -198,6 +198,10 @@ class Progress(unittest.TestCase):
             self.assertIn("//", out.read_text())
             self.assertIn('"scale_factors": [8, 3]', out.read_text())  # 12.5 and 33 grains across
             self.assertEqual("surface_energy" in out.read_text().split('"parameters"')[1], bool(more))
+            self.assertEqual('"filling": {"kind": "pour"}' in out.read_text(), bool(more))
+            # (25 um (1.6e-3 J/m²)² / ((38.5 GPa)² (0.4 nm)³))^(1/3) = 0.088: DMT
+            self.assertEqual('"adhesion": "dmt"' in out.read_text(), bool(more))
+            self.assertEqual("Tabor's number of such grains of 70 GPa is 0.08" in out.read_text(), bool(more))
             done = talus("validate", str(out), "--without-experiment")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
         done = talus("init", photos, "--out", str(out), *flags)

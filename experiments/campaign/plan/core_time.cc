@@ -16,7 +16,7 @@ double MeasuredCoreTime(const journal::TrialRecord& trial, int num_cores) {
 
 double GrainStepsOf(const CampaignSpec& spec, int experiment, double scale_factor) {
   const rigs::CaseSize size = rigs::EstimateCase(TypicalCase(spec, experiment, scale_factor));
-  return static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
+  return size.grain_time / size.time_step;
 }
 
 double CoreTime::GrainSteps(const Kind& kind) {

@@ -1,8 +1,8 @@
 #include "experiments/campaign/plan/estimate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/plan/cores.h"
@@ -13,23 +13,24 @@
 namespace talus::campaign {
 namespace {
 
-// Cost goes with the number of grain steps, whatever the number of grains, so a small heap tells
-// the speed; filling a large one would take longer than the measurement.
+// Cost goes with the number of grain steps, nearly whatever the number of grains, so a smaller heap
+// tells the speed, over most of its test: grains that fall cost more than grains that lie. In time
+// of the processor, which other work does not lengthen.
 double MeasureSpeed(rigs::Case rig_case, std::int64_t num_grains) {
-  constexpr double kEnoughGrains = 2000;
-  constexpr double kSeconds = 1;
+  constexpr double kEnoughGrains = 3000;
+  constexpr double kSeconds = 1.5;
   const double reduction = std::cbrt(static_cast<double>(num_grains) / kEnoughGrains);
   rig_case.coarse_graining.scale_factor *= std::max(1.0, reduction);
   rig_case.threads = 1;
   const std::unique_ptr<rigs::Rig> rig = rigs::MakeRig(rig_case);
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const auto now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  const double start = now();
   double seconds = 0;
   bool more = true;
   const double before = rig->Progress().particle_steps;
   while (more && seconds < kSeconds) {
     more = rig->Advance();
-    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    seconds = now() - start;
   }
   return (rig->Progress().particle_steps - before) / seconds;
 }
@@ -45,11 +46,8 @@ TrialEstimate EstimateTrial(const CampaignSpec& spec, int experiment, double sca
           .mean_diameter = size.mean_diameter,
           .time_step = size.time_step,
           .num_steps = size.simulated_time / size.time_step,
+          .grain_steps = size.grain_time / size.time_step,
           .memory = kProgram + kGrain * static_cast<double>(size.num_grains)};
-}
-
-double GrainSteps(const TrialEstimate& trial) {
-  return static_cast<double>(trial.num_grains) * trial.num_steps;
 }
 
 // [s] of one candidate's replicate, at every experiment.
@@ -57,7 +55,7 @@ double ConfirmTime(const CampaignSpec& spec, double speed) {
   const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
   double time = 0;
   for (int e = 0; e < static_cast<int>(ExperimentsOf(spec).size()); ++e) {
-    time += GrainSteps(EstimateTrial(spec, e, factor)) / speed;
+    time += EstimateTrial(spec, e, factor).grain_steps / speed;
   }
   return time;
 }
@@ -125,7 +123,7 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   e.grain_steps_per_s = MeasureSpeed(TypicalCase(spec, 0, first.scale_factor), first.num_grains);
   double dearest = 0;
   for (TrialEstimate& trial : e.trials) {
-    trial.core_seconds = GrainSteps(trial) / e.grain_steps_per_s;
+    trial.core_seconds = trial.grain_steps / e.grain_steps_per_s;
     dearest = std::max(dearest, trial.core_seconds);
   }
   e.confirm_time = ConfirmTime(spec, e.grain_steps_per_s);

@@ -17,6 +17,7 @@ struct TrialEstimate {
   double mean_diameter = 0;  // of the scaled grains, D50 by volume [m]
   double time_step = 0;      // [s]
   double num_steps = 0;
+  double grain_steps = 0;   // less than their product: grains come and go
   double memory = 0;        // [bytes]
   double core_seconds = 0;  // [s] of one core
 };
@@ -30,7 +31,7 @@ struct CampaignEstimate {
   double campaign_time = 0;  // [s], at most
 };
 
-// Simulates about a second of wall-clock time.
+// Simulates for about a second of processor time.
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
 
 std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& estimate);

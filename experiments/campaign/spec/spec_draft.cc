@@ -65,14 +65,40 @@ std::string Photographs(const SpecAnswers& answers) {
   return text + "],\n";
 }
 
-std::string Models(bool cohesive) {
+// The largest surface energy that is searched [J/m²]: the published fine metal powders lie below.
+constexpr double kMostSurfaceEnergy = 8e-4;
+
+// Tabor's number of two like grains: (R* w² / (Y*² z₀³))^(1/3), w = 2γ. Below 0.1 adhesion acts as
+// DMT has it, above 5 as JKR does. The stiffness is the real one, not what is simulated to save
+// steps.
+double TaborNumber(double diameter) {
+  constexpr double kStiffness = 70e9;  // of metals and minerals, Y [Pa]
+  constexpr double kPoissonRatio = 0.3;
+  constexpr double kSpacing = 4e-10;  // of atoms, z₀ [m]
+  const double y_star = kStiffness / (2 * (1 - kPoissonRatio * kPoissonRatio));
+  const double work = 2 * kMostSurfaceEnergy;
+  return std::cbrt(diameter / 4 * work * work / (y_star * y_star * std::pow(kSpacing, 3)));
+}
+
+std::string Models(bool cohesive, double diameter) {
   if (!cohesive) {
-    return "  // docs/physics.md. Dry grains; \"jkr\" for cohesive ones, with a range of "
+    return "  // docs/physics.md. Dry grains; \"dmt\" or \"jkr\" for cohesive ones, with a range "
+           "of "
            "surface_energy below\n"
            "  \"models\": {\"adhesion\": \"none\", \"rolling\": \"epsd\"},\n";
   }
-  return "  // cohesive grains; \"none\" for dry ones, without surface_energy below\n"
-         "  \"models\": {\"adhesion\": \"jkr\", \"rolling\": \"epsd\"},\n";
+  const double tabor = TaborNumber(diameter);
+  const bool dmt = tabor < 1;
+  return "  // Cohesive grains, poured: filled densely they may stand where poured ones slump. "
+         "Adhesion is " +
+         std::string(dmt ? "dmt" : "jkr") + ":\n  // Tabor's number of such grains of 70 GPa is " +
+         base::ShortNumber(tabor) +
+         " at the largest surface_energy below; dmt holds below\n  // 0.1, jkr above 5. Soft or "
+         "moist "
+         "grains: \"jkr\". Dry ones: \"none\", without surface_energy\n"
+         "  \"filling\": {\"kind\": \"pour\"},\n"
+         "  \"models\": {\"adhesion\": \"" +
+         (dmt ? "dmt" : "jkr") + "\", \"rolling\": \"epsd\"},\n";
 }
 
 std::string Searched(bool cohesive) {
@@ -82,14 +108,20 @@ std::string Searched(bool cohesive) {
       "    \"sliding_friction\": {\"min\": 0.05, \"max\": 0.9},\n"
       "    \"rolling_friction\": {\"min\": 0.005, \"max\": 0.6}";
   if (cohesive) {
-    text +=
-        ",\n    \"surface_energy\": {\"min\": \"1e-6 J/m^2\", \"max\": \"4e-4 J/m^2\", "
-        "\"scale\": \"log\"}";
+    text += ",\n    \"surface_energy\": {\"min\": \"1e-6 J/m^2\", \"max\": \"" +
+            base::ShortNumber(kMostSurfaceEnergy) +
+            " J/m^2\", "
+            "\"scale\": \"log\"}";
   }
   return text + "\n  },\n";
 }
 
-double GrainsAcross(const SpecAnswers& answers) {
+struct Lengths {
+  double plate = 0;  // diameter [m]
+  double grain = 0;  // median diameter [m]
+};
+
+Lengths LengthsOf(const SpecAnswers& answers) {
   using base::Dimension;
   base::Problems problems;
   const double plate =
@@ -101,7 +133,7 @@ double GrainsAcross(const SpecAnswers& answers) {
   const double grain =
       Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
   problems.ThrowIfAny();
-  return plate / grain;
+  return {plate, grain};
 }
 
 std::string ScaleOf(const SpecAnswers& answers) {
@@ -124,7 +156,7 @@ std::string Experiments(const SpecAnswers& answers) {
 }  // namespace
 
 std::string DraftSpec(const SpecAnswers& answers) {
-  const double across = GrainsAcross(answers);
+  const Lengths lengths = LengthsOf(answers);
   return "// " + answers.name +
          ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
          "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
@@ -144,11 +176,11 @@ std::string DraftSpec(const SpecAnswers& answers) {
          Quoted(answers.tube_diameter) +
          ",\n    \"plate_diameter\": " + Quoted(answers.plate_diameter) +
          ",\n    \"plate\": \"disc\",\n    \"lift_velocity\": " + Quoted(answers.lift_velocity) +
-         "\n  },\n" + Models(answers.cohesive) +
+         "\n  },\n" + Models(answers.cohesive, lengths.grain) +
          "  // Grains so many times larger than real. The last decides and should leave 30 across "
          "the "
          "plate.\n  \"coarse_graining\": {\"scale_factors\": " +
-         ScaleFactors(across) + "},\n" + Searched(answers.cohesive) +
+         ScaleFactors(lengths.plate / lengths.grain) + "},\n" + Searched(answers.cohesive) +
          "  \"objective\": \"sad\",\n"
          "  // at most; add \"core_time\": \"4 h\" for an evening\n"
          "  \"budget\": {\"simulations\": 60},\n"

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
 #include "experiments/rigs/lifted_tube/landing.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
@@ -100,8 +101,11 @@ void LiftedTubeRig::Validate(const Case& c, base::Problems& problems) {
                        " m; leave it out or lengthen the tube");
 }
 
+// Until the tube has risen above the heap, which forms a little later than the tube lets it.
 double LiftedTubeRig::TestTime(const Case& c, double filled_height) {
-  return filled_height / c.rig.lifted_tube.lift_velocity;
+  const LiftedTubeOptions& options = c.rig.lifted_tube;
+  const double late = 2 * std::sqrt(options.tube_inner_diameter / c.gravity);
+  return std::min(filled_height, ExpectHeap(c).height) / options.lift_velocity + late;
 }
 
 // Before the tube is lifted nothing can fall.

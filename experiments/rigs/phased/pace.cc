@@ -29,10 +29,12 @@ Slice AdvanceSlice(engine::Simulation& simulation, const SliceEnd& end) {
           .particle_steps = static_cast<double>(steps) * static_cast<double>(num_particles)};
 }
 
+// As seen in runs of grains of 0.4 and 0.8 mm, cohesive or not.
+double SettlingTime(const Case& c) { return c.filling.kind == FillingKind::kPour ? 0.07 : 0.05; }
+
 double SimulatedTime(const Case& c, double test_time) {
-  constexpr double kStill = 0.1;  // settling and coming to rest, as seen in runs [s]
   const double taps = c.filling.taps ? c.filling.taps->count * c.filling.taps->interval : 0;
-  return kStill + test_time + taps;
+  return SettlingTime(c) + test_time + taps + kRestTime;
 }
 
 }  // namespace talus::rigs

@@ -30,6 +30,10 @@ struct Slice {
 // first.
 Slice AdvanceSlice(engine::Simulation& simulation, const SliceEnd& end);
 
+// What filling and a test usually take to come to rest [s].
+double SettlingTime(const Case& rig_case);
+inline constexpr double kRestTime = 0.17;
+
 // The whole of a test that takes so long beside filling and coming to rest [s].
 double SimulatedTime(const Case& rig_case, double test_time);
 

@@ -379,6 +379,28 @@ nlohmann::json WithoutTiming(const std::string& text) {
   return result;
 }
 
+// The powder of docs/validation.md's heaps with a surface energy, coarse so that it takes a second.
+// What a trial costs is said before it is run: pouring counts, and the grains that leave.
+TEST(EstimateOfACase, MeetsWhatAPouredCohesiveHeapTakes) {
+  Case c;
+  c.powder.material = {.density = 4386,
+                       .youngs_modulus = 26.25e6,
+                       .poisson_ratio = 0.342,
+                       .sliding_friction = 0.4,
+                       .rolling_friction = 0.1,
+                       .surface_energy = 6e-3};
+  c.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 0.4e-3};
+  c.powder.mass = 1.602e-3;
+  c.models.adhesion = engine::Adhesion::kDmt;
+  c.filling.kind = FillingKind::kPour;
+  c.coarse_graining.scale_factor = 2;
+  c.rig.lifted_tube.lift_velocity = 0.05;
+  const CaseSize expected = EstimateCase(c);
+  const auto rig = Ran(c);
+  EXPECT_NEAR(expected.simulated_time / rig->simulation().time(), 1, 0.15);
+  EXPECT_NEAR(expected.grain_time / expected.time_step / rig->Progress().particle_steps, 1, 0.15);
+}
+
 TEST_P(EveryRig, GoesOnFromACheckpointWithTheSameBits) {
   const Case c = Small(GetParam());
   const auto whole = Ran(c);

@@ -1,0 +1,27 @@
+// What a lifted tube will leave, for what a test costs: a cone of middling slope on the plate.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "experiments/rigs/case/case.h"
+
+namespace talus::rigs {
+
+struct ExpectedHeap {
+  double height = 0;  // [m]
+  double share = 1;   // of the powder that stays on the plate [-]
+};
+
+inline ExpectedHeap ExpectHeap(const Case& c) {
+  constexpr double kSlope = 0.65;
+  constexpr double kSolid = 0.58;
+  const double bulk = c.powder.mass / c.powder.material.density / kSolid;  // [m³]
+  const double radius = c.rig.lifted_tube.plate_diameter / 2;
+  const double full = std::numbers::pi / 3 * radius * radius * radius * kSlope;  // [m³]
+  if (bulk >= full) return {.height = kSlope * radius, .share = full / bulk};
+  return {.height = std::cbrt(3 * bulk * kSlope * kSlope / std::numbers::pi), .share = 1};
+}
+
+}  // namespace talus::rigs
