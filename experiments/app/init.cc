@@ -35,6 +35,7 @@ struct Question {
   const char* example;  // with its unit
   base::Dimension dimension;
   std::string campaign::SpecAnswers::*answer;
+  bool may_be_open = false;  // without it the spec searches it
 };
 using enum base::Dimension;
 constexpr Question kQuestions[] = {
@@ -49,14 +50,20 @@ constexpr Question kQuestions[] = {
      &campaign::SpecAnswers::density},
     {"--grain-diameter", "median diameter of the grains", "80 um", kLength,
      &campaign::SpecAnswers::grain_diameter},
+    {"--restitution", "coefficient of restitution of the grains", "0.8", kNone,
+     &campaign::SpecAnswers::restitution, true},
 };
 
-// Until the answer is a quantity; nothing where there is no more input.
+// Until the answer is a quantity; nothing where there is no more input, or nobody knows it.
 std::string Ask(const Question& question) {
   std::string answer;
   while (std::cin) {
-    std::cerr << question.words << " (such as " << question.example << "): " << std::flush;
-    if (!std::getline(std::cin, answer) || answer.empty()) continue;
+    std::cerr << question.words << " (such as " << question.example
+              << (question.may_be_open ? "; Enter when nobody has measured it" : "")
+              << "): " << std::flush;
+    if (!std::getline(std::cin, answer)) continue;
+    if (answer.empty() && question.may_be_open) return answer;
+    if (answer.empty()) continue;
     try {
       base::ParseQuantity(answer, question.dimension);
       return answer;
@@ -111,7 +118,7 @@ void Complete(campaign::SpecAnswers& answers) {
   for (const Question& question : kQuestions) {
     std::string& answer = answers.*question.answer;
     if (asks && answer.empty()) answer = Ask(question);
-    if (answer.empty()) {
+    if (answer.empty() && !question.may_be_open) {
       problems.Add(question.flag, std::string("is missing; give the ") + question.words + ": \"" +
                                       question.example + "\"");
     }
@@ -216,9 +223,11 @@ void AddInitCommand(CLI::App& app) {
       "of the photographs' names: {run}, {view}, *, such as {run}/{view}.jpg; default: "
       "what fits");
   for (const Question& question : kQuestions) {
-    verb->add_option(
-        question.flag, arguments->answers.*question.answer,
-        std::string(question.words) + " with its unit, such as \"" + question.example + "\"");
+    verb->add_option(question.flag, arguments->answers.*question.answer,
+                     std::string(question.words) +
+                         (question.may_be_open ? "; without it the spec searches it, as a nuisance"
+                                               : " with its unit, such as \"" +
+                                                     std::string(question.example) + "\""));
   }
   verb->add_option(
       "--scale", arguments->answers.scale,

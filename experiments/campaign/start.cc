@@ -10,6 +10,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/version.h"
+#include "experiments/campaign/add_parameter.h"
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
@@ -20,6 +21,8 @@
 
 namespace talus::campaign {
 namespace {
+
+constexpr int kOfAddedParameter = 16;  // simulations of each experiment, where nobody says
 
 std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
   std::vector<journal::ParameterRecord> records;
@@ -104,6 +107,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const ResumeOpt
   change.spec = ReadSpecWithPosteriors(base::ReadJsonFile(path), &begun);
   // `calibrate --hold-out` is of the campaign and not in the file.
   if (!change.spec.hold_out) change.spec.hold_out = begun.hold_out;
+  KeepAddedParameters(begun, change.spec);
   const auto forbidden = ForbiddenChanges(record.spec_json, SpecText(change.spec));
   if (!forbidden.empty()) {
     std::string message = path.string() +
@@ -132,8 +136,18 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
   budget.simulations = from + num_more;
   budget.min_simulations = budget.simulations;
   budget.core_time.reset();  // it is counted in simulations from now on
-  change.event = "extend";
-  change.words = "by " + std::to_string(num_more) + " simulations";
+  change.event = change.event.empty() ? "extend" : change.event;
+  change.words +=
+      (change.words.empty() ? "by " : ", by ") + std::to_string(num_more) + " simulations";
+}
+
+void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
+  for (const std::string& text : search) {
+    const AddedParameter added = ParseAddedParameter(text);
+    change.spec = SpecWith(change.spec, added);
+    change.event = "search";
+    change.words += (change.words.empty() ? "" : ", ") + added.name + " from now on";
+  }
 }
 
 // What may be in a folder that a campaign begins in: what a process that was killed, or another
@@ -218,13 +232,21 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
   journal::Journal journal = OpenOrRebuild(folder, console);
   const journal::CampaignRecord record = journal.Campaign();
   SpecChange change = SpecToGoOnWith(record, options);
-  if (options.add_simulations > 0) AddSimulations(journal, options.add_simulations, change);
+  AddParameters(options.search, change);
+  const int num_more = options.add_simulations > 0 || options.search.empty()
+                           ? options.add_simulations
+                           : kOfAddedParameter * static_cast<int>(record.experiments.size());
+  if (num_more > 0) AddSimulations(journal, num_more, change);
   CampaignSpec spec = change.spec;
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
-  if (!change.event.empty()) {
+  if (!options.search.empty()) {
+    WriteAddedParameters(folder, change.spec, change.text, journal);
+  } else if (!change.event.empty()) {
     journal.SetSpec(change.text, SpecText(change.spec));
+  }
+  if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }
   return {.folder = folder,

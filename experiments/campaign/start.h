@@ -35,6 +35,8 @@ struct ResumeOptions {
   std::filesystem::path spec{};                   // a changed spec; empty: the one it began with
   int add_simulations = 0;                        // >= 0
   std::optional<journal::Objective> objective{};  // searched on with, instead of the spec's
+  // Parameters to be searched from now on, "restitution=0.3..0.95" each: add_parameter.h.
+  std::vector<std::string> search{};
 };
 
 // Opens a campaign to go on with it. Repairs a damaged journal from the trials' folders. Throws

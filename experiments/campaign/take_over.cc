@@ -86,9 +86,12 @@ TakenOver TakeOverDesigns(const CampaignFolder& folder,
   TakenOver taken;
   Numbers numbers = NextOf(trials);
   const std::vector<double> levels = experiment.spec.coarse_graining.Levels();
+  const std::size_t num_free = SpaceOf(experiment.spec).Free().size();
   for (const DesignFolder& design : DesignsOf(folder.root)) {
     const auto record = design.Read();
     if (!record || std::count(levels.begin(), levels.end(), record->scale_factor) == 0) continue;
+    // One of fewer parameters was made before another was searched, too.
+    if (record->points.empty() || record->points.front().size() != num_free) continue;
     for (std::size_t i = 0; i < record->points.size(); ++i) {
       const journal::TrialRecord trial = Made(experiment, *record, i, numbers);
       const auto core_time =

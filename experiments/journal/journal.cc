@@ -231,12 +231,16 @@ void Journal::Insert(const TrialRecord& t) {
             t.scale_factor, t.attempts, t.started_utc, t.job, t.experiment, if_known(t.duration_s),
             if_known(t.cpu_s))
       .Finish();
+  InsertPoint(t);
+  SealTrial(database_, t.id);
+}
+
+void Journal::InsertPoint(const TrialRecord& t) {
   for (std::size_t i = 0; i < t.unit.size(); ++i) {
     database_.Prepare("INSERT INTO points VALUES (?1, ?2, ?3, ?4)")
         .Bind(t.id, static_cast<std::int64_t>(i), t.unit[i], t.native[i])
         .Finish();
   }
-  SealTrial(database_, t.id);
 }
 
 void Journal::Restart(std::span<const TrialRecord> trials) {

@@ -36,6 +36,9 @@ class Journal {
   void SetProgress(const ProgressRecord& progress);
   // The spec after an allowed change.
   void SetSpec(std::string_view spec_text, std::string_view spec_json);
+  // Other parameters than it began with, and for each of `trials`, which are all of them, its
+  // point; together with the spec's texts. There is no result any more.
+  void SetParameters(const CampaignRecord& campaign, std::span<const TrialRecord> trials);
   // A further one, after the others, together with the spec that has it.
   void AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json);
 
@@ -62,6 +65,8 @@ class Journal {
   explicit Journal(Database database) : database_(std::move(database)) {}
   void CreateView(const CampaignRecord& campaign);
   void InsertCampaign(const CampaignRecord& campaign);
+  void InsertParameters(const CampaignRecord& campaign);
+  void InsertPoint(const TrialRecord& trial);
   void Insert(const TrialRecord& trial);
   void ReadPoints(std::vector<TrialRecord>& trials);
   void ReadMetrics(std::vector<TrialRecord>& trials);

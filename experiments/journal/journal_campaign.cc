@@ -35,15 +35,32 @@ void Journal::InsertCampaign(const CampaignRecord& c) {
       .Bind(c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
             c.created_utc, c.objective)
       .Finish();
+  InsertParameters(c);
+  for (std::size_t i = 0; i < c.experiments.size(); ++i) {
+    InsertExperiment(database_, static_cast<std::int64_t>(i), c.experiments[i]);
+  }
+}
+
+void Journal::InsertParameters(const CampaignRecord& c) {
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const ParameterRecord& p = c.parameters[i];
     database_.Prepare("INSERT INTO parameters VALUES (?1, ?2, ?3, ?4, ?5, ?6)")
         .Bind(static_cast<std::int64_t>(i), p.name, p.low, p.high, p.scale, p.unit)
         .Finish();
   }
-  for (std::size_t i = 0; i < c.experiments.size(); ++i) {
-    InsertExperiment(database_, static_cast<std::int64_t>(i), c.experiments[i]);
-  }
+}
+
+void Journal::SetParameters(const CampaignRecord& campaign, std::span<const TrialRecord> trials) {
+  Transaction transaction(database_);
+  database_.Execute("DROP VIEW results; DELETE FROM points; DELETE FROM parameters");
+  InsertParameters(campaign);
+  CreateView(campaign);
+  for (const TrialRecord& trial : trials) InsertPoint(trial);
+  database_.Prepare("UPDATE campaign SET spec_text = ?1, spec_json = ?2, result_json = ''")
+      .Bind(campaign.spec_text, campaign.spec_json)
+      .Finish();
+  SealAll(database_);
+  transaction.Commit();
 }
 
 // One row a trial with parameters and the usual metrics side by side: what people want to see.

@@ -197,7 +197,9 @@ class Progress(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("//", out.read_text())
             self.assertIn('"scale_factors": [8, 3]', out.read_text())  # 12.5 and 33 grains across
-            self.assertEqual("surface_energy" in out.read_text().split('"parameters"')[1], bool(more))
+            searched = out.read_text().split('"parameters"')[1]
+            self.assertEqual("surface_energy" in searched, bool(more))
+            self.assertIn('"restitution": {"min": 0.3, "max": 0.95, "nuisance": true}', searched)
             self.assertEqual('"filling": {"kind": "pour"}' in out.read_text(), bool(more))
             # (25 um (1.6e-3 J/m²)² / ((38.5 GPa)² (0.4 nm)³))^(1/3) = 0.088: DMT
             self.assertEqual('"adhesion": "dmt"' in out.read_text(), bool(more))
@@ -207,6 +209,15 @@ class Progress(unittest.TestCase):
         done = talus("init", photos, "--out", str(out), *flags)
         self.assertEqual(done.returncode, 2)
         self.assertIn("is there already", done.stderr)
+        out.unlink()
+        done = talus("init", photos, "--out", str(out), *flags, "--restitution", "0.8")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn('"restitution": 0.8\n    }', out.read_text())
+        self.assertNotIn("nuisance", out.read_text())
+        out.unlink()
+        done = talus("init", photos, "--out", str(out), *flags, "--restitution", "1.2")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--restitution: is 1.2, must be in (0, 1]", done.stderr)
 
     # Their names say which heap each is of; once they made one heap of eighty views.
     def test_photographs_one_by_one_are_runs(self):
@@ -227,7 +238,7 @@ class Progress(unittest.TestCase):
                    "  tapped_density": ["1480 kg/m^3"],
                    "inner diameter of the tube": ["10 mm"], "speed at which": ["fast", "50 mm/s"],
                    "mass filled": ["1.6 kilo", "", "1.602 g"], "density": ["4386 kg/m^3"],
-                   "median diameter": ["0.1 mm"]}
+                   "median diameter": ["0.1 mm"], "coefficient of restitution": [""]}
         asked = []
         ours, theirs = pty.openpty()
         init = subprocess.Popen(
@@ -249,10 +260,11 @@ class Progress(unittest.TestCase):
             seen = ""
         os.close(ours)
         self.assertEqual(init.wait(timeout=600), 0)
-        self.assertEqual([len(left) for left in answers.values()], [0] * 8)
-        self.assertEqual(len(asked), 13)  # five questions, three asked again; the tests and one test's own two
+        self.assertEqual([len(left) for left in answers.values()], [0] * 9)
+        self.assertEqual(len(asked), 14)  # six questions, three asked again; the tests and one test's own two
         self.assertFalse(any(question.startswith("diameter of the plate") for question in asked))
         self.assertIn('"mass": "1.602 g"', out.read_text())
+        self.assertIn('"nuisance": true', out.read_text())  # nobody knows the restitution
         self.assertIn('"rig": {"kind": "tapped_density", "diameter": "12 mm"}', out.read_text())
         self.assertIn('"tapped_density": {"value": "1480 kg/m^3", "sd": "7.4 kg/m^3"}', out.read_text())
         done = talus("validate", str(out), "--without-experiment")

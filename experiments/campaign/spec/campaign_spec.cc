@@ -63,6 +63,15 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
   if (spec.engine.kind != EngineKind::kCommand || !spec.engine.command.templates_hash.empty()) {
     return;
   }
+  CheckTemplates(spec, problems);
+  spec.engine.command.templates_hash =
+      trials::TemplateFolder(*spec.engine.command.templates).Hash();
+}
+
+}  // namespace
+
+void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
+  if (spec.engine.kind != EngineKind::kCommand) return;
   const optimizer::ParameterSpace space = SpaceOf(spec);
   std::vector<double> values;
   std::vector<std::string> calibrated;
@@ -83,11 +92,7 @@ void CompleteEngine(CampaignSpec& spec, base::Problems& problems) {
                           .elsewhere = spec.runner.kind != RunnerKind::kLocal},
                          problems);
   });
-  spec.engine.command.templates_hash =
-      trials::TemplateFolder(*spec.engine.command.templates).Hash();
 }
-
-}  // namespace
 
 namespace {
 

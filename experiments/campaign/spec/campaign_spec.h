@@ -118,6 +118,9 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
 // A spec that was not read from one file: every problem of it.
 void CheckSpec(const CampaignSpec& spec, base::Problems& problems);
 
+// Whether another engine's templates use every parameter that is searched, and only what there is.
+void CheckTemplates(const CampaignSpec& spec, base::Problems& problems);
+
 // The spec with all its defaults and absolute paths, as JSON that reads back to the same.
 std::string SpecText(const CampaignSpec& spec);
 CampaignSpec ParseSpecText(const std::string& text);

@@ -43,6 +43,7 @@ struct BulkQuantity {
   std::string_view name;
   base::Dimension dimension;
   void (*set)(rigs::Case&, double);
+  std::optional<double> (*get)(const rigs::Case&);
 };
 
 struct LengthScaler {
@@ -64,14 +65,23 @@ void SetFill(rigs::Case& c, double fill) {
   c.SetMassByFill();
 }
 
+std::optional<double> FillOf(const rigs::Case& c) {
+  if (c.rig.kind != rigs::RigKind::kDrum) return std::nullopt;
+  rigs::DrumOptions full = c.rig.drum;
+  full.fill = 1;
+  return c.powder.mass / (full.GrainVolume() * c.powder.material.density);
+}
+
 // In the order in which they are set: the fill of a drum is what its mass follows from.
 constexpr BulkQuantity kBulk[] = {
-    {"mass", base::Dimension::kMass, [](rigs::Case& c, double value) { c.powder.mass = value; }},
-    {"fill", base::Dimension::kNone, SetFill},
+    {"mass", base::Dimension::kMass, [](rigs::Case& c, double value) { c.powder.mass = value; },
+     [](const rigs::Case& c) { return std::optional(c.powder.mass); }},
+    {"fill", base::Dimension::kNone, SetFill, FillOf},
     {"particle_size", base::Dimension::kNone,
      [](rigs::Case& c, double value) {
        engine::SizeDistribution::Visit(c.powder.sizes, LengthScaler{value});
-     }},
+     },
+     [](const rigs::Case&) { return std::optional(1.0); }},
 };
 
 const BulkQuantity* BulkOf(std::string_view name) {
@@ -208,6 +218,26 @@ void SetParameter(rigs::Case& rig_case, const std::string& parameter, double val
     if (!wall) wall.emplace();
     rigs::WallMaterial::Visit(*wall, set);
   }
+}
+
+std::optional<double> ParameterOf(const rigs::Case& rig_case, const std::string& parameter) {
+  if (const BulkQuantity* bulk = BulkOf(parameter)) return bulk->get(rig_case);
+  const ParameterPlace place = PlaceOf(parameter);
+  std::optional<double> value;
+  const auto take = [&](std::string_view name, std::optional<double> known, FieldInfo = {}) {
+    if (name == place.property) value = known;
+  };
+  engine::Material material = rig_case.powder.material;
+  const auto& wall =
+      place.body == rigs::kFloor ? rig_case.materials.floor : rig_case.materials.walls;
+  if (place.body != rigs::kPowder && wall) material = wall->Over(material);
+  if (place.is_pair) {
+    const engine::PairProperties pair = rigs::StatedWith(rig_case.pairs, place.body);
+    engine::PairProperties::Visit(pair, take);
+  } else {
+    engine::Material::Visit(material, take);
+  }
+  return value;
 }
 
 void ValidateRanges(const ParameterRanges& ranges, const engine::Material& material,

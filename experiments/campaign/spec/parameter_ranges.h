@@ -146,6 +146,10 @@ ParameterPlace PlaceOf(const std::string& parameter);
 // a drum) it changes nothing.
 void SetParameter(rigs::Case& rig_case, const std::string& parameter, double value);
 
+// The value that a case has of it; nothing where it says nothing of it, or states no such pair. A
+// wall without a property of its own has the powder's.
+std::optional<double> ParameterOf(const rigs::Case& rig_case, const std::string& parameter);
+
 // Whether it is one of the bulk, which decides whether the powder fits into its vessel.
 bool IsOfBulk(const std::string& parameter);
 

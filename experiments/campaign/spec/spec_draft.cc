@@ -101,7 +101,15 @@ std::string Models(bool cohesive, double diameter) {
          (dmt ? "dmt" : "jkr") + "\", \"rolling\": \"epsd\"},\n";
 }
 
-std::string Searched(bool cohesive) {
+// A value that is not known is searched: an answer may hang on it.
+std::string Restitution(const std::string& restitution) {
+  if (!restitution.empty()) return "";
+  return ",\n    // Nobody has measured it: searched, not asked for. The answer says whether it "
+         "matters.\n"
+         "    \"restitution\": {\"min\": 0.3, \"max\": 0.95, \"nuisance\": true}";
+}
+
+std::string Searched(bool cohesive, const std::string& restitution) {
   std::string text =
       "  // What is searched, and where. A parameter that you have measured: {\"fixed\": 0.4}.\n"
       "  \"parameters\": {\n"
@@ -113,7 +121,7 @@ std::string Searched(bool cohesive) {
             " J/m^2\", "
             "\"scale\": \"log\"}";
   }
-  return text + "\n  },\n";
+  return text + Restitution(restitution) + "\n  },\n";
 }
 
 struct Lengths {
@@ -132,6 +140,10 @@ Lengths LengthsOf(const SpecAnswers& answers) {
   Read("--density", answers.density, Dimension::kDensity, problems);
   const double grain =
       Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
+  if (!answers.restitution.empty()) {
+    const double e = Read("--restitution", answers.restitution, Dimension::kNone, problems);
+    problems.Require(e <= 1, "--restitution", e, "must be in (0, 1]");
+  }
   problems.ThrowIfAny();
   return {plate, grain};
 }
@@ -166,8 +178,9 @@ std::string DraftSpec(const SpecAnswers& answers) {
          ", // of the grains, not of the bulk\n"
          "      \"youngs_modulus\": \"10 MPa\", // softer than real: the heap hardly sees it, the "
          "time step does\n"
-         "      \"poisson_ratio\": 0.3,\n"
-         "      \"restitution\": 0.5 // a heap at rest hardly depends on it\n    },\n"
+         "      \"poisson_ratio\": 0.3" +
+         (answers.restitution.empty() ? "" : ",\n      \"restitution\": " + answers.restitution) +
+         "\n    },\n"
          "    // a measured distribution makes a better powder: size tables in docs/scene.md\n"
          "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
          Quoted(answers.grain_diameter) + "},\n    \"mass\": " + Quoted(answers.mass) +
@@ -180,7 +193,8 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "  // Grains so many times larger than real. The last decides and should leave 30 across "
          "the "
          "plate.\n  \"coarse_graining\": {\"scale_factors\": " +
-         ScaleFactors(lengths.plate / lengths.grain) + "},\n" + Searched(answers.cohesive) +
+         ScaleFactors(lengths.plate / lengths.grain) + "},\n" +
+         Searched(answers.cohesive, answers.restitution) +
          "  \"objective\": \"sad\",\n"
          "  // at most; add \"core_time\": \"4 h\" for an evening\n"
          "  \"budget\": {\"simulations\": 60},\n"

@@ -23,6 +23,7 @@ struct SpecAnswers {
   std::string mass;
   std::string density;
   std::string grain_diameter;
+  std::string restitution;         // empty: nobody has measured it
   bool cohesive = false;           // search the surface energy, too
   std::vector<DraftTest> tests{};  // made of the same powder beside the heap
 };
