@@ -324,7 +324,7 @@ Eigen::MatrixXd Planner::Region(const optimizer::PosteriorSummary& posterior) co
 
 std::vector<Candidate> Planner::Candidates(const optimizer::Answer& answer) const {
   if (spec_.confirm.candidates == 0) return {};
-  EqualSets equal{.asked = domain_.Asked()};
+  EqualSets equal{.region = {}, .asked = domain_.Asked()};
   if (answer.posterior) equal.region = Region(*answer.posterior);
   return CandidatesOf(answer, equal, spec_.confirm);
 }

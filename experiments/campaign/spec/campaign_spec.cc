@@ -247,9 +247,8 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
     if (!experiment.pairs) experiment.pairs = spec.pairs;
     if (!experiment.filling) experiment.filling = spec.filling;
     if (!experiment.rules) experiment.rules = spec.rules;
-    const bool has_fill =
-        experiment.rig && experiment.rig->kind == rigs::RigKind::kDrum && experiment.rig->drum.fill;
-    if (!experiment.mass && spec.powder.mass > 0 && !has_fill) experiment.mass = spec.powder.mass;
+    if (experiment.mass || HasFill(experiment) || spec.powder.mass == 0) continue;
+    experiment.mass = spec.powder.mass;
   }
   return list;
 }

@@ -12,10 +12,6 @@
 namespace talus::campaign {
 namespace {
 
-bool IsDrum(const std::optional<rigs::RigOptions>& rig) {
-  return rig && rig->kind == rigs::RigKind::kDrum;
-}
-
 imaging::MeasuredDrum MeasureDrumOf(const ExperimentSpec& e) {
   imaging::DrumPhotos drum{.photos = {}, .diameter = e.images.plate_diameter, .turning = e.turning};
   if (e.images.photos.empty()) {
@@ -42,6 +38,12 @@ void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images
 }
 
 }  // namespace
+
+bool IsDrum(const std::optional<rigs::RigOptions>& rig) {
+  return rig && rig->kind == rigs::RigKind::kDrum;
+}
+
+bool HasFill(const ExperimentSpec& e) { return IsDrum(e.rig) && e.rig->drum.fill; }
 
 bool ShowsDrum(const ExperimentSpec& e) {
   return IsDrum(e.rig) && e.images.HasImages() && !e.images.frame;
@@ -86,7 +88,7 @@ void SetDrumFills(CampaignSpec& spec) {
   if (spec.parameters && spec.parameters->fill) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!ShowsDrum(all[i]) || all[i].mass || all[i].rig->drum.fill) continue;
+    if (!ShowsDrum(all[i]) || all[i].mass || HasFill(all[i])) continue;
     rigs::RigOptions rig = *all[i].rig;
     rig.drum.fill = AreThere(all[i]) ? MeasureDrumOf(all[i]).surface.fill : kPlannedFill;
     (spec.experiment ? spec.rig : (*spec.experiments)[i].rig) = std::move(rig);

@@ -2,6 +2,7 @@
 // turning as the rig `drum` does, and known only inside the ring.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/problems.h"
@@ -9,6 +10,9 @@
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
+
+bool IsDrum(const std::optional<rigs::RigOptions>& rig);
+bool HasFill(const ExperimentSpec& experiment);  // in place of a mass
 
 // Whether its images are photographs of a drum: `photos` a series of one camera, or `map` the
 // average of one. A map with a frame is a profile already. The rig is filled in.

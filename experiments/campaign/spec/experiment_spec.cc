@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text/name.h"
+#include "experiments/campaign/spec/drum_images.h"
 
 namespace talus::campaign {
 
@@ -18,7 +19,7 @@ void ExperimentSpec::Validate(base::Problems& problems) const {
                    "must be positive");
   if (!images.HasImages()) return;
   imaging::ExperimentOptions complete = images;
-  if (rig && rig->kind == rigs::RigKind::kDrum && images.plate_diameter == 0) {
+  if (IsDrum(rig) && images.plate_diameter == 0) {
     complete.plate_diameter = rig->drum.diameter;
   }
   complete.Validate(problems);

@@ -60,12 +60,10 @@ void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Probl
 // What it is filled with; a drum's photographs show how full it is.
 void CheckMass(const CampaignSpec& spec, const ExperimentSpec& e, const std::string& place,
                base::Problems& problems) {
-  const bool is_drum = e.rig && e.rig->kind == rigs::RigKind::kDrum;
-  const bool has_fill = is_drum && e.rig->drum.fill;
-  const bool is_searched = is_drum && spec.parameters && spec.parameters->fill;
-  problems.Require(!e.mass || !has_fill, place + ".mass",
+  const bool is_searched = IsDrum(e.rig) && spec.parameters && spec.parameters->fill;
+  problems.Require(!e.mass || !HasFill(e), place + ".mass",
                    "stands beside rig.fill: give one of the two");
-  problems.Require(e.mass || has_fill || is_searched || ShowsDrum(e), "powder.mass",
+  problems.Require(e.mass || HasFill(e) || is_searched || ShowsDrum(e), "powder.mass",
                    "is missing or 0, must be positive: give it, or " +
                        (place.empty() ? "" : place + ".mass, or ") +
                        "the photographs or rig.fill of a drum");
@@ -173,13 +171,12 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
     ValidateDrumImages(all[i], place, problems);
     CheckCohesiveIndex(all[i], place, problems);
   }
+  const bool has_drum =
+      std::any_of(all.begin(), all.end(), [](const ExperimentSpec& e) { return IsDrum(e.rig); });
+  problems.Require(!spec.parameters || !spec.parameters->fill || has_drum, "parameters.fill",
+                   "has no effect: it is a drum's; leave it out");
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
-  const auto is_drum = [](const ExperimentSpec& e) {
-    return e.rig && e.rig->kind == rigs::RigKind::kDrum;
-  };
-  problems.Require(!spec.parameters || !spec.parameters->fill || std::ranges::any_of(all, is_drum),
-                   "parameters.fill", "is of a drum, and no experiment is one; leave it out");
   if (!spec.experiments) return;
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;

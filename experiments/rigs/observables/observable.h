@@ -168,7 +168,7 @@ inline constexpr std::array kObservables = [] {
        "AOR, triangle",
        "of the triangle of the silhouette's area on the plate's diameter",
        {.absolute = 1}},
-      {O::kStaticCohesiveIndex, "static_cohesive_index", Dimension::kNone, "Static cohesive index",
+      {O::kStaticCohesiveIndex, "heap_cohesive_index", Dimension::kNone, "Static cohesive index",
        "how far a round heap's outline is from that triangle, over its area (docs/imaging.md)"},
       {O::kCohesiveIndex, "cohesive_index", Dimension::kLength, "Cohesive index",
        "how much a drum's surface moves: the integral of its pictures' standard deviation over "

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -19,6 +20,7 @@
 #include "experiments/rigs/rig_run.h"
 #include "experiments/rigs/spreading/layer.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/heap/metrics.h"
 #include "imaging/spheres/projection.h"
 #include "tests/experiments/scratch_folder.h"
 
@@ -282,6 +284,15 @@ TEST(Camera, PicturesAfterTheEndAreAFailure) {
   }
 }
 
+// A trial keeps both under their names.
+TEST(Observables, ShareNoNameWithTheMetricsOfPictures) {
+  const std::vector<std::string> metrics = imaging::MetricNames();
+  for (const ObservableInfo& info : kObservables) {
+    EXPECT_EQ(std::count(metrics.begin(), metrics.end(), MetricName(info.observable)), 0)
+        << info.key;
+  }
+}
+
 TEST(Drum, AFillStandsForItsMass) {
   Case c = CaseOf(RigKind::kDrum, 0.5, 0.1, 0);
   c.rig.drum = {.diameter = 0.084, .width = 0.02, .fill = 0.5};
@@ -343,7 +354,7 @@ TEST(FunnelHeap, RoughGrainsStandSteeperAndEveryGrainIsWeighed) {
     angles.push_back(Value(c, *rig, "angle_of_repose_triangle_deg"));
     const double weighed = Value(c, *rig, "mass_on_plate_kg") + Value(c, *rig, "mass_fallen_kg");
     EXPECT_NEAR(weighed, 0.8e-3, 2e-6);  // to a whole number of grains
-    indices.push_back(Value(c, *rig, "static_cohesive_index"));
+    indices.push_back(Value(c, *rig, "heap_cohesive_index"));
   }
   EXPECT_GT(angles[1], angles[0] + 5);
   EXPECT_LT(angles[1], 45);
