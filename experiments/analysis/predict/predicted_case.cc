@@ -86,8 +86,7 @@ double CoreSecondsAt(const JointView& view, rigs::Case rig_case, double scale_fa
   core_time.Of(view.trials);
   rig_case.coarse_graining.scale_factor = scale_factor;
   const rigs::CaseSize size = rigs::EstimateCase(rig_case);
-  const double grain_steps =
-      static_cast<double>(size.num_grains) * size.simulated_time / size.time_step;
+  const double grain_steps = size.grain_time / size.time_step;
   return grain_steps * core_time.OfOne(0, scale_factor) /
          campaign::GrainStepsOf(view.spec, 0, scale_factor);
 }
