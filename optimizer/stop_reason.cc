@@ -8,7 +8,9 @@
 namespace talus::optimizer {
 namespace {
 
-std::string PercentText(double x) { return base::ShortNumber(100 * x, 2) + " %"; }
+std::string PercentText(double x) {
+  return (x < 1 ? base::ShortNumber(100 * x, 2) : std::to_string(std::llround(100 * x))) + " %";
+}
 
 std::string Count(double x) { return std::to_string(std::llround(x)); }
 

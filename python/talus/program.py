@@ -58,9 +58,9 @@ class Progress:
         text = f"{event['num_search']} simulations"
         if event["num_confirm"]:
             text += f", {event['num_confirm']} to confirm"
-        if event["best_objective"] is not None:
+        if event.get("best_objective") is not None:
             text += f", best {event['best_objective']:.3g} {event['unit']}"
-        if event["seconds_left"] is not None:
+        if event.get("seconds_left") is not None:
             text += f", at most {event['seconds_left']:.0f} s left"
         now = time.monotonic()
         if self.in_place:

@@ -8,9 +8,12 @@ mkdir "$work/some where"
 tar -xzf "$1" -C "$work/some where" --strip-components=1
 home="$work/some where"
 "$home/bin/talus" --version
-# Each library that the loader opens lies in the archive.
-env LD_DEBUG=files "$home/bin/talus" --version 2>&1 >/dev/null | sed -n 's/.*calling init: //p' | while read -r library; do
-  case "$library" in "$home"/*) ;; *) echo "$library is this system's"; exit 1 ;; esac
+# Each library that the loader opens lies in the archive; it calls itself by the name that programs ask for it by. The
+# launcher's shell uses this system's, so that the loader is called as the launcher does.
+libraries="$home/lib/talus"
+env LD_DEBUG=files OMP_WAIT_POLICY=passive "$libraries"/ld-linux-* --inhibit-cache --library-path "$libraries" \
+  "$libraries/talus" --version 2>&1 >/dev/null | sed -n 's/.*calling init: //p' | while read -r library; do
+  case "$library" in "$home"/* | */ld-linux-*) ;; *) echo "$library is this system's"; exit 1 ;; esac
 done
 cat >"$work/case.json" <<'CASE'
 {"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"youngs_modulus": "1 MPa"}},

@@ -284,7 +284,7 @@ class Progress(unittest.TestCase):
             done = talus("init", photos, "--out", str(out), *flags, "--test", f"{name}:{answers}")
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertIn(f'"kind": "{name}"', out.read_text())
-        self.assertIn('"sd": "13 kg/m^3"', (self.folder / "tapped_density.json").read_text())
+        self.assertIn('"sd": "13kg/m^3"', (self.folder / "tapped_density.json").read_text())
 
     def test_a_spec_for_a_heap_on_a_table_names_its_scale(self):
         out = self.folder / "table.json"

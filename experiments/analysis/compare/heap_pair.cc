@@ -14,10 +14,10 @@
 namespace talus::analysis {
 namespace {
 
-constexpr int kGap = 14;             // between panels, and round them [px]
-constexpr double kTitleHeight = 24;  // of a panel so wide [px]
-constexpr double kTitleSize = 0.36;  // … of OpenCV's font
-constexpr int kPanelWidth = 320;     // at least, for the titles [px]
+constexpr int kPairGap = 14;             // between panels, and round them [px]
+constexpr double kPairTitleHeight = 24;  // of a panel so wide [px]
+constexpr double kPairTitleSize = 0.36;  // … of OpenCV's font
+constexpr int kPanelWidth = 320;         // at least, for the titles [px]
 
 imaging::Profile Cut(const imaging::Profile& profile, const Box& box) {
   imaging::Profile cut{.image = Cropped(profile.image, box), .frame = profile.frame};
@@ -71,26 +71,35 @@ imaging::ColorImage DrawHeapPair(const imaging::Profile& first, const imaging::P
       {"second", imaging::ToColor(right.image)},
       {DifferenceTitle(DifferenceOf(left, right)), imaging::DifferenceImage(left, right)}};
   const int zoom = std::max(1, (kPanelWidth + box.width - 1) / box.width);
-  const int width = zoom * box.width + kGap;
+  const int width = zoom * box.width + kPairGap;
   // Titles as wide as their panels, however wide these are.
-  const double scale = static_cast<double>(width) / (kPanelWidth + kGap);
-  const int title = static_cast<int>(kTitleHeight * scale);
-  imaging::ColorImage sheet = imaging::MakeCanvas(static_cast<int>(panels.size()) * width + kGap,
-                                                  title + zoom * box.height + 2 * kGap);
+  const double scale = static_cast<double>(width) / (kPanelWidth + kPairGap);
+  const int title = static_cast<int>(kPairTitleHeight * scale);
+  imaging::ColorImage sheet = imaging::MakeCanvas(
+      static_cast<int>(panels.size()) * width + kPairGap, title + zoom * box.height + 2 * kPairGap);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const int x = kGap + static_cast<int>(i) * width;
+    const int x = kPairGap + static_cast<int>(i) * width;
     imaging::DrawText(sheet, {.text = panels[i].title,
-                              .at = {static_cast<double>(x), kGap + title / 2.0},
-                              .size = kTitleSize * scale});
-    imaging::Paste(panels[i].image, zoom, x, kGap + title, sheet);
+                              .at = {static_cast<double>(x), kPairGap + title / 2.0},
+                              .size = kPairTitleSize * scale});
+    imaging::Paste(panels[i].image, zoom, x, kPairGap + title, sheet);
   }
   return sheet;
 }
 
-void WriteHeapPair(const std::filesystem::path& path, const imaging::Profile& first,
-                   const imaging::Profile& second) {
+void WriteHeapDifference(const std::filesystem::path& path, const imaging::Profile& first,
+                         const imaging::Profile& second) {
   std::filesystem::create_directories(path.parent_path());
   imaging::WritePng(path, DrawHeapPair(first, second));
+}
+
+void WriteHeapPair(const std::filesystem::path& path, const imaging::GrayImage& left,
+                   const imaging::GrayImage& right) {
+  imaging::ColorImage both = imaging::MakeCanvas(left.width + kPairGap + right.width, left.height);
+  imaging::Paste(imaging::ToColor(left), 1, 0, 0, both);
+  imaging::Paste(imaging::ToColor(right), 1, left.width + kPairGap, 0, both);
+  std::filesystem::create_directories(path.parent_path());
+  imaging::WritePng(path, both);
 }
 
 }  // namespace talus::analysis

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "imaging/color_image.h"
+#include "imaging/gray_image.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::analysis {
@@ -14,7 +15,11 @@ namespace talus::analysis {
 imaging::ColorImage DrawHeapPair(const imaging::Profile& first, const imaging::Profile& second);
 
 // … into a PNG; makes the folder where it is missing.
-void WriteHeapPair(const std::filesystem::path& path, const imaging::Profile& first,
-                   const imaging::Profile& second);
+void WriteHeapDifference(const std::filesystem::path& path, const imaging::Profile& first,
+                         const imaging::Profile& second);
+
+// Two images of equal size side by side, where no frame says where they stand.
+void WriteHeapPair(const std::filesystem::path& path, const imaging::GrayImage& left,
+                   const imaging::GrayImage& right);
 
 }  // namespace talus::analysis

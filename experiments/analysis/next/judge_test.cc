@@ -106,7 +106,7 @@ void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetic
             .frame = made.reference.frame().value()};
   };
   candidate.picture = ground.view.folder.root / "next" / (FileName(test) + ".png");
-  WriteHeapPair(candidate.picture, heap(0), heap(1));
+  WriteHeapDifference(candidate.picture, heap(0), heap(1));
 }
 
 }  // namespace

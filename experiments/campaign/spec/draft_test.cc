@@ -1,47 +1,20 @@
 #include "experiments/campaign/spec/draft_test.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string_view>
-#include <type_traits>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/text/number_text.h"
+#include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::campaign {
 namespace {
 
-struct BenchUnit {
-  const char* text = "";
-  double per_unit = 1;  // number in it / SI
-};
-
-BenchUnit UnitOf(base::Dimension dimension) {
-  switch (dimension) {
-    case base::Dimension::kLength:
-      return {" mm", 1e3};
-    case base::Dimension::kAngularVelocity:
-      return {" rpm", 30 / std::numbers::pi};
-    case base::Dimension::kAngle:
-      return {" deg", 180 / std::numbers::pi};
-    case base::Dimension::kTime:
-      return {" s", 1};
-    default:
-      return {};
-  }
-}
-
-std::string InUnit(double value, base::Dimension dimension) {
-  const BenchUnit unit = UnitOf(dimension);
-  return base::ShortNumber(unit.per_unit * value) + unit.text;
-}
-
-// Of a rig's options what has a dimension: sizes, speeds, angles.
+// What has a dimension among a rig's options: sizes, speeds, angles.
 struct OptionCollector {
   std::vector<TestQuestion> questions{};
 
@@ -50,7 +23,7 @@ struct OptionCollector {
     questions.push_back({.key = std::string(key),
                          .words = info.doc,
                          .dimension = info.dimension,
-                         .usual = InUnit(value, info.dimension)});
+                         .usual = rigs::QuantityText(value, info.dimension)});
   }
   template <class Other>
   void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}

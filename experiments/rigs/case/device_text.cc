@@ -10,26 +10,6 @@
 namespace talus::rigs {
 namespace {
 
-struct BenchUnit {
-  const char* text = nullptr;  // none: not a quantity of the bench
-  double per_unit = 1;         // number in it / SI
-};
-
-BenchUnit UnitOf(base::Dimension dimension) {
-  switch (dimension) {
-    case base::Dimension::kLength:
-      return {" mm", 1e3};
-    case base::Dimension::kVelocity:
-      return {" cm/s", 1e2};
-    case base::Dimension::kAngularVelocity:
-      return {" rpm", 30 / std::numbers::pi};
-    case base::Dimension::kAngle:
-      return {"°", 180 / std::numbers::pi};
-    default:
-      return {};
-  }
-}
-
 std::string Spaced(std::string_view key) {
   std::string text(key);
   std::ranges::replace(text, '_', ' ');
@@ -41,10 +21,9 @@ struct Quantities {
   std::string text{};
 
   void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
-    const BenchUnit unit = UnitOf(info.dimension);
-    if (unit.text == nullptr || key == "plate_height") return;  // no heap depends on that
-    text += (text.empty() ? ": " : ", ") + Spaced(key) + " " +
-            base::ShortNumber(unit.per_unit * value) + unit.text;
+    const std::string quantity = QuantityText(value, info.dimension);
+    if (quantity.empty() || key == "plate_height") return;  // no heap depends on that
+    text += (text.empty() ? ": " : ", ") + Spaced(key) + " " + quantity;
   }
   void operator()(std::string_view key, const std::optional<double>& value,
                   const base::FieldInfo& info = {}) {
@@ -55,6 +34,23 @@ struct Quantities {
 };
 
 }  // namespace
+
+std::string QuantityText(double value, base::Dimension dimension) {
+  switch (dimension) {
+    case base::Dimension::kLength:
+      return base::ShortNumber(1e3 * value) + " mm";
+    case base::Dimension::kVelocity:
+      return base::ShortNumber(1e2 * value) + " cm/s";
+    case base::Dimension::kAngularVelocity:
+      return base::ShortNumber(30 / std::numbers::pi * value) + " rpm";
+    case base::Dimension::kAngle:
+      return base::ShortNumber(180 / std::numbers::pi * value) + " deg";
+    case base::Dimension::kTime:
+      return base::ShortNumber(value) + " s";
+    default:
+      return "";
+  }
+}
 
 std::string DeviceText(const Case& rig_case) {
   Quantities quantities;

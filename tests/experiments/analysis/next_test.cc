@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "experiments/analysis/next/heap_pair.h"
+#include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/test_design.h"
