@@ -6,6 +6,7 @@
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/card/card.h"
+#include "experiments/journal/records.h"
 
 namespace talus::analysis {
 namespace {
@@ -38,7 +39,10 @@ void WriteDrawCards(const std::vector<DrawCard>& cards, const std::vector<CardFo
   base::Csv csv;
   csv.Cell("draw").Cell("weight");
   for (const CardRange& r : cards.front().card.ranges) {
-    csv.Cell(r.name + (r.unit.empty() ? "" : " (" + r.unit + ")"));
+    journal::ParameterRecord column;
+    column.name = r.name;
+    column.unit = r.unit;
+    csv.Cell(journal::ColumnName(column));
   }
   csv.EndRow();
   for (std::size_t i = 0; i < cards.size(); ++i) {
