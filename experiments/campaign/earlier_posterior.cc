@@ -183,12 +183,16 @@ struct Taker {
 }  // namespace
 
 CampaignSpec ReadSpecWithPosteriors(const base::JsonFile& file, const CampaignSpec* begun) {
-  const CampaignSpec read = ReadCampaignSpec(file);
-  CampaignSpec spec = read;
+  CampaignSpec spec = ReadCampaignSpec(file);
   base::Problems problems(file.path.string(), file.places);
-  ParameterRanges::Visit(*spec.parameters, Taker{read, begun, problems});
+  TakePosteriors(spec, begun, problems);
   problems.ThrowIfAny();
   return spec;
+}
+
+void TakePosteriors(CampaignSpec& spec, const CampaignSpec* begun, base::Problems& problems) {
+  const CampaignSpec read = spec;
+  ParameterRanges::Visit(*spec.parameters, Taker{read, begun, problems});
 }
 
 }  // namespace talus::campaign

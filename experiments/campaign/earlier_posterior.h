@@ -15,4 +15,7 @@ namespace talus::campaign {
 CampaignSpec ReadSpecWithPosteriors(const base::JsonFile& file,
                                     const CampaignSpec* begun = nullptr);
 
+// The copying alone, into a spec that is in order; what is wrong goes to `problems`.
+void TakePosteriors(CampaignSpec& spec, const CampaignSpec* begun, base::Problems& problems);
+
 }  // namespace talus::campaign

@@ -5,6 +5,7 @@
 #include "base/json/json_reader.h"
 #include "base/text/name.h"
 #include "experiments/analysis/next/usual_tests.h"
+#include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/load_case.h"
 
@@ -57,6 +58,8 @@ DesignSpec LoadDesignSpec(const std::filesystem::path& path) {
   problems.ThrowIfAny();
   engine::ReadSizeFile(spec.powder.sizes);
   ValidateDesign(design, problems);
+  problems.ThrowIfAny();
+  campaign::TakePosteriors(spec, nullptr, problems);
   problems.ThrowIfAny();
   spec.coarse_graining.scale_factor = spec.coarse_graining.Levels().back();
   if (!design.candidates.empty()) return design;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/random.h"
 #include "base/text/counted.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
@@ -18,6 +19,16 @@ constexpr std::size_t kMostTests = 3;
 // So many that a few hundred remain in what two tests leave.
 constexpr int kDraws = 8000;
 constexpr int kDesignSize = 32;
+
+// Equally likely before anything is measured.
+Eigen::MatrixXd PriorDraws(const campaign::JointView& view) {
+  const optimizer::Domain domain = view.space.MakeDomain();
+  base::Random random(view.spec.seed, base::Stream("before the bench"));
+  return optimizer::Inside(domain,
+                           domain.prior.IsUniform()
+                               ? optimizer::RSequence(kDraws, domain.num_parameters, view.spec.seed)
+                               : domain.prior.Draw(kDraws, domain.num_parameters, random));
+}
 
 NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
                      const campaign::CampaignParts& parts) {
@@ -70,12 +81,8 @@ void AddChoices(const std::vector<std::size_t>& judged, std::size_t size, std::s
 
 DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestCandidate>& tests,
                         const campaign::CampaignParts& parts) {
-  const optimizer::Domain domain = view.space.MakeDomain();
   const Ground ground{
-      .view = view,
-      .draws = optimizer::Inside(
-          domain, optimizer::RSequence(kDraws, domain.num_parameters, view.spec.seed)),
-      .model_error = view.spec.posterior.model_error};
+      .view = view, .draws = PriorDraws(view), .model_error = view.spec.posterior.model_error};
   DesignTable table{.tests = {.parameters = view.record.parameters},
                     .scale_factor = view.spec.coarse_graining.Levels().front()};
   for (const int i : view.space.Free()) {

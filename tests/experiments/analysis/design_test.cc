@@ -79,6 +79,16 @@ TEST_F(DesignTest, RangesAreThoseThatTheMeasurementsLeave) {
   EXPECT_THAT(text, HasSubstr("tapped_density: diameter 10 mm"));
 }
 
+// N(0.4, 0.05): ± 1.95 sd are 0.28 of the 0.7 that is searched, of the other nothing is known.
+TEST_F(DesignTest, WhatIsKnownBeforehandCounts) {
+  std::string spec = std::string(kPowder) + kCandidates;
+  const std::string range = "\"max\": 0.8";
+  spec.insert(spec.find(range) + range.size(), R"(, "prior": {"mean": 0.4, "sd": 0.05})");
+  const DesignTable table = Rank(LoadDesignSpec(Write(spec)), {});
+  EXPECT_NEAR(table.tests.width[0], 0.28, 0.03);
+  EXPECT_GT(table.tests.width[1], 0.85);
+}
+
 TEST_F(DesignTest, SimulationsAreMadeOnce) {
   const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
   const DesignTable first = Rank(design, {});
