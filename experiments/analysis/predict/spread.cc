@@ -17,6 +17,9 @@ double StudentOverNormal(double freedom) {
   return 1 + (kNinety * kNinety + 1) / (4 * std::max(freedom, 1.0));
 }
 
+// What differs by rounding alone does not differ.
+double Rounded(double sd, double mean) { return sd > 1e-12 * std::abs(mean) ? sd : 0; }
+
 }  // namespace
 
 Spread::Spread(const DrawValues& values) {
@@ -37,7 +40,7 @@ Spread::Spread(const DrawValues& values) {
   for (double& w : weight_) w /= total;
   const auto num_draws = static_cast<double>(centre_.size());
   const double run_freedom = num_runs - num_draws;
-  if (run_freedom > 0) run_sd_ = std::sqrt(squares_within / run_freedom);
+  if (run_freedom > 0) run_sd_ = Rounded(std::sqrt(squares_within / run_freedom), centre_.front());
 
   double between = 0;   // Σ w_i (ȳ_i − ȳ)²
   double of_means = 0;  // Σ w_i (1 − w_i) / n_i
@@ -50,7 +53,8 @@ Spread::Spread(const DrawValues& values) {
   }
   const double run_variance = run_freedom > 0 ? run_sd_ * run_sd_ : 0;
   if (squares < 1) {
-    parameters_sd_ = std::sqrt(std::max(0.0, (between - run_variance * of_means) / (1 - squares)));
+    parameters_sd_ = Rounded(
+        std::sqrt(std::max(0.0, (between - run_variance * of_means) / (1 - squares))), mean_);
   }
   const double draw_freedom = 1 / squares - 1;
   const double wide = parameters_sd_ * std::sqrt(1 + squares) * StudentOverNormal(draw_freedom);

@@ -42,6 +42,13 @@ TEST(Spread, WhatDoesNotDifferBetweenDrawsIsNotOfTheParameters) {
   EXPECT_DOUBLE_EQ(spread.mean(), 2);  // a draw without values does not count
 }
 
+TEST(Spread, RoundingIsNoScatter) {
+  const Spread spread({.runs = {{1, 1 + 1e-15}, {1, 1 - 1e-15}}, .weight = {0.5, 0.5}});
+  EXPECT_EQ(spread.run_sd(), 0);
+  EXPECT_EQ(spread.parameters_sd(), 0);
+  EXPECT_TRUE(std::isnan(spread.ParametersShare()));
+}
+
 TEST(Spread, OneValueAloneIsItsOwnRange) {
   const Spread spread({.runs = {{5}}, .weight = {1}});
   EXPECT_EQ(spread.Quantile(0.05), 5);
