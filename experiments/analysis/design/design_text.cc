@@ -8,9 +8,9 @@
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
-#include "base/units.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/rigs/case/device_text.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -40,47 +40,6 @@ std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice
   return text;
 }
 
-std::string InUnit(double value, base::Dimension dimension) {
-  if (dimension == base::Dimension::kLength) return ShortNumber(1e3 * value) + " mm";
-  if (dimension == base::Dimension::kVelocity) return ShortNumber(1e3 * value) + " mm/s";
-  const std::string unit(base::SiUnit(dimension));
-  return ShortNumber(value) + (unit.empty() ? "" : " " + unit);
-}
-
-// "length 5 mm, width 5 mm, taps count 100": the keys of a rig.
-struct Keys {
-  std::string& text;
-  std::string prefix{};
-
-  void operator()(std::string_view key, double value, base::FieldInfo info = {}) {
-    text += (text.empty() ? "" : ", ") + prefix + std::string(key) + " " +
-            InUnit(value, info.dimension);
-  }
-  void operator()(std::string_view key, int value, base::FieldInfo info = {}) {
-    (*this)(key, static_cast<double>(value), info);
-  }
-  void operator()(std::string_view key, const std::optional<double>& value,
-                  base::FieldInfo info = {}) {
-    if (value) (*this)(key, *value, info);
-  }
-  void operator()(std::string_view key, const rigs::TapRule& taps, base::FieldInfo = {}) {
-    rigs::TapRule::Visit(taps, Keys{text, std::string(key) + " "});
-  }
-  void operator()(std::string_view, const rigs::RigKind&, base::FieldInfo = {}) {}
-};
-
-std::string SizesText(const rigs::Case& c) {
-  std::string text;
-  if (c.rig.kind == rigs::RigKind::kLiftedTube) {
-    const rigs::LiftedTubeOptions& tube = c.rig.lifted_tube;
-    return "tube " + ShortNumber(1e3 * tube.tube_inner_diameter) + " mm, plate " +
-           ShortNumber(1e3 * tube.plate_diameter) + " mm, lifted at " +
-           ShortNumber(1e3 * tube.lift_velocity) + " mm/s";
-  }
-  rigs::RigOptions::Visit(c.rig, Keys{text});
-  return std::string(base::NameOf(c.rig.kind)) + ": " + text;
-}
-
 std::string NumbersText(const campaign::JointView& view, const TestCandidate& test) {
   std::string text;
   for (const ExpectedNumber& number : NumbersOf(view, test)) {
@@ -106,7 +65,7 @@ std::string TestText(const campaign::JointView& view, const TestCandidate& test,
       campaign::TypicalCase(SpecOf(view, test), 0, view.spec.coarse_graining.Levels().front());
   std::string text = "  " + test.name + "\n    " + base::Counted(test.runs, "run") + " of " +
                      ShortNumber(1e3 * c.powder.mass) + " g, filled " +
-                     std::string(base::NameOf(c.filling.kind)) + "; " + SizesText(c) + "\n";
+                     std::string(base::NameOf(c.filling.kind)) + "; " + rigs::DeviceText(c) + "\n";
   if (FrameOf(view, test)) {
     text +=
         "    photograph every run from several sides by turning the plate, with light from "
