@@ -52,10 +52,11 @@ void AddResumeCommand(CLI::App& app) {
       ->add_option("--add-simulations", arguments->options.add_simulations,
                    "so many more than the budget, or than it has when it is finished")
       ->check(CLI::Range(1, campaign::BudgetOptions::kMostSimulations));
-  command->add_option(
-      "--search", arguments->options.search,
-      "NAME=LOW..HIGH: searches a further parameter from now on, as a nuisance; the "
-      "trials so far stay");
+  command
+      ->add_option("--search", arguments->options.search,
+                   "NAME=LOW..HIGH: searches a further parameter from now on, as a nuisance; the "
+                   "trials so far stay")
+      ->allow_extra_args(false);
   command->add_option("--spec", arguments->spec,
                       "the changed spec; default: the file it began with, if it is still there");
   AddTellFlags(*command, arguments->tell);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "experiments/analysis/compare/gather_evidence.h"
@@ -12,6 +13,17 @@ namespace {
 optimizer::Moments NotNegative(optimizer::Moments moments) {
   moments.mean = moments.mean.cwiseMax(0.0);
   return moments;
+}
+
+// The draws of the prior, evenly spaced where it says nothing: chance draws would show as waves.
+Eigen::MatrixXd EvenWhereUniform(const optimizer::PosteriorSummary& posterior) {
+  Eigen::MatrixXd draws = posterior.prior_draws;
+  const auto count = static_cast<double>(draws.rows());
+  for (Eigen::Index k = 0; k < draws.cols(); ++k) {
+    if (!std::isnan(posterior.prior_offset[k])) continue;
+    draws.col(k) = Eigen::VectorXd::LinSpaced(draws.rows(), 0.5 / count, 1 - 0.5 / count);
+  }
+  return draws;
 }
 
 // The one that answers, told again what the journal holds.
@@ -28,7 +40,7 @@ ModelEvidence ModelOf(const std::shared_ptr<optimizer::PosteriorStrategy>& strat
   model.point = answer.point;
   model.noise_sd = answer.noise_sd;
   model.draws = answer.posterior->draws;
-  model.prior_draws = answer.posterior->prior_draws;
+  model.prior_draws = EvenWhereUniform(*answer.posterior);
   model.credible_levels = [strategy](const Eigen::MatrixXd& points) {
     return *strategy->CredibleLevels(points);
   };
