@@ -136,16 +136,20 @@ class Likelihood {
     Eigen::MatrixXd residual(n, group.misfit.num_outputs());
     for (Eigen::Index truth = 0; truth < n; ++truth) {
       Eigen::Index column = 0;
-      for (const Measurement* m : parts) {
+      Eigen::MatrixXd share = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(parts.size()));
+      for (std::size_t e = 0; e < parts.size(); ++e) {
+        const Measurement* m = parts[e];
         for (const Output& output : m->outputs) {
           const surrogate::Predictions at = output.LeftOut();
-          residual.col(column++) =
-              (output.value(truth) - at.mean.array()) /
-              (kCaution * kCaution * at.variance.array() + output.noise()).sqrt();
+          const Eigen::ArrayXd cautious =
+              kCaution * kCaution * at.variance.array() + output.noise();
+          residual.col(column++) = (output.value(truth) - at.mean.array()) / cautious.sqrt();
+          share.col(static_cast<Eigen::Index>(e)).array() +=
+              (1 - output.noise() / cautious) / static_cast<double>(m->outputs.size());
           group.log_sd.col(truth).array() += 0.5 * (at.variance.array() + output.noise()).log();
         }
       }
-      group.squared.col(truth) = group.misfit.Squared(residual);
+      group.squared.col(truth) = group.misfit.Squared(residual, share);
     }
     return group;
   }

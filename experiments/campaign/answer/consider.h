@@ -13,6 +13,7 @@
 #include "experiments/campaign/answer/result_prior.h"
 #include "experiments/journal/records.h"
 #include "optimizer/space/parameter_space.h"
+#include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::campaign {
 

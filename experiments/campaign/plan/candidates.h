@@ -34,7 +34,7 @@ std::vector<Eigen::VectorXd> RepresentativeSets(const Eigen::MatrixXd& points,
 
 // What fits equally.
 struct EqualSets {
-  Eigen::MatrixXd region{};           // the draws inside the joint 90 % region, unit cube, one a row
+  Eigen::MatrixXd region{};  // the draws inside the joint 90 % region, unit cube, one a row
   std::vector<Eigen::Index> asked{};  // its coordinates that are no nuisances
 };
 

@@ -369,13 +369,14 @@ TEST(Candidates, EndsOfAValleyAreConfirmedAfterRecommendedSetAndBranches) {
   optimizer::Answer answer;
   answer.point = Eigen::Vector2d(0.5, 0.5);
   answer.posterior.emplace().branches.emplace_back().point = answer.point;
-  const auto candidates = CandidatesOf(answer, valley, {.candidates = 1});
+  const auto candidates = CandidatesOf(answer, {valley, {0, 1}}, {.candidates = 1});
   ASSERT_THAT(candidates, SizeIs(3));
   EXPECT_EQ(candidates[0].role, CandidateRole::kRecommended);
   EXPECT_EQ(candidates[1].role, CandidateRole::kEnd);
   EXPECT_EQ(candidates[2].role, CandidateRole::kEnd);
-  EXPECT_THAT(CandidatesOf(answer, valley, {.candidates = 1, .ends = false}), SizeIs(1));
-  EXPECT_THAT(CandidatesOf(answer, 0.1 * valley, {.candidates = 1}), SizeIs(1));  // a point
+  EXPECT_THAT(CandidatesOf(answer, {valley, {0, 1}}, {.candidates = 1, .ends = false}), SizeIs(1));
+  EXPECT_THAT(CandidatesOf(answer, {0.1 * valley, {0, 1}}, {.candidates = 1}),
+              SizeIs(1));  // a point
   EXPECT_EQ((ConfirmOptions{.candidates = 1, .replicates = 3}.MostTrials()), 9);
   EXPECT_EQ((ConfirmOptions{.candidates = 0, .replicates = 3}.MostTrials()), 0);
 }
