@@ -13,6 +13,7 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/journal/journal.h"
 #include "optimizer/space/candidate_table.h"
+#include "optimizer/space/draws_density.h"
 
 namespace talus::campaign {
 namespace {

@@ -5,6 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include "base/random.h"
+#include "optimizer/space/draws_density.h"
+
 namespace talus::optimizer {
 
 void Prior::Add(Eigen::Index coordinate, const ScaledRange& range, const NormalPrior& normal) {

@@ -11,11 +11,15 @@
 #include <memory>
 #include <vector>
 
-#include "base/random.h"
-#include "optimizer/space/draws_density.h"
 #include "optimizer/space/scale.h"
 
+namespace talus::base {
+class Random;
+}  // namespace talus::base
+
 namespace talus::optimizer {
+
+class DrawsDensity;
 
 // A normal density of a parameter's value, or of the value's logarithm.
 struct NormalPrior {

@@ -6,6 +6,7 @@
 
 #include "optimizer/designs/posterior_design.h"
 #include "optimizer/designs/r_sequence.h"
+#include "optimizer/space/draws_density.h"
 #include "optimizer/space/parameter_space.h"
 #include "optimizer/space/point_rows.h"
 

@@ -41,7 +41,7 @@ def cheap(folder):
     spec["strategy"] = {"kind": "sobol", "num_points": 8}
     spec["budget"]["simulations"] = 6
     spec["noise"]["replicates"] = 2
-    spec["confirm"] = {"candidates": 1, "replicates": 1}
+    spec["confirm"] = {"candidates": 1, "replicates": 1, "ends": False}
     spec["workers"] = 2
     path = folder / "campaign.json"
     path.write_text(json.dumps(spec))

@@ -40,7 +40,7 @@ def make_spec(source, folder, simulations):
     spec["experiment"]["pixel_size"] = "200 um"
     spec["budget"] = {"simulations": simulations, "min_simulations": simulations}
     spec["noise"] = {"replicates": 2}
-    spec["confirm"] = {"candidates": 1, "replicates": 2}
+    spec["confirm"] = {"candidates": 1, "replicates": 2, "ends": False}
     spec["strategy"] = {"kind": "sobol", "num_points": simulations}
     spec["workers"] = 2
     spec["coarse_graining"] = {"scale_factor": 1}

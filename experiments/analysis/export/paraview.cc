@@ -35,7 +35,8 @@ std::int64_t TrialToShow(const fs::path& campaign) {
   for (const journal::TrialRecord& trial : journal.Trials()) {
     if (trial.status != journal::TrialStatus::kOk || trial.experiment != 0) continue;
     if (trial.kind == journal::TrialKind::kConfirm) return trial.id;
-    const double value = references.front().Value(trial).value_or(0);
+    const double value =
+        references[static_cast<std::size_t>(trial.experiment)].Value(trial).value_or(0);
     if (trial.scale_factor != spec.coarse_graining.scale_factor) continue;
     if (best && value >= least) continue;
     best = trial.id;

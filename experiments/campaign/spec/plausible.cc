@@ -101,6 +101,15 @@ void CheckTube(const rigs::Powder& powder, const rigs::Device& device, const Pla
                    "in m/s, must be at most 5; write \"" + speed + " mm/s\" for millimetres");
 }
 
+// What may be filled in at most [kg]: a searched mass is tried up to its largest.
+double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
+  if (spec.parameters && spec.parameters->mass) {
+    const auto& mass = *spec.parameters->mass;
+    return mass.fixed.value_or(mass.max);
+  }
+  return experiment.mass.value_or(0);
+}
+
 }  // namespace
 
 void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>& experiments,
@@ -115,7 +124,7 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     if (e.rig && e.rig->kind != rigs::RigKind::kLiftedTube) continue;
     const bool own = spec.experiments && (*spec.experiments)[i].device;
     rigs::Powder powder = spec.powder;
-    powder.mass = e.mass.value_or(0);
+    powder.mass = MostMass(spec, e);
     CheckTube(powder, *e.device, own ? place : Place(""), problems);
   }
 }

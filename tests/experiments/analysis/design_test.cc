@@ -59,7 +59,8 @@ class DesignTest : public campaign::CampaignFixture {
 TEST_F(DesignTest, RangesAreThoseThatTheMeasurementsLeave) {
   const DesignSpec design = LoadDesignSpec(Write(std::string(kPowder) + kCandidates));
   const DesignTable table = Rank(design, {});
-  ASSERT_EQ(table.choices.size(), 2u);
+  ASSERT_EQ(table.choices.size(), 2u)
+      << table.tests.candidates[0].what << "; " << table.tests.candidates[1].what;
   ASSERT_EQ(table.choices[0].size(), 2u);
   EXPECT_THAT(table.choices[0][0].tests, ElementsAre(0u));  // the heap
   const optimizer::ExpectedLearning& tapped = table.choices[0][1].learning;
@@ -76,7 +77,7 @@ TEST_F(DesignTest, RangesAreThoseThatTheMeasurementsLeave) {
   const std::string text = DesignText(table, ViewOf(design, scratch_.path()), design.candidates);
   EXPECT_THAT(text, HasSubstr("heap + tapped density"));
   EXPECT_THAT(text, HasSubstr("3 runs of 0.5 g"));
-  EXPECT_THAT(text, HasSubstr("tapped_density: diameter 10 mm"));
+  EXPECT_THAT(text, HasSubstr("tapped density: diameter 10 mm"));
 }
 
 // N(0.4, 0.05): ± 1.95 sd are 0.28 of the 0.7 that is searched, of the other nothing is known.

@@ -67,7 +67,7 @@ def two_experiments(folder, runner):
                                   "mass_fallen": {"value": "20 mg", "sd": "5 mg"}}]
     del text["noise"]
     text.update(strategy={"kind": "auto"}, budget={"simulations": 12},
-                confirm={"candidates": 1, "replicates": 1}, coarse_graining={"scale_factor": 1})
+                confirm={"candidates": 1, "replicates": 1, "ends": False}, coarse_graining={"scale_factor": 1})
     path.write_text(json.dumps(text))
     return path
 
