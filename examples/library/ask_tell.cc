@@ -25,7 +25,7 @@ int main() {
 
     std::mt19937_64 random(1);
     int num_told = 0;
-    while (num_told < 30 && !strategy->StopReason()) {
+    while (num_told < 30 && !strategy->WhyStop()) {
       for (const optimizer::Proposal& proposal : strategy->Ask(1, {})) {
         strategy->Tell({.point = proposal.point, .value = Evaluate(proposal.point, random)});
         ++num_told;
