@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "base/random.h"
-
 namespace talus::optimizer {
 namespace {
 
@@ -14,8 +12,7 @@ constexpr double kOfNuisance = 0.5;  // of a parameter that is asked for
 // The prior's values of a coordinate inside the cube, ascending; two at least.
 std::vector<double> PriorValues(const Domain& domain, Eigen::Index coordinate) {
   constexpr Eigen::Index kDraws = 2000;
-  base::Random random(0, base::Stream("design of the prior"));
-  const Eigen::MatrixXd draws = domain.prior.Draw(kDraws, domain.num_parameters, random);
+  const Eigen::MatrixXd draws = domain.prior.Draw(kDraws, domain.num_parameters, 0);
   std::vector<double> values{0, 1};
   for (const double u : draws.col(coordinate)) {
     if (u >= 0 && u <= 1) values.push_back(u);

@@ -170,7 +170,7 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
   const auto first = static_cast<double>(sample.points.rows());
   const int num_prior = prior_.IsUniform() ? 0 : num_start;
   sample.points = optimizer::Stack(
-      sample.points, Inside(domain, prior_.Draw(num_prior, domain.num_parameters, random)));
+      sample.points, Inside(domain, prior_.Draw(num_prior, domain.num_parameters, seed)));
   sample.log_density = LogDensity(sample.points, softness);
   std::vector<KernelMixture> mixtures;
   std::vector<double> counts;

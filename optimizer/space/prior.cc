@@ -49,8 +49,8 @@ Eigen::VectorXd Prior::LogDensity(const Eigen::MatrixXd& points) const {
   return density;
 }
 
-Eigen::MatrixXd Prior::Draw(Eigen::Index count, Eigen::Index dimension,
-                            base::Random& random) const {
+Eigen::MatrixXd Prior::Draw(Eigen::Index count, Eigen::Index dimension, std::uint64_t seed) const {
+  base::Random random(seed, base::Stream("prior"));
   Eigen::MatrixXd points(count, dimension);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (double& coordinate : points.row(i)) coordinate = random.Uniform();

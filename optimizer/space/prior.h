@@ -8,14 +8,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "optimizer/space/scale.h"
-
-namespace talus::base {
-class Random;
-}  // namespace talus::base
 
 namespace talus::optimizer {
 
@@ -39,7 +36,7 @@ class Prior {
 
   Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const;  // one point a row
   // One a row, `dimension` coordinates each; some may lie outside the cube or be NaN.
-  Eigen::MatrixXd Draw(Eigen::Index count, Eigen::Index dimension, base::Random& random) const;
+  Eigen::MatrixXd Draw(Eigen::Index count, Eigen::Index dimension, std::uint64_t seed) const;
 
   // How far the mean of `draws` (one a row) lies from that of the prior, in its standard
   // deviations, on the scale that it is normal on; NaN where it is uniform.

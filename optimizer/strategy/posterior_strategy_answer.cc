@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/random.h"
 #include "optimizer/posterior/branches.h"
 #include "optimizer/posterior/credible_ranges.h"
 #include "optimizer/posterior/measured_shift.h"
@@ -59,9 +58,9 @@ std::vector<NuisanceWeight> PosteriorStrategy::NuisanceWeights(const Eigen::Matr
 void PosteriorStrategy::AddPrior(PosteriorSummary& summary) const {
   summary.prior_offset = domain_.prior.Offset(summary.draws);
   if (domain_.prior.IsUniform()) return;
-  base::Random random(options_.seed, base::Stream("draws of the prior"));
+  const Eigen::Index count = summary.draws.rows();
   summary.prior_draws =
-      Inside(domain_, domain_.prior.Draw(summary.draws.rows(), domain_.num_parameters, random));
+      Inside(domain_, domain_.prior.Draw(count, domain_.num_parameters, options_.seed));
 }
 
 void PosteriorStrategy::Summarise(Answer& answer) {

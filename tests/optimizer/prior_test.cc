@@ -43,8 +43,7 @@ TEST(Prior, DrawsHaveItsMeanAndSpread) {
   Prior prior;
   const ScaledRange range{.low = 1e-6, .high = 1e-3, .scale = Scale::kLog};
   prior.Add(1, range, {std::log(2e-5), std::log(2.0), true});
-  base::Random random(1, base::Stream("test"));
-  const Eigen::MatrixXd draws = prior.Draw(4000, 2, random);
+  const Eigen::MatrixXd draws = prior.Draw(4000, 2, 1);
   const Eigen::ArrayXd logs =
       draws.col(1).unaryExpr([&](double u) { return std::log(range.ToNative(u)); });
   EXPECT_NEAR(logs.mean(), std::log(2e-5), 0.04);  // 4 standard errors

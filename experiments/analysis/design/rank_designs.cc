@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/random.h"
 #include "base/text/counted.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
@@ -23,11 +22,10 @@ constexpr int kDesignSize = 32;
 // Equally likely before anything is measured.
 Eigen::MatrixXd PriorDraws(const campaign::JointView& view) {
   const optimizer::Domain domain = view.space.MakeDomain();
-  base::Random random(view.spec.seed, base::Stream("before the bench"));
   return optimizer::Inside(domain,
                            domain.prior.IsUniform()
                                ? optimizer::RSequence(kDraws, domain.num_parameters, view.spec.seed)
-                               : domain.prior.Draw(kDraws, domain.num_parameters, random));
+                               : domain.prior.Draw(kDraws, domain.num_parameters, view.spec.seed));
 }
 
 NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
