@@ -50,7 +50,7 @@ enum class StopLack {
 
 struct StopShortfall {
   StopLack lack = StopLack::kGain;
-  // Of kShare only; NaN: not known.
+  // Numbers of kShare only; NaN: not known.
   double share = std::numeric_limits<double>::quiet_NaN();       // as in StopRule::kShare [-]
   double stop_share = std::numeric_limits<double>::quiet_NaN();  // the search stops below it [-]
   double temper = 1;       // of the posterior, >= 1 (posterior/joint_misfit.h)

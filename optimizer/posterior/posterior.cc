@@ -124,7 +124,7 @@ Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<Outp
       misfit_(Stack(models_, data), TestOfOutputs(models_)),
       prior_(std::move(prior)) {}
 
-// Of an experiment that is held out there are none.
+// An experiment that is held out has none.
 std::vector<OutputMoments> Posterior::Outputs(const Eigen::MatrixXd& points) const {
   std::vector<OutputMoments> outputs;
   for (const ExperimentModel& model : models_) {

@@ -20,7 +20,7 @@ struct DesignChoice {
 struct DesignTable {
   NextTable tests;  // each by itself, in the spec's order
   double scale_factor = 1;
-  // Of one test, two, three: by size, the most informative first.
+  // Choices of one test, two, three: by size, the most informative first.
   std::vector<std::vector<DesignChoice>> choices{};
 };
 

@@ -60,7 +60,7 @@ std::vector<engine::Wall> WallsOf(const rigs::Case& rig_case, double top) {
 
 std::string Quoted(const std::string& text) { return base::JsonText(nlohmann::json(text)); }
 
-// Of a state in ParaView's Python; docs/notebooks.md says how to open it.
+// The text of a state in ParaView's Python; docs/notebooks.md says how to open it.
 std::string StateText(const fs::path& folder, const std::vector<engine::Wall>& walls, double top) {
   std::string text =
       "# Opens a heap with what it stands on in ParaView: paraview --state=state.py, or File, "

@@ -171,7 +171,7 @@ void EstimateCost(const JointView& view, const TestCandidate& test, Cost& cost,
   }
 }
 
-// Of a design's simulations that are still to be made [core seconds].
+// Cost of a design's simulations that are still to be made [core seconds].
 double DesignCost(const JointView& view, const TestCandidate& test, int num_made, Cost& cost) {
   const double factor = view.spec.coarse_graining.Levels().front();
   return (kDesignSize - num_made) * cost.OfOne(0, factor) * RelativeCost(view, test, factor);

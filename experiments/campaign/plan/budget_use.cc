@@ -16,7 +16,7 @@ bool HasEnded(const journal::TrialRecord& trial) {
   return trial.status != journal::TrialStatus::kRunning;
 }
 
-// Of an ended trial [s]; 0 where it is not known.
+// Duration of an ended trial [s]; 0 where it is not known.
 double Duration(const journal::TrialRecord& trial) {
   return std::isfinite(trial.duration_s) ? std::max(0.0, trial.duration_s) : 0;
 }

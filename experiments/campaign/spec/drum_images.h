@@ -22,7 +22,7 @@ bool ShowsDrum(const ExperimentSpec& experiment);
 void ValidateDrumImages(const ExperimentSpec& experiment, const std::string& place,
                         base::Problems& problems);
 
-// Of a drum or a heap. Throws ConfigError that names the file and what to do.
+// The experiment of a drum or a heap. Throws ConfigError that names the file and what to do.
 imaging::Experiment MeasureImages(const ExperimentSpec& experiment);
 
 // The width of drums' images is their rig's, where it is not given.

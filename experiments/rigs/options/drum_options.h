@@ -23,7 +23,7 @@ struct DrumOptions {
   double turns = 0.5;            // over which it is measured [-], > 0
   std::optional<double> fill{};  // share of the disc that shows powder [-], in (0, 0.6]: the mass
 
-  // Of the grains that fill it so [m³].
+  // Volume of the grains that fill it so [m³].
   double GrainVolume() const {
     const double disc = std::numbers::pi / 4 * diameter * diameter;
     return fill.value_or(0) * kSeenSolidFraction * disc * width;

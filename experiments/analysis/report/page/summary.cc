@@ -114,7 +114,7 @@ std::string ParameterTable(const Evidence& evidence) {
   return Element("table", rows) + Text("p", "* for all parameters together", "class=\"soft\"");
 }
 
-// Of the two parameters that the region ties closest.
+// The region over the two parameters that it ties closest.
 std::string Region(const ReportData& data) {
   if (data.pairs.empty()) return "";
   const auto inside = [](const PairMap& pair) {
