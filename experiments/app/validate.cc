@@ -81,7 +81,11 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   for (const journal::ExperimentRecord& e : record.experiments) PrintExperiment(e, record);
   std::cout << std::flush;
   if (spec.engine.kind == campaign::EngineKind::kTalus) {
-    std::cout << campaign::EstimateText(spec, campaign::EstimateCampaign(spec));
+    const campaign::CampaignEstimate estimate = campaign::EstimateCampaign(spec);
+    std::cout << campaign::EstimateText(spec, estimate);
+    for (const std::string& warning : campaign::EstimateWarnings(spec, estimate)) {
+      std::cout << "  warning: " << warning << '\n';
+    }
   }
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
     std::cout << "  warning: " << *warning << '\n';

@@ -189,12 +189,14 @@ runners::Job Campaign::JobOf(const journal::TrialRecord& trial) const {
 
 rigs::Case Campaign::CaseOfTrial(const journal::TrialRecord& trial) const {
   const std::vector<double> values = planner_.space().ToNative(PointOf(trial));
-  return CaseOf(spec_,
-                {.values = values,
-                 .seed = static_cast<std::uint64_t>(trial.seed),
-                 .scale_factor = trial.scale_factor,
-                 .experiment = trial.experiment},
-                ReferenceOf(trial).frame());
+  rigs::Case rig_case = CaseOf(spec_,
+                               {.values = values,
+                                .seed = static_cast<std::uint64_t>(trial.seed),
+                                .scale_factor = trial.scale_factor,
+                                .experiment = trial.experiment},
+                               ReferenceOf(trial).frame());
+  rig_case.outputs.film = trial.kind == journal::TrialKind::kConfirm;  // the report shows one
+  return rig_case;
 }
 
 void Campaign::HandleEnd(const runners::FinishedJob& job) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""film_and_paraview_test.py TALUS: a film of a lift, and a campaign's heap with plate and tube for ParaView."""
+"""film_and_paraview_test.py TALUS: films of lifts, and a campaign's heap with plate and tube for ParaView."""
+import base64
 import json
 import pathlib
 import subprocess
@@ -56,6 +57,19 @@ def check_film(talus, root):
     assert "--film is for the case of a bulk test" in said, said
 
 
+def check_poured_film(talus, root):
+    """As high as that of the dense filling, and written beside the heap where the case asks for it."""
+    height = {}
+    for kind in ("dense", "pour"):
+        case = CASE | {"filling": {"kind": kind}, "outputs": {"film": True}}
+        (root / f"{kind}.json").write_text(json.dumps(case))
+        run(talus, "simulate", root / f"{kind}.json", "--out", root / kind, "--quiet")
+        gif = (root / kind / "film.gif").read_bytes()
+        assert 5 < frames_of(gif) <= 48, frames_of(gif)
+        height[kind] = int.from_bytes(gif[8:10], "little")
+    assert height["pour"] >= 0.9 * height["dense"], height
+
+
 class Recorded:
     """Stands in for ParaView's objects: takes any property and any call."""
 
@@ -102,9 +116,14 @@ def check_vtk(talus, root):
     spec = {"experiment": {"map": str(root / "heap/profile.png"), "plate_diameter": "10 mm", "frame": FRAME},
             "powder": CASE["powder"], "device": CASE["device"],
             "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
-            "strategy": {"kind": "sobol", "num_points": 3}, "budget": {"simulations": 3}, "confirm": {"candidates": 0}}
+            "strategy": {"kind": "sobol", "num_points": 3}, "budget": {"simulations": 3}, "confirm": {"candidates": 1, "replicates": 1, "ends": False}}
     (root / "spec.json").write_text(json.dumps(spec))
     run(talus, "calibrate", root / "spec.json", "--out", root / "run", "--quiet")
+    films = list(root.glob("run/trials/*/film.gif"))
+    assert len(films) == 1, films  # of the trial that confirms
+    run(talus, "report", root / "run")
+    page = (root / "run/report/report.html").read_text()
+    assert base64.b64encode(films[0].read_bytes()).decode() in page
     run(talus, "export", root / "run", "--vtk")
     out = root / "run/vtk"
     assert sorted(file.name for file in out.glob("*.vtp")) == ["heap.vtp", "plate.vtp", "tube.vtp"]
@@ -129,5 +148,6 @@ def check_vtk(talus, root):
 
 with tempfile.TemporaryDirectory(prefix="talus_film_") as scratch:
     check_film(sys.argv[1], pathlib.Path(scratch))
+    check_poured_film(sys.argv[1], pathlib.Path(scratch))
     check_vtk(sys.argv[1], pathlib.Path(scratch))
 print("the film plays and ParaView has its state")

@@ -26,6 +26,7 @@ struct CampaignEstimate {
   std::vector<TrialEstimate> trials;  // by experiment, then the coarsest first
   double grain_steps_per_s = 0;       // of one core, measured here
   double confirm_time = 0;            // [s], of a trial that confirms, maybe of finer grains
+  double proposal_time = 0;           // [s] of a core, for choosing all trials
   int num_trials = 0;  // at most: noise, search and confirmation; 0: only core time ends it
   int num_workers = 0;
   double campaign_time = 0;  // [s], at most
@@ -33,6 +34,11 @@ struct CampaignEstimate {
 
 // Simulates for about a second of processor time.
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec);
+
+// Where the budget buys so few trials at the smallest scale factor that the answer rests on the
+// coarse ones.
+std::vector<std::string> EstimateWarnings(const CampaignSpec& spec,
+                                          const CampaignEstimate& estimate);
 
 std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& estimate);
 

@@ -27,12 +27,15 @@ namespace talus::rigs {
 struct CaseOutputs {
   bool vtp = true;              // heap.vtp
   bool csv = false;             // heap.csv
+  bool film = false;            // film.gif
   std::vector<double> times{};  // [s], from the start: state_NNNN.vtp as well
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("vtp", self.vtp, {.doc = "write the heap as heap.vtp"});
     visit("csv", self.csv, {.doc = "write the heap as heap.csv"});
+    visit("film", self.film,
+          {.doc = "write film.gif; after an interruption of what was left to simulate"});
     visit("times", self.times,
           {.dimension = base::Dimension::kTime,
            .doc = "states written as state_0000.vtp, … at these times from the start"});

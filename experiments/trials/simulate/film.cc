@@ -17,9 +17,9 @@
 namespace talus::trials {
 namespace {
 
-constexpr int kWidth = 420;          // [px]
-constexpr int kMostHeight = 560;     // [px]
-constexpr double kFrameTime = 0.06;  // [s]
+constexpr double kMostHeight = 4.0 / 3;           // of a frame, in its widths
+constexpr double kLength = 9.6;                   // of the whole film [s]
+constexpr std::size_t kMostSpheres = 20'000'000;  // kept until the film is drawn: 640 MB
 constexpr imaging::Color kTube{120, 150, 175};
 
 // Where a point of the scene is in the picture of a camera in front.
@@ -50,20 +50,22 @@ void DrawTube(const engine::OpenCylinder& tube, const imaging::Camera& camera,
   }
 }
 
-// All of the filled powder, and room beside the plate for what falls.
-imaging::Camera CameraOf(std::vector<base::Sphere> filled, double plate_diameter) {
+// All of the powder, and room beside the plate for what falls.
+imaging::Camera CameraOf(std::vector<base::Sphere> powder, double plate_diameter, int width) {
   constexpr double kRoom = 0.65;  // from the plate's centre, of its diameter
-  filled.push_back({.position = {kRoom * plate_diameter, 0, 0}, .radius = 0});
-  const imaging::Camera camera = imaging::WholeHeap(filled, plate_diameter, kWidth);
-  if (camera.height <= kMostHeight) return camera;
-  return imaging::WholeHeap(filled, plate_diameter, kWidth * kMostHeight / camera.height);
+  powder.push_back({.position = {kRoom * plate_diameter, 0, 0}, .radius = 0});
+  const imaging::Camera camera = imaging::WholeHeap(powder, plate_diameter, width);
+  const int most = static_cast<int>(kMostHeight * width);
+  if (camera.height <= most) return camera;
+  return imaging::WholeHeap(powder, plate_diameter, width * most / camera.height);
 }
 
 bool IsUpright(const engine::OpenCylinder& tube) { return std::abs(tube.axis.z) > 0.999; }
 
 }  // namespace
 
-Film::Film(std::filesystem::path out, const rigs::Case& rig_case) : out_(std::move(out)) {
+Film::Film(std::filesystem::path out, const rigs::Case& rig_case, FilmSize size)
+    : out_(std::move(out)), size_(size) {
   const std::string ending = out_.extension().string();
   if (ending == ".mp4" || ending == ".webm" || ending == ".avi" || ending == ".mov") {
     throw base::ConfigError(
@@ -88,7 +90,7 @@ void Film::Look(const rigs::RigRun& run) {
     scene.tubes.push_back(*tube);
   }
   scenes_.push_back(std::move(scene));
-  if (scenes_.size() == kMostFrames) {
+  if (IsFull()) {
     for (std::size_t i = 0; 2 * i < scenes_.size(); ++i) scenes_[i] = std::move(scenes_[2 * i]);
     scenes_.resize(scenes_.size() / 2);
     interval_ = simulation.time() / static_cast<double>(scenes_.size());
@@ -96,16 +98,30 @@ void Film::Look(const rigs::RigRun& run) {
   next_ = simulation.time() + interval_;
 }
 
+double Film::Scene::Top() const {
+  double top = 0;
+  for (const base::Sphere& s : spheres) top = std::max(top, s.position.z + s.radius);
+  return top;
+}
+
+bool Film::IsFull() const {
+  const std::size_t most = kMostSpheres / std::max<std::size_t>(scenes_.back().spheres.size(), 1);
+  return scenes_.size() >= std::clamp<std::size_t>(most, 2, size_.most_frames);
+}
+
 void Film::Write() const {
   if (scenes_.empty()) return;
-  const imaging::Camera camera = CameraOf(scenes_.front().spheres, plate_diameter_);
+  // A poured powder is not there at first, and a lifted one gone at last.
+  const Scene& highest = *std::ranges::max_element(scenes_, {}, &Scene::Top);
+  const imaging::Camera camera = CameraOf(highest.spheres, plate_diameter_, size_.width);
   std::vector<imaging::ColorImage> frames;
   for (const Scene& scene : scenes_) {
     frames.push_back(imaging::RenderSpheres(scene.spheres, camera));
     for (const engine::OpenCylinder& tube : scene.tubes) DrawTube(tube, camera, frames.back());
   }
   if (out_.extension() == ".gif") {
-    base::WriteFileAtomically(out_, imaging::EncodeGif(frames, kFrameTime));
+    const double frame_time = kLength / static_cast<double>(size_.most_frames);
+    base::WriteFileAtomically(out_, imaging::EncodeGif(frames, frame_time));
     return;
   }
   std::filesystem::create_directories(out_);

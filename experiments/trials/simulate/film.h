@@ -11,27 +11,39 @@
 
 namespace talus::trials {
 
+struct FilmSize {
+  int width = 420;                // of a frame [px]
+  std::size_t most_frames = 160;  // > 1
+};
+
+// Of a trial: small enough for a page that is mailed.
+inline constexpr FilmSize kTrialFilm{.width = 300, .most_frames = 48};
+inline constexpr const char* kTrialFilmName = "film.gif";
+
 class Film {
  public:
   // A file that ends with .gif, or a folder for one PNG a frame. Throws ConfigError for a film that
   // needs another program.
-  Film(std::filesystem::path out, const rigs::Case& rig_case);
+  Film(std::filesystem::path out, const rigs::Case& rig_case, FilmSize size);
 
   // Keeps the scene as it is now, if it is time for a frame. However long the test, there are at
-  // most kMostFrames: where there would be more, every second one goes.
+  // most `most_frames`, and of millions of grains fewer: where there would be more, every second
+  // one goes.
   void Look(const rigs::RigRun& run);
 
   void Write() const;
 
  private:
-  static constexpr std::size_t kMostFrames = 160;
-
   struct Scene {
     std::vector<base::Sphere> spheres;
     std::vector<engine::OpenCylinder> tubes;
+    double Top() const;  // of the grains, 0 without any [m]
   };
 
+  bool IsFull() const;
+
   std::filesystem::path out_;
+  FilmSize size_;
   double plate_diameter_ = 0;  // 0: none is drawn [m]
   std::vector<Scene> scenes_;
   double next_ = 0;      // when the next frame is due [s]

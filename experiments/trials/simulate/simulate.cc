@@ -50,8 +50,10 @@ void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
   const rigs::Case rig_case = rigs::LoadCase(input);
   std::optional<Film> film;
   if (!all.film.empty()) {
-    film.emplace(all.film, rig_case);
+    film.emplace(all.film, rig_case, FilmSize{});
     options.fresh = true;  // a film begins with the filling
+  } else if (rig_case.outputs.film) {
+    film.emplace(options.folder / kTrialFilmName, rig_case, kTrialFilm);
   }
   RunJob job{.kind = std::string(base::NameOf(rig_case.rig.kind)),
              .input_hash = rigs::CaseHash(rig_case),

@@ -168,6 +168,20 @@ TEST(Estimate, SaysForEachScaleFactorWhatATrialTakesAndTheBudgetBuys) {
   EXPECT_THAT(text, HasSubstr("scale factor 4: 746 grains of 0.8 mm"));
   EXPECT_THAT(text, HasSubstr("scale factor 2: 5968 grains of 0.4 mm"));
   EXPECT_THAT(text, HasSubstr("16 min of core time buy"));
+  EXPECT_THAT(text, HasSubstr("to choose trials"));
+  EXPECT_TRUE(EstimateWarnings(spec, estimate).empty());
+}
+
+TEST(Estimate, WarnsOfABudgetThatBuysFewOfTheFinestTrials) {
+  const CampaignSpec spec = Read(R"("coarse_graining": {"scale_factors": [4, 2]},
+                                    "budget": {"core_time": "16 min"})");
+  CampaignEstimate estimate = EstimateCampaign(spec);
+  estimate.trials[1].core_seconds = 16 * 60 / 9.5;
+  ASSERT_EQ(EstimateWarnings(spec, estimate).size(), 1u);
+  EXPECT_THAT(EstimateWarnings(spec, estimate).front(),
+              HasSubstr("buys only 9 simulations of each experiment at scale factor 2"));
+  estimate.trials[1].core_seconds = 16 * 60 / 10.5;
+  EXPECT_TRUE(EstimateWarnings(spec, estimate).empty());
 }
 
 }  // namespace

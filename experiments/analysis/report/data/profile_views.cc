@@ -40,6 +40,7 @@ void AddProfileViews(ReportData& data) {
   }
   data.pictures = ProfilePictures(data.evidence, shown);
   data.representative = RepresentativeViews(data.evidence);
+  data.film = FilmOf(data.evidence);
   data.overlay = MakeOverlay(data.evidence, shown, data.overlay_absent);
   if (data.overlay.photographs.empty()) return;
   data.overlay_outlines = {

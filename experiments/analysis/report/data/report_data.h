@@ -9,6 +9,7 @@
 
 #include "experiments/analysis/compare/compare.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/analysis/report/views/film_view.h"
 #include "experiments/analysis/report/views/heap_views.h"
 #include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/views/next_steps.h"
@@ -54,6 +55,7 @@ struct ReportData {
   PhotoOverlay overlay;
   std::vector<OutlineCurve> overlay_outlines;  // the experiment's, the trial's
   std::string overlay_absent;                  // why there are no photographs to show
+  std::optional<FilmView> film;
   std::vector<MeasuredProfile> measures;
   std::vector<OutlineCurve> outlines;  // the experiment's first
   std::vector<Picture> pictures;

@@ -133,6 +133,12 @@ PageValue OverlayJson(const ReportData& data) {
           {"outlines", ListJson(data.overlay_outlines, OutlineJson)}};
 }
 
+PageValue FilmJson(const std::optional<FilmView>& film) {
+  if (!film) return nullptr;
+  return {{"title", "trial " + std::to_string(film->trial)},
+          {"uri", "data:image/gif;base64," + Base64(film->gif)}};
+}
+
 PageValue ColorsJson() {
   return {{"palette", kPalette},
           {"regions", {kRegion50, kRegion90}},
@@ -157,6 +163,7 @@ void AddProfiles(const ReportData& data, PageValue& page) {
   page["pictures"] = ListJson(data.pictures, PictureJson);
   page["overlay"] = OverlayJson(data);
   page["overlay_absent"] = data.overlay_absent;
+  page["film"] = FilmJson(data.film);
   page["measures"] =
       ListJson(data.measures, [&](const MeasuredProfile& m) { return MeasureJson(e, m); });
 }

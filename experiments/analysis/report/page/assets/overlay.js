@@ -39,6 +39,13 @@ function overlayFigure() {
       "single photograph shown."));
 }
 
+// The simulated test from its filling on, closed until it is asked for: it moves without end.
+function filmFigure() {
+  return element("details", {class: "card", id: idOf("film")},
+    element("summary", {}, "Film of the simulation, " + D.film.title),
+    element("img", {src: D.film.uri, alt: "Film of the simulated test, " + D.film.title}));
+}
+
 // The heap as it was photographed beside the recommended one as it was simulated; without photographs the average
 // profiles of both. One pair an experiment that has images.
 function heapPair() {

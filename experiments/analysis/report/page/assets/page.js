@@ -34,6 +34,7 @@ function modelSection() {
 function profileParts() {
   return [D.overlay ? overlayFigure()
       : D.overlay_absent ? element("div", {class: "notice"}, "No photographs to lay the heap over: " + D.overlay_absent) : null,
+    D.film ? filmFigure() : null,
     D.outlines.length ? card(outlineChart()) : null, D.pictures.length ? pictures() : null];
 }
 
