@@ -19,7 +19,7 @@ struct Frame {
   double center_x = 0;           // of the plate [px] from the left edge of the image
   double baseline = 0;           // the plate's top [px] from the top edge of the image
   double plate_diameter = 0.01;  // [m], > 0
-  // Of a drum: only what lies within this disc about its axis is known, and powder elsewhere is not
+  // In a drum only what lies within this disc about its axis is known, and powder elsewhere is not
   // shown [m], > 0.
   std::optional<double> disc_diameter{};
 

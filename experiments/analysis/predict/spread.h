@@ -30,9 +30,9 @@ class Spread {
   double parameters_sd() const { return parameters_sd_; }
   // NaN where no draw has two runs: all of it then counts as the parameters'.
   double run_sd() const { return run_sd_; }
-  // Of the variance of a single run, in [0, 1]; NaN where the two cannot be told apart.
+  // Share of the variance of a single run, in [0, 1]; NaN where the two cannot be told apart.
   double ParametersShare() const;
-  // Of a single run that is measured with an independent error of this standard deviation.
+  // Range of a single run that is measured with an independent error of this standard deviation.
   double Quantile(double probability, double error_sd = 0) const;
 
  private:

@@ -52,7 +52,7 @@ struct Mean {
   Eigen::VectorXd count;
 };
 
-// Of each output over the simulations that have it.
+// Moments of each output over the simulations that have it.
 Mean MeanOf(const Eigen::MatrixXd& outputs) {
   Mean mean{.value = Eigen::VectorXd::Zero(outputs.cols()),
             .count = Eigen::VectorXd::Zero(outputs.cols())};

@@ -31,7 +31,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
   static double Width(const Case& rig_case);
   static double TestTime(const Case& rig_case, double filled_height);
 
-  // Of the case, or three D90 of the true powder [m].
+  // The gap of the case, or three D90 of the true powder [m].
   static double GapOf(const Case& rig_case);
 
  protected:

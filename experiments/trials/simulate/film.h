@@ -16,7 +16,7 @@ struct FilmSize {
   std::size_t most_frames = 160;  // > 1
 };
 
-// Of a trial: small enough for a page that is mailed.
+// A trial's film: small enough for a page that is mailed.
 inline constexpr FilmSize kTrialFilm{.width = 300, .most_frames = 48};
 inline constexpr const char* kTrialFilmName = "film.gif";
 

@@ -256,7 +256,7 @@ TEST(Camera, ASeriesGoesOnFromACheckpoint) {
   EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
 }
 
-// Of four frames the six pixels of a row showed powder in none, one, two, four, four and four.
+// In four frames the six pixels of a row showed powder in none, one, two, four, four and four.
 TEST(Camera, MeanAndStandardDeviationAreThoseOfEachPixel) {
   const imaging::Frame frame{.width = 6, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
   const CameraMemory memory{.num_frames = 4, .runs = {0, 1, 1, 1, 2, 1, 4, 3}};

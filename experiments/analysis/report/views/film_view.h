@@ -13,7 +13,8 @@ struct FilmView {
   std::string gif;  // of the file film.gif in its folder
 };
 
-// Of the trial that confirms the recommended set; none without it or without its film, as of another engine's.
+// The film of the trial that confirms the recommended set; none without either, as of
+// another engine's.
 std::optional<FilmView> FilmOf(const Evidence& evidence);
 
 }  // namespace talus::analysis
