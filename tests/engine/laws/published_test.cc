@@ -178,7 +178,7 @@ TEST(ChungOoi, Test4ObliqueImpactsAtOneSpeed) {
     const std::string at = std::to_string(degrees) + " deg";
     Verify({at + " e_t", after.velocity.x / b.sideways, 1 - slip / b.sideways, 0.02});
     Verify({at + " spin", b.radius * after.angular_velocity.y, 2.5 * slip, 0.02});
-    // Angle of the contact point, from the normal.
+    // The contact point rebounds at this angle from the normal.
     const double contact = b.sideways - 3.5 * slip;
     const double rebound =
         std::atan2(after.velocity.x - b.radius * after.angular_velocity.y, after.velocity.z);
