@@ -18,6 +18,8 @@ struct NextArguments {
   std::string folder;
   analysis::AdviceRequest request;
   std::string budget;
+  std::string goal;
+  std::string observable;
   bool json = false;
 };
 
@@ -29,6 +31,9 @@ void Next(NextArguments& arguments) {
                               arguments.budget + "\"");
     }
     arguments.request.core_time = core_time;
+  }
+  if (!arguments.goal.empty()) {
+    arguments.request.goal = {.file = arguments.goal, .observable = arguments.observable};
   }
   arguments.request.say = [](const std::string& text) { std::cerr << text << std::endl; };
   const analysis::NextTable table = analysis::Advise(arguments.folder, arguments.request);
@@ -54,6 +59,15 @@ void AddNextCommand(CLI::App& app) {
                    "core time for these simulations, such as \"2 min\", the cheapest test first; "
                    "default: as much as the campaign has taken")
       ->needs(simulate);
+  CLI::Option* goal = command->add_option(
+      "--for", arguments->goal,
+      "case or scene that is to be predicted: ranked by how much they narrow its number, which is "
+      "simulated with a few draws first, as talus predict does");
+  goal->type_name("CASE");
+  command
+      ->add_option("--observable", arguments->observable,
+                   "the number that counts; default: the only one that the test is made for")
+      ->needs(goal);
   command->add_flag("--json", arguments->json, "as JSON");
   command->callback([arguments] { Next(*arguments); });
 }

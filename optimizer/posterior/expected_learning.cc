@@ -77,10 +77,21 @@ std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
 
 }  // namespace
 
+double HalfWidth90(const Eigen::VectorXd& values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  const auto at = [&](double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+  };
+  return 0.5 * (at(0.5 + 0.5 * kConfidence) - at(0.5 - 0.5 * kConfidence));
+}
+
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
-                       std::uint64_t seed) {
+                       std::uint64_t seed, const Eigen::VectorXd& goal) {
   constexpr Eigen::Index kTruths = 64;
+  const bool has_goal = goal.size() > 0;
   ExpectedLearning learning{.bits = 0, .width = Widths(draws)};
+  if (has_goal) learning.goal_half_width = HalfWidth90(goal);
   if (measurement.mean.cols() == 0) return learning;
   const Eigen::MatrixXd z = Standardised(measurement);
   learning.bits = Bits(z);
@@ -88,10 +99,15 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   base::Random random(seed, base::Stream("measurements to come"));
   const Eigen::Index count = std::min(kTruths, draws.rows());
   learning.width.setZero();
+  if (has_goal) learning.goal_half_width = 0;
   for (Eigen::Index t = 0; t < count; ++t) {
     Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
     for (double& value : seen) value += random.Normal();
-    learning.width += Widths(Resampled(draws, Weights(z, seen))) / static_cast<double>(count);
+    const Eigen::VectorXd weights = Weights(z, seen);
+    learning.width += Widths(Resampled(draws, weights)) / static_cast<double>(count);
+    if (!has_goal) continue;
+    learning.goal_half_width +=
+        HalfWidth90(Resampled(goal, weights).col(0)) / static_cast<double>(count);
   }
   return learning;
 }

@@ -1,8 +1,10 @@
-// What one more measurement is expected to teach about the parameters.
+// What one more measurement is expected to teach about the parameters, and about a number that
+// follows from them.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 
 namespace talus::optimizer {
 
@@ -15,6 +17,8 @@ struct PredictedMeasurement {
 struct ExpectedLearning {
   double bits = 0;        // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
   Eigen::VectorXd width;  // of each parameter's joint 90 % range afterwards, expected, unit cube
+  double goal_half_width =
+      std::numeric_limits<double>::quiet_NaN();  // of the goal's 90 %, expected
   // Two draws that it separates most, rows.
   Eigen::Index first = 0;
   Eigen::Index second = 0;
@@ -22,8 +26,11 @@ struct ExpectedLearning {
 
 // `draws`: equally likely, one a row, as many as the measurement's rows and two at least. Each of
 // some of them is taken for the truth in turn, its measurement drawn, and the others weighted by
-// it, with the posterior's own heavy tails.
+// it, with the posterior's own heavy tails. `goal`: a number at each draw; empty: there is none.
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
-                       std::uint64_t seed);
+                       std::uint64_t seed, const Eigen::VectorXd& goal = {});
+
+// Half of the range between the 5 and 95 % quantiles of equally likely values, one at least.
+double HalfWidth90(const Eigen::VectorXd& values);
 
 }  // namespace talus::optimizer

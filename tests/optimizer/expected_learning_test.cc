@@ -45,6 +45,25 @@ TEST(ExpectedLearning, NarrowsWhatItMeasuresAndNothingElse) {
   EXPECT_GT(learning.width[1], 0.85);
 }
 
+// A number that only the second parameter moves is narrowed by what measures that one: for a wide
+// posterior to 1.64 sd, somewhat more with heavy tails.
+TEST(ExpectedLearning, AGoalIsNarrowedByWhatMeasuresItAlone) {
+  const Eigen::MatrixXd draws = Even(2000);
+  const Eigen::VectorXd goal = 10 * draws.col(1);
+  const double sd = 0.03;
+  const auto learn = [&](Eigen::Index parameter) {
+    return Learn(draws,
+                 {.mean = draws.col(parameter), .variance = Eigen::VectorXd::Constant(1, sd * sd)},
+                 1, goal);
+  };
+  EXPECT_NEAR(HalfWidth90(goal), 4.5, 0.1);
+  EXPECT_NEAR(learn(0).goal_half_width, 4.5, 0.3);
+  EXPECT_GT(learn(1).goal_half_width, 1.5 * 10 * sd);
+  EXPECT_LT(learn(1).goal_half_width, 2.5 * 10 * sd);
+  EXPECT_TRUE(std::isnan(
+      Learn(draws, {.mean = draws, .variance = Eigen::Vector2d(1, 1)}, 1).goal_half_width));
+}
+
 TEST(ExpectedLearning, BetterMeasurementsTeachMore) {
   const Eigen::MatrixXd draws = Even(1000);
   const auto learn = [&](double sd) {

@@ -1,9 +1,12 @@
 #include "experiments/analysis/next/advise.h"
 
+#include <utility>
+
 #include "base/files/file.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/usual_tests.h"
+#include "experiments/analysis/predict/predict.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
@@ -13,6 +16,12 @@ namespace talus::analysis {
 NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& request) {
   const campaign::JointView view = campaign::ReadJointView(campaign);
   const std::filesystem::path folder = campaign::NextFolder(view.folder.root);
+  std::optional<Goal> goal;
+  if (request.goal) {
+    goal = SimulateGoal(view, *request.goal,
+                        {.runner = campaign::MakeRunner(view.spec, PredictFolder(view.folder.root)),
+                         .engine = campaign::MakeEngine(view.spec)});
+  }
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
   const NextTable table = RankNext(
       view, {.tests = request.candidates.empty() ? UsualTests(view) : LoadTests(request.candidates),
@@ -20,7 +29,8 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
              .core_time = request.core_time.value_or(campaign::CoreTime(view.spec).Of(view.trials)),
              .say = request.say,
              .parts = {.runner = campaign::MakeRunner(view.spec, folder),
-                       .engine = campaign::MakeEngine(view.spec)}});
+                       .engine = campaign::MakeEngine(view.spec)},
+             .goal = std::move(goal)});
   std::filesystem::create_directories(folder);
   base::WriteFileAtomically(folder / "next.json", NextJson(table));
   return table;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "experiments/analysis/next/goal.h"
 #include "experiments/analysis/next/next_table.h"
 
 namespace talus::analysis {
@@ -15,6 +16,7 @@ struct AdviceRequest {
   std::filesystem::path candidates{};  // file of tests that could be made; empty: the usual ones
   bool simulate = false;               // designs, within the core time
   std::optional<double> core_time{};   // [s]; default: as much as the campaign has taken
+  std::optional<GoalRequest> goal{};   // what is to be predicted; none: the parameters themselves
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 

@@ -15,11 +15,13 @@ struct Ground {
   double temper = 1;       // the posterior's
   Eigen::MatrixXd draws;   // equally likely, one a row
   double model_error = 1;  // PosteriorOptions
+  Eigen::VectorXd goal{};  // what a prediction gives at each draw; empty: the parameters count
 
   // `variance` of each output once measured, before tempering.
   optimizer::ExpectedLearning Learn(const Eigen::MatrixXd& mean,
                                     const Eigen::VectorXd& variance) const {
-    return optimizer::Learn(draws, {.mean = mean, .variance = temper * variance}, view.spec.seed);
+    return optimizer::Learn(draws, {.mean = mean, .variance = temper * variance}, view.spec.seed,
+                            goal);
   }
 };
 

@@ -44,11 +44,24 @@ struct NextCandidate {
   std::filesystem::path picture{};           // of these two; empty without images
 };
 
+// The prediction that they are ranked for.
+struct NextGoal {
+  std::string process;        // "spread"
+  std::string number;         // "packing_fraction", in whose unit the widths are
+  double half_width = 0;      // of its 90 % now, as far as the parameters leave it open
+  double left_out_error = 0;  // NumberSurrogate's
+  double scale_factor = 1;
+  int num_draws = 0;
+  int num_runs = 0;
+  double core_time = 0;  // of these [s]
+};
+
 struct NextTable {
   std::vector<journal::ParameterRecord> parameters;
   std::vector<optimizer::Scale> scales{};   // of the parameters
   std::int64_t last_trial = 0;              // the latest that had ended, by id; 0: none
   Eigen::VectorXd width{};                  // of the joint 90 % ranges now, unit cube
+  std::optional<NextGoal> goal{};           // none: the parameters themselves
   std::vector<NextCandidate> candidates{};  // the most informative first, unknown ones last
 };
 

@@ -7,6 +7,7 @@
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -70,6 +71,28 @@ const char* KindName(NextKind kind) {
   return "";
 }
 
+// Widths in the goal's unit, "± 0.012".
+std::string GoalWidthText(const NextGoal& goal, double half_width) {
+  return "± " + rigs::ShownNumber(goal.number, half_width, 2);
+}
+
+std::string GoalText(const NextGoal& goal) {
+  const rigs::ObservableInfo* known = rigs::FindObservable(goal.number);
+  std::string text =
+      "goal: " + (known == nullptr ? goal.number : known->key) + " of " + goal.process +
+      ", which the parameters leave open to " + GoalWidthText(goal, goal.half_width) +
+      " (90 %), by " + base::Counted(goal.num_draws, "draw") + " in " +
+      base::Counted(goal.num_runs, "run") + " at scale factor " + ShortNumber(goal.scale_factor) +
+      "; a surrogate over them misses a draw left " + "out by " +
+      rigs::ShownNumber(goal.number, goal.left_out_error, 2) + "\n";
+  if (!(goal.half_width > goal.left_out_error)) {
+    text +=
+        "  note: that is no more than the surrogate's error: any set that fits will do for this "
+        "process\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
@@ -82,7 +105,8 @@ std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
 }
 
 std::string NextText(const NextTable& table) {
-  std::string text = "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";
+  std::string text = table.goal ? GoalText(*table.goal) : "";
+  text += "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";
   bool unknown = false;
   for (const NextCandidate& c : table.candidates) {
     const bool impossible = c.kind == NextKind::kTest && c.num_simulations == 0;
@@ -98,7 +122,10 @@ std::string NextText(const NextTable& table) {
     char bits[16];
     std::snprintf(bits, sizeof bits, "%5.2f", c.learning->bits);
     text += std::string(bits) + " bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n" +
-            "            expected to leave " + WidthsText(table, c.learning->width) + "\n";
+            "            expected to leave " +
+            (table.goal ? GoalWidthText(*table.goal, c.learning->goal_half_width) + " of the goal, "
+                        : "") +
+            WidthsText(table, c.learning->width) + "\n";
     if (!c.apart.empty()) text += ApartText(c);
   }
   if (unknown) {
@@ -132,6 +159,13 @@ std::string NextJson(const NextTable& table) {
     return json;
   };
   nlohmann::ordered_json json{{"after_trial", table.last_trial}, {"width_90", widths(table.width)}};
+  if (table.goal) {
+    json["goal"] = {
+        {"process", table.goal->process},           {"observable", table.goal->number},
+        {"half_width_90", table.goal->half_width},  {"left_out_error", table.goal->left_out_error},
+        {"scale_factor", table.goal->scale_factor}, {"num_draws", table.goal->num_draws},
+        {"num_runs", table.goal->num_runs},         {"core_time_s", table.goal->core_time}};
+  }
   json["candidates"] = nlohmann::ordered_json::array();
   for (const NextCandidate& c : table.candidates) {
     nlohmann::ordered_json candidate{{"kind", KindName(c.kind)},
@@ -143,6 +177,10 @@ std::string NextJson(const NextTable& table) {
                                      {"core_time_made_s", c.core_time_made}};
     candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
     candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;
+    if (table.goal) {
+      candidate["goal_half_width_90"] =
+          c.learning ? nlohmann::ordered_json(c.learning->goal_half_width) : nullptr;
+    }
     if (!c.apart.empty()) candidate["told_apart"] = c.apart;
     for (const ToldApart& number : c.numbers) {
       candidate["told_apart_by"].push_back(

@@ -247,6 +247,26 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
   return candidates;
 }
 
+NextGoal GoalOf(const Goal& goal, const Eigen::VectorXd& at_draws) {
+  return {.process = goal.process,
+          .number = goal.number,
+          .half_width = optimizer::HalfWidth90(at_draws),
+          .left_out_error = goal.surrogate.left_out_error(),
+          .scale_factor = goal.scale_factor,
+          .num_draws = goal.num_draws,
+          .num_runs = goal.num_runs,
+          .core_time = goal.core_time};
+}
+
+// What narrows the goal most first, or else what has the most bits; what is not known is last.
+void Sort(NextTable& table) {
+  const auto worth = [&](const NextCandidate& c) {
+    if (!c.learning) return -std::numeric_limits<double>::infinity();
+    return table.goal ? -c.learning->goal_half_width : c.learning->bits;
+  };
+  std::ranges::stable_sort(table.candidates, std::greater<>{}, worth);
+}
+
 }  // namespace
 
 NextTable RankNext(const JointView& view, const NextOptions& options) {
@@ -256,11 +276,15 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
                       ": has too few trials of each experiment for a posterior; go on with "
                       "`talus resume`");
   }
-  const Ground ground{.view = view,
-                      .temper = strategy->Model().temper(),
-                      .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
-                      .model_error = view.spec.posterior.model_error};
+  Ground ground{.view = view,
+                .temper = strategy->Model().temper(),
+                .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
+                .model_error = view.spec.posterior.model_error};
   NextTable table{.parameters = view.record.parameters};
+  if (options.goal) {
+    ground.goal = options.goal->surrogate.At(ground.draws).mean;
+    table.goal = GoalOf(*options.goal, ground.goal);
+  }
   for (const int i : view.space.Free()) {
     table.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);
   }
@@ -273,10 +297,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   AddNumbers(ground, table.candidates);
   const std::vector<NextCandidate> tests = JudgeTests(ground, options, cost);
   table.candidates.insert(table.candidates.end(), tests.begin(), tests.end());
-  const auto bits = [](const NextCandidate& c) { return c.learning ? c.learning->bits : -1; };
-  std::stable_sort(
-      table.candidates.begin(), table.candidates.end(),
-      [&](const NextCandidate& a, const NextCandidate& b) { return bits(a) > bits(b); });
+  Sort(table);
   return table;
 }
 

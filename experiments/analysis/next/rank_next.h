@@ -1,11 +1,13 @@
-// What to do next, by what it is expected to teach about the parameters.
+// What to do next, by what it is expected to teach about the parameters or a prediction.
 #pragma once
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/analysis/next/goal.h"
 #include "experiments/analysis/next/next_table.h"
 #include "experiments/analysis/next/test_candidate.h"
 #include "experiments/campaign/campaign.h"
@@ -20,6 +22,7 @@ struct NextOptions {
   // Told before a design is simulated.
   std::function<void(const std::string&)> say = [](const std::string&) {};
   campaign::CampaignParts parts{};  // that simulate
+  std::optional<Goal> goal{};       // ranked by how much they narrow it, not by bits
 };
 
 // Throws base::Error while there are too few trials for a posterior.

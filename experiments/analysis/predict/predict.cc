@@ -38,6 +38,7 @@ using campaign::JointView;
 constexpr int kUsualDraws = 12;
 constexpr int kUsualSeeds = 3;
 constexpr int kUsualSeedsOfOne = 8;  // scatter is all there is to tell
+constexpr const char* kSceneTest = "scene";
 
 // design.json: which sets are simulated, of what.
 struct PredictionDesign {
@@ -88,27 +89,46 @@ Eigen::VectorXd OneSet(const JointView& view, const PredictOptions& options) {
                           *campaign::StrategyOf(view, view.Answered()));
 }
 
+// `options` with what an earlier call for this file had, where it has ended.
+PredictOptions AsBefore(const JointView& view, PredictOptions options) {
+  const fs::path root =
+      PredictFolder(view.folder.root) / base::FileWord(options.file.stem().string());
+  const auto design = campaign::ReadRecordFile<PredictionDesign>(root / "design.json");
+  const fs::path file = root / "prediction.json";
+  if (!design || !fs::exists(file)) return options;
+  const auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
+  if (before.draws.empty() || before.by != PredictedBy::kPosterior) return options;
+  options.num_draws = design->num_draws;
+  options.num_seeds = before.num_runs / static_cast<int>(before.draws.size());
+  const nlohmann::json given = base::ReadJsonFile(options.file).root;
+  const bool states =
+      given.contains("coarse_graining") && given["coarse_graining"].contains("scale_factor");
+  if (before.test != kSceneTest && !states) options.scale_factor = before.scale_factor;
+  return options;
+}
+
 // One call's work on DIR/predict/NAME.
 class Predictor {
  public:
-  Predictor(const JointView& view, const PredictOptions& options, campaign::CampaignParts parts)
+  Predictor(const JointView& view, PredictOptions options, campaign::CampaignParts parts)
       : view_(view),
-        options_(options),
+        options_(std::move(options)),
         parts_(std::move(parts)),
-        num_draws_(
-            ByOf(options) == PredictedBy::kPosterior ? options.num_draws.value_or(kUsualDraws) : 1),
-        num_seeds_(options.num_seeds.value_or(num_draws_ > 1 ? kUsualSeeds : kUsualSeedsOfOne)),
-        case_(
-            ReadPredictedCase(view, options.file, options.scale_factor, num_draws_ * num_seeds_)) {
-    if (!options.measured.empty()) {
-      measured_ = ReadMeasured(options.measured, case_);
+        num_draws_(ByOf(options_) == PredictedBy::kPosterior
+                       ? options_.num_draws.value_or(kUsualDraws)
+                       : 1),
+        num_seeds_(options_.num_seeds.value_or(num_draws_ > 1 ? kUsualSeeds : kUsualSeedsOfOne)),
+        case_(ReadPredictedCase(view, options_.file, options_.scale_factor,
+                                num_draws_ * num_seeds_)) {
+    if (!options_.measured.empty()) {
+      measured_ = ReadMeasured(options_.measured, case_);
       if (measured_.profile) case_.rig_case.frame = measured_.profile->frame;
     }
     if (!case_.scene_text.empty()) {
       parts_.engine = std::make_unique<SceneEngine>(case_.scene_text);
     }
     // What is wrong with a set shows before anything is written.
-    if (num_draws_ == 1) one_set_ = OneSet(view, options);
+    if (num_draws_ == 1) one_set_ = OneSet(view, options_);
     root_ = PredictFolder(view.folder.root) / FolderName();
   }
 
@@ -168,6 +188,13 @@ class Predictor {
     return last;
   }
 
+  // Of as many parameters as are searched now.
+  bool HasPoints(const PredictionDesign& design) const {
+    return std::ranges::all_of(design.points, [&](const std::vector<double>& point) {
+      return point.size() == view_.space.Free().size();
+    });
+  }
+
   // The sets of an earlier call, where it was for the same.
   PredictionDesign TakeDesign() {
     const fs::path file = root_ / "design.json";
@@ -177,9 +204,10 @@ class Predictor {
                             .num_draws = num_draws_,
                             .last_trial = LastTrial()};
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);
+    if (stored && options_.as_before) wanted.last_trial = stored->last_trial;
     const bool same = stored && stored->test == wanted.test && stored->by == wanted.by &&
                       stored->num_draws == wanted.num_draws &&
-                      stored->last_trial == wanted.last_trial;
+                      stored->last_trial == wanted.last_trial && HasPoints(*stored);
     if (one_set_) {
       wanted.points = {{one_set_->data(), one_set_->data() + one_set_->size()}};
       wanted.weights = {1};
@@ -244,7 +272,7 @@ class Predictor {
     Prediction prediction{.name = case_.name,
                           .test = case_.scene_text.empty()
                                       ? std::string(base::NameOf(case_.rig_case.rig.kind))
-                                      : "scene",
+                                      : kSceneTest,
                           .by = ByOf(options_),
                           .scale_factor = case_.rig_case.coarse_graining.scale_factor,
                           .last_trial = design_.last_trial,
@@ -302,7 +330,7 @@ class Predictor {
   }
 
   const JointView& view_;
-  const PredictOptions& options_;
+  PredictOptions options_;
   campaign::CampaignParts parts_;
   int num_draws_;
   int num_seeds_;
@@ -335,7 +363,8 @@ Prediction Predict(const JointView& view, const PredictOptions& options,
       !options.scale_factor || (*options.scale_factor >= 1 && std::isfinite(*options.scale_factor)),
       "--scale: is " + base::ShortNumber(options.scale_factor.value_or(1)) +
           ", must be 1 or more: no grain is smaller than the powder's own");
-  return Predictor(view, options, std::move(parts)).Run();
+  return Predictor(view, options.as_before ? AsBefore(view, options) : options, std::move(parts))
+      .Run();
 }
 
 }  // namespace talus::analysis

@@ -26,6 +26,9 @@ struct PredictOptions {
   std::map<std::string, std::string> set{};  // NAME: VALUE of one set, instead of draws
   bool recommended = false;                  // or the recommended set
   std::filesystem::path measured{};          // on the real process; or empty
+  // Draws, seeds and scale factor that are not given are those of an earlier call for the same
+  // test, even where trials have ended since: a number as a function of the sets is still that.
+  bool as_before = false;
 };
 
 // Throws base::Interrupted when the user ends it, with what there is written.

@@ -7,10 +7,12 @@
 
 #include "base/error.h"
 #include "experiments/analysis/compare/heap_pair.h"
+#include "experiments/analysis/next/goal.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/analysis/next/usual_tests.h"
+#include "experiments/analysis/predict/predict.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -39,6 +41,17 @@ class NextTest : public campaign::CampaignFixture {
     options.parts = {.runner = campaign::MakeRunner(view.spec, view.folder.root),
                      .engine = std::make_unique<FakeEngine>(kSharp)};
     return RankNext(view, options);
+  }
+  static campaign::CampaignParts Parts(const JointView& view) {
+    return {.runner = campaign::MakeRunner(view.spec, view.folder.root),
+            .engine = std::make_unique<FakeEngine>(kSharp)};
+  }
+  fs::path Taps() const {
+    const fs::path file = scratch_.path() / "taps.json";
+    std::ofstream(file) << R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"},
+      "mass": "0.5 g"}, "rig": {"kind": "tapped_density", "diameter": "10 mm"},
+      "filling": {"kind": "pour"}})";
+    return file;
   }
   static const NextCandidate& Find(const NextTable& table, const std::string& name) {
     for (const NextCandidate& c : table.candidates) {
@@ -179,6 +192,68 @@ TEST_F(NextTest, ATestOfNumbersOnlyIsJudgedByThem) {
   EXPECT_EQ(judged.numbers[0].metric, "tapped_density_kg_per_m3");
   EXPECT_GT(std::abs(judged.numbers[0].first - judged.numbers[0].second), 10);
   EXPECT_THAT(NextText(table), HasSubstr("16 of them made"));
+}
+
+// The drawn density is 1550 − 350 μ_r kg/m³: what tells μ_t alone, however well, does not help it.
+TEST_F(NextTest, ForAGoalWhatNarrowsItComesFirst) {
+  const JointView view = Run();
+  const GoalRequest request{.file = Taps(), .observable = "tapped_density"};
+  NextOptions options{.tests = UsualTests(view), .simulate = false};
+  std::erase_if(options.tests, [](const auto& test) { return test.name != "tapped density"; });
+  options.tests[0].numbers.Of<rigs::Observable::kTappedDensity>() = {.standard_error = 0.5};
+  options.simulate = true;
+  options.parts = Parts(view);
+  options.goal = SimulateGoal(view, request, Parts(view));
+  const NextTable table = RankNext(view, options);
+  ASSERT_TRUE(table.goal.has_value());
+  EXPECT_EQ(table.goal->number, "tapped_density_kg_per_m3");
+  EXPECT_EQ(table.goal->num_draws, 12);
+  // Scatter of a mean of 3 runs is 0.3; half of a 90 % range of μ_r alone is 0.32 of its joint one
+  // if that holds 95 % of a normal.
+  const double rolling = view.space.parameters[1].high - view.space.parameters[1].low;
+  EXPECT_NEAR(table.goal->half_width, 350 * rolling * table.width[1] * 0.42,
+              0.2 * table.goal->half_width);
+  EXPECT_LT(table.goal->left_out_error, 0.2 * table.goal->half_width);  // draws at the ends count
+  const NextCandidate& mass = Find(table, "mass on the plate of heap");
+  const NextCandidate& density = Find(table, "tapped density");
+  EXPECT_EQ(table.candidates.front().name, "tapped density");
+  EXPECT_GT(mass.learning->bits, 0.5);
+  EXPECT_GT(mass.learning->goal_half_width, 0.8 * table.goal->half_width);
+  EXPECT_LT(density.learning->goal_half_width, 0.7 * table.goal->half_width);
+  EXPECT_THAT(NextText(table), HasSubstr("of the goal, sliding_friction"));
+  EXPECT_THAT(NextJson(table), HasSubstr("\"goal_half_width_90\""));
+}
+
+TEST_F(NextTest, RunsOfAnEarlierPredictionServeAGoalAndAreNotMadeAgain) {
+  const JointView view = Run();
+  Predict(view, {.file = Taps(), .num_draws = 8, .num_seeds = 2, .scale_factor = 2}, Parts(view));
+  const fs::path trials = folder_ / "predict/taps/trials";
+  const auto time = fs::last_write_time(trials / "0001_1/profile.png");
+  const Goal goal = SimulateGoal(view, {.file = Taps()}, Parts(view));
+  EXPECT_EQ(goal.num_draws, 8);
+  EXPECT_EQ(goal.num_runs, 16);
+  EXPECT_EQ(goal.scale_factor, 2);
+  EXPECT_EQ(fs::last_write_time(trials / "0001_1/profile.png"), time);
+}
+
+TEST_F(NextTest, AGoalThatTheTestDoesNotMeasureNamesThoseThereAreAndCostsNothing) {
+  const JointView view = Run();
+  try {
+    SimulateGoal(view, {.file = Taps(), .observable = "runout"}, Parts(view));
+    FAIL();
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("has no observable \"runout\"; it has poured_density"));
+  }
+  const fs::path column = scratch_.path() / "column.json";
+  std::ofstream(column) << R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"},
+    "mass": "0.5 g"}, "rig": {"kind": "column_collapse", "length": "5 mm", "width": "8 mm"}})";
+  try {
+    SimulateGoal(view, {.file = column}, Parts(view));
+    FAIL();
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("has several observables"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "predict"));
 }
 
 TEST_F(NextTest, FinerGrainsAreWorthMoreWhereTheModelErrorLeavesMore) {

@@ -66,6 +66,21 @@ TEST(NextTable, OfTheCampaignIsShownWithItsPicturesAndAmongTheSteps) {
   EXPECT_TRUE(next["candidates"][1]["uri"].is_null());
 }
 
+TEST(NextTable, ForAGoalHasItsColumnInTheUnitThatPeopleRead) {
+  json with_goal = json::parse(kNextJson);
+  with_goal["goal"] = {
+      {"process", "spread"}, {"observable", "thickness_m"}, {"half_width_90", 2e-5}};
+  with_goal["candidates"][0]["goal_half_width_90"] = 1e-5;
+  with_goal["candidates"][1]["goal_half_width_90"] = nullptr;
+  const ReportData data = MakeReportData(WithNext("goal", with_goal.dump()));
+  const json next = json::parse(PageJson(data))["next"];
+  EXPECT_EQ(next["goal"]["process"], "spread");
+  EXPECT_EQ(next["goal"]["unit"], "mm");
+  EXPECT_NEAR(next["goal"]["half_width"].get<double>(), 0.02, 1e-12);
+  EXPECT_NEAR(next["candidates"][0]["goal"].get<double>(), 0.01, 1e-12);
+  EXPECT_TRUE(next["candidates"][1]["goal"].is_null());
+}
+
 TEST(NextTable, MadeBeforeTheLastTrialsIsCalledOutdated) {
   std::string old = kNextJson;
   old.replace(old.find("60"), 2, "59");

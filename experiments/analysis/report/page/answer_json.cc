@@ -86,10 +86,12 @@ PageValue ApartJson(const CandidateView::Number& number) {
 }  // namespace
 
 PageValue NextTableJson(const NextTableView& table) {
-  const auto candidate = [](const CandidateView& c) {
+  const ShownUnit unit = ShownUnitOf(table.goal ? rigs::UnitOfObservable(table.goal->metric) : "-");
+  const auto candidate = [&](const CandidateView& c) {
     return PageValue{{"name", c.name},
                      {"what", c.what},
                      {"bits", NumberJson(c.bits)},
+                     {"goal", NumberJson(unit.per_unit * c.goal)},
                      {"width", NumbersJson(c.width)},
                      {"simulations", c.num_simulations},
                      {"core_time", NumberJson(c.core_time)},
@@ -99,8 +101,16 @@ PageValue NextTableJson(const NextTableView& table) {
                      {"picture_width", c.picture.width},
                      {"picture_height", c.picture.height}};
   };
+  PageValue goal = nullptr;
+  if (table.goal) {
+    goal = {{"process", table.goal->process},
+            {"title", MetricTitle(table.goal->metric)},
+            {"unit", unit.text},
+            {"half_width", NumberJson(unit.per_unit * table.goal->half_width)}};
+  }
   return {{"width", NumbersJson(table.width)},
           {"outdated", table.is_outdated},
+          {"goal", goal},
           {"candidates", ListJson(table.candidates, candidate)}};
 }
 

@@ -36,6 +36,9 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::
   if (!json.at("bits").is_null()) {
     candidate.bits = json["bits"].get<double>();
     candidate.width = WidthsOf(json.at("width_90"), evidence);
+    if (json.contains("goal_half_width_90")) {
+      candidate.goal = json["goal_half_width_90"].get<double>();
+    }
   }
   if (!json.contains("told_apart")) return candidate;
   candidate.apart = json["told_apart"].get<std::vector<std::vector<double>>>();
@@ -64,6 +67,11 @@ NextTableView ViewOf(const Json& json, const Evidence& evidence, const fs::path&
       std::any_of(evidence.trials.begin(), evidence.trials.end(), [&](const TrialEvidence& trial) {
         return trial.id > after && trial.state != journal::TrialStatus::kRunning;
       });
+  if (json.contains("goal")) {
+    view.goal = {.process = json["goal"].at("process").get<std::string>(),
+                 .metric = json["goal"].at("observable").get<std::string>(),
+                 .half_width = json["goal"].at("half_width_90").get<double>()};
+  }
   for (const Json& candidate : json.at("candidates")) {
     view.candidates.push_back(CandidateOf(candidate, evidence, folder));
   }

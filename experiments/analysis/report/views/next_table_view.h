@@ -22,6 +22,7 @@ struct CandidateView {
   std::string what;           // in words
   double bits = kUndefined;   // expected; undefined where its simulations have not been run
   std::vector<double> width;  // of the joint 90 % ranges that it leaves, unit cube; or none
+  double goal = kUndefined;   // half-width of the goal's 90 % that it leaves, where there is a goal
   int num_simulations = 0;
   double core_time = 0;  // [s]
   // The two sets that it tells apart best, SI, with what they would show; or none.
@@ -30,9 +31,17 @@ struct CandidateView {
   Picture picture;
 };
 
+// A number of another test that they are ranked for.
+struct NextGoalView {
+  std::string process;
+  std::string metric;
+  double half_width = kUndefined;  // of its 90 % now
+};
+
 struct NextTableView {
   std::vector<double> width;  // now
   bool is_outdated = false;   // trials have ended since
+  std::optional<NextGoalView> goal{};
   std::vector<CandidateView> candidates;
 };
 

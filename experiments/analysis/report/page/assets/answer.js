@@ -145,13 +145,19 @@ function toldApart(c) {
 function nextTable() {
   if (!D.next) return [];
   const cost = (c) => c.simulations ? c.simulations + " simulations, " + duration(c.core_time) : "no simulation";
+  const goal = D.next.goal;
   const telling = D.next.candidates.filter((c) => c.apart.length && (c.uri || c.apart_by.length));
   return [element("div", {class: "card", id: "next-table"}, element("h3", {}, "What each next step is expected to teach"),
     D.next.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus next again.") : null,
-    table("Next steps", [{title: "Candidate", text: true, wide: true}, {title: "Expected", unit: "bits"},
+    table("Next steps", [{title: "Candidate", text: true, wide: true},
+        ...(goal ? [{title: goal.title + " of " + goal.process + " known within ±",
+                     unit: "now " + formatUnit(goal.half_width, goal.unit, 2)}] : []),
+        {title: "Expected", unit: "bits"},
         ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
         {title: "Costs", text: true}],
-      D.next.candidates.map((c) => [c.name + ": " + c.what, c.bits === null ? "?" : format(c.bits, 2),
+      D.next.candidates.map((c) => [c.name + ": " + c.what,
+        ...(goal ? [c.goal === null ? "?" : formatUnit(c.goal, goal.unit, 2)] : []),
+        c.bits === null ? "?" : format(c.bits, 2),
         ...D.parameters.map((p, k) => c.bits === null ? "?" : widthText(p, c.width[k])), cost(c)])),
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
       "possible." + (D.next.candidates.some((c) => c.bits === null)
