@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 5;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 6;  // raised with every change of what is written
 
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};
@@ -81,8 +81,15 @@ void VisitWalls(Archive& archive, WallSet& set) {
   }
   std::vector<std::uint8_t> removed = set.removed();
   archive(removed);
+  std::vector<Press> presses = set.presses();
+  VisitSize(archive, presses);
+  for (Press& press : presses) {
+    archive(press.walls);
+    for (double* value : {&press.force, &press.mass, &press.damping, &press.speed}) archive(*value);
+    archive(press.direction);
+  }
   if constexpr (std::is_same_v<Archive, ByteReader>)
-    set.Restore(std::move(walls), std::move(removed));
+    set.Restore(std::move(walls), std::move(removed), std::move(presses));
 }
 
 template <class Archive, class List>

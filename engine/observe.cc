@@ -55,6 +55,29 @@ History<double> HistoryOf(const PairBlock& block, int lane, const Units& units) 
   return {in_si(block.spring, units.length), in_si(block.moment, units.Torque())};
 }
 
+// What a run of contacts does to its wall. The force acts where the sphere's surface meets the
+// wall's; rolling resistance is left out.
+WallLoad LoadOf(const SimulationState& state, const Chunk& chunk, const PairRun& run,
+                ScalarLaw law) {
+  const WallView& wall = state.walls.views()[run.wall];
+  const PairConstants& pair = state.constants[run.constants];
+  WallLoad load;
+  for (std::int64_t k = 0; k < run.num_pairs; ++k) {
+    const PairBlock& block = chunk.blocks[run.first_block + k / kBlock];
+    const int lane = static_cast<int>(k % kBlock);
+    const std::int32_t i = block.first[lane];
+    const Contact<double> contact = WallContact(state.particles, i, wall);
+    if (!(contact.overlap > -pair.adhesion_gap)) continue;
+    History<double> history = HistoryOf(block, lane, state.units);
+    const Vec3 on_wall = -ToVec3(law(pair, contact, state.dt, history).force);
+    const double distance = state.particles.Radius(i) - contact.overlap;
+    const Vec3 place = state.particles.Position(i) + distance * ToVec3(contact.normal);
+    load.force += on_wall;
+    load.torque += Cross(place - ToVec3(Broadcast<double>(wall.pivot)), on_wall);
+  }
+  return load;
+}
+
 }  // namespace
 
 std::vector<Load> SimulationState::Loads() {
@@ -98,30 +121,33 @@ std::vector<Particle> SimulationState::FullStep() {
   return result;
 }
 
-// The force acts where the sphere's surface meets the wall's; rolling resistance is left out.
 std::vector<WallLoad> SimulationState::WallLoads() const {
   const ScalarLaw law = PickLaw(models, NormalLaws{});
   std::vector<WallLoad> loads(walls.size());
   for (const Chunk& chunk : list.chunks()) {
     for (const PairRun& run : chunk.runs) {
       if (run.wall < 0) continue;
-      const WallView& wall = walls.views()[run.wall];
-      for (std::int64_t k = 0; k < run.num_pairs; ++k) {
-        const PairBlock& block = chunk.blocks[run.first_block + k / kBlock];
-        const int lane = static_cast<int>(k % kBlock);
-        const std::int32_t i = block.first[lane];
-        const Contact<double> contact = WallContact(particles, i, wall);
-        if (!(contact.overlap > -constants[run.constants].adhesion_gap)) continue;
-        History<double> history = HistoryOf(block, lane, units);
-        const Vec3 on_wall = -ToVec3(law(constants[run.constants], contact, dt, history).force);
-        const double distance = particles.Radius(i) - contact.overlap;
-        const Vec3 place = particles.Position(i) + distance * ToVec3(contact.normal);
-        loads[run.wall].force += on_wall;
-        loads[run.wall].torque += Cross(place - ToVec3(Broadcast<double>(wall.pivot)), on_wall);
-      }
+      const WallLoad load = LoadOf(*this, chunk, run, law);
+      loads[run.wall].force += load.force;
+      loads[run.wall].torque += load.torque;
     }
   }
   return loads;
+}
+
+void SimulationState::WeighPresses() {
+  const std::vector<Press>& presses = walls.presses();
+  press_loads.assign(presses.size(), 0);
+  if (presses.empty()) return;
+  const ScalarLaw law = PickLaw(models, NormalLaws{});
+  for (const Chunk& chunk : list.chunks()) {
+    for (const PairRun& run : chunk.runs) {
+      for (std::size_t k = 0; k < presses.size(); ++k) {
+        if (std::ranges::find(presses[k].walls, run.wall) == presses[k].walls.end()) continue;
+        press_loads[k] += Dot(LoadOf(*this, chunk, run, law).force, presses[k].direction);
+      }
+    }
+  }
 }
 
 std::vector<ContactInfo> SimulationState::Contacts() const {

@@ -75,6 +75,13 @@ void ValidateAdded(const SimulationState& state, const Particle& p,
                    "exceeds 0.4 Rayleigh times of a sphere that is added");
 }
 
+// After a change of how walls move.
+void WallsSpeedUp(SimulationState& state) {
+  state.walls.SetTime(state.time(), state.dt);
+  state.reference_speed = std::max(state.reference_speed, state.walls.MaxPrescribedSpeed());
+  state.speed_limit = SpeedLimit(state);
+}
+
 }  // namespace
 
 Simulation::Simulation(const Scene& scene) : state_(Start(scene)) {}
@@ -133,9 +140,17 @@ void Simulation::SetMotion(int wall, std::vector<MotionStep> motion) {
   ValidateWall(changed, static_cast<int>(state_->materials.size()), problems);
   problems.ThrowIfAny();
   state_->walls.SetMotion(wall, std::move(changed.motion));
-  state_->walls.SetTime(time(), time_step());
-  state_->reference_speed = std::max(state_->reference_speed, state_->walls.MaxPrescribedSpeed());
-  state_->speed_limit = SpeedLimit(*state_);
+  WallsSpeedUp(*state_);
+}
+
+const std::vector<Press>& Simulation::Presses() const { return state_->walls.presses(); }
+
+void Simulation::SetPresses(std::vector<Press> presses) {
+  base::Problems problems;
+  for (const Press& press : presses) ValidatePress(press, state_->walls.size(), problems);
+  problems.ThrowIfAny();
+  state_->walls.SetPresses(std::move(presses));
+  WallsSpeedUp(*state_);
 }
 
 void Simulation::SetGravityTurns(std::vector<TurnStep> turns) {

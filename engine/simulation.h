@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/bodies/press.h"
 #include "engine/scene.h"
 
 namespace talus::engine {
@@ -85,6 +86,10 @@ class Simulation {
 
   // From now on the wall follows `motion` (times absolute); what was prescribed before is dropped.
   void SetMotion(int wall, std::vector<MotionStep> motion);
+
+  // From now on these walls are pressed; what was pressed before is not any more.
+  void SetPresses(std::vector<Press> presses);
+  const std::vector<Press>& Presses() const;  // at their speeds now
 
   // Takes a wall out of the scene for good: nothing touches it any more.
   void RemoveWall(int wall);

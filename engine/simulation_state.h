@@ -40,6 +40,7 @@ struct SimulationState {
 
   ParticleStore particles;
   WallSet walls;
+  std::vector<double> press_loads;  // on each press, along its direction, for the next step [N]
   ContactList list;
   SkinTuner tuner;
   std::vector<std::int32_t> all_particles;  // 0, 1, 2, …, for RebuildAll
@@ -69,6 +70,7 @@ struct SimulationState {
   void Advance();       // one step
   MotionCheck Sweep();  // forces and motion of all chunks
   void Move(const StepView& view, Chunk& chunk, const PanelView& panel);
+  void WeighPresses();           // press_loads, at the places and speeds that the step begins with
   void TurnGravity();            // as prescribed for the step that has been made
   void Watch(double max_speed);  // rebuilds the list when something may have moved too far
 

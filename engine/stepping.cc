@@ -178,7 +178,9 @@ void SimulationState::TurnGravity() {
 }
 
 void SimulationState::Advance() {
+  WeighPresses();
   const MotionCheck check = Sweep();
+  walls.Push(press_loads, dt);
   walls.Move(dt);
   TurnGravity();
   ++step;

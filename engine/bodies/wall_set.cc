@@ -146,9 +146,11 @@ WallSet::WallSet(std::vector<Wall> walls) : walls_(std::move(walls)), removed_(w
   Refresh();
 }
 
-void WallSet::Restore(std::vector<Wall> walls, std::vector<std::uint8_t> removed) {
+void WallSet::Restore(std::vector<Wall> walls, std::vector<std::uint8_t> removed,
+                      std::vector<Press> presses) {
   walls_ = std::move(walls);
   removed_ = std::move(removed);
+  presses_ = std::move(presses);
   Refresh();
 }
 
@@ -163,6 +165,24 @@ void WallSet::SetTime(double time, double time_step) {
     Store(mean.velocity, views_[w].velocity);
     Store(mean.angular_velocity, views_[w].angular_velocity);
     views_[w].turns = mean.angular_velocity != Vec3();
+  }
+  for (const Press& press : presses_) AddSpeed(press, press.speed);
+}
+
+void WallSet::AddSpeed(const Press& press, double speed) {
+  for (const int wall : press.walls) {
+    WallView& view = views_[wall];
+    Store(Load(view.velocity) + speed * press.direction, view.velocity);
+  }
+}
+
+void WallSet::SetPresses(std::vector<Press> presses) { presses_ = std::move(presses); }
+
+void WallSet::Push(std::span<const double> loads, double time_step) {
+  for (std::size_t k = 0; k < presses_.size(); ++k) {
+    const double before = presses_[k].speed;
+    presses_[k].speed = PushedSpeed(presses_[k], loads[k], time_step);
+    AddSpeed(presses_[k], presses_[k].speed - before);
   }
 }
 
@@ -233,6 +253,7 @@ double WallSet::MaxPrescribedSpeed() const {
     const double reach = base::Norm(s.point - wall.pivot.value_or(s.point)) + Extent(s);
     speed = std::max(speed, MaxVelocity(wall.motion) + reach * MaxAngularVelocity(wall.motion));
   }
+  for (const Press& press : presses_) speed = std::max(speed, FreeSpeed(press));
   return speed;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/problems.h"
+#include "engine/bodies/press.h"
 #include "engine/bodies/wall.h"
 #include "engine/kernel/kernel.h"
 
@@ -24,6 +26,11 @@ class WallSet {
   void SetTime(double time, double time_step);
   void Move(double time_step);  // at the velocities set
 
+  // What is pressed goes on at its speed in `presses`.
+  void SetPresses(std::vector<Press> presses);
+  // New speeds of the pressed walls, under the load on each press [N].
+  void Push(std::span<const double> loads, double time_step);
+
   // Takes away the walls whose time is up at the step nearest to it; true when there were any.
   bool RemoveDue(double time, double time_step);
 
@@ -37,24 +44,29 @@ class WallSet {
   // about its own axis stays where it is.
   double MaxSpeed() const;
 
-  // Largest speed that a wall's surface is to have at any time [m/s].
+  // Largest speed that a wall's surface is to have at any time, or has where it is pressed and
+  // nothing holds it [m/s].
   double MaxPrescribedSpeed() const;
 
   int size() const { return static_cast<int>(walls_.size()); }
   const std::vector<Wall>& walls() const { return walls_; }
   const std::vector<WallView>& views() const { return views_; }
+  const std::vector<Press>& presses() const { return presses_; }
 
   // For the checkpoint.
   const std::vector<std::uint8_t>& removed() const { return removed_; }
-  void Restore(std::vector<Wall> walls, std::vector<std::uint8_t> removed);
+  void Restore(std::vector<Wall> walls, std::vector<std::uint8_t> removed,
+               std::vector<Press> presses);
 
  private:
   void Refresh();  // the views from the walls
   void Turn(std::size_t wall, double time_step);
+  void AddSpeed(const Press& press, double speed);  // to the walls' velocities [m/s]
 
   std::vector<Wall> walls_;
   std::vector<WallView> views_;
   std::vector<std::uint8_t> removed_;
+  std::vector<Press> presses_;
 };
 
 }  // namespace talus::engine
