@@ -14,6 +14,7 @@ void AddCalibrateCommand(CLI::App& app) {
     std::string spec;
     std::string out;
     std::string hold_out;
+    std::vector<std::string> reuse;
     TellOptions tell;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -25,6 +26,9 @@ void AddCalibrateCommand(CLI::App& app) {
                       "folder for all it writes; default: the spec's name without .json");
   command->add_option("--hold-out", arguments->hold_out,
                       "name of an experiment: the answer is made without it and predicts it");
+  command->add_option("--reuse", arguments->reuse,
+                      "folders of former campaigns of the same powder, or of `talus design`: what "
+                      "was simulated there is told to the search first");
   AddTellFlags(*command, arguments->tell);
   command->callback([arguments] {
     const std::filesystem::path folder = arguments->out.empty()
@@ -32,6 +36,11 @@ void AddCalibrateCommand(CLI::App& app) {
                                              : std::filesystem::path(arguments->out);
     campaign::BeginOptions options;
     if (!arguments->hold_out.empty()) options.hold_out = arguments->hold_out;
+    options.reuse.assign(arguments->reuse.begin(), arguments->reuse.end());
+    options.say = [&](const std::string& text) {
+      campaign::Console(campaign::CampaignFolder{folder}.log(), arguments->tell.output())
+          .Line(text);
+    };
     campaign::BeginCampaign(arguments->spec, folder, options);
     GoOn(folder, {}, arguments->tell);
   });

@@ -44,9 +44,10 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   OpenedCampaign opened = OpenCampaign(folder, {}, console);
   CampaignSpec spec = SpecWith(opened.spec, experiment);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();
-  const double used = CoreTime(opened.spec).OfSearch(trials);
+  CoreTime core_time(opened.spec);
   SetDrumDiameters(spec);
-  spec.budget.core_time = used + options.core_time.value_or(used);
+  spec.budget.core_time =
+      core_time.OfSearch(trials) + options.core_time.value_or(core_time.OfTold(trials));
   base::Problems problems(file.string(), {});
   CheckSpec(spec, problems);
   problems.ThrowIfAny();

@@ -1,6 +1,7 @@
 #include "experiments/campaign/campaign.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "base/files/file.h"
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/first_answer.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
@@ -76,6 +78,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
   journal_.SetProgress({.elapsed_s = Elapsed()});
   TellFinished();
   TakeUpRunning();
+  CollectReused();
   if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
   bool announced = false;
   while (true) {
@@ -119,6 +122,23 @@ void Campaign::TakeUpRunning() {
   }
 }
 
+// They need no worker, and the first proposal waits for all of them.
+void Campaign::CollectReused() {
+  const auto is_there = [&](const journal::TrialRecord& trial) {
+    return trial.kind == journal::TrialKind::kReused &&
+           parts_.engine->IsComplete(folder_.trial(trial.id));
+  };
+  std::vector<journal::TrialRecord> reused;
+  std::ranges::copy_if(waiting_, std::back_inserter(reused), is_there);
+  if (reused.empty()) return;
+  std::erase_if(waiting_, is_there);
+  Submit(reused);
+  const auto answer = planner_.Recommend();
+  if (answer && answer->posterior) {
+    console_.Line(FirstAnswerText(*answer, planner_.space(), record_.parameters));
+  }
+}
+
 bool Campaign::StartTrials() {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
     planner_.StopSearch({.kind = StopKind::kWallClock, .value = *spec_.budget.wall_clock});
@@ -150,7 +170,7 @@ void Campaign::Submit(const std::vector<journal::TrialRecord>& trials) {
   std::vector<runners::FinishedJob> ended;
   for (const journal::TrialRecord& trial : trials) {
     runners::Job job = JobOf(trial);
-    parts_.engine->Prepare(CaseOfTrial(trial), job.folder);
+    parts_.engine->Prepare(CaseOf(trial), job.folder);
     KeepTrial(folder_, trial);
     running_[trial.id] = trial;
     if (parts_.engine->IsComplete(job.folder)) {
@@ -187,18 +207,6 @@ runners::Job Campaign::JobOf(const journal::TrialRecord& trial) const {
           .time_cap = spec_.trial_time_cap};
 }
 
-rigs::Case Campaign::CaseOfTrial(const journal::TrialRecord& trial) const {
-  const std::vector<double> values = planner_.space().ToNative(PointOf(trial));
-  rigs::Case rig_case = CaseOf(spec_,
-                               {.values = values,
-                                .seed = static_cast<std::uint64_t>(trial.seed),
-                                .scale_factor = trial.scale_factor,
-                                .experiment = trial.experiment},
-                               ReferenceOf(trial).frame());
-  rig_case.outputs.film = trial.kind == journal::TrialKind::kConfirm;  // the report shows one
-  return rig_case;
-}
-
 void Campaign::HandleEnd(const runners::FinishedJob& job) {
   const auto found = running_.find(job.id);
   if (found == running_.end()) return;
@@ -232,7 +240,7 @@ bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob&
 void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&) {
   trials::TrialOutput output;
   try {
-    output = parts_.engine->Collect(CaseOfTrial(trial), folder_.trial(trial.id));
+    output = parts_.engine->Collect(CaseOf(trial), folder_.trial(trial.id));
     trial.metrics = ReferenceOf(trial).Measure(output.profile);
     trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
   } catch (const base::Error& error) {

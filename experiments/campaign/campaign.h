@@ -18,6 +18,7 @@
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/plan/planner.h"
 #include "experiments/campaign/record/reference.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/journal.h"
 #include "experiments/runners/runner.h"
@@ -52,10 +53,13 @@ class Campaign {
 
   void TellFinished();
   void TakeUpRunning();
+  void CollectReused();
   bool StartTrials();
   void Submit(const std::vector<journal::TrialRecord>& trials);
   runners::Job JobOf(const journal::TrialRecord& trial) const;
-  rigs::Case CaseOfTrial(const journal::TrialRecord& trial) const;
+  rigs::Case CaseOf(const journal::TrialRecord& trial) const {
+    return CaseOfTrial(spec_, trial, ReferenceOf(trial).frame());
+  }
   void HandleEnd(const runners::FinishedJob& job);
   bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
   void Collect(journal::TrialRecord& trial, const runners::FinishedJob& job);

@@ -15,6 +15,8 @@
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/campaign/reuse.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/images/image_file.h"
@@ -123,8 +125,7 @@ SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const ResumeOpt
 
 void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change) {
   int num_search = 0;
-  for (const journal::TrialRecord& trial : journal.Trials())
-    num_search += trial.kind != journal::TrialKind::kConfirm;
+  for (const journal::TrialRecord& trial : journal.Trials()) num_search += IsPaidFor(trial);
   const bool finished = journal.Progress().state == "finished";
   BudgetOptions& budget = change.spec.budget;
   const int from = finished ? num_search : std::max(num_search, budget.simulations);
@@ -152,7 +153,7 @@ void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
 
 // What may be in a folder that a campaign begins in: what a process that was killed, or another
 // that begins now, has left there before the campaign itself.
-constexpr std::string_view kMayBeThere[] = {"campaign.lock"};
+constexpr std::string_view kMayBeThere[] = {"campaign.lock", kCopiesFolder};
 
 void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path& shown) {
   if (std::filesystem::exists(journal::JournalPath(folder.root)) ||
@@ -165,6 +166,30 @@ void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path&
   throw base::ConfigError(shown.string() +
                           ": holds other files, which the campaign's could overwrite; name a new "
                           "folder with --out");
+}
+
+// A campaign that takes its own trials over would lose them.
+void RequireOthers(const std::vector<std::filesystem::path>& reuse, const CampaignFolder& folder) {
+  const auto place_of = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  for (const std::filesystem::path& other : reuse) {
+    if (place_of(other) == place_of(folder.root)) {
+      throw base::ConfigError("--reuse: " + other.string() +
+                              ": is the new campaign's own folder; name that of a former one");
+    }
+  }
+}
+
+// The campaign is there once campaign.json is; from then on OpenCampaign does what is left of this.
+void WriteCampaign(const CampaignFolder& folder, const journal::CampaignRecord& record,
+                   const std::vector<journal::TrialRecord>& reused,
+                   const std::vector<std::string>& messages) {
+  KeepCampaign(folder, record);
+  AdoptCopies(folder);
+  journal::Journal journal =
+      journal::Journal::Create(journal::JournalPath(folder.root), record, reused);
+  for (const std::string& message : messages) journal.AddEvent("reuse", 0, message);
 }
 
 }  // namespace
@@ -208,13 +233,19 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   if (options.hold_out && file.root.is_object()) file.root["hold_out"] = *options.hold_out;
   const CampaignSpec spec = ReadSpecWithPosteriors(file);
   const CampaignFolder folder{std::filesystem::absolute(root)};
+  RequireOthers(options.reuse, folder);
   RequireNewFolder(folder, root);
   const journal::CampaignRecord record = MakeRecord(spec, file);
+  const std::vector<Reference> references = ReferencesOf(record, spec);
+  const auto engine = options.engine ? options.engine() : MakeEngine(spec);
+  const Reuser reuser{.spec = spec, .references = references, .engine = *engine};
+  ReusePlan plan;
+  if (!options.reuse.empty()) plan = PlanReuse(reuser, options.reuse);
   base::MakeOutputFolder(root);
   const CampaignLock lock(folder.root);
   RequireNewFolder(folder, root);  // another process may have begun one meanwhile
-  KeepCampaign(folder, record);
-  journal::Journal::Create(journal::JournalPath(folder.root), record);
+  WriteCampaign(folder, record, CopyReused(reuser, plan, folder), plan.messages);
+  for (const std::string& message : plan.messages) options.say(message);
 }
 
 OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptions& options,
@@ -229,6 +260,7 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
                             ": holds no campaign; `talus calibrate SPEC` begins one");
   }
   CampaignLock lock(folder.root);
+  if (std::filesystem::exists(folder.campaign())) AdoptCopies(folder);
   journal::Journal journal = OpenOrRebuild(folder, console);
   const journal::CampaignRecord record = journal.Campaign();
   SpecChange change = SpecToGoOnWith(record, options);

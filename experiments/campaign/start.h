@@ -4,11 +4,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/trials/engines/trial_engine.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
@@ -24,10 +27,16 @@ journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec);
 
 struct BeginOptions {
   std::optional<std::string> hold_out{};  // instead of the spec's
+  // Former campaigns and designs, whose simulations are told first: reuse.h.
+  std::vector<std::filesystem::path> reuse{};
+  // Told what of them is taken, once the folder is there.
+  std::function<void(const std::string&)> say = [](const std::string&) {};
+  // That the campaign simulates with, so that tests can put another in its place.
+  std::function<std::unique_ptr<trials::TrialEngine>()> engine{};
 };
 
-// Makes the folder and the journal of a new campaign. Nothing is written when the spec or the
-// experiment's images are no good.
+// Makes the folder and the journal of a new campaign. Nothing is written when the spec, the
+// experiment's images or the folders to reuse are no good.
 void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& folder,
                    const BeginOptions& options = {});
 

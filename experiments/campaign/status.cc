@@ -11,6 +11,7 @@
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/plan/budget_use.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -18,7 +19,7 @@ namespace talus::campaign {
 namespace {
 
 struct Counts {
-  std::array<int, 4> by_kind{};  // as in TrialKind
+  std::array<int, 5> by_kind{};  // as in TrialKind
   int running = 0;
   int failed = 0;
   double seconds = 0;  // of the finished trials
@@ -127,6 +128,7 @@ std::string StatusText(const std::filesystem::path& root) {
           std::to_string(counts.by_kind[1]) + " of the design, " +
           std::to_string(counts.by_kind[2]) + " of the search), " +
           std::to_string(counts.by_kind[3]) + " to confirm\n";
+  if (!answer) text += ReusedLines(ReusedBy(trials, CoresOfTrial(spec)));
   text += "  now               " + std::to_string(counts.running) +
           (alive ? " running\n" : " to be run again\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);

@@ -1,12 +1,12 @@
 #include "experiments/campaign/take_over.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "base/error.h"
-#include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/folder/repair.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/campaign/start.h"
 #include "experiments/journal/journal.h"
 
 namespace talus::campaign {
@@ -23,62 +23,72 @@ Numbers NextOf(const std::vector<journal::TrialRecord>& trials) {
   Numbers next;
   for (const journal::TrialRecord& trial : trials) {
     next.id = std::max(next.id, trial.id + 1);
-    if (trial.kind == journal::TrialKind::kConfirm) continue;
+    if (!IsOfSearch(trial)) continue;
     next.set = std::max(next.set, trial.set + 1);
-    if (trial.kind != journal::TrialKind::kNoise) ++next.kind_index;
+    if (trial.kind == journal::TrialKind::kDesign || trial.kind == journal::TrialKind::kSearch) {
+      ++next.kind_index;
+    }
   }
   return next;
 }
 
-rigs::Case CaseOfTrial(const NewExperiment& experiment, const journal::TrialRecord& trial) {
-  const optimizer::ParameterSpace space = SpaceOf(experiment.spec);
-  const Eigen::VectorXd point = Eigen::Map<const Eigen::VectorXd>(
-      trial.unit.data(), static_cast<Eigen::Index>(trial.unit.size()));
-  return CaseOf(experiment.spec,
-                {.values = space.ToNative(point),
-                 .seed = static_cast<std::uint64_t>(trial.seed),
-                 .scale_factor = trial.scale_factor,
-                 .experiment = experiment.index},
-                experiment.reference.frame());
+}  // namespace
+
+bool SearchesTheSame(const CampaignSpec& spec, const FormerTest& test) {
+  return std::ranges::equal(SearchedParameters(spec), test.parameters, {},
+                            &journal::ParameterRecord::name, &journal::ParameterRecord::name);
 }
 
-journal::TrialRecord Made(const NewExperiment& experiment, const DesignRecord& design,
-                          std::size_t index, const Numbers& numbers) {
-  const optimizer::ParameterSpace space = SpaceOf(experiment.spec);
+std::optional<std::vector<double>> UnitOf(const CampaignSpec& spec, const FormerTest& test,
+                                          const FormerTrial& former) {
+  constexpr double kRounding = 1e-12;
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  std::vector<double> values =
+      space.ToNative(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(former.native.size())));
+  std::vector<double> unit;
+  for (const int i : space.Free()) {
+    const double value = former.native[unit.size()];
+    const double u = space.parameters[static_cast<std::size_t>(i)].ToUnit(value);
+    if (!(u >= -kRounding && u <= 1 + kRounding)) return std::nullopt;
+    unit.push_back(std::clamp(u, 0.0, 1.0));
+    values[static_cast<std::size_t>(i)] = value;
+  }
+  if (!space.Satisfies(values)) return std::nullopt;
+  return test.parameters == SearchedParameters(spec) ? former.unit : unit;
+}
+
+journal::TrialRecord TrialOf(const NewExperiment& experiment, const FormerTrial& former,
+                             std::vector<double> unit) {
   journal::TrialRecord trial;
-  trial.id = numbers.id;
-  trial.kind = journal::TrialKind::kDesign;
-  trial.kind_index = numbers.kind_index;
-  trial.set = numbers.set;
-  trial.origin = "design";
   trial.objective = base::NameOf(experiment.spec.objective);
-  trial.unit = design.points[index];
-  const std::vector<double> values = space.ToNative(Eigen::Map<const Eigen::VectorXd>(
-      trial.unit.data(), static_cast<Eigen::Index>(trial.unit.size())));
-  for (const int i : space.Free()) trial.native.push_back(values[static_cast<std::size_t>(i)]);
-  trial.seed = static_cast<std::int64_t>(DesignSeed(experiment.spec.seed, index));
+  trial.unit = std::move(unit);
+  trial.native = former.native;
+  trial.seed = former.seed;
   trial.experiment = experiment.index;
-  trial.scale_factor = design.scale_factor;
+  trial.scale_factor = former.scale_factor;
   trial.started_utc = journal::UtcNow();
+  trial.duration_s = former.duration_s;
+  trial.cpu_s = former.cpu_s;
   return trial;
 }
 
-// Its core time; nothing where it is not complete, of another test or has failed.
-std::optional<double> TakeOver(const NewExperiment& experiment, const journal::TrialRecord& trial,
-                               const std::filesystem::path& from, const std::filesystem::path& to,
-                               trials::TrialEngine& engine) {
-  if (!engine.IsComplete(from)) return std::nullopt;
-  const rigs::Case rig_case = CaseOfTrial(experiment, trial);
+bool TakeOver(const CampaignFolder& folder, const NewExperiment& experiment,
+              const FormerTrial& former, const journal::TrialRecord& trial,
+              trials::TrialEngine& engine, TakenOver& taken) {
+  if (!engine.IsComplete(former.folder)) return false;
+  const rigs::Case rig_case = CaseOfTrial(experiment.spec, trial, experiment.reference.frame());
+  const std::filesystem::path to = folder.trial(trial.id);
   try {
-    if (!engine.TakeOver(rig_case, from, to)) return std::nullopt;
-    return engine.Collect(rig_case, to).cpu_time;
+    if (!engine.TakeOver(rig_case, former.folder, to)) return false;
+    taken.core_time += engine.Collect(rig_case, to).cpu_time;
   } catch (const base::Error&) {
     std::filesystem::remove_all(to);
-    return std::nullopt;
+    return false;
   }
+  KeepTrial(folder, trial);
+  taken.trials.push_back(trial);
+  return true;
 }
-
-}  // namespace
 
 TakenOver TakeOverDesigns(const CampaignFolder& folder,
                           const std::vector<journal::TrialRecord>& trials,
@@ -86,20 +96,20 @@ TakenOver TakeOverDesigns(const CampaignFolder& folder,
   TakenOver taken;
   Numbers numbers = NextOf(trials);
   const std::vector<double> levels = experiment.spec.coarse_graining.Levels();
-  const std::size_t num_free = SpaceOf(experiment.spec).Free().size();
   for (const DesignFolder& design : DesignsOf(folder.root)) {
-    const auto record = design.Read();
-    if (!record || std::count(levels.begin(), levels.end(), record->scale_factor) == 0) continue;
+    const FormerTest test = FormerTestOf(design);
     // One of fewer parameters was made before another was searched, too.
-    if (record->points.empty() || record->points.front().size() != num_free) continue;
-    for (std::size_t i = 0; i < record->points.size(); ++i) {
-      const journal::TrialRecord trial = Made(experiment, *record, i, numbers);
-      const auto core_time =
-          TakeOver(experiment, trial, design.trial(i), folder.trial(trial.id), engine);
-      if (!core_time) continue;
-      KeepTrial(folder, trial);
-      taken.trials.push_back(trial);
-      taken.core_time += *core_time;
+    if (!SearchesTheSame(experiment.spec, test)) continue;
+    for (const FormerTrial& former : test.trials) {
+      const auto unit = UnitOf(experiment.spec, test, former);
+      if (!unit || std::ranges::count(levels, former.scale_factor) == 0) continue;
+      journal::TrialRecord trial = TrialOf(experiment, former, *unit);
+      trial.id = numbers.id;
+      trial.kind = journal::TrialKind::kDesign;
+      trial.kind_index = numbers.kind_index;
+      trial.set = numbers.set;
+      trial.origin = "design";
+      if (!TakeOver(folder, experiment, former, trial, engine, taken)) continue;
       ++numbers.id;
       ++numbers.kind_index;
       ++numbers.set;

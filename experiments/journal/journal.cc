@@ -121,7 +121,8 @@ std::optional<double> TrialRecord::Metric(std::string_view name) const {
   return found->value;
 }
 
-Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord& campaign) {
+Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord& campaign,
+                        std::span<const TrialRecord> trials) {
   if (std::filesystem::exists(path)) {
     throw base::ConfigError(path.string() +
                             ": exists already; `talus resume` goes on with that campaign, or name "
@@ -135,6 +136,7 @@ Journal Journal::Create(const std::filesystem::path& path, const CampaignRecord&
   journal.database_.Execute("PRAGMA application_id = " + std::to_string(kJournalApplicationId) +
                             "; PRAGMA user_version = " + std::to_string(kSchemaVersion));
   SealCampaign(journal.database_);
+  for (const TrialRecord& trial : trials) journal.Insert(trial);
   transaction.Commit();
   return journal;
 }
@@ -219,7 +221,7 @@ void Journal::Start(std::span<const TrialRecord> trials, base::Outlives outlives
 }
 
 void Journal::Insert(const TrialRecord& t) {
-  // Only of a trial that had ended in a journal that was lost.
+  // Only of a trial that had ended in a journal that was lost, or in another campaign.
   const auto if_known = [](double seconds) {
     return seconds > 0 ? seconds : std::numeric_limits<double>::quiet_NaN();
   };

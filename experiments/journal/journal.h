@@ -22,8 +22,10 @@ std::string UtcNow();
 
 class Journal {
  public:
-  // A new one, written with the campaign in it; throws ConfigError when there is one already.
-  static Journal Create(const std::filesystem::path& path, const CampaignRecord& campaign);
+  // A new one, written with the campaign in it and these trials as running; throws ConfigError when
+  // there is one already.
+  static Journal Create(const std::filesystem::path& path, const CampaignRecord& campaign,
+                        std::span<const TrialRecord> trials = {});
 
   // To go on; brings an older schema up to date. Throws base::Error when the file is damaged.
   static Journal Open(const std::filesystem::path& path);

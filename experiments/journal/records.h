@@ -15,10 +15,11 @@ namespace talus::journal {
 
 // Why a trial exists.
 enum class TrialKind {
-  kNoise,   // one of the replicates at one point that estimate the run-to-run scatter
-  kDesign,  // proposed by the optimiser before it has a model
-  kSearch,  // proposed by the optimiser
-  kConfirm  // a final candidate with a fresh seed; the optimiser is not told
+  kNoise,    // one of the replicates at one point that estimate the run-to-run scatter
+  kDesign,   // proposed by the optimiser before it has a model
+  kSearch,   // proposed by the optimiser
+  kConfirm,  // a final candidate with a fresh seed; the optimiser is not told
+  kReused    // made by a former campaign or a design; the optimiser is told before anything else
 };
 
 enum class TrialStatus { kRunning, kOk, kFailed };
@@ -30,7 +31,8 @@ struct talus::base::Names<talus::journal::TrialKind> {
   using K = talus::journal::TrialKind;
   static constexpr std::array kList{std::pair{"noise", K::kNoise}, std::pair{"design", K::kDesign},
                                     std::pair{"search", K::kSearch},
-                                    std::pair{"confirm", K::kConfirm}};
+                                    std::pair{"confirm", K::kConfirm},
+                                    std::pair{"reused", K::kReused}};
 };
 template <>
 struct talus::base::Names<talus::journal::TrialStatus> {
@@ -48,6 +50,8 @@ struct ParameterRecord {
   double high = 0;
   std::string scale;  // "linear" or "log"
   std::string unit;   // of value, low and high; "" if none
+
+  bool operator==(const ParameterRecord&) const = default;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -191,12 +195,14 @@ struct ProgressRecord {
 struct TrialRecord {
   std::int64_t id = 0;  // from 1; the folder is trials/0001
   TrialKind kind = TrialKind::kSearch;
-  std::int64_t kind_index = 0;  // its number within noise, within design and search, within confirm
-  std::int64_t set = 0;         // replicates of one proposal, and of one candidate, share a number
-  std::string origin;           // of the proposal: design, repeat, model, search; "" otherwise
-  std::string objective;        // that the proposal was made for
-  std::vector<double> unit;     // unit cube, in the order of the campaign's parameters
-  std::vector<double> native;   // SI
+  // Its number within noise, within design and search, within confirm, within reused.
+  std::int64_t kind_index = 0;
+  std::int64_t set = 0;        // replicates of one proposal, and of one candidate, share a number
+  std::string origin;          // of the proposal: design, repeat, model, search; of a reused one
+                               // the folder it was made in; "" otherwise
+  std::string objective;       // that the proposal was made for
+  std::vector<double> unit;    // unit cube, in the order of the campaign's parameters
+  std::vector<double> native;  // SI
   std::int64_t seed = 0;
   int experiment = 0;  // which of the campaign's is simulated, from 0
   double scale_factor = 1;

@@ -75,7 +75,7 @@ CREATE TABLE reference_metrics (  -- of the experiments themselves
 ) WITHOUT ROWID;
 CREATE TABLE trials (
   id INTEGER PRIMARY KEY,         -- from 1; the folder is trials/0001
-  kind TEXT NOT NULL,             -- noise, design, search, confirm
+  kind TEXT NOT NULL,             -- noise, design, search, confirm, reused
   kind_index INTEGER NOT NULL,
   set_index INTEGER NOT NULL,     -- replicates of one point share it
   origin TEXT NOT NULL,

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_schema.h"
 #include "base/json/json_text.h"
@@ -76,6 +77,24 @@ std::string ErrorOf(std::string_view text) {
     return error.what();
   }
   return "";
+}
+
+TEST(JsonChanges, NamesWhatDiffersByItsPath) {
+  const auto before = nlohmann::ordered_json::parse(
+      R"({"a": {"b": 1, "c": [1, 2]}, "d": [1], "e": 0.0016020000000000001, "gone": true})");
+  const auto after = nlohmann::ordered_json::parse(
+      R"({"a": {"b": 1, "c": [1, 3]}, "d": [1, 2], "e": 0.0017, "new": "x"})");
+  std::string text;
+  for (const JsonChange& change : JsonChanges(before, after)) {
+    text += change.path + ": " + change.before + " → " + change.after + "\n";
+  }
+  EXPECT_EQ(text,
+            "a.c[1]: 2 → 3\n"
+            "d: [1] → [1,2]\n"
+            "e: 0.001602 → 0.0017\n"
+            "gone: true → null\n"
+            "new: null → \"x\"\n");
+  EXPECT_TRUE(JsonChanges(before, before).empty());
 }
 
 TEST(Json, ReadsEveryKindOfFieldWithUnitsAndComments) {

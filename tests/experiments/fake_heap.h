@@ -148,9 +148,13 @@ class FakeEngine : public trials::TrialEngine {
         .note = ""};
   }
 
+  std::optional<std::string> WhyNotTaken(const rigs::Case& rig_case,
+                                         const std::filesystem::path& from) override {
+    return rigs::RunDifference(rigs::LoadCase(from / "case.json"), rig_case);
+  }
   bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                 const std::filesystem::path& to) override {
-    if (!rigs::IsSameRun(rigs::LoadCase(from / "case.json"), rig_case)) return false;
+    if (WhyNotTaken(rig_case, from)) return false;
     trials::CopyFolder(from, to);
     std::ofstream(to / "case.json") << rigs::CaseText(rig_case);
     return true;

@@ -9,7 +9,7 @@ The table is tests/system/bad_inputs.txt: one row a case, with columns parted by
 FILE is a good input (below); the value at the PLACE in it is replaced by the JSON VALUE, or taken away
 by "PLACE -". Each EXPECTED must be in the message. A row "$ ARGUMENTS | EXPECTED | …" runs talus with
 these arguments instead, in a folder with good files; \\e in it is the escape character, and "done" a
-finished campaign.
+finished campaign, with other_powder.json beside it, the same spec with more powder.
 """
 import concurrent.futures
 import hashlib
@@ -121,6 +121,8 @@ def finished_campaign(folder):
     small.update(budget={"simulations": 4}, noise={"replicates": 2},
                  confirm={"candidates": 1, "replicates": 2}, workers=1)
     (folder / "begun.json").write_text(json.dumps(small))
+    other = {**small, "powder": {**small["powder"], "mass": "1.7 g"}}
+    (folder / "other_powder.json").write_text(json.dumps(other))
     subprocess.run([TALUS, "calibrate", "begun.json", "--out", "done", "--quiet"], cwd=folder,
                    check=True)
 
@@ -207,6 +209,8 @@ def check(row, done):
             arguments, expected = shlex.split(case[1:].replace("\\e", "\x1b")), rest
             if "done" in arguments:
                 shutil.copytree(done / "done", folder / "done")
+                shutil.copytree(done / "heap_deck", folder / "heap_deck")
+                shutil.copy(done / "other_powder.json", folder)
         else:
             change, expected = rest[0], rest[1:]
             content, arguments = GOOD[case]

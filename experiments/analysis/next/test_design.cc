@@ -1,6 +1,5 @@
 #include "experiments/analysis/next/test_design.h"
 
-#include <algorithm>
 #include <string>
 
 #include "base/error.h"
@@ -53,11 +52,9 @@ std::optional<campaign::DesignRecord> ReadRecord(const campaign::JointView& view
                                                  const TestCandidate& test) {
   auto record = FolderOf(view, test).Read();
   if (!record || record->test != TextOf(view, test)) return std::nullopt;
-  const std::size_t num_free = view.space.Free().size();
-  const bool fits =
-      std::all_of(record->points.begin(), record->points.end(),
-                  [&](const std::vector<double>& point) { return point.size() == num_free; });
-  if (!fits) return std::nullopt;
+  if (record->seed != view.spec.seed || record->parameters != view.record.parameters) {
+    return std::nullopt;
+  }
   return record;
 }
 
@@ -112,6 +109,8 @@ TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& 
   if (!record) {
     record = campaign::DesignRecord{.test = TextOf(view, test),
                                     .scale_factor = view.spec.coarse_graining.Levels().front(),
+                                    .seed = view.spec.seed,
+                                    .parameters = view.record.parameters,
                                     .points = PointsOf(place)};
     // Where there is one of the same name and another device, it makes room.
     FolderOf(view, test).Make(*record);

@@ -2,6 +2,7 @@
 // engine.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "experiments/analysis/predict/predicted_case.h"
@@ -25,7 +26,9 @@ class SceneEngine : public trials::TrialEngine {
   bool IsComplete(const std::filesystem::path& folder) override;
   trials::TrialOutput Collect(const rigs::Case& rig_case,
                               const std::filesystem::path& folder) override;
-  // A scene has no image that could be drawn anew.
+  std::optional<std::string> WhyNotTaken(const rigs::Case&, const std::filesystem::path&) override {
+    return "a scene has no image that could be drawn anew";
+  }
   bool TakeOver(const rigs::Case&, const std::filesystem::path&,
                 const std::filesystem::path&) override {
     return false;

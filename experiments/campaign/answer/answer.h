@@ -14,6 +14,7 @@
 #include "experiments/campaign/answer/result_held_out.h"
 #include "experiments/campaign/answer/result_posterior.h"
 #include "experiments/campaign/answer/result_prior.h"
+#include "experiments/campaign/answer/result_reused.h"
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/plan/stop.h"
 #include "optimizer/space/parameter_space.h"
@@ -146,6 +147,7 @@ struct ResultUnsettled {
   }
 };
 
+// Without what was reused, which others have paid for.
 struct ResultCost {
   int num_trials = 0;
   int num_failed = 0;
@@ -181,6 +183,7 @@ struct Answer {
   std::vector<Alarm> warnings{};
   ResultConditions conditions{};
   ResultCost cost{};
+  std::vector<ResultReused> reused{};
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -202,6 +205,7 @@ struct Answer {
     visit("warnings", self.warnings);
     visit("conditions", self.conditions);
     visit("cost", self.cost);
+    visit("reused", self.reused);
   }
 };
 

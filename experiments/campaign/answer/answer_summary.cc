@@ -194,6 +194,7 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
   text += "  cost              " + std::to_string(r.cost.num_trials) + " simulations (" +
           std::to_string(r.cost.num_failed) + " failed), " + base::ShortNumber(r.cost.core_hours) +
           " core hours, " + base::ShortNumber(r.cost.elapsed / 60) + " min\n";
+  text += ReusedLines(r.reused);
   text += "  model             " + r.model + "\n";
   for (const Alarm& alarm : r.warnings) text += "  warning: " + AlarmText(alarm) + "\n";
   return WithFolder(text, folder);

@@ -221,7 +221,10 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
 ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
   ResultCost cost{.elapsed = evidence.elapsed};
   for (const journal::TrialRecord& trial : planner.trials()) {
-    if (trial.status == journal::TrialStatus::kRunning) continue;
+    if (trial.status == journal::TrialStatus::kRunning ||
+        trial.kind == journal::TrialKind::kReused) {
+      continue;
+    }
     ++cost.num_trials;
     if (trial.status == journal::TrialStatus::kFailed) ++cost.num_failed;
     const double seconds =
@@ -315,6 +318,7 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
   AddAgreement(planner, evidence, result);
   result.conditions = ConditionsOf(evidence.spec);
   result.cost = CostOf(planner, evidence);
+  result.reused = ReusedBy(planner.trials(), CoresOfTrial(evidence.spec));
   const auto kind = VerdictKindOf(result);
   if (kind) result.verdict = {.kind = *kind, .text = {}};
   AddAlarms({.spec = evidence.spec,

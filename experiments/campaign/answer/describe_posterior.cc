@@ -16,6 +16,16 @@ std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
   return values;
 }
 
+FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimizer::Answer& answer) {
+  Eigen::VectorXd low(answer.point.size());
+  Eigen::VectorXd high(answer.point.size());
+  for (Eigen::Index i = 0; i < low.size(); ++i) {
+    low[i] = answer.credible[static_cast<std::size_t>(i)].low;
+    high[i] = answer.credible[static_cast<std::size_t>(i)].high;
+  }
+  return {.low = FreeValues(space, low), .high = FreeValues(space, high)};
+}
+
 std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list) {
   std::vector<ResultStanding> standings;
   for (const optimizer::ExperimentStanding& s : list) {

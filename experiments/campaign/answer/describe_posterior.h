@@ -9,6 +9,7 @@
 #include "experiments/campaign/answer/result_prior.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/journal/records.h"
+#include "optimizer/answer.h"
 #include "optimizer/posterior_summary.h"
 #include "optimizer/space/parameter_space.h"
 
@@ -17,6 +18,12 @@ namespace talus::campaign {
 // Values of the free parameters at a point of the unit cube, SI.
 std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
                                const Eigen::VectorXd& point);
+
+// The joint 90 % ranges of the free parameters, SI.
+struct FreeRanges {
+  std::vector<double> low, high;
+};
+FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimizer::Answer& answer);
 
 std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list);
 

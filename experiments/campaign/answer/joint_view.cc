@@ -87,16 +87,11 @@ PartialAnswer AnswerOf(const JointView& view, optimizer::PosteriorStrategy& stra
     throw base::Error("too few trials of \"" + partial.experiments.front() +
                       "\" for an answer by itself");
   }
-  Eigen::VectorXd low(answer.point.size());
-  Eigen::VectorXd high(answer.point.size());
-  for (Eigen::Index i = 0; i < low.size(); ++i) {
-    low[i] = answer.credible[static_cast<std::size_t>(i)].low;
-    high[i] = answer.credible[static_cast<std::size_t>(i)].high;
-  }
   partial.point = answer.point;
   partial.values = FreeValues(view.space, answer.point);
-  partial.low = FreeValues(view.space, low);
-  partial.high = FreeValues(view.space, high);
+  FreeRanges ranges = CredibleValues(view.space, answer);
+  partial.low = std::move(ranges.low);
+  partial.high = std::move(ranges.high);
   partial.region_volume = answer.posterior->region_volume;
   return partial;
 }

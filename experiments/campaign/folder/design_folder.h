@@ -1,5 +1,6 @@
 // The folder of a design: simulations of a test that has not been made, in DIR/next/NAME. `talus
-// next` makes them; `talus add-experiment` takes them over once the test is made.
+// next` and `talus design` make them; `talus add-experiment` and `talus calibrate --reuse` take
+// them over once the test is made.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "experiments/journal/records.h"
 
 namespace talus::campaign {
 
@@ -16,12 +18,16 @@ namespace talus::campaign {
 struct DesignRecord {
   std::string test;  // the case in the middle of the ranges: of another one this is no design
   double scale_factor = 1;
-  std::vector<std::vector<double>> points{};  // unit cube
+  std::uint64_t seed = 1;                              // DesignSeed's
+  std::vector<journal::ParameterRecord> parameters{};  // that are searched
+  std::vector<std::vector<double>> points{};           // unit cube of these
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("test", self.test);
     visit("scale_factor", self.scale_factor);
+    visit("seed", self.seed);
+    visit("parameters", self.parameters);
     visit("points", self.points);
   }
 };

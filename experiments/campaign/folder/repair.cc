@@ -108,14 +108,14 @@ void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) 
 
 journal::Journal RebuildJournal(const CampaignFolder& folder) {
   const journal::CampaignRecord record = KeptCampaign(folder);
-  const std::vector<journal::TrialRecord> trials = KeptTrials(folder);
+  std::vector<journal::TrialRecord> trials = KeptTrials(folder);
+  // After a gap nothing can be what an unbroken run would have made.
+  std::size_t whole = 0;
+  while (whole < trials.size() && trials[whole].id == static_cast<std::int64_t>(whole) + 1) ++whole;
+  trials.resize(whole);
   PutAside(journal::JournalPath(folder.root));
-  journal::Journal journal = journal::Journal::Create(journal::JournalPath(folder.root), record);
-  for (const journal::TrialRecord& trial : trials) {
-    // After a gap nothing can be what an unbroken run would have made.
-    if (trial.id != journal.CountTrials() + 1) break;
-    journal.Start({&trial, 1});
-  }
+  journal::Journal journal =
+      journal::Journal::Create(journal::JournalPath(folder.root), record, trials);
   journal.AddEvent("repair", 0,
                    "the journal was damaged and has been made anew from the trials' folders");
   return journal;

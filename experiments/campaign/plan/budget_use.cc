@@ -61,6 +61,7 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
       confirm_ended += HasEnded(trial);
       continue;
     }
+    if (!IsPaidFor(trial)) continue;
     ++use.num_search;
     if (!HasEnded(trial)) continue;
     ++search_ended;

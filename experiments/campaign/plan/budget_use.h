@@ -12,7 +12,7 @@
 namespace talus::campaign {
 
 struct BudgetUse {
-  int num_search = 0;       // trials of noise and search that were started
+  int num_search = 0;       // trials of noise and search that were started, no reused ones
   int num_confirm = 0;      // … of the confirmation, which begins when the search has ended
   double core_seconds = 0;  // of those of the search that have ended; not more than the budget [s]
   std::optional<double> seconds_left{};  // at most; none before a trial has ended

@@ -58,6 +58,11 @@ double CoreTime::Of(std::span<const journal::TrialRecord> trials) {
 }
 
 double CoreTime::OfSearch(std::vector<journal::TrialRecord> trials) {
+  std::erase_if(trials, [](const journal::TrialRecord& trial) { return !IsPaidFor(trial); });
+  return Of(trials);
+}
+
+double CoreTime::OfTold(std::vector<journal::TrialRecord> trials) {
   std::erase_if(trials, [](const journal::TrialRecord& trial) { return !IsOfSearch(trial); });
   return Of(trials);
 }

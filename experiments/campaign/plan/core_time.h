@@ -28,8 +28,10 @@ class CoreTime {
   // [core seconds] of all these trials: those that run still count by what others of their
   // experiment and scale factor took.
   double Of(std::span<const journal::TrialRecord> trials);
-  // Noise and search among them.
+  // Noise and search among them, without what was reused.
   double OfSearch(std::vector<journal::TrialRecord> trials);
+  // The same with what was reused: what it takes to know as much.
+  double OfTold(std::vector<journal::TrialRecord> trials);
 
   // The time of one more simulation, by what the trials of the last Of took.
   double OfOne(int experiment, double scale_factor);

@@ -80,6 +80,7 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
 void Planner::CheckThatSomeSucceed() {
   std::size_t failed = 0;
   for (const journal::TrialRecord& trial : trials_) {
+    if (trial.kind == journal::TrialKind::kReused) continue;  // the set-up of others worked
     if (trial.status == journal::TrialStatus::kOk) return;
     if (trial.status == journal::TrialStatus::kFailed) ++failed;
   }
@@ -119,6 +120,10 @@ int Planner::Count(journal::TrialKind kind) const {
 
 int Planner::NumOfSearch() const {
   return static_cast<int>(std::count_if(trials_.begin(), trials_.end(), IsOfSearch));
+}
+
+int Planner::NumPaidFor() const {
+  return static_cast<int>(std::count_if(trials_.begin(), trials_.end(), IsPaidFor));
 }
 
 std::vector<journal::TrialRecord> Planner::Next(int count) {
@@ -163,7 +168,10 @@ void Planner::Append(journal::TrialRecord trial, std::vector<journal::TrialRecor
 
 std::int64_t Planner::SeedOf(const journal::TrialRecord& trial) const {
   constexpr std::uint64_t kMostSeeds = 2'147'483'646;  // others' engines take 31 bits
+  // A reused trial may have had the number and the campaign's seed: its grains would be filled in
+  // alike.
   const auto index = static_cast<std::uint64_t>(trial.kind_index) |
+                     (static_cast<std::uint64_t>(Count(journal::TrialKind::kReused)) << 24) |
                      (static_cast<std::uint64_t>(trial.attempts - 1) << 48);
   base::Random random(spec_.seed, StreamOf(trial.kind), index);
   return static_cast<std::int64_t>(1 + random.Below(kMostSeeds));
@@ -215,13 +223,13 @@ double Planner::CoreTimeOfSearch() { return core_time_.OfSearch(trials_); }
 // Proposals that the budget of simulations has room for.
 int Planner::SetsLeft() const {
   if (spec_.budget.simulations == 0) return kMostAsked;
-  const int left = spec_.budget.simulations - NumOfSearch();
+  const int left = spec_.budget.simulations - NumPaidFor();
   return (left + spec_.replicates - 1) / spec_.replicates;
 }
 
 std::optional<Stop> Planner::WhyBudgetIsUsed() {
   const int most = spec_.budget.simulations;
-  if (most > 0 && NumOfSearch() >= most) {
+  if (most > 0 && NumPaidFor() >= most) {
     return Stop{.kind = StopKind::kSimulations, .value = 1.0 * most};
   }
   if (spec_.budget.core_time && CoreTimeOfSearch() >= *spec_.budget.core_time) {

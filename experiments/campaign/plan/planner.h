@@ -89,7 +89,8 @@ class Planner {
   void Append(journal::TrialRecord trial, std::vector<journal::TrialRecord>& planned);
   Eigen::VectorXd NoisePoint() const;
   int Count(journal::TrialKind kind) const;
-  int NumOfSearch() const;  // noise included
+  int NumOfSearch() const;  // that the strategies are told of, noise and reused ones included
+  int NumPaidFor() const;   // … without the reused ones
   void CheckThatSomeSucceed();
   void CheckThatNumbersAreDefined(int experiment);
 

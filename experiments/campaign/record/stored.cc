@@ -22,6 +22,25 @@ Eigen::VectorXd PointOf(const journal::TrialRecord& trial) {
                                            static_cast<Eigen::Index>(trial.unit.size()));
 }
 
+rigs::Case CaseOfTrial(const CampaignSpec& spec, const journal::TrialRecord& trial,
+                       const std::optional<imaging::Frame>& frame) {
+  const optimizer::ParameterSpace space = SpaceOf(spec);
+  std::vector<double> values = space.ToNative(PointOf(trial));
+  // The unit cube keeps them but for rounding, which would make another run of it.
+  const std::vector<int> free = space.Free();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    values[static_cast<std::size_t>(free[i])] = trial.native[i];
+  }
+  rigs::Case rig_case = CaseOf(spec,
+                               {.values = values,
+                                .seed = static_cast<std::uint64_t>(trial.seed),
+                                .scale_factor = trial.scale_factor,
+                                .experiment = trial.experiment},
+                               frame);
+  rig_case.outputs.film = trial.kind == journal::TrialKind::kConfirm;  // the report shows one
+  return rig_case;
+}
+
 std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,
                                     const CampaignSpec& spec) {
   const std::vector<ExperimentSpec> specs = ExperimentsOf(spec);

@@ -18,11 +18,20 @@ inline bool IsOfSearch(const journal::TrialRecord& trial) {
   return trial.kind != journal::TrialKind::kConfirm;
 }
 
+// Whether it counts against the campaign's budget: what others have made cost them.
+inline bool IsPaidFor(const journal::TrialRecord& trial) {
+  return IsOfSearch(trial) && trial.kind != journal::TrialKind::kReused;
+}
+
 // Those that have finished, in the order in which a strategy was told of them.
 std::vector<journal::TrialRecord> InOrderOfFinish(std::vector<journal::TrialRecord> trials);
 
 // The unit cube's point of a trial.
 Eigen::VectorXd PointOf(const journal::TrialRecord& trial);
+
+// The case of a trial, with the values that it was given, to the last bit.
+rigs::Case CaseOfTrial(const CampaignSpec& spec, const journal::TrialRecord& trial,
+                       const std::optional<imaging::Frame>& frame);
 
 // The experiments as the journal keeps them.
 std::vector<Reference> ReferencesOf(const journal::CampaignRecord& record,

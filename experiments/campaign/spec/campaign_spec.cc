@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
@@ -28,34 +29,6 @@ constexpr std::string_view kMayChange[] = {"name",           "budget",       "co
 constexpr double kLongest = 366 * 86400.0;  // [s]
 constexpr int kMostReplicates = 1000;
 constexpr int kMostWorkers = 4096;
-
-std::string Short(const ordered_json& value) {
-  std::string text = base::JsonText(value);
-  return text.size() > 40 ? text.substr(0, 37) + "…" : text;
-}
-
-void FindChanges(const ordered_json& old_value, const ordered_json& new_value,
-                 const std::string& path, std::vector<std::string>& changes) {
-  if (old_value == new_value) return;
-  if (old_value.is_array() && new_value.is_array() && old_value.size() == new_value.size()) {
-    for (std::size_t i = 0; i < old_value.size(); ++i) {
-      FindChanges(old_value[i], new_value[i], path + "[" + std::to_string(i) + "]", changes);
-    }
-    return;
-  }
-  if (!old_value.is_object() || !new_value.is_object()) {
-    changes.push_back(path + ": " + Short(old_value) + " → " + Short(new_value));
-    return;
-  }
-  const std::string prefix = path.empty() ? "" : path + ".";
-  for (const auto& [key, value] : old_value.items()) {
-    const auto found = new_value.find(key);
-    FindChanges(value, found == new_value.end() ? ordered_json() : *found, prefix + key, changes);
-  }
-  for (const auto& [key, value] : new_value.items()) {
-    if (!old_value.contains(key)) FindChanges(ordered_json(), value, prefix + key, changes);
-  }
-}
 
 // Another engine's templates are checked once, when the user's spec is read; what was read then is
 // recognised by its hash.
@@ -361,7 +334,9 @@ std::vector<std::string> ForbiddenChanges(const std::string& old_text,
     new_spec.erase(std::string(key));
   }
   std::vector<std::string> changes;
-  FindChanges(old_spec, new_spec, "", changes);
+  for (const base::JsonChange& change : base::JsonChanges(old_spec, new_spec)) {
+    changes.push_back(change.path + ": " + change.before + " → " + change.after);
+  }
   return changes;
 }
 

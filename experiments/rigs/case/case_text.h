@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "experiments/rigs/case/case.h"
@@ -11,8 +12,12 @@ namespace talus::rigs {
 // The case as a case.json that needs no other file.
 std::string CaseText(const Case& rig_case);
 
-// Whether both give the same grains, whatever is drawn or written of them.
-bool IsSameRun(const Case& a, const Case& b);
+// What makes the grains of the two differ, whatever is drawn or written of them: "powder.mass is
+// 0.001 there and 0.002 here"; nothing where both give the same.
+std::optional<std::string> RunDifference(const Case& there, const Case& here);
+
+// Whether both give the same grains.
+inline bool IsSameRun(const Case& a, const Case& b) { return !RunDifference(a, b); }
 
 // Identifies a case in a checkpoint and in result.json: what does not change the grains (threads,
 // the checkpoint interval) is left out.

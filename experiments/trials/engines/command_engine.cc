@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
@@ -218,6 +219,12 @@ TemplateValues ValuesOf(const CommandOptions& options, const rigs::Case& rig_cas
   return values;
 }
 
+// What of it decides about a run: templates may lie elsewhere where they are the same.
+nlohmann::ordered_json EngineJson(CommandOptions options) {
+  if (!options.templates_hash.empty()) options.templates.reset();
+  return base::ToJson(options);
+}
+
 // Whether the command is one process that `mpirun` starts as often as there are ranks. A command or
 // a template that knows the number starts them itself.
 bool IsLaunchedByUs(const CommandOptions& options, const TemplateFolder& templates) {
@@ -296,12 +303,24 @@ TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& f
 }
 
 // Collect draws spheres in the case's frame; an image of the command's own cannot be drawn anew.
-bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
+std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case,
+                                                      const fs::path& from) {
   const auto made = base::LoadOptions<CommandCase>(base::ReadJsonFile(from / "case.json"));
-  if (!rigs::IsSameRun(made.heap, rig_case)) return false;
-  if (base::ToJson(made.engine) != base::ToJson(options_)) return false;
+  if (auto difference = rigs::RunDifference(made.heap, rig_case)) return difference;
+  const auto engines = base::JsonChanges(EngineJson(made.engine), EngineJson(options_));
+  if (!engines.empty()) {
+    return "engine." + engines.front().path + " is " + engines.front().before + " there and " +
+           engines.front().after + " here";
+  }
   const bool same_frame = made.heap.frame == rig_case.frame;
-  if (!same_frame && FindResult(options_, from, kCommandFile).extension() == ".png") return false;
+  if (!same_frame && FindResult(options_, from, kCommandFile).extension() == ".png") {
+    return "its engine has left images in another frame, which cannot be drawn anew";
+  }
+  return std::nullopt;
+}
+
+bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
+  if (WhyNotTaken(rig_case, from)) return false;
   CopyFolder(from, to);
   base::WriteFileAtomically(to / "case.json", CaseText(rig_case, options_));
   return true;

@@ -22,6 +22,8 @@ class CommandEngine : public TrialEngine {
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
   bool IsComplete(const std::filesystem::path& folder) override;
   TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
+  std::optional<std::string> WhyNotTaken(const rigs::Case& rig_case,
+                                         const std::filesystem::path& from) override;
   bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                 const std::filesystem::path& to) override;
 

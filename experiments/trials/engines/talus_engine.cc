@@ -121,15 +121,24 @@ TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesyst
   return output;
 }
 
+std::optional<std::string> TalusEngine::WhyNotTaken(const rigs::Case& rig_case,
+                                                    const std::filesystem::path& from) {
+  const rigs::Case made = rigs::LoadCase(from / "case.json");
+  if (auto difference = rigs::RunDifference(made, rig_case)) return difference;
+  if (!rig_case.frame) return std::nullopt;
+  // What a camera has seen in another frame is gone.
+  if (rig_case.rig.camera && rig_case.frame != made.frame) {
+    return "its pictures were taken in another frame, and cannot be drawn anew";
+  }
+  if (!rig_case.rig.camera && !std::filesystem::exists(from / "heap.vtp")) {
+    return "its heap.vtp is not there, from which it would be drawn anew";
+  }
+  return std::nullopt;
+}
+
 bool TalusEngine::TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                            const std::filesystem::path& to) {
-  const rigs::Case made = rigs::LoadCase(from / "case.json");
-  if (!rigs::IsSameRun(made, rig_case)) return false;
-  // What a camera has seen in another frame is gone.
-  if (rig_case.rig.camera) {
-    if (rig_case.frame && rig_case.frame != made.frame) return false;
-  } else if (rig_case.frame && !std::filesystem::exists(from / "heap.vtp"))
-    return false;
+  if (WhyNotTaken(rig_case, from)) return false;
   CopyFolder(from, to);
   DrawAnew(rig_case, to);
   return true;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,9 +41,13 @@ class TrialEngine {
   // has failed then.
   virtual TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) = 0;
 
-  // Makes `to` the complete folder of the case from a complete one of the same run, drawn in the
-  // case's frame. False, and `to` is left alone, where `from` is of another run or what is in it
-  // cannot be drawn anew.
+  // Why what is in the complete folder `from` cannot be this case's, drawn in its frame:
+  // "powder.mass is 0.001 there and 0.002 here"; nothing where it can.
+  virtual std::optional<std::string> WhyNotTaken(const rigs::Case& rig_case,
+                                                 const std::filesystem::path& from) = 0;
+
+  // Makes `to` the complete folder of the case from `from`, drawn in the case's frame. False, and
+  // `to` is left alone, where WhyNotTaken says why not.
   virtual bool TakeOver(const rigs::Case& rig_case, const std::filesystem::path& from,
                         const std::filesystem::path& to) = 0;
 };

@@ -98,6 +98,28 @@ TEST_F(DesignTest, SimulationsAreMadeOnce) {
   EXPECT_EQ(first.tests.candidates[0].num_made, 32);
 }
 
+// 32 of the heap, and of the tapped density nothing, which the campaign does not have.
+TEST_F(DesignTest, ACampaignThatBeginsLaterTakesThemOver) {
+  Rank(LoadDesignSpec(Write(std::string(kPowder) + kCandidates)), {});
+  const fs::path spec = campaign::WriteFakeSpec(
+      scratch_.path() / "in", R"(, "coarse_graining": {"scale_factors": [2, 1]}, "workers": 1,
+      "budget": {"simulations": 4}, "confirm": {"candidates": 0})");
+  campaign::BeginOptions options{.reuse = {scratch_.path()}};
+  options.engine = [] { return std::make_unique<FakeEngine>(campaign::FakeEngineOptions{}); };
+  const fs::path folder = scratch_.path() / "campaign";
+  campaign::BeginCampaign(spec, folder, options);
+  EXPECT_EQ(campaign::RunFake(folder, {}), campaign::CampaignEnd::kFinished);
+  const auto trials = Trials(folder);
+  ASSERT_EQ(trials.size(), 36u);
+  for (std::size_t i = 0; i < 32; ++i) {
+    EXPECT_EQ(trials[i].kind, journal::TrialKind::kReused);
+    EXPECT_EQ(trials[i].scale_factor, 2);
+  }
+  // Nothing of a design of its own.
+  for (std::size_t i = 32; i < 36; ++i) EXPECT_EQ(trials[i].kind, journal::TrialKind::kSearch);
+  EXPECT_EQ(Result(folder).reused.at(0).from, scratch_.path() / "next/heap");
+}
+
 TEST_F(DesignTest, UsualTestsStandForThoseThatAreNotNamed) {
   const DesignSpec design = LoadDesignSpec(Write(kPowder));
   ASSERT_EQ(design.candidates.size(), 7u);

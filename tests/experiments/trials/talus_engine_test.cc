@@ -79,6 +79,9 @@ TEST(TalusEngine, ARunIsTakenOverWithTheImageThatItsOwnFrameWouldHaveGiven) {
   rigs::Case other = asked;
   other.powder.material.sliding_friction = 0.4;
   EXPECT_FALSE(engine.TakeOver(other, root / "seen", root / "other"));
+  EXPECT_EQ(engine.WhyNotTaken(asked, root / "seen"), std::nullopt);
+  EXPECT_EQ(engine.WhyNotTaken(other, root / "seen"),
+            "powder.material.sliding_friction is 0.5 there and 0.4 here");
   EXPECT_FALSE(fs::exists(root / "other"));
   fs::remove_all(root);
 }

@@ -86,6 +86,7 @@ std::string Measured(const ReportData& data) {
 
 struct Counts {
   std::ptrdiff_t searched = 0;
+  std::ptrdiff_t reused = 0;  // made by former campaigns
   std::ptrdiff_t failed = 0;
   std::vector<double> scale_factors;  // the coarsest first
 };
@@ -97,7 +98,7 @@ Counts CountsOf(const Evidence& e) {
     for (const TrialEvidence& t : *trials) {
       if (t.state == journal::TrialStatus::kFailed) ++counts.failed;
       if (t.state != journal::TrialStatus::kOk || t.purpose == "confirm") continue;
-      ++counts.searched;
+      ++(t.purpose == "reused" ? counts.reused : counts.searched);
       counts.scale_factors.push_back(t.scale_factor);
     }
   }
@@ -113,6 +114,10 @@ std::string Simulated(const Evidence& e) {
   for (const double factor : counts.scale_factors) factors.push_back(base::ShortNumber(factor));
   std::string text =
       " The strategy \"" + e.strategy + "\" chose " + base::Counted(counts.searched, "simulation");
+  if (counts.reused > 0) {
+    text += " after " + base::Counted(counts.reused, "simulation") +
+            " of former campaigns of this powder that it was told first,";
+  }
   if (!factors.empty()) {
     text += (factors.size() == 1 ? " at scale factor " : " at scale factors ") + Listed(factors);
   }

@@ -16,24 +16,30 @@ std::string Spaced(std::string name) {
 
 // Trials of all experiments.
 PageValue CountsJson(const Evidence& e) {
-  int searched = 0, confirming = 0, failed = 0, running = 0;
+  int searched = 0, reused = 0, confirming = 0, failed = 0, running = 0;
   for (const auto* trials : {&e.trials, &e.of_others}) {
     for (const TrialEvidence& t : *trials) {
       const bool ok = t.state == journal::TrialStatus::kOk;
-      searched += ok && t.purpose != "confirm";
+      searched += ok && t.purpose != "confirm" && t.purpose != "reused";
+      reused += ok && t.purpose == "reused";
       confirming += ok && t.purpose == "confirm";
       failed += t.state == journal::TrialStatus::kFailed;
       running += t.state == journal::TrialStatus::kRunning;
     }
   }
-  return {
-      {"searched", searched}, {"confirming", confirming}, {"failed", failed}, {"running", running}};
+  return {{"searched", searched},
+          {"reused", reused},
+          {"confirming", confirming},
+          {"failed", failed},
+          {"running", running}};
 }
 
 double CoreSeconds(const Evidence& e) {
   double sum = 0;
   for (const auto* trials : {&e.trials, &e.of_others}) {
-    for (const TrialEvidence& t : *trials) sum += std::isfinite(t.cpu_seconds) ? t.cpu_seconds : 0;
+    for (const TrialEvidence& t : *trials) {
+      if (t.purpose != "reused" && std::isfinite(t.cpu_seconds)) sum += t.cpu_seconds;
+    }
   }
   return sum;
 }
@@ -66,6 +72,8 @@ PageValue CampaignJson(const ReportData& data) {
           {"folder", base::ShellWord(e.folder.string())},
           {"budget", e.max_simulations},
           {"counts", CountsJson(e)},
+          {"reused_from",
+           e.answer ? ListJson(e.answer->reused, campaign::ReusedText) : PageValue::array()},
           {"scale_factor", NumberJson(e.scale_factor)},
           {"core_hours", cpu > 0 ? NumberJson(cpu / 3600) : PageValue(nullptr)},
           {"experiment", e.experiment < e.experiments.size() ? e.experiments[e.experiment] : ""},

@@ -195,6 +195,9 @@ std::string Foot(const ReportData& data) {
   const campaign::Answer& answer = *data.evidence.answer;
   std::string text = std::to_string(answer.cost.num_trials) + " simulations, " +
                      Number(answer.cost.core_hours) + " core hours";
+  for (const campaign::ResultReused& reused : answer.reused) {
+    text += ", reused: " + ReusedText(reused);
+  }
   for (const NamedText& version : data.evidence.versions) {
     if (version.name == "talus that wrote this report" || version.name == "its commit" ||
         version.name == "written" || version.name == "hash of the spec") {

@@ -1,11 +1,12 @@
 // The sections of the page that are text and tables.
 
 function standing() {
-  const c = D.campaign, {searched, confirming, failed, running} = c.counts;
+  const c = D.campaign, {searched, reused, confirming, failed, running} = c.counts;
   const parts = [searched + " simulations" + (c.budget ? " of at most " + c.budget : "")];
   if (confirming) parts[0] += " and " + confirming + (confirming === 1 ? " that confirms" : " that confirm") + " the answer";
   if (failed) parts.push(failed + " failed");
   if (running) parts.push(running + " running");
+  if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
     parts.join(" · ") + (c.stop_reason && !(D.headline && D.headline.unsettled) ? ". Why it stopped: " + c.stop_reason : "")];

@@ -1,0 +1,203 @@
+#include "experiments/campaign/reuse.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text/counted.h"
+#include "base/text/name.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/campaign/start.h"
+#include "experiments/campaign/take_over.h"
+
+namespace talus::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string NamesText(const std::vector<journal::ParameterRecord>& parameters) {
+  std::string text;
+  for (const journal::ParameterRecord& p : parameters) text += (text.empty() ? "" : ", ") + p.name;
+  return text;
+}
+
+NewExperiment ExperimentOf(const Reuser& reuser, std::size_t index) {
+  return {
+      .spec = reuser.spec, .index = static_cast<int>(index), .reference = reuser.references[index]};
+}
+
+// Why the trials of a test are none of this experiment; nothing where they are. All trials of a
+// test have one case but for what is searched, so the first that can be read tells.
+std::optional<std::string> WhyNotOf(const Reuser& reuser, const NewExperiment& experiment,
+                                    const FormerTest& test) {
+  if (test.trials.empty()) return "none of its simulations has succeeded";
+  if (!SearchesTheSame(reuser.spec, test)) {
+    return "searched there: " + NamesText(test.parameters) +
+           "; here: " + NamesText(SearchedParameters(reuser.spec));
+  }
+  for (const FormerTrial& former : test.trials) {
+    if (!reuser.engine.IsComplete(former.folder)) continue;
+    const rigs::Case rig_case = CaseOfTrial(reuser.spec, TrialOf(experiment, former, former.unit),
+                                            experiment.reference.frame());
+    try {
+      return reuser.engine.WhyNotTaken(rig_case, former.folder);
+    } catch (const base::Error& error) {
+      return error.what();
+    }
+  }
+  return "the folders of its simulations are empty or gone";
+}
+
+// What of a folder is not taken.
+struct LeftOut {
+  int outside = 0;
+  int other_scale_factor = 0;
+  int twice = 0;
+  int failed = 0;
+
+  std::string Text() const {
+    std::string text;
+    const auto add = [&](int count, const char* why) {
+      if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + why;
+    };
+    add(outside, "outside the ranges here");
+    add(other_scale_factor, "at scale factors that are not searched here");
+    add(twice, "that were taken already");
+    add(failed, "that failed");
+    return text;
+  }
+};
+
+// Collects what the folders hold, one after the other.
+class ReuseCollector {
+ public:
+  explicit ReuseCollector(const Reuser& reuser)
+      : reuser_(reuser), names_(ExperimentsOf(reuser.spec)) {}
+
+  void AddFolder(const fs::path& folder) {
+    folder_ = folder.string();
+    left_out_ = {};
+    if (IsWorkedOn(folder)) {
+      plan_.messages.push_back(folder_ +
+                               ": another process works on it; what has ended by now is taken");
+    }
+    const std::vector<FormerTest> tests = FormerTestsIn(folder);
+    std::string taken;
+    const std::size_t before = plan_.trials.size();
+    for (std::size_t e = 0; e < reuser_.references.size(); ++e) {
+      const int count = AddTests(tests, e);
+      if (count > 0) {
+        taken += (taken.empty() ? "" : ", ") + std::to_string(count) + " of " + names_[e].name;
+      }
+    }
+    const std::size_t count = plan_.trials.size() - before;
+    const std::string left_out = left_out_.Text();
+    if (count == 0 && left_out.empty()) return;
+    plan_.messages.push_back(folder_ + ": " +
+                             base::Counted(static_cast<long long>(count), "simulation") +
+                             " told first" + (count > 0 ? " (" + taken + ")" : "") +
+                             (left_out.empty() ? "" : "; left out: " + left_out));
+  }
+
+  ReusePlan Take() {
+    if (!plan_.trials.empty()) return std::move(plan_);
+    std::string text = "--reuse: no simulation there is one of an experiment here";
+    for (const std::string& message : plan_.messages) text += "\n  " + message;
+    throw base::ConfigError(text);
+  }
+
+ private:
+  // How many of the tests' trials the experiment has taken; says why none fits.
+  int AddTests(const std::vector<FormerTest>& tests, std::size_t e) {
+    const NewExperiment experiment = ExperimentOf(reuser_, e);
+    int count = 0;
+    bool any_fits = false;
+    std::string why;
+    for (const FormerTest& test : tests) {
+      if (const auto why_not = WhyNotOf(reuser_, experiment, test)) {
+        // What is called the same was meant to be the same.
+        if (why.empty() || base::FileWord(test.name) == base::FileWord(names_[e].name)) {
+          why = "of \"" + test.name + "\" there, " + *why_not;
+        }
+        continue;
+      }
+      any_fits = true;
+      left_out_.failed += test.num_failed;
+      for (const FormerTrial& former : test.trials) count += AddTrial(experiment, test, former);
+    }
+    if (!any_fits) {
+      plan_.messages.push_back(folder_ + ": nothing for \"" + names_[e].name + "\": " + why);
+    }
+    return count;
+  }
+
+  bool AddTrial(const NewExperiment& experiment, const FormerTest& test,
+                const FormerTrial& former) {
+    const std::vector<double> levels = reuser_.spec.coarse_graining.Levels();
+    const auto unit = UnitOf(reuser_.spec, test, former);
+    if (!unit) return ++left_out_.outside, false;
+    if (std::ranges::count(levels, former.scale_factor) == 0) {
+      return ++left_out_.other_scale_factor, false;
+    }
+    if (!known_.emplace(experiment.index, former.seed, former.scale_factor, former.native).second) {
+      return ++left_out_.twice, false;
+    }
+    plan_.trials.push_back({.former = former, .record = TrialOf(experiment, former, *unit)});
+    return true;
+  }
+
+  const Reuser& reuser_;
+  const std::vector<ExperimentSpec> names_;
+  std::string folder_;
+  LeftOut left_out_;
+  // Experiment, seed, scale factor and values of those taken.
+  std::set<std::tuple<int, std::int64_t, double, std::vector<double>>> known_;
+  ReusePlan plan_;
+};
+
+CampaignFolder CopiesOf(const CampaignFolder& folder) { return {folder.root / kCopiesFolder}; }
+
+}  // namespace
+
+ReusePlan PlanReuse(const Reuser& reuser, const std::vector<fs::path>& folders) {
+  if (reuser.spec.HasOwnProposer()) {
+    throw base::ConfigError(
+        "--reuse: strategy.kind must be \"auto\": the others begin with a design of their own");
+  }
+  ReuseCollector collector(reuser);
+  for (const fs::path& folder : folders) collector.AddFolder(folder);
+  return collector.Take();
+}
+
+std::vector<journal::TrialRecord> CopyReused(const Reuser& reuser, const ReusePlan& plan,
+                                             const CampaignFolder& folder) {
+  const CampaignFolder copies = CopiesOf(folder);
+  fs::remove_all(copies.root);
+  TakenOver taken;
+  for (const ReusePlan::Trial& planned : plan.trials) {
+    journal::TrialRecord trial = planned.record;
+    trial.id = static_cast<std::int64_t>(taken.trials.size()) + 1;
+    trial.kind = journal::TrialKind::kReused;
+    trial.kind_index = trial.id - 1;
+    trial.set = trial.id;  // 0 is the noise's
+    trial.origin = planned.former.folder.string();
+    TakeOver(copies, ExperimentOf(reuser, static_cast<std::size_t>(trial.experiment)),
+             planned.former, trial, reuser.engine, taken);
+  }
+  if (taken.trials.empty() && !plan.trials.empty()) {
+    throw base::Error("--reuse: none of the " + std::to_string(plan.trials.size()) +
+                      " simulations could be read");
+  }
+  return taken.trials;
+}
+
+void AdoptCopies(const CampaignFolder& folder) {
+  const fs::path copies = CopiesOf(folder).root;
+  if (fs::exists(copies / "trials")) fs::rename(copies / "trials", folder.root / "trials");
+  fs::remove_all(copies);
+}
+
+}  // namespace talus::campaign
