@@ -63,6 +63,7 @@ void RunBatches(const CompareArguments& arguments) {
   const std::filesystem::path& out = arguments.out;
   if (!out.empty()) {
     base::ClaimOutputFolder(out, "compare");
+    base::WriteFileAtomically(out / "batches.html", analysis::BatchesPage(comparison));
     base::WriteFileAtomically(out / "batches.csv", analysis::BatchesCsv(comparison));
     base::WriteFileAtomically(out / "batches.json",
                               base::JsonText(base::ToJson(comparison), 2) + "\n");

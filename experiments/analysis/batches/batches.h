@@ -6,6 +6,7 @@
 // much?
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -61,6 +62,23 @@ struct BatchParameter {
   }
 };
 
+// All parameters of a batch less those of the first: a curve of equal sets may hide in single
+// parameters what it shows in them together.
+struct BatchTogether {
+  std::string batch{};
+  // Credible level of the smallest joint region of the difference that reaches no difference, by
+  // the draws' mean and covariance: 0.9 or less is inside the joint 90 % region.
+  double level = 0;
+  bool is_found = false;  // it is not
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("batch", self.batch);
+    visit("credible_level_of_none", self.level);
+    visit("is_found", self.is_found);
+  }
+};
+
 // The photographs of an experiment beside those of the first batch.
 struct BatchPictures {
   std::string batch{};
@@ -81,16 +99,34 @@ struct BatchPictures {
   }
 };
 
+// Whether a batch differs from the first, in words.
+struct BatchVerdict {
+  std::string batch{};
+  bool is_found = false;
+  std::string text{};  // "no difference found", or what differs
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("batch", self.batch);
+    visit("is_found", self.is_found);
+    visit("text", self.text);
+  }
+};
+
 struct BatchComparison {
   std::vector<std::string> batches{};  // by their folders
   std::vector<BatchParameter> parameters{};
+  std::vector<BatchTogether> together{};  // of all but the first batch
   std::vector<BatchPictures> pictures{};
+  std::vector<BatchVerdict> verdicts{};  // of all but the first batch
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("batches", self.batches);
     visit("parameters", self.parameters);
+    visit("together", self.together);
     visit("pictures", self.pictures);
+    visit("verdicts", self.verdicts);
   }
 };
 
@@ -99,6 +135,10 @@ struct BatchComparison {
 // where the campaigns have searched different parameters, or a name is none of them.
 BatchComparison CompareBatches(const std::vector<std::filesystem::path>& folders,
                                const std::map<std::string, std::string>& matters);
+
+// Share of the draws of a difference, one a row, that lie nearer to their mean than 0 does, by
+// their covariance.
+double LevelOfNone(Eigen::MatrixXd difference);
 
 // Share of the ways to deal `first` and `second` out anew in which their means differ by as much as
 // they do, this one among them: all ways where they are few, else 5000 by chance.
@@ -110,9 +150,14 @@ struct PermutationTest {
 PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
                         const std::vector<imaging::GrayImage>& second, std::uint64_t seed);
 
+// The verdict on a batch that is not the first, by all else that the comparison holds.
+BatchVerdict VerdictOf(const BatchComparison& comparison, std::size_t batch);
 std::string BatchesText(const BatchComparison& comparison);
 std::string BatchesCsv(const BatchComparison& comparison);  // a batch and parameter a line
-// A parameter over the batches, for quality control.
+// A parameter over the batches, for quality control: the first one's 90 % as a band, and dashed
+// what would matter either way.
 std::string BatchesSvg(const BatchComparison& comparison, const BatchParameter& parameter);
+// All of it as one HTML page that opens offline.
+std::string BatchesPage(const BatchComparison& comparison);
 
 }  // namespace talus::analysis

@@ -18,6 +18,12 @@ std::string RangeText(const BatchRange& range, const std::string& unit) {
          ShortNumber(range.high) + ")" + (unit.empty() ? "" : " " + unit);
 }
 
+std::string TogetherText(const BatchTogether& together) {
+  return "all parameters together  no difference lies " +
+         std::string(together.is_found ? "outside" : "inside") +
+         " their joint 90 % region (credible level " + ShortNumber(together.level, 3) + ")";
+}
+
 std::string PicturesText(const BatchPictures& p) {
   if (!p.absent.empty()) return "not compared: " + p.absent;
   const bool differ = p.probability < kBeyondChance;
@@ -27,28 +33,32 @@ std::string PicturesText(const BatchPictures& p) {
          " arrangements)";
 }
 
-// What is known to differ, in one line a batch.
-std::string VerdictText(const BatchComparison& c, std::size_t batch) {
+}  // namespace
+
+BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
   std::string found;
-  for (const BatchParameter& p : c.parameters) {
-    if (!p.differences[batch - 1].is_found) continue;
-    found += (found.empty() ? "" : ", ") + p.name + " by " +
-             ShortNumber(p.differences[batch - 1].range.median);
+  const auto add = [&](const std::string& what) { found += (found.empty() ? "" : ", ") + what; };
+  if (c.together[batch - 1].is_found) {
+    for (const BatchParameter& p : c.parameters) {
+      if (!p.differences[batch - 1].is_found) continue;
+      add(p.name + " by " + ShortNumber(p.differences[batch - 1].range.median));
+    }
+    if (found.empty()) add("the parameters together, none of them by itself");
   }
   for (const BatchPictures& p : c.pictures) {
     if (p.batch != c.batches[batch] || !p.absent.empty() || p.probability >= kBeyondChance)
       continue;
-    found += (found.empty() ? "" : ", ") + std::string("the photographs of ") + p.experiment;
+    add("the photographs of " + p.experiment);
   }
-  return found.empty() ? "no difference found" : "differs: " + found;
+  return {.batch = c.batches[batch],
+          .is_found = !found.empty(),
+          .text = found.empty() ? "no difference found" : "differs: " + found};
 }
-
-}  // namespace
 
 std::string BatchesText(const BatchComparison& c) {
   std::string text = "compared with " + c.batches.front() + "\n";
   for (std::size_t b = 1; b < c.batches.size(); ++b) {
-    text += "  " + c.batches[b] + ": " + VerdictText(c, b) + "\n";
+    text += "  " + c.batches[b] + ": " + c.verdicts[b - 1].text + "\n";
     for (const BatchParameter& p : c.parameters) {
       const BatchDifference& d = p.differences[b - 1];
       text += "    " + p.name + "  " + RangeText(p.batches.front(), "") + " → " +
@@ -56,6 +66,7 @@ std::string BatchesText(const BatchComparison& c) {
               ", larger than " + ShortNumber(d.matters) + " with probability " +
               ShortNumber(d.probability, 2) + "\n";
     }
+    if (c.parameters.size() > 1) text += "    " + TogetherText(c.together[b - 1]) + "\n";
     for (const BatchPictures& p : c.pictures) {
       if (p.batch == c.batches[b]) text += "    " + p.experiment + "  " + PicturesText(p) + "\n";
     }
@@ -88,8 +99,10 @@ std::string BatchesCsv(const BatchComparison& c) {
 }
 
 std::string BatchesSvg(const BatchComparison& c, const BatchParameter& p) {
-  double low = p.batches.front().low;
-  double high = p.batches.front().high;
+  const BatchRange& first = p.batches.front();
+  const double matters = p.differences.empty() ? 0 : p.differences.front().matters;
+  double low = first.median - matters;
+  double high = first.median + matters;
   for (const BatchRange& r : p.batches) {
     low = std::min(low, r.low);
     high = std::max(high, r.high);
@@ -100,6 +113,14 @@ std::string BatchesSvg(const BatchComparison& c, const BatchParameter& p) {
       {.title = p.name + (p.unit.empty() ? "" : " (" + p.unit + ")"),
        .low = low - margin,
        .high = high + margin});
+  const double from = 0.5;
+  const double to = static_cast<double>(c.batches.size()) + 0.5;
+  chart.Band({{from, first.low}, {to, first.low}}, {{from, first.high}, {to, first.high}},
+             {.color = kSoft, .opacity = 0.15}, "90 % of the first batch");
+  for (const double limit : {first.median - matters, first.median + matters}) {
+    chart.Line({{from, limit}, {to, limit}}, {.color = kSoft, .width = 1, .dashed = true},
+               limit < first.median ? "what would matter" : "");
+  }
   std::vector<SvgPoint> medians;
   for (std::size_t b = 0; b < p.batches.size(); ++b) {
     const auto x = static_cast<double>(b + 1);

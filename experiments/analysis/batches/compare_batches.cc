@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -73,6 +74,28 @@ BatchDifference DifferenceOf(const std::vector<double>& first, const std::vector
       .probability = static_cast<double>(larger) / static_cast<double>(difference.size())};
   found.is_found = found.range.low > 0 || found.range.high < 0;
   return found;
+}
+
+// A batch's draws on the scales of the first batch's parameters.
+Eigen::MatrixXd ScaledDraws(const Batch& batch, const Batch& first) {
+  const auto& parameters = first.view.record.parameters;
+  Eigen::MatrixXd scaled(static_cast<Eigen::Index>(batch.draws.size()),
+                         static_cast<Eigen::Index>(parameters.size()));
+  for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
+    for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
+      const double value = batch.draws[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+      const bool log =
+          parameters[static_cast<std::size_t>(k)].scale == base::NameOf(optimizer::Scale::kLog);
+      scaled(i, k) = log ? std::log(value) : value;
+    }
+  }
+  return scaled;
+}
+
+BatchTogether TogetherOf(const Batch& first, const Batch& batch) {
+  constexpr double kLevel = 0.9;
+  const double level = LevelOfNone(ScaledDraws(batch, first) - ScaledDraws(first, first));
+  return {.batch = batch.view.folder.root.string(), .level = level, .is_found = level > kLevel};
 }
 
 std::vector<std::string> NamesOf(const Batch& batch) {
@@ -189,6 +212,20 @@ double BinomialUpTo(std::size_t n, std::size_t k, double most) {
 
 }  // namespace
 
+double LevelOfNone(Eigen::MatrixXd difference) {
+  const Eigen::RowVectorXd mean = difference.colwise().mean();
+  difference.rowwise() -= mean;
+  const Eigen::LDLT<Eigen::MatrixXd> covariance(difference.transpose() * difference /
+                                                static_cast<double>(difference.rows()));
+  const auto square = [&](const Eigen::RowVectorXd& d) {
+    return d.dot(covariance.solve(d.transpose()));
+  };
+  const double of_none = square(mean);
+  Eigen::Index nearer = 0;
+  for (const auto& draw : difference.rowwise()) nearer += square(draw) < of_none;
+  return static_cast<double>(nearer) / static_cast<double>(difference.rows());
+}
+
 PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
                         const std::vector<imaging::GrayImage>& second, std::uint64_t seed) {
   std::vector<imaging::GrayImage> all = first;
@@ -253,10 +290,14 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
     comparison.parameters.push_back(std::move(parameter));
   }
   for (std::size_t b = 1; b < batches.size(); ++b) {
+    comparison.together.push_back(TogetherOf(batches.front(), batches[b]));
     for (std::size_t e = 0; e < batches.front().view.record.experiments.size(); ++e) {
       if (!batches.front().view.references[e].has_image()) continue;
       comparison.pictures.push_back(ComparePictures(batches.front(), batches[b], e));
     }
+  }
+  for (std::size_t b = 1; b < batches.size(); ++b) {
+    comparison.verdicts.push_back(VerdictOf(comparison, b));
   }
   return comparison;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 #include "base/files/file.h"
@@ -10,9 +9,8 @@
 #include "base/text/csv.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
-#include "experiments/analysis/report/charts/colors.h"
+#include "experiments/analysis/report/page/plain_page.h"
 #include "experiments/analysis/search/search_figures.h"
-#include "page_files.h"  // made by talus_embed
 
 namespace talus::analysis {
 namespace {
@@ -21,19 +19,6 @@ namespace fs = std::filesystem;
 
 // A dash where there is no number.
 std::string Print(double x) { return std::isfinite(x) ? base::ShortNumber(x) : "–"; }
-
-std::string Row(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string row = "<tr>";
-  for (const std::string& cell : cells) {
-    row += "<" + std::string(tag) + ">" + base::MarkupText(cell) + "</" + tag + ">";
-  }
-  return row + "</tr>\n";
-}
-
-std::string Section(const std::string& id, const std::string& title, const std::string& content) {
-  return "<section id=\"" + id + "\"><h2>" + title + "</h2>\n<div class=\"card\">\n" + content +
-         "</div></section>\n";
-}
 
 std::string Standing(const SearchFolder& search) {
   const auto count = static_cast<std::size_t>(search.evaluations.size());
@@ -47,15 +32,15 @@ std::string Standing(const SearchFolder& search) {
 }
 
 std::string AnswerTable(const SearchFolder& search) {
-  std::string table = "<table>" + Row({"parameter", "recommended", "90 % from", "to",
-                                       "Sobol index, first", "total", "best evaluation"},
-                                      "th");
+  std::string table = "<table>" + HtmlRow({"parameter", "recommended", "90 % from", "to",
+                                           "Sobol index, first", "total", "best evaluation"},
+                                          "th");
   const SearchEvaluation* best = BestOf(search);
   for (std::size_t k = 0; k < search.parameters.size(); ++k) {
     const ParameterAnswer& answer = search.answer->parameters[k];
-    table += Row({search.parameters[k].name, Print(answer.recommended), Print(answer.low),
-                  Print(answer.high), Print(answer.sobol_first), Print(answer.sobol_total),
-                  best ? Print(best->values[k]) : "–"});
+    table += HtmlRow({search.parameters[k].name, Print(answer.recommended), Print(answer.low),
+                      Print(answer.high), Print(answer.sobol_first), Print(answer.sobol_total),
+                      best ? Print(best->values[k]) : "–"});
   }
   return table + "</table>\n";
 }
@@ -90,13 +75,13 @@ std::vector<std::string> Head(const SearchFolder& search) {
 }
 
 std::string EvaluationTable(const SearchFolder& search) {
-  std::string table = "<table>" + Row(Head(search), "th");
+  std::string table = "<table>" + HtmlRow(Head(search), "th");
   for (const SearchEvaluation& one : search.evaluations) {
     std::vector<std::string> cells{std::to_string(one.number)};
     for (const double value : one.values) cells.push_back(Print(value));
     cells.push_back(one.value ? Print(*one.value) : "");
     cells.push_back(one.failure);
-    table += Row(cells);
+    table += HtmlRow(cells);
   }
   return table + "</table>\n";
 }
@@ -116,8 +101,7 @@ std::string Charts(const std::vector<SearchFigure>& figures) {
   if (figures.empty()) return "<p>No evaluation has succeeded.</p>\n";
   std::string text = "<div class=\"grid two\">\n";
   for (const SearchFigure& figure : figures) {
-    text += "<figure>" + figure.svg + "<figcaption>" + base::MarkupText(figure.caption) +
-            "</figcaption></figure>\n";
+    text += HtmlFigure(figure.svg, figure.caption);
   }
   return text + "</div>\n";
 }
@@ -125,21 +109,15 @@ std::string Charts(const std::vector<SearchFigure>& figures) {
 }  // namespace
 
 std::string SearchPage(const SearchFolder& search) {
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      base::MarkupText(search.name) +
-      " – search report</title>\n<link rel=\"icon\" href=\"data:,\">\n" + "<style>\n" +
-      ColorProperties() + std::string(page_files::kPageCss) +
-      "svg { max-width: 100%; height: auto; }\n</style>\n</head>\n<body>\n"
-      "<header class=\"top\"><div class=\"wrap\"><p class=\"eyebrow\">Search report</p><h1>" +
-      base::MarkupText(search.name) + "</h1><p id=\"standing\">" +
-      base::MarkupText(Standing(search)) + "</p></div></header>\n<main class=\"wrap\">\n";
-  page += Section("answer", "Answer", Answer(search));
-  page += Section("charts", "Values", Charts(SearchFigures(search)));
-  page += Section("evaluations", "Evaluations",
+  const std::string sections =
+      HtmlSection("answer", "Answer", Answer(search)) +
+      HtmlSection("charts", "Values", Charts(SearchFigures(search))) +
+      HtmlSection("evaluations", "Evaluations",
                   "<div class=\"scroll\">" + EvaluationTable(search) + "</div>\n");
-  return page + "</main>\n</body>\n</html>\n";
+  return PageText({.kind = "Search report",
+                   .title = search.name,
+                   .standing = Standing(search),
+                   .sections = sections});
 }
 
 fs::path WriteSearchReport(const SearchFolder& search, const fs::path& folder) {

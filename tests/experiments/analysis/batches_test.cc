@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/error.h"
+#include "base/random.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -45,6 +48,28 @@ TEST(Permute, ManyRunsAreDealtOutByChance) {
   EXPECT_EQ(Permute(Heaps(0.4, 10, 1), Heaps(0.4, 10, 50), 1).num_arrangements, 5000);
 }
 
+// Draws along a valley of sd 1 and across it of sd 0.1. One that is moved by 0.25 across lies
+// inside ± 1.64 sd of either parameter, and at the level 1 - exp(-2.5² / 2) = 0.956 of both; three
+// standard errors of 4000 draws are 0.01, and the sample's covariance adds as much.
+TEST(LevelOfNone, AShiftAcrossAValleyIsSeenInBothParametersTogether) {
+  base::Random random(1, base::Stream("valley"), 0);
+  Eigen::MatrixXd draws(4000, 2);
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const double along = random.Normal();
+    const double across = 0.1 * random.Normal();
+    draws.row(i) << (along + across) / std::sqrt(2), (across - along) / std::sqrt(2);
+  }
+  EXPECT_LT(LevelOfNone(draws), 0.01);
+  const double shift = 0.25 / std::sqrt(2);
+  EXPECT_NEAR(LevelOfNone(draws.array() + shift), 1 - std::exp(-0.5 * 2.5 * 2.5), 0.02);
+}
+
+int Count(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 class BatchesTest : public campaign::CampaignFixture {
  protected:
   // A campaign that has met a heap of these.
@@ -71,6 +96,10 @@ TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
   EXPECT_TRUE(sliding.differences[1].is_found);
   EXPECT_NEAR(sliding.differences[1].range.median, 0.2, 0.05);
   EXPECT_GT(sliding.differences[1].probability, 0.9);
+  EXPECT_FALSE(c.together[0].is_found);
+  EXPECT_TRUE(c.together[1].is_found);
+  EXPECT_FALSE(c.verdicts[0].is_found);
+  EXPECT_TRUE(c.verdicts[1].is_found);
   EXPECT_FALSE(c.parameters[1].differences[1].is_found);            // rolling is the same
   EXPECT_DOUBLE_EQ(c.parameters[1].differences[0].matters, 0.045);  // a tenth of 0.05 to 0.5
   EXPECT_THAT(c.pictures[0].absent, HasSubstr("fewer than two photographed runs"));
@@ -80,6 +109,9 @@ TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
   const std::string csv = BatchesCsv(c);
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 * 2);
   EXPECT_THAT(BatchesSvg(c, sliding), HasSubstr("sliding_friction"));
+  const std::string page = BatchesPage(c);
+  EXPECT_THAT(page, HasSubstr("differs: sliding_friction by 0."));
+  EXPECT_EQ(Count(page, "<svg"), 2);  // a chart a parameter
 }
 
 TEST_F(BatchesTest, OtherParametersAreRefused) {

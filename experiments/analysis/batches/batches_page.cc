@@ -1,0 +1,88 @@
+#include <string>
+#include <vector>
+
+#include "base/text/markup.h"
+#include "base/text/number_text.h"
+#include "experiments/analysis/batches/batches.h"
+#include "experiments/analysis/report/page/plain_page.h"
+
+namespace talus::analysis {
+namespace {
+
+std::string InRange(const BatchRange& range) {
+  return base::ShortNumber(range.median) + " (" + base::ShortNumber(range.low) + " … " +
+         base::ShortNumber(range.high) + ")";
+}
+
+std::string Verdicts(const BatchComparison& c) {
+  std::string table = "<table>" + HtmlRow({"batch", "beside " + c.batches.front()}, "th");
+  for (const BatchVerdict& verdict : c.verdicts) table += HtmlRow({verdict.batch, verdict.text});
+  return table + "</table>\n";
+}
+
+std::string Charts(const BatchComparison& c) {
+  std::string text = "<div class=\"grid two\">\n";
+  for (const BatchParameter& p : c.parameters) {
+    text += HtmlFigure(BatchesSvg(c, p), p.name + " of each batch with its 90 %.");
+  }
+  text += "</div>\n<p class=\"note\">Batches: ";
+  for (std::size_t b = 0; b < c.batches.size(); ++b) {
+    text += (b == 0 ? "" : ", ") + std::to_string(b + 1) + " " + base::MarkupText(c.batches[b]);
+  }
+  return text + ".</p>\n";
+}
+
+std::string DifferenceTable(const BatchComparison& c) {
+  std::string table =
+      "<table>" + HtmlRow({"parameter", "unit", "batch", "median (90 %)", "difference (90 %)",
+                           "what would matter", "probability that it is larger"},
+                          "th");
+  for (const BatchParameter& p : c.parameters) {
+    for (std::size_t b = 0; b < c.batches.size(); ++b) {
+      std::vector<std::string> cells{p.name, p.unit, c.batches[b], InRange(p.batches[b])};
+      if (b > 0) {
+        const BatchDifference& d = p.differences[b - 1];
+        cells.insert(cells.end(), {InRange(d.range), base::ShortNumber(d.matters),
+                                   base::ShortNumber(d.probability, 2)});
+      } else {
+        cells.insert(cells.end(), 3, "–");
+      }
+      table += HtmlRow(cells);
+    }
+  }
+  return table + "</table>\n";
+}
+
+std::string PictureTable(const BatchComparison& c) {
+  std::string table = "<table>" + HtmlRow({"batch", "experiment", "SAD of the mean profiles, mm²",
+                                           "probability by chance", "arrangements of the runs"},
+                                          "th");
+  for (const BatchPictures& p : c.pictures) {
+    if (p.absent.empty()) {
+      table += HtmlRow({p.batch, p.experiment, base::ShortNumber(p.sad_mm2),
+                        base::ShortNumber(p.probability, 2), std::to_string(p.num_arrangements)});
+    } else {
+      table += HtmlRow({p.batch, p.experiment, "not compared: " + p.absent, "–", "–"});
+    }
+  }
+  return table + "</table>\n";
+}
+
+}  // namespace
+
+std::string BatchesPage(const BatchComparison& c) {
+  std::string sections = HtmlSection("verdicts", "Do they differ?", Verdicts(c));
+  sections += HtmlSection("charts", "Parameters over the batches", Charts(c));
+  sections += HtmlSection("differences", "Differences",
+                          "<div class=\"scroll\">" + DifferenceTable(c) + "</div>\n");
+  if (!c.pictures.empty()) {
+    sections += HtmlSection("photographs", "Photographs",
+                            "<div class=\"scroll\">" + PictureTable(c) + "</div>\n");
+  }
+  return PageText({.kind = "Batches",
+                   .title = std::to_string(c.batches.size()) + " batches of a powder",
+                   .standing = "Each is compared with " + c.batches.front() + ".",
+                   .sections = sections});
+}
+
+}  // namespace talus::analysis
