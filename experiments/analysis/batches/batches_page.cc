@@ -15,9 +15,14 @@ std::string InRange(const BatchRange& range) {
 }
 
 std::string Verdicts(const BatchComparison& c) {
-  std::string table = "<table>" + HtmlRow({"batch", "beside " + c.batches.front()}, "th");
-  for (const BatchVerdict& verdict : c.verdicts) table += HtmlRow({verdict.batch, verdict.text});
-  return table + "</table>\n";
+  std::string list = "<ul>\n";
+  for (std::size_t b = 1; b < c.batches.size(); ++b) {
+    list += "<li><strong>" + base::MarkupText(c.batches[b]) +
+            "</strong>: " + base::MarkupText(c.verdicts[b - 1].text) +
+            " (of all parameters together no difference has the credible level " +
+            base::ShortNumber(c.together[b - 1].level, 2) + ")</li>\n";
+  }
+  return list + "</ul>\n";
 }
 
 std::string Charts(const BatchComparison& c) {
