@@ -276,7 +276,7 @@ class Progress(unittest.TestCase):
                  "--mass", "1.602 g", "--density", "4386 kg/m^3", "--grain-diameter", "0.4 mm"]
         photos = str(SOURCE / "examples/photos/powder_a")
         tests = {"tapped_density": "diameter=8mm,tapped_density=2600kg/m^3", "drum": "diameter=30mm,angle=35deg±1deg",
-                 "tilting_box": "angle=33deg", "column_collapse": "runout=12mm",
+                 "tilting_box": "angle=33deg", "column_collapse": "runout=12mm,height=9mm±0.5mm",
                  "draw_down": "angle=33deg", "orifice_flow": "discharge_rate=3g/s",
                  "funnel_heap": "angle_of_repose_triangle=30deg"}
         for name, answers in tests.items():

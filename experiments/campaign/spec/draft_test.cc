@@ -79,6 +79,16 @@ MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) 
 
 std::string InQuotes(const std::string& text) { return base::JsonText(nlohmann::json(text)); }
 
+// Lines after a test's keys; each comma stands before its line's comment.
+std::string NumberLines(const std::vector<std::string>& numbers) {
+  std::string lines = ",";
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    lines += "\n      " + numbers[i] + (i + 1 < numbers.size() ? "," : "") +
+             " // standard error of the mean";
+  }
+  return lines;
+}
+
 std::string Spaced(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
@@ -143,7 +153,7 @@ DraftTest ParseDraftTest(const std::string& text) {
 std::string DraftTestText(const DraftTest& test) {
   const std::string kind(base::NameOf(test.kind));
   std::string rig = "\"rig\": {\"kind\": " + InQuotes(kind);
-  std::string numbers;
+  std::vector<std::string> numbers;
   for (const TestQuestion& question : QuestionsOf(test.kind)) {
     const auto given =
         std::ranges::find(test.answers, question.key, &std::pair<std::string, std::string>::first);
@@ -153,9 +163,8 @@ std::string DraftTestText(const DraftTest& test) {
              InQuotes(is_given ? given->second : question.usual);
     } else if (is_given) {
       const MeasuredText measured = SplitNumber(question, given->second);
-      numbers += ",\n      " + InQuotes(question.key) +
-                 ": {\"value\": " + InQuotes(measured.value) +
-                 ", \"sd\": " + InQuotes(measured.error) + "} // standard error of the mean";
+      numbers.push_back(InQuotes(question.key) + ": {\"value\": " + InQuotes(measured.value) +
+                        ", \"sd\": " + InQuotes(measured.error) + "}");
     }
   }
   if (numbers.empty()) {
@@ -167,8 +176,8 @@ std::string DraftTestText(const DraftTest& test) {
   const bool pours =
       test.kind == rigs::RigKind::kTappedDensity || test.kind == rigs::RigKind::kFunnelHeap;
   return "    {\"name\": " + InQuotes(Spaced(kind)) + ", // docs/rigs.md has every key\n      " +
-         rig + "}" + (pours ? ",\n      \"filling\": {\"kind\": \"pour\"}" : "") + numbers +
-         "\n    }";
+         rig + "}" + (pours ? ",\n      \"filling\": {\"kind\": \"pour\"}" : "") +
+         NumberLines(numbers) + "\n    }";
 }
 
 }  // namespace talus::campaign
