@@ -8,6 +8,7 @@
 #include "experiments/rigs/funnel_heap/funnel_heap_rig.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
 #include "experiments/rigs/orifice_flow/orifice_flow_rig.h"
+#include "experiments/rigs/shear_cell/shear_cell_rig.h"
 #include "experiments/rigs/spreading/spreading_rig.h"
 #include "experiments/rigs/tapped_density/tapped_density_rig.h"
 #include "experiments/rigs/tilting_box/tilting_box_rig.h"
@@ -51,6 +52,7 @@ constexpr RigEntry kRigs[] = {
     Entry<OrificeFlowRig>(RigKind::kOrificeFlow),
     Entry<FunnelHeapRig>(RigKind::kFunnelHeap),
     Entry<SpreadingRig>(RigKind::kSpreading),
+    Entry<ShearCellRig>(RigKind::kShearCell),
 };
 
 }  // namespace

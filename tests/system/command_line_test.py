@@ -278,7 +278,8 @@ class Progress(unittest.TestCase):
         tests = {"tapped_density": "diameter=8mm,tapped_density=2600kg/m^3", "drum": "diameter=30mm,angle=35deg±1deg",
                  "tilting_box": "angle=33deg", "column_collapse": "runout=12mm,height=9mm±0.5mm",
                  "draw_down": "angle=33deg", "orifice_flow": "discharge_rate=3g/s",
-                 "funnel_heap": "angle_of_repose_triangle=30deg"}
+                 "funnel_heap": "angle_of_repose_triangle=30deg",
+                 "shear_cell": "diameter=10mm,internal_friction_angle=33deg,cohesion=120Pa±40Pa"}
         for name, answers in tests.items():
             out = self.folder / f"{name}.json"
             done = talus("init", photos, "--out", str(out), *flags, "--test", f"{name}:{answers}")

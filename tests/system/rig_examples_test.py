@@ -21,11 +21,12 @@ NUMBERS = {
     "drum": ("angle", "angle_deg", "20 + 20 * mr + 10 * mu", "31 deg", "1 deg"),
     "orifice_flow": ("discharge_rate", "discharge_rate_kg_per_s", "d * (1 - mu)", "15 g/s", "0.5 g/s"),
     "spreading": ("thickness", "thickness_m", "d * (1 - mu)", "10 mm", "0.5 mm"),
+    "shear_cell": ("internal_friction_angle", "internal_friction_angle_deg", "20 + 20 * mr + 10 * mu", "31 deg", "1 deg"),
     "funnel_heap": ("angle_of_repose_2", "angle_of_repose_2_deg", "20 + 20 * mr + 10 * mu", "31 deg", "1 deg"),
 }
 LENGTHS = {"lifted_tube": None, "tapped_density": "diameter", "column_collapse": "length",
            "tilting_box": "length", "draw_down": "length", "drum": "diameter",
-           "orifice_flow": "diameter", "funnel_heap": "plate_diameter", "spreading": "length"}
+           "orifice_flow": "diameter", "funnel_heap": "plate_diameter", "spreading": "length", "shear_cell": "diameter"}
 
 
 def read(path):
@@ -76,6 +77,8 @@ awk -v d={length} -v mu={{{{ sliding_friction }}}} -v mr={{{{ rolling_friction }
         experiment["rig"] = {"kind": rig}
     if rig == "spreading":  # grains of 0.8 mm are too large for its defaults
         experiment["rig"].update({"length": "20 mm", "width": "6 mm", "feed": "10 mm"})
+    if rig == "shear_cell":  # 1 g fills its default cell two grains high
+        experiment["rig"].update({"diameter": "12 mm"})
     if rig == "funnel_heap":
         experiment["filling"] = {"kind": "pour"}
     spec = {"engine": {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]},

@@ -6,6 +6,7 @@
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/shear_cell/squeeze.h"
 
 namespace talus::analysis {
 namespace {
@@ -74,8 +75,20 @@ rigs::RigOptions Of(rigs::RigKind kind) {
 
 double UpToMillimetre(double length) { return 1e-3 * std::ceil(1e3 * length); }
 
-// Cylinder as high as wide; column twice as high as long; box five times as long as high.
-void AddVessels(const rigs::Powder& powder, std::vector<TestCandidate>& tests) {
+// Stresses that hard grains are tested under, or as much of them as these bear.
+std::vector<double> StressesFor(const campaign::CampaignSpec& spec, std::vector<double> stresses) {
+  rigs::Case c;
+  c.powder = spec.powder;
+  c.models = spec.models;
+  const double share = std::min(1.0, rigs::BearableStress(c) / stresses.back());
+  for (double& stress : stresses) stress *= share;
+  return stresses;
+}
+
+// Cylinder as high as wide; column twice as high as long; box five times as long as high; shear
+// cell a quarter wider than high.
+void AddVessels(const campaign::CampaignSpec& spec, std::vector<TestCandidate>& tests) {
+  const rigs::Powder& powder = spec.powder;
   constexpr double kPacked = 0.6;  // solid fraction
   const double volume = powder.mass / (kPacked * powder.material.density);
   rigs::RigOptions tapped = Of(rigs::RigKind::kTappedDensity);
@@ -86,11 +99,15 @@ void AddVessels(const rigs::Powder& powder, std::vector<TestCandidate>& tests) {
   rigs::RigOptions box = Of(rigs::RigKind::kTiltingBox);
   box.tilting_box.length = UpToMillimetre(std::cbrt(10 * volume));
   box.tilting_box.width = box.tilting_box.length / 2;
+  rigs::RigOptions cell = Of(rigs::RigKind::kShearCell);
+  cell.shear_cell.diameter = UpToMillimetre(std::cbrt(5 * volume / std::numbers::pi));
+  cell.shear_cell.stresses = StressesFor(spec, cell.shear_cell.stresses);
   const rigs::FillingRule pour{.kind = rigs::FillingKind::kPour};
   const rigs::FillingRule dense{};
   tests.push_back({.name = "tapped density", .rig = tapped, .filling = pour});
   tests.push_back({.name = "column collapse", .rig = column, .filling = dense});
   tests.push_back({.name = "tilting box", .rig = box, .filling = dense});
+  tests.push_back({.name = "shear cell", .rig = cell, .filling = dense});
 }
 
 }  // namespace
@@ -98,7 +115,7 @@ void AddVessels(const rigs::Powder& powder, std::vector<TestCandidate>& tests) {
 std::vector<TestCandidate> UsualTests(const campaign::JointView& view) {
   std::vector<TestCandidate> tests;
   AddPlates(view, tests);
-  AddVessels(view.spec.powder, tests);
+  AddVessels(view.spec, tests);
   std::erase_if(tests, [&](const TestCandidate& test) { return IsMade(view, test); });
   return tests;
 }

@@ -79,6 +79,24 @@ void CheckCohesiveIndex(const ExperimentSpec& e, const std::string& place,
                    "\"10 ms\"}, as the test's own");
 }
 
+// A line takes two stresses of a shear cell, and each shear stress its own.
+void CheckShearStresses(const ExperimentSpec& e, const std::string& place,
+                        base::Problems& problems) {
+  if (!e.rig || e.rig->kind != rigs::RigKind::kShearCell) return;
+  using O = rigs::Observable;
+  const auto require = [&](std::size_t least, O observable, bool measured) {
+    const std::size_t given = e.rig->shear_cell.stresses.size();
+    problems.Require(!measured || given >= least,
+                     place + (place.empty() ? "" : ".") + rigs::InfoOf(observable).key,
+                     "needs " + std::to_string(least) + " normal stresses, and rig.stresses has " +
+                         std::to_string(given) + ": give all that it was measured at");
+  };
+  require(2, O::kFrictionAngle, e.numbers.Of<O::kFrictionAngle>().has_value());
+  require(2, O::kCohesion, e.numbers.Of<O::kCohesion>().has_value());
+  require(2, O::kShearStress2, e.numbers.Of<O::kShearStress2>().has_value());
+  require(3, O::kShearStress3, e.numbers.Of<O::kShearStress3>().has_value());
+}
+
 // What the wall's material gives itself, by the names of the properties.
 std::map<std::string, double> PropertiesOf(const rigs::WallMaterial& wall) {
   std::map<std::string, double> properties;
@@ -170,6 +188,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
     CheckMass(spec, all[i], place, problems);
     ValidateDrumImages(all[i], place, problems);
     CheckCohesiveIndex(all[i], place, problems);
+    CheckShearStresses(all[i], place, problems);
   }
   const bool has_drum =
       std::any_of(all.begin(), all.end(), [](const ExperimentSpec& e) { return IsDrum(e.rig); });

@@ -27,6 +27,8 @@ MetricUnit MetricUnitOf(base::Dimension dimension) {
       return {"_s", "s"};
     case base::Dimension::kMassRate:
       return {"_kg_per_s", "kg/s"};
+    case base::Dimension::kPressure:
+      return {"_pa", "Pa"};
     case base::Dimension::kAngle:
       return {"_deg", "deg", 180 / std::numbers::pi};
     default:

@@ -44,7 +44,12 @@ enum class Observable {
   kRoughness,
   kLayerMass,
   kMassAhead,
-  kSizeDrift
+  kSizeDrift,
+  kShearStress1,
+  kShearStress2,
+  kShearStress3,
+  kFrictionAngle,
+  kCohesion
 };
 
 // The error that a careful laboratory reaches: of the value, or in the observable's unit.
@@ -207,6 +212,36 @@ inline constexpr std::array kObservables = [] {
        "of the blade when it has crossed the plate"},
       {O::kSizeDrift, "size_drift", Dimension::kNone, "Size drift",
        "mean diameter by volume at the end of the layer over that at its beginning"},
+      {O::kShearStress1,
+       "shear_stress_1",
+       Dimension::kPressure,
+       "Shear stress 1",
+       "of a powder that shears steadily under the first of the shear cell's stresses",
+       {.relative = 0.03}},
+      {O::kShearStress2,
+       "shear_stress_2",
+       Dimension::kPressure,
+       "Shear stress 2",
+       "the same under the second",
+       {.relative = 0.03}},
+      {O::kShearStress3,
+       "shear_stress_3",
+       Dimension::kPressure,
+       "Shear stress 3",
+       "the same under the third",
+       {.relative = 0.03}},
+      {O::kFrictionAngle,
+       "internal_friction_angle",
+       Dimension::kAngle,
+       "Angle of internal friction",
+       "slope of the line through the shear stresses over the normal stresses",
+       {.absolute = 1}},
+      {O::kCohesion,
+       "cohesion",
+       Dimension::kPressure,
+       "Cohesion",
+       "shear stress of that line without a normal stress",
+       {.absolute = 50}},
   });
 }();
 

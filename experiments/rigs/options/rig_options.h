@@ -14,6 +14,7 @@
 #include "experiments/rigs/options/funnel_heap_options.h"
 #include "experiments/rigs/options/lifted_tube_options.h"
 #include "experiments/rigs/options/orifice_flow_options.h"
+#include "experiments/rigs/options/shear_cell_options.h"
 #include "experiments/rigs/options/spreading_options.h"
 #include "experiments/rigs/options/tapped_density_options.h"
 #include "experiments/rigs/options/tilting_box_options.h"
@@ -29,7 +30,8 @@ enum class RigKind {
   kDrum,
   kOrificeFlow,
   kFunnelHeap,
-  kSpreading
+  kSpreading,
+  kShearCell
 };
 
 // Whether its powder moves when it is measured, so that a camera can take pictures of it.
@@ -45,6 +47,7 @@ constexpr bool IsFilmed(RigKind kind) {
     case RigKind::kTappedDensity:
     case RigKind::kFunnelHeap:
     case RigKind::kSpreading:
+    case RigKind::kShearCell:
       return false;
   }
   return false;
@@ -62,6 +65,7 @@ struct RigOptions {
   OrificeFlowOptions orifice_flow;
   FunnelHeapOptions funnel_heap;
   SpreadingOptions spreading;
+  ShearCellOptions shear_cell;
   std::optional<CameraOptions> camera{};  // default: one picture, at the end
 
   template <class Self, class Visitor>
@@ -106,6 +110,8 @@ struct RigOptions {
         return body(self.funnel_heap);
       case RigKind::kSpreading:
         return body(self.spreading);
+      case RigKind::kShearCell:
+        return body(self.shear_cell);
     }
   }
 };
@@ -123,5 +129,6 @@ struct talus::base::Names<talus::rigs::RigKind> {
                                     std::pair{"drum", R::kDrum},
                                     std::pair{"orifice_flow", R::kOrificeFlow},
                                     std::pair{"funnel_heap", R::kFunnelHeap},
-                                    std::pair{"spreading", R::kSpreading}};
+                                    std::pair{"spreading", R::kSpreading},
+                                    std::pair{"shear_cell", R::kShearCell}};
 };

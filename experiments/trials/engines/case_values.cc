@@ -85,6 +85,12 @@ struct RigValues {
   void operator()(std::string_view key, const std::optional<double>& value, base::FieldInfo = {}) {
     if (value) (*this)(key, *value);
   }
+  void operator()(std::string_view key, const std::vector<double>& values, base::FieldInfo = {}) {
+    scalars[prefix + "num_" + std::string(key)] = std::to_string(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      (*this)(std::string(key) + "_" + std::to_string(i + 1), values[i]);
+    }
+  }
   template <base::Visitable Group>
   void operator()(std::string_view key, const Group& group, base::FieldInfo = {}) {
     Group::Visit(group, RigValues{scalars, prefix + std::string(key) + "_"});
