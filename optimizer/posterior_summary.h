@@ -60,6 +60,8 @@ struct PosteriorSummary {
   int fewest_at_finest = 0;  // evaluations at the smallest scale factor, of the experiment with the
                              // fewest
   std::vector<ExperimentStanding> experiments;  // at the recommended set
+  // The largest share of its width that a surrogate which is sure would take from a range [-].
+  double surrogate_narrowing = 0;
   std::vector<NuisanceWeight> nuisances{};
   Eigen::MatrixXd prior_draws{};   // as `draws`; no rows where the prior is uniform
   Eigen::VectorXd prior_offset{};  // of the draws' mean (Prior::Offset); NaN where it is uniform

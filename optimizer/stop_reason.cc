@@ -24,10 +24,9 @@ std::string TextOf(const StopReason& r) {
     case StopRule::kExactGain:
       return gain + Rounded(r.limit) + " x the mean value less the lowest, " + Rounded(r.scale);
     case StopRule::kShare:
-      return "more simulations would hardly narrow the answer (over the posterior the surrogate's "
-             "variance is " +
-             PercentText(r.value) + " of what the measurements leave open, below " +
-             PercentText(r.limit) + ")";
+      return "more simulations would hardly narrow the answer (no number of them a range by more "
+             "than " +
+             PercentText(r.value) + ", below " + PercentText(r.limit) + ")";
     case StopRule::kConverged:
       return r.name + " has converged";
     case StopRule::kAllEvaluated:
@@ -39,7 +38,7 @@ std::string TextOf(const StopReason& r) {
          " half-step neighbours of its best are evaluated";
 }
 
-std::string TextOf(const StopShortfall& s) {
+std::string TextOf(const StopShortfall& s, const std::vector<std::string>& names) {
   switch (s.lack) {
     case StopLack::kFirstTrials:
       return "the first trials at each scale factor are missing";
@@ -48,11 +47,15 @@ std::string TextOf(const StopShortfall& s) {
     case StopLack::kShare:
       break;
   }
+  std::string ranges;
+  for (std::size_t i = 0; i < s.narrowing.size(); ++i) {
+    if (s.narrowing[i] < s.stop_share) continue;
+    ranges += (ranges.empty() ? "" : ", ") + names.at(i) + " by " + PercentText(s.narrowing[i]);
+  }
   std::string text;
-  if (!(s.share < s.stop_share)) {
-    text = "the surrogate's variance is " + PercentText(s.share) +
-           " of what the measurements leave open, and the search stops below " +
-           PercentText(s.stop_share);
+  if (!ranges.empty()) {
+    text = std::to_string(s.num_more) +
+           " more simulations are expected to narrow the ranges: " + ranges;
   }
   if (s.temper > s.most_temper) {
     text += (text.empty() ? "" : "; ") + std::string("trials left out are missed by ") +

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/field.h"
 
@@ -15,8 +16,8 @@ enum class StopRule {
   kGain,           // `value`, the most that going on could gain, is below `limit` × `scale`, the
                    // noise sd of one evaluation
   kExactGain,      // … is below `limit` × `scale`, the mean value less the lowest
-  kShare,          // `value`, the surrogate's variance over what the measurements leave open, is
-                   // below `limit`
+  kShare,          // `value`, the largest share of its width that any number of evaluations would
+                   // take from a range, is below `limit`
   kConverged,      // the search `name` has converged
   kAllEvaluated,   // all `value` points of `name` are evaluated
   kGridEvaluated,  // … of the grid, and `limit` half-step neighbours of its best
@@ -45,21 +46,21 @@ std::string TextOf(const StopReason& reason);
 enum class StopLack {
   kFirstTrials,  // the first trials at each scale factor
   kGain,         // a better set may still be found
-  kShare,  // the surrogate's variance is too large a share, or its model misses its own trials
+  kShare,  // more would narrow a range by too large a share, or the model misses its own trials
 };
 
 struct StopShortfall {
   StopLack lack = StopLack::kGain;
   // Numbers of kShare only; NaN: not known.
-  double share = std::numeric_limits<double>::quiet_NaN();       // as in StopRule::kShare [-]
-  double stop_share = std::numeric_limits<double>::quiet_NaN();  // the search stops below it [-]
+  std::vector<double> narrowing{};  // Outlook::again, of each parameter asked for [-]
+  double stop_share = std::numeric_limits<double>::quiet_NaN();  // as in StopRule::kShare [-]
   double temper = 1;       // of the posterior, >= 1 (posterior/joint_misfit.h)
   double most_temper = 1;  // the search stops at this or less
-  double num_more = std::numeric_limits<double>::quiet_NaN();  // evaluations that would be enough
+  int num_more = 0;        // evaluations that `narrowing` is of
 };
 
-// Without a full stop.
-std::string TextOf(const StopShortfall& shortfall);
+// Without a full stop. `names` of the parameters asked for.
+std::string TextOf(const StopShortfall& shortfall, const std::vector<std::string>& names);
 
 }  // namespace talus::optimizer
 

@@ -3,18 +3,26 @@
 // all scale factors, and with one alone. bench/optimizers/README.md says what came out.
 //
 //   scale_factor_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
-//                  [--useless yes] [--tests 1]
+//                  [--useless yes] [--tests 1] [--nuisances 0] [--until-stop yes] [--stop-share
+//                  0.1]
 //
 // A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
 // and scatters more, as measured on heaps of three grain sizes (docs/validation.md). --useless: a
 // coarse heap is that of other parameters altogether, and tells nothing of the true one. --tests 2:
-// a second heap of the same parameters, which another instance makes.
+// a second heap of the same parameters, which another instance makes. --nuisances: so many more
+// parameters are searched, known beforehand within 0.2, each of which displaces the others by up to
+// 0.3 over its range, in another direction in each test. --until-stop: the search may end by itself
+// before the core time is spent. --again: half as many simulations again are made afterwards, and
+// what they do to the ranges is held against what was expected.
 #include <cstdio>
 #include <ctime>
 #include <map>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
+#include "base/random.h"
 #include "bench/optimizers/problems.h"
 #include "bench/optimizers/scale_factor_heaps.h"
 #include "optimizer/strategy/posterior_strategy.h"
@@ -22,7 +30,10 @@
 namespace talus::bench {
 namespace {
 
-constexpr double kSolved = 0.1;  // distance of the answer from the truth, unit cube
+constexpr int kLook = 10;                // simulations between two looks at the stopping rule
+constexpr double kNuisanceSd = 0.2;      // of its prior, unit cube
+constexpr double kNuisanceEffect = 0.3;  // displacement over a nuisance's range, unit cube
+constexpr double kSolved = 0.1;          // distance of the answer from the truth, unit cube
 
 struct Options {
   int first = 1;
@@ -32,6 +43,10 @@ struct Options {
   double target = 0;
   bool useless = false;
   int tests = 1;
+  int nuisances = 0;
+  bool until_stop = false;
+  double stop_share = 0.1;
+  bool again = false;
 };
 
 Options Parse(int argc, char** argv) {
@@ -44,6 +59,10 @@ Options Parse(int argc, char** argv) {
     if (key == "--target") options.target = std::stod(argv[i + 1]);
     if (key == "--useless") options.useless = true;
     if (key == "--tests") options.tests = std::stoi(argv[i + 1]);
+    if (key == "--nuisances") options.nuisances = std::stoi(argv[i + 1]);
+    if (key == "--again") options.again = true;
+    if (key == "--until-stop") options.until_stop = true;
+    if (key == "--stop-share") options.stop_share = std::stod(argv[i + 1]);
     if (key != "--factors") continue;
     options.factors.clear();
     std::stringstream list(argv[i + 1]);
@@ -76,63 +95,154 @@ optimizer::ExperimentTarget Photographed(const Problem& problem, const Vec& trut
   return TargetOf(heaps);
 }
 
+// The parameters that a heap of this test shows where these are the set and the nuisances.
+Vec Displaced(const Eigen::VectorXd& point, int instance) {
+  Vec x{point[0], point[1], point[2]};
+  for (Eigen::Index n = D; n < point.size(); ++n) {
+    base::Random random(static_cast<std::uint64_t>(instance), base::Stream("nuisance"),
+                        static_cast<std::uint64_t>(n));
+    Eigen::Vector3d direction(random.Normal(), random.Normal(), random.Normal());
+    direction *= kNuisanceEffect * (point[n] - 0.5) / direction.norm();
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] = std::clamp(x[k] + direction[static_cast<Eigen::Index>(k)], 0.0, 1.0);
+    }
+  }
+  return x;
+}
+
+// The set, and what the nuisances really are.
+Eigen::VectorXd Truth(int instance, int num_nuisances) {
+  const Vec asked = TwinTruth(instance);
+  Eigen::VectorXd truth(D + num_nuisances);
+  truth.head(D) = Eigen::Map<const Eigen::VectorXd>(asked.data(), D);
+  base::Random random(static_cast<std::uint64_t>(instance), base::Stream("true nuisances"));
+  for (double& nuisance : truth.tail(num_nuisances)) {
+    nuisance = std::clamp(0.5 + kNuisanceSd * random.Normal(), 0.05, 0.95);
+  }
+  return truth;
+}
+
+optimizer::Domain DomainOf(int num_nuisances) {
+  optimizer::Domain domain{.num_parameters = D + num_nuisances};
+  for (Eigen::Index n = D; n < domain.num_parameters; ++n) {
+    domain.nuisances.push_back(n);
+    domain.prior.Add(n, {.low = 0, .high = 1}, {.mean = 0.5, .sd = kNuisanceSd});
+  }
+  return domain;
+}
+
 struct Tally {
   int covered = 0;
   int solved = 0;
   double volume = 0;
   double distance = 0;
   double simulations = 0;
+  int stopped = 0;  // by themselves
+  double core_time = 0;
+  double width_expected = 0;  // after half as many simulations again, over that before
+  double width_then = 0;
 };
 
-void Calibrate(const Options& options, int instance, Tally& tally) {
-  constexpr int kOtherTest = 5000;  // between the instances of the tests
-  const Vec truth = TwinTruth(instance);
-  std::vector<std::unique_ptr<Problem>> problems;
-  std::vector<optimizer::ExperimentTarget> targets;
-  for (int test = 0; test < options.tests; ++test) {
-    problems.push_back(MakeProblem("heap", instance + kOtherTest * test));
-    targets.push_back(Photographed(*problems.back(), truth, instance + kOtherTest * test));
+// A powder that is not known, and the search for it.
+struct Twin {
+  Twin(const Options& chosen, int number)
+      : options(chosen), instance(number), truth(Truth(number, chosen.nuisances)) {
+    for (int test = 0; test < options.tests; ++test) {
+      problems.push_back(MakeProblem("heap", MadeOf(test)));
+      targets.push_back(
+          Photographed(*problems.back(), Displaced(truth, MadeOf(test)), MadeOf(test)));
+    }
+    strategy.emplace(
+        optimizer::PosteriorStrategyOptions{.scale_factors = options.factors,
+                                            .target = options.target,
+                                            .stop_share = options.stop_share,
+                                            .seed = static_cast<std::uint64_t>(instance)},
+        DomainOf(options.nuisances), targets);
   }
-  const auto seed = static_cast<std::uint64_t>(instance);
-  optimizer::PosteriorStrategy strategy(
-      {.scale_factors = options.factors, .target = options.target, .seed = seed},
-      {.num_parameters = D}, targets);
-  double spent = 0;
-  int told = 0;
-  std::map<double, double> spent_at;  // core seconds, by scale factor
-  for (; spent < options.core_time; ++told) {
-    const optimizer::Proposal p = strategy.AskAt(1, {}).front();
+
+  // The instance of the problem that a test is.
+  int MadeOf(int test) const { return instance + 5000 * test; }
+
+  void SimulateOne() {
+    const optimizer::Proposal p = strategy->AskAt(1, {}).front();
     const double cost = HeapCost(p.scale_factor);
-    spent += cost;
     spent_at[p.scale_factor] += cost;
+    spent += cost;
     const auto test = static_cast<std::size_t>(p.experiment);
-    const Image image = Heap(*problems[test], {p.point[0], p.point[1], p.point[2]}, p.scale_factor,
-                             1000 * seed + static_cast<std::uint64_t>(told), options.useless);
-    strategy.Tell({.point = p.point,
-                   .experiment = p.experiment,
-                   .scale_factor = p.scale_factor,
-                   .cost = cost,
-                   .value = targets[test].image.Value(image.px),
-                   .field = image.px});
+    const auto run = static_cast<std::uint64_t>(1000 * instance + told++);
+    const Image image = Heap(*problems[test], Displaced(p.point, MadeOf(p.experiment)),
+                             p.scale_factor, run, options.useless);
+    strategy->Tell({.point = p.point,
+                    .experiment = p.experiment,
+                    .scale_factor = p.scale_factor,
+                    .cost = cost,
+                    .value = targets[test].image.Value(image.px),
+                    .field = image.px});
   }
-  const optimizer::Answer answer = strategy.Recommend();
-  const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(truth.data(), D);
-  const auto standing = strategy.Consider(at);
-  const double distance = (answer.point - at).norm();
+
+  Options options;
+  int instance = 1;
+  Eigen::VectorXd truth;
+  std::vector<std::unique_ptr<Problem>> problems{};
+  std::vector<optimizer::ExperimentTarget> targets{};
+  std::optional<optimizer::PosteriorStrategy> strategy{};
+  double spent = 0;  // [core s]
+  int told = 0;
+  std::map<double, double> spent_at{};  // core seconds, by scale factor
+};
+
+// Geometric mean of the asked ranges' widths.
+double WidthOf(const optimizer::Answer& answer) {
+  double log_width = 0;
+  for (int k = 0; k < D; ++k) {
+    const optimizer::Range& range = answer.credible[static_cast<std::size_t>(k)];
+    log_width += std::log(range.high - range.low) / D;
+  }
+  return std::exp(log_width);
+}
+
+void GoOn(Twin& twin, Tally& tally) {
+  const double before = WidthOf(twin.strategy->Recommend());
+  const auto outlook = twin.strategy->Shortfall();
+  if (!outlook) return;
+  double log_expected = 0;
+  for (const double narrowing : outlook->narrowing) log_expected += std::log1p(-narrowing) / D;
+  for (int i = 0; i < outlook->num_more; ++i) twin.SimulateOne();
+  const double then = WidthOf(twin.strategy->Recommend()) / before;
+  std::printf("     %d more: width times %.3f, expected %.3f\n", outlook->num_more, then,
+              std::exp(log_expected));
+  tally.width_expected += std::exp(log_expected);
+  tally.width_then += then;
+}
+
+void Calibrate(const Options& options, int instance, Tally& tally) {
+  Twin twin(options, instance);
+  while (twin.spent < options.core_time) {
+    if (options.until_stop && twin.told % kLook == 0 && twin.strategy->WhyStop()) break;
+    twin.SimulateOne();
+  }
+  const optimizer::Answer answer = twin.strategy->Recommend();
+  const auto standing = twin.strategy->Consider(twin.truth);
+  const double distance = (answer.point - twin.truth).head(D).norm();
   std::printf(
       "%3d: level %.2f, volume %.4f, distance %.3f, branches %zu, temper %.2f, raw %.2f, "
       "implausibility %.2f, %d simulations",
       instance, standing->credible_level, answer.posterior->region_volume, distance,
       answer.posterior->branches.size(), answer.posterior->temper, answer.posterior->raw_coverage,
-      answer.posterior->experiments[0].implausibility, told);
-  for (const auto& [factor, seconds] : spent_at) std::printf(", %.1f s at %g", seconds, factor);
+      answer.posterior->experiments[0].implausibility, twin.told);
+  for (const auto& [factor, seconds] : twin.spent_at) {
+    std::printf(", %.1f s at %g", seconds, factor);
+  }
   std::printf("\n");
-  std::fflush(stdout);
   tally.covered += standing->credible_level <= 0.9 ? 1 : 0;
   tally.solved += distance < kSolved ? 1 : 0;
   tally.volume += answer.posterior->region_volume;
   tally.distance += distance;
-  tally.simulations += told;
+  tally.simulations += twin.told;
+  tally.stopped += twin.spent < options.core_time ? 1 : 0;
+  tally.core_time += twin.spent;
+  if (options.again) GoOn(twin, tally);
+  std::fflush(stdout);
 }
 
 int Main(int argc, char** argv) {
@@ -145,10 +255,14 @@ int Main(int argc, char** argv) {
   const int count = options.last - options.first + 1;
   std::printf(
       "covered %d of %d, solved %d, mean volume %.4f, mean distance %.3f, mean simulations %.0f, "
-      "%.0f s of "
-      "processor time\n",
+      "mean core time %.1f s, %d ended by themselves, %.0f s of processor time\n",
       tally.covered, count, tally.solved, tally.volume / count, tally.distance / count,
-      tally.simulations / count, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+      tally.simulations / count, tally.core_time / count, tally.stopped,
+      static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  if (options.again) {
+    std::printf("mean width after half as many again times %.3f, expected %.3f\n",
+                tally.width_then / count, tally.width_expected / count);
+  }
   return 0;
 }
 

@@ -1,33 +1,14 @@
 #include "optimizer/designs/posterior_design.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "optimizer/space/prior_spread.h"
 
 namespace talus::optimizer {
 namespace {
 
 constexpr double kOfNuisance = 0.5;  // of a parameter that is asked for
-
-// The prior's values of a coordinate inside the cube, ascending; two at least.
-std::vector<double> PriorValues(const Domain& domain, Eigen::Index coordinate) {
-  constexpr Eigen::Index kDraws = 2000;
-  const Eigen::MatrixXd draws = domain.prior.Draw(kDraws, domain.num_parameters, 0);
-  std::vector<double> values{0, 1};
-  for (const double u : draws.col(coordinate)) {
-    if (u >= 0 && u <= 1) values.push_back(u);
-  }
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
-// Over that of the uniform one.
-double Spread(const Domain& domain, Eigen::Index coordinate) {
-  if (domain.prior.IsUniform()) return 1;
-  const std::vector<double> values = PriorValues(domain, coordinate);
-  const Eigen::Map<const Eigen::ArrayXd> u(values.data(), std::ssize(values));
-  return std::min(1.0, std::sqrt(12 * (u - u.mean()).square().mean()));
-}
 
 void FollowPrior(const Domain& domain, Points& points) {
   if (domain.prior.IsUniform()) return;
@@ -43,7 +24,7 @@ void FollowPrior(const Domain& domain, Points& points) {
 
 int PosteriorDesignSize(const Domain& domain) {
   auto parameters = static_cast<double>(domain.Asked().size());
-  for (const Eigen::Index k : domain.nuisances) parameters += kOfNuisance * Spread(domain, k);
+  for (const Eigen::Index k : domain.nuisances) parameters += kOfNuisance * PriorSpread(domain, k);
   return static_cast<int>(std::ceil(4 * parameters)) + 4;
 }
 

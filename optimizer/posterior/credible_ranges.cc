@@ -41,4 +41,14 @@ std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confiden
   return ranges;
 }
 
+Eigen::VectorXd CredibleWidths(const Eigen::MatrixXd& sample, double confidence) {
+  const std::vector<Range> ranges = CredibleRanges(sample, confidence);
+  Eigen::VectorXd width(sample.cols());
+  for (Eigen::Index i = 0; i < width.size(); ++i) {
+    const Range& range = ranges[static_cast<std::size_t>(i)];
+    width[i] = range.high - range.low;
+  }
+  return width;
+}
+
 }  // namespace talus::optimizer

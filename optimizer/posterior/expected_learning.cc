@@ -5,10 +5,10 @@
 #include <cmath>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "base/random.h"
 #include "optimizer/posterior/credible_ranges.h"
+#include "optimizer/posterior/posterior_sample.h"
 #include "optimizer/posterior/robust_misfit.h"
 
 namespace talus::optimizer {
@@ -27,30 +27,6 @@ double Bits(const Eigen::MatrixXd& z) {
       centred.transpose() * centred / static_cast<double>(z.rows() - 1);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance, Eigen::EigenvaluesOnly);
   return 0.5 * (1 + solver.eigenvalues().array().max(0)).log().sum() / std::log(2.0);
-}
-
-// Systematic resampling: as many rows as `draws`, each in proportion to its weight.
-Eigen::MatrixXd Resampled(const Eigen::MatrixXd& draws, const Eigen::VectorXd& weight) {
-  const Eigen::Index size = draws.rows();
-  Eigen::MatrixXd sample(size, draws.cols());
-  const double step = weight.sum() / static_cast<double>(size);
-  double at = weight[0];
-  Eigen::Index row = 0;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const double aim = step * (static_cast<double>(i) + 0.5);
-    while (at < aim && row + 1 < size) at += weight[++row];
-    sample.row(i) = draws.row(row);
-  }
-  return sample;
-}
-
-Eigen::VectorXd Widths(const Eigen::MatrixXd& draws) {
-  const std::vector<Range> ranges = CredibleRanges(draws, kConfidence);
-  Eigen::VectorXd width(draws.cols());
-  for (Eigen::Index i = 0; i < width.size(); ++i) {
-    width[i] = ranges[static_cast<std::size_t>(i)].high - ranges[static_cast<std::size_t>(i)].low;
-  }
-  return width;
 }
 
 // The weight of each draw, when `seen` was measured.
@@ -90,7 +66,7 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
                        std::uint64_t seed, const Eigen::VectorXd& goal) {
   constexpr Eigen::Index kTruths = 64;
   const bool has_goal = goal.size() > 0;
-  ExpectedLearning learning{.bits = 0, .width = Widths(draws)};
+  ExpectedLearning learning{.bits = 0, .width = CredibleWidths(draws, kConfidence)};
   if (has_goal) learning.goal_half_width = HalfWidth90(goal);
   if (measurement.mean.cols() == 0) return learning;
   const Eigen::MatrixXd z = Standardised(measurement);
@@ -104,7 +80,8 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
     Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
     for (double& value : seen) value += random.Normal();
     const Eigen::VectorXd weights = Weights(z, seen);
-    learning.width += Widths(Resampled(draws, weights)) / static_cast<double>(count);
+    learning.width +=
+        CredibleWidths(Resampled(draws, weights), kConfidence) / static_cast<double>(count);
     if (!has_goal) continue;
     learning.goal_half_width +=
         HalfWidth90(Resampled(goal, weights).col(0)) / static_cast<double>(count);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/random.h"
+
 namespace talus::optimizer {
 namespace {
 
@@ -15,18 +17,18 @@ double CompressionSlope(const ScalarTarget& target) {
 
 }  // namespace
 
-double SurrogateCaution(int num_finest) {
+double SurrogateCaution(double num_finest) {
   constexpr double kOfMany = 2;
   constexpr double kFew = 15;  // evaluations of which the variance counts twice
-  return kOfMany * std::sqrt(1 + kFew / std::max(1, num_finest));
+  return kOfMany * std::sqrt(1 + kFew / std::max(1.0, num_finest));
 }
 
 ExperimentModel::ExperimentModel(const Setup& setup, const OutputData& data,
                                  const OutputState* frozen)
     : setup_(setup),
       outputs_({.levels = *setup.levels, .scalars = setup.target->scalars}, data, frozen) {
-  const auto num_finest = std::ranges::count(data.level, setup_.levels->finest());
-  caution_ = SurrogateCaution(static_cast<int>(num_finest));
+  num_finest_ = static_cast<double>(std::ranges::count(data.level, setup_.levels->finest()));
+  caution_ = SurrogateCaution(num_finest_);
   measured_ = Eigen::VectorXd::Zero(num_outputs());
   error_ = Eigen::VectorXd::Ones(num_outputs());
   matched_ = Eigen::VectorXd::Ones(num_outputs());
@@ -104,6 +106,19 @@ OutputMoments ExperimentModel::Outputs(const Eigen::MatrixXd& points) const {
   return outputs;
 }
 
+std::vector<Eigen::MatrixXd> ExperimentModel::ErrorDraws(const Eigen::MatrixXd& points,
+                                                         int num_draws, std::uint64_t seed) const {
+  std::vector<Eigen::MatrixXd> errors;
+  for (Eigen::Index k = 0; k < num_outputs(); ++k) {
+    const surrogate::GaussianProcess& output = outputs_.output(k);
+    const base::Random random(seed, base::Stream("surrogate's errors"),
+                              static_cast<std::uint64_t>(k));
+    errors.push_back(output.Draw(points, num_draws, random).rowwise() -
+                     output.PredictAll(points).mean.transpose());
+  }
+  return errors;
+}
+
 OutputMisfit ExperimentModel::MisfitOf(const OutputMoments& outputs, double caution,
                                        const Eigen::VectorXd& open) const {
   const Eigen::Index num_points = outputs.mean.rows();
@@ -149,8 +164,8 @@ Eigen::VectorXd ExperimentModel::SquaredMisfit(const Eigen::MatrixXd& points) co
       .squaredNorm();
 }
 
-Eigen::MatrixXd ExperimentModel::Gains(const Eigen::MatrixXd& draws,
-                                       const Eigen::MatrixXd& sites) const {
+Eigen::MatrixXd ExperimentModel::Gains(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& sites,
+                                       const std::function<void(const Narrowed&)>& show) const {
   Eigen::MatrixXd gains = Eigen::MatrixXd::Zero(sites.rows(), setup_.levels->size());
   for (Eigen::Index k = 0; k < num_outputs(); ++k) {
     const surrogate::GaussianProcess& output = outputs_.output(k);
@@ -164,6 +179,7 @@ Eigen::MatrixXd ExperimentModel::Gains(const Eigen::MatrixXd& draws,
         const Eigen::ArrayXd taken = at.between.col(i).array().square() / (at.variance[i] + noise);
         const Eigen::ArrayXd after = (anchors.variance.array() - taken).max(0.0) + open_[k];
         gains(i, level) += 0.5 * (before / after).log().mean();
+        show({.output = k, .site = i, .level = level, .before = before, .after = after});
       }
     }
   }

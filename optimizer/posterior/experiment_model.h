@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,7 +22,7 @@ namespace talus::optimizer {
 // The surrogate's sd is taken for so many times as large in the misfit: point-estimated
 // hyper-parameters and constant noise make it overconfident where the posterior selects, the more
 // the fewer evaluations there are at the finest scale factor (bench/optimizers/README.md).
-double SurrogateCaution(int num_finest);
+double SurrogateCaution(double num_finest);
 
 // Misfit of the predicted outputs from the measured ones, one point a row.
 struct OutputMisfit {
@@ -70,6 +71,10 @@ class ExperimentModel {
   OutputState state() const { return outputs_.state(); }
 
   OutputMoments Outputs(const Eigen::MatrixXd& points) const;
+  // Joint draws of the surrogate's error at the target: element k of output k, one draw a row, one
+  // point a column; not inflated.
+  std::vector<Eigen::MatrixXd> ErrorDraws(const Eigen::MatrixXd& points, int num_draws,
+                                          std::uint64_t seed) const;
   OutputMisfit MisfitOf(const OutputMoments& outputs) const {
     return MisfitOf(outputs, caution_, open_);
   }
@@ -90,15 +95,34 @@ class ExperimentModel {
   // at the points `draws`: the mean over them of Σ over outputs of ½ ln((V + B)/(V' + B)), V and V'
   // the surrogate's variance at the target before and after, B what the experiment itself leaves
   // open. A simulation at the target teaches the discrepancy far around, a coarse one does not.
-  Eigen::MatrixXd Gains(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& sites) const;
+  Eigen::MatrixXd Gains(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& sites) const {
+    return Gains(draws, sites, [](const Narrowed&) {});
+  }
+  // One term of it: what a simulation makes of an output's variance at the points `draws`.
+  struct Narrowed {
+    Eigen::Index output = 0;
+    Eigen::Index site = 0;
+    int level = 0;
+    const Eigen::ArrayXd& before;  // V + B
+    const Eigen::ArrayXd& after;   // V' + B
+  };
+  // The same, and shows every term.
+  Eigen::MatrixXd Gains(const Eigen::MatrixXd& draws, const Eigen::MatrixXd& sites,
+                        const std::function<void(const Narrowed&)>& show) const;
   // The same for perfect knowledge at each point (V' = 0): where something is left to learn.
   Eigen::VectorXd GainOfAll(const Eigen::MatrixXd& points) const;
 
   void AddFantasy(const Eigen::VectorXd& x, int level) { outputs_.AddFantasy(x, level); }
 
   const ModelError& model_error() const { return model_error_; }
+  const Eigen::VectorXd& open() const { return open_; }  // B, of each output
   // Takes the place of the stated one in MisfitOf, Predict, Gains and GainOfAll.
   void SetModelError(const ModelError& model_error);
+
+  // From now on the surrogate is trusted as one of so many times the evaluations at the finest
+  // scale factor.
+  double caution() const { return caution_; }
+  void TakeForFinest(double times) { caution_ = SurrogateCaution(times * num_finest_); }
 
   double weight() const { return setup_.target->weight; }
   bool has_image() const { return setup_.code != nullptr; }
@@ -131,7 +155,8 @@ class ExperimentModel {
   void MeasureScalars();
 
   Setup setup_;
-  double caution_ = 1;  // SurrogateCaution
+  double num_finest_ = 0;  // evaluations at the finest scale factor
+  double caution_ = 1;     // SurrogateCaution
   OutputModel outputs_;
   Eigen::VectorXd measured_;  // each output
   Eigen::VectorXd error_;     // variance of `measured_`

@@ -30,6 +30,20 @@ std::vector<Eigen::Index> Resample(const Eigen::VectorXd& weight, int count, bas
   return rows;
 }
 
+Eigen::MatrixXd Resampled(const Eigen::MatrixXd& draws, const Eigen::VectorXd& weight) {
+  const Eigen::Index size = draws.rows();
+  Eigen::MatrixXd sample(size, draws.cols());
+  const double step = weight.sum() / static_cast<double>(size);
+  double at = weight[0];
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const double aim = step * (static_cast<double>(i) + 0.5);
+    while (at < aim && row + 1 < size) at += weight[++row];
+    sample.row(i) = draws.row(row);
+  }
+  return sample;
+}
+
 void PosteriorSample::SetRegion() {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(weight.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});

@@ -15,6 +15,10 @@ double LogSumExp(const Eigen::VectorXd& x);
 // Rows drawn in proportion to their weight, evenly through the sum of weights, which is 1.
 std::vector<Eigen::Index> Resample(const Eigen::VectorXd& weight, int count, base::Random& random);
 
+// Systematic resampling: as many rows as `draws`, each in proportion to its weight, which need not
+// sum to 1.
+Eigen::MatrixXd Resampled(const Eigen::MatrixXd& draws, const Eigen::VectorXd& weight);
+
 struct PosteriorSample {
   Eigen::MatrixXd points;         // one a row
   Eigen::VectorXd log_density;    // of each, up to a constant

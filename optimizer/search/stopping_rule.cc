@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus::optimizer {
 namespace {
 
 constexpr double kExactShare = 1e-6;
 constexpr double kMostTemper = 1.5;
-constexpr double kFarthest = 20;  // times as many more: beyond, 1/n is no estimate
 
-// 137 → 140: an estimate.
-double TwoDigitsUp(double count) {
-  const double unit = count < 100 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 1);
-  return unit * std::ceil(count / unit - 1e-9);  // 100.0000001 is 100
+// NaN, which is below nothing, of no ranges.
+double Most(const std::vector<double>& narrowing) {
+  if (narrowing.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return *std::ranges::max_element(narrowing);
 }
 
 }  // namespace
@@ -34,24 +34,21 @@ std::optional<StopReason> StopByExactGain(double gain, double typical) {
                     .scale = typical};
 }
 
-std::optional<StopReason> StopByShare(const SurrogateShare& now, double stop_share) {
-  if (!(now.share < stop_share) || now.temper > kMostTemper) return std::nullopt;
-  return StopReason{.rule = StopRule::kShare, .value = now.share, .limit = stop_share};
+std::optional<StopReason> StopByOutlook(const Outlook& outlook, double stop_share) {
+  const double most = Most(outlook.all);
+  if (!(most < stop_share) || outlook.temper > kMostTemper) return std::nullopt;
+  return StopReason{.rule = StopRule::kShare, .value = most, .limit = stop_share};
 }
 
-std::optional<StopShortfall> ShortOfShare(const SurrogateShare& now, double stop_share,
-                                          int num_told) {
-  if (StopByShare(now, stop_share)) return std::nullopt;
-  StopShortfall shortfall{.lack = StopLack::kShare,
-                          .share = now.share,
-                          .stop_share = stop_share,
-                          .temper = now.temper,
-                          .most_temper = kMostTemper};
-  const double times_more = now.share / stop_share - 1;
-  if (now.temper <= kMostTemper && times_more <= kFarthest) {
-    shortfall.num_more = TwoDigitsUp(num_told * times_more);
-  }
-  return shortfall;
+std::optional<StopShortfall> ShortOfOutlook(const Outlook& outlook, double stop_share,
+                                            int num_told) {
+  if (Most(outlook.again) < stop_share && outlook.temper <= kMostTemper) return std::nullopt;
+  return StopShortfall{.lack = StopLack::kShare,
+                       .narrowing = outlook.again,
+                       .stop_share = stop_share,
+                       .temper = outlook.temper,
+                       .most_temper = kMostTemper,
+                       .num_more = (num_told + 1) / 2};
 }
 
 }  // namespace talus::optimizer

@@ -3,11 +3,12 @@
 //
 //   one objective, noisy      StopByGain: what is left to gain is small against the noise
 //   one objective, exact      StopByExactGain: … against the values seen
-//   several grain sizes       StopByShare: the surrogate knows the images better than the
-//   or experiments            experiments do
+//   several grain sizes       StopByOutlook: no number of them would narrow the ranges much
+//   or experiments
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "optimizer/stop_reason.h"
 
@@ -20,18 +21,19 @@ std::optional<StopReason> StopByGain(double gain, double noise, double stop_mult
 // `typical`: mean of the values less the lowest.
 std::optional<StopReason> StopByExactGain(double gain, double typical);
 
-// `share`: the surrogate's variance over the posterior, as a share of what the experiments' own
-// errors leave open [-]. `temper`: by how much the variance had to be raised until the trials, each
-// left out in turn, were covered; a model that needs much does not know how little it knows.
-struct SurrogateShare {
-  double share = 0;
+// What more evaluations can do to the ranges of what is asked for: the share of its width that each
+// is expected to lose [-].
+struct Outlook {
+  std::vector<double> again{};  // to half as many evaluations again
+  std::vector<double> all{};    // to any number of them
+  // By how much the variance had to be raised until the trials, each left out in turn, were
+  // covered; a model that needs much does not know how little it knows.
   double temper = 1;
 };
-std::optional<StopReason> StopByShare(const SurrogateShare& now, double stop_share);
-
-// Nothing where the rule is met. The variance of a mean of n falls as 1/n, so `num_told`
-// evaluations become share/stop_share times as many: told up to 20 times more, of no temper.
-std::optional<StopShortfall> ShortOfShare(const SurrogateShare& now, double stop_share,
-                                          int num_told);
+// Where no number of them takes `stop_share` from a range.
+std::optional<StopReason> StopByOutlook(const Outlook& outlook, double stop_share);
+// Where half as many again would, or the temper is too high. `num_told`: evaluations so far.
+std::optional<StopShortfall> ShortOfOutlook(const Outlook& outlook, double stop_share,
+                                            int num_told);
 
 }  // namespace talus::optimizer

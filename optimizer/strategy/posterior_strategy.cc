@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "optimizer/designs/posterior_design.h"
 #include "optimizer/outputs/modelled.h"
+#include "optimizer/posterior/expected_narrowing.h"
 #include "optimizer/posterior/learn_model_errors.h"
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"
@@ -73,6 +74,7 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   sample_.reset();
   asked_.reset();
   asked_sample_.reset();
+  outlook_.reset();
   observations_.push_back(WithoutImage(observation));
   Told& told = told_[static_cast<std::size_t>(observation.experiment)];
   const int level = levels_.LevelOf(observation.scale_factor);
@@ -83,6 +85,7 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   // An image that was lost leaves nothing to learn from.
   if (observation.failed || (!told.codes.empty() && observation.field.empty())) return;
   told.values.push_back(observation.value);
+  told.place.push_back(observations_.size() - 1);
   for (std::size_t c = 0; c < told.by_code.size(); ++c) {
     OutputData& data = told.by_code[c];
     data.points.push_back(observation.point);
@@ -101,16 +104,21 @@ bool PosteriorStrategy::CanModel() const {
                      [](const Told& told) { return told.size() >= kFewest; });
 }
 
+ExperimentModel::Setup PosteriorStrategy::SetupOf(std::size_t experiment) const {
+  const Told& told = told_[experiment];
+  return {.target = &targets_[experiment],
+          .code = told.codes.empty() ? nullptr : told.codes[told.code()],
+          .levels = &levels_,
+          .model_error = options_.model_error};
+}
+
 Posterior PosteriorStrategy::MakePosterior() {
   std::vector<ExperimentModel> models;
   std::vector<OutputData> data;
   for (std::size_t e = 0; e < told_.size(); ++e) {
     Told& told = told_[e];
     const std::size_t code = told.code();
-    const ExperimentModel::Setup setup{.target = &targets_[e],
-                                       .code = told.codes.empty() ? nullptr : told.codes[code],
-                                       .levels = &levels_,
-                                       .model_error = options_.model_error};
+    const ExperimentModel::Setup setup = SetupOf(e);
     const OutputData& all = told.by_code[code];
     data.push_back(Modelled(all, told.values, all.size()));
     const int count = SizeToFit(told.size(), kFewest);
@@ -270,12 +278,9 @@ Proposal PosteriorStrategy::ByGain(std::span<const Proposal> asked) {
   const int start = domain_.num_parameters <= 2 ? 1000 : 2000;
   const PosteriorSample sample = Model().Sample(domain_, start, softness, seed);
   const Eigen::MatrixXd draws = sample.Draws(kCandidates, seed);
-  Eigen::VectorXd score = Eigen::VectorXd::Zero(draws.rows());
-  for (const ExperimentModel& model : with_fantasies.models()) {
-    score += model.weight() * model.GainOfAll(draws);
-  }
+  const AskedGain gain(with_fantasies, domain_, draws);
   const Feasibility feasibility(MakeHistory(observations_, domain_.num_parameters));
-  score += feasibility.Penalty(draws);
+  const Eigen::VectorXd score = gain.OfAll() + feasibility.Penalty(draws);
   constexpr Eigen::Index kBest = 6;
   std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.rows()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
@@ -284,20 +289,17 @@ Proposal PosteriorStrategy::ByGain(std::span<const Proposal> asked) {
   order.resize(std::min<std::size_t>(order.size(), kBest));
   const Eigen::MatrixXd sites = draws(order, Eigen::all);
   if (auto few = TooFewAt(sites.row(0), asked)) return *few;
-  return MostPerCost(with_fantasies, draws, sites);
+  return MostPerCost(gain, sites);
 }
 
-Proposal PosteriorStrategy::MostPerCost(const Posterior& with_fantasies,
-                                        const Eigen::MatrixXd& draws,
-                                        const Eigen::MatrixXd& sites) const {
+Proposal PosteriorStrategy::MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites) const {
   Proposal best;
   double most = -1;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
-    const double weight = with_fantasies.models()[e].weight();
-    const Eigen::MatrixXd gains = with_fantasies.models()[e].Gains(draws, sites);
+    const Eigen::MatrixXd gains = gain.OfOne(e, sites);
     for (Eigen::Index i = 0; i < sites.rows(); ++i) {
       for (int level = 0; level < levels_.size(); ++level) {
-        const double rate = weight * gains(i, level) / CostOf(e, level);
+        const double rate = gains(i, level) / CostOf(e, level);
         if (rate <= most) continue;
         most = rate;
         best = {.point = sites.row(i),
@@ -314,28 +316,62 @@ bool PosteriorStrategy::HasDesign() {
   return CanModel() && !FromDesign({}) && !TooFewAt(Eigen::VectorXd(), {});
 }
 
-SurrogateShare PosteriorStrategy::ShareNow() {
-  constexpr int kDraws = 64;
-  const Eigen::MatrixXd draws = Sample().Draws(kDraws, options_.seed);
-  double gain = 0;
-  double outputs = 0;
-  for (const ExperimentModel& model : Model().models()) {
-    gain += model.GainOfAll(draws).mean();
-    outputs += model.num_outputs();
+// With today's hyper-parameters. No variance falls faster than that of a mean of independent
+// evaluations at the finest scale factor: where the last third was the first to tell a discrepancy,
+// it did once.
+std::vector<SurrogateAhead> PosteriorStrategy::SurrogatesAhead(const Eigen::MatrixXd& draws) {
+  const std::size_t earlier = 2 * observations_.size() / 3;
+  std::vector<SurrogateAhead> ahead;
+  for (std::size_t e = 0; e < told_.size(); ++e) {
+    const Told& told = told_[e];
+    const ExperimentModel& now = Model().models()[e];
+    const std::vector<int>& level = told.by_code.front().level;
+    const auto count = std::ranges::lower_bound(told.place, earlier) - told.place.begin();
+    const auto finest = std::ranges::count(level, levels_.finest());
+    const auto finest_before = std::count(level.begin(), level.begin() + count, levels_.finest());
+    const double times = 1 + 1.5 * static_cast<double>(finest - finest_before) /
+                                 static_cast<double>(std::max<std::ptrdiff_t>(1, finest));
+    ahead.push_back(
+        {.left = Eigen::VectorXd::Constant(now.num_outputs(), 1 / times), .times_finest = times});
+    if (count < kFewest) continue;
+    const OutputData data =
+        Modelled(told.by_code[told.code()], told.values, static_cast<int>(count));
+    const ExperimentModel before(SetupOf(e), data, &*told.state);
+    const auto typical = [&](const ExperimentModel& model) -> Eigen::ArrayXd {
+      return model.Outputs(draws).variance.colwise().mean().transpose();
+    };
+    ahead.back().left = (typical(now) / typical(before)).max(1 / times).min(1.0);
   }
-  // V/B of the typical output.
-  return {.share = std::expm1(2 * gain / outputs), .temper = Model().temper()};
+  return ahead;
+}
+
+const Outlook& PosteriorStrategy::OutlookNow() {
+  if (outlook_) return *outlook_;
+  constexpr int kDraws = 400;
+  constexpr Eigen::Index kFew = 50;
+  const Eigen::MatrixXd draws = Sample().Draws(kDraws, options_.seed);
+  const Eigen::MatrixXd few = draws(Eigen::seqN(0, kFew, kDraws / kFew), Eigen::all);
+  std::vector<SurrogateAhead> ahead = SurrogatesAhead(few);
+  const auto narrowing = [&]() -> std::vector<double> {
+    const Eigen::VectorXd each =
+        ExpectedNarrowing(Model(), draws, domain_.Asked(), ahead, options_.seed);
+    return {each.begin(), each.end()};
+  };
+  outlook_.emplace(Outlook{.again = narrowing(), .temper = Model().temper()});
+  for (SurrogateAhead& surrogate : ahead) surrogate.left.setZero();
+  outlook_->all = narrowing();
+  return *outlook_;
 }
 
 std::optional<StopReason> PosteriorStrategy::WhyStop() {
   if (options_.stop_share == 0 || !HasDesign()) return std::nullopt;
-  return StopByShare(ShareNow(), options_.stop_share);
+  return StopByOutlook(OutlookNow(), options_.stop_share);
 }
 
 std::optional<StopShortfall> PosteriorStrategy::Shortfall() {
   if (options_.stop_share == 0) return std::nullopt;
   if (!HasDesign()) return StopShortfall{.lack = StopLack::kFirstTrials};
-  return ShortOfShare(ShareNow(), options_.stop_share, static_cast<int>(observations_.size()));
+  return ShortOfOutlook(OutlookNow(), options_.stop_share, static_cast<int>(observations_.size()));
 }
 
 std::optional<Moments> PosteriorStrategy::Predict(const Eigen::MatrixXd& points, int experiment) {

@@ -14,6 +14,8 @@
 #include "optimizer/outputs/experiment_target.h"
 #include "optimizer/outputs/levels.h"
 #include "optimizer/posterior/asked_density.h"
+#include "optimizer/posterior/asked_gain.h"
+#include "optimizer/posterior/expected_narrowing.h"
 #include "optimizer/posterior/posterior.h"
 #include "optimizer/posterior_summary.h"
 #include "optimizer/search/stopping_rule.h"
@@ -60,6 +62,7 @@ class PosteriorStrategy : public Strategy {
     std::vector<std::shared_ptr<const surrogate::FieldCode>> codes;
     std::vector<OutputData> by_code;  // one a code; one without code where there is no image
     std::vector<double> values;       // objectives
+    std::vector<std::size_t> place;   // of each, among all that were told
     double edge_error = 0;            // Σ |image - its column edges| / Σ image
     std::vector<double> cost;         // Σ over told evaluations [core s], one a level
     std::vector<int> count;           // of these
@@ -74,14 +77,15 @@ class PosteriorStrategy : public Strategy {
   Proposal Next(std::span<const Proposal> asked);
   // Whether the stopping rule has something to judge.
   bool HasDesign();
-  SurrogateShare ShareNow();
+  ExperimentModel::Setup SetupOf(std::size_t experiment) const;
+  // The surrogates after half as many evaluations again, if these do as well as the last third has.
+  std::vector<SurrogateAhead> SurrogatesAhead(const Eigen::MatrixXd& draws);
+  const Outlook& OutlookNow();
   bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);
-  // Which of the points, for which experiment and how coarse, narrows the misfit most a core
-  // second.
-  Proposal MostPerCost(const Posterior& with_fantasies, const Eigen::MatrixXd& draws,
-                       const Eigen::MatrixXd& sites) const;
+  // Which of the points, for which experiment and how coarse, gains most a core second.
+  Proposal MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites) const;
   // A finer scale factor that has too few evaluations to tell its discrepancy.
   std::optional<Proposal> TooFewAt(const Eigen::VectorXd& point,
                                    std::span<const Proposal> asked) const;
@@ -106,6 +110,7 @@ class PosteriorStrategy : public Strategy {
   std::optional<PosteriorSample> sample_;  // of it
   std::optional<AskedDensity> asked_;
   std::optional<PosteriorSample> asked_sample_;
+  std::optional<Outlook> outlook_;
 };
 
 }  // namespace talus::optimizer

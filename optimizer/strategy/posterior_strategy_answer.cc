@@ -78,6 +78,7 @@ void PosteriorStrategy::Summarise(Answer& answer) {
                            .unlearnt_scale_factors = UnlearntScaleFactors(),
                            .fewest_at_finest = FewestAtFinest(),
                            .experiments = {}};
+  summary.surrogate_narrowing = *std::ranges::max_element(OutlookNow().all);
   answer.point = summary.branches.front().point;
   summary.nuisances = NuisanceWeights(summary.draws);
   AddPrior(summary);

@@ -12,8 +12,8 @@ struct PosteriorStrategyOptions {
   int num_initial = 0;  // evaluations of the design at the coarsest level; 0: PosteriorDesignSize
   double model_error = 1;  // sd of what no simulation can match, in run-to-run sds of the images
   bool learn_model_error = false;  // model_error is the scale of its prior (learn_model_errors.h)
-  double stop_share = 0.02;  // stop when the surrogate's variance is below this share of what the
-                             // experiment leaves open, over the posterior; 0: never
+  double stop_share = 0.1;  // stop when no number of evaluations would take this share of its width
+                            // from the range of a parameter that is asked for; 0: never
   std::uint64_t seed = 1;
 };
 

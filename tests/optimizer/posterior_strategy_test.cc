@@ -32,6 +32,7 @@ struct Twin {
   bool balance = true;  // whether the second number is measured
   std::uint64_t seed = 1;
   double weight = 1;
+  double stop_share = 0.1;
 
   ExperimentTarget MakeTarget() const {
     const double sum = 1 + truth[0] + truth[1];
@@ -42,7 +43,8 @@ struct Twin {
   }
   std::unique_ptr<PosteriorStrategy> Make() const {
     return std::make_unique<PosteriorStrategy>(
-        PosteriorStrategyOptions{.scale_factors = factors, .target = target, .seed = seed},
+        PosteriorStrategyOptions{
+            .scale_factors = factors, .target = target, .stop_share = stop_share, .seed = seed},
         Domain{.num_parameters = 2}, std::vector{MakeTarget()});
   }
   Observation Simulate(const Proposal& p, int run) const {
@@ -118,6 +120,34 @@ TEST(PosteriorStrategy, AWeightIsThePowerOfTheLikelihood) {
   // Whether a set fits is another question than how much it counts.
   EXPECT_EQ(weighted->Consider(twin.truth)->experiments[0].implausibility,
             strategy->Consider(twin.truth)->experiments[0].implausibility);
+}
+
+// What the outlook of a search says of half as many evaluations again, and what they do.
+TEST(PosteriorStrategy, RangesNarrowAsMuchAsTheOutlookExpects) {
+  constexpr int kTwins = 16;
+  double expected = 0;
+  double found = 0;
+  for (int seed = 1; seed <= kTwins; ++seed) {
+    Twin twin{.seed = static_cast<std::uint64_t>(seed), .stop_share = 1e-9};
+    twin.truth = {0.3 + 0.02 * seed, 0.7 - 0.02 * seed};
+    const auto strategy = twin.Search(20);
+    const auto outlook = strategy->Shortfall();
+    ASSERT_TRUE(outlook);
+    ASSERT_EQ(outlook->num_more, 10);
+    ASSERT_EQ(outlook->narrowing.size(), 2U);
+    const Answer before = strategy->Recommend();
+    for (int i = 0; i < 10; ++i) {
+      strategy->Tell(twin.Simulate(strategy->AskAt(1, {}).front(), 20 + i));
+    }
+    const Answer after = strategy->Recommend();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto width = [k](const Answer& a) { return a.credible[k].high - a.credible[k].low; };
+      expected += (1 - outlook->narrowing[k]) / (2 * kTwins);
+      found += width(after) / width(before) / (2 * kTwins);
+    }
+  }
+  EXPECT_LT(expected, 0.95);  // there is something to foretell
+  EXPECT_NEAR(found / expected, 1, 0.2);
 }
 
 TEST(PosteriorStrategy, OneNumberLeavesAValleyInOnePiece) {

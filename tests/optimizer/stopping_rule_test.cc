@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace talus::optimizer {
 namespace {
@@ -30,31 +32,31 @@ TEST(StoppingRule, ExactSearchesEndWhereNothingIsLeftToGain) {
   EXPECT_FALSE(StopByExactGain(kNan, 1));
 }
 
-TEST(StoppingRule, CalibrationsEndWhereTheSurrogateKnowsEnoughAndPredictsItsTrials) {
-  const auto reason = StopByShare({.share = 0.049, .temper = 1.1}, 0.05);
+TEST(StoppingRule, CalibrationsEndWhereNoNumberOfTrialsWouldNarrowARange) {
+  const auto reason = StopByOutlook({.all = {0.02, 0.049}, .temper = 1.1}, 0.05);
   ASSERT_TRUE(reason);
   EXPECT_EQ(reason->rule, StopRule::kShare);
-  EXPECT_THAT(TextOf(*reason), HasSubstr("4.9 % of what"));
-  EXPECT_FALSE(StopByShare({.share = 0.051, .temper = 1.1}, 0.05));
-  EXPECT_FALSE(StopByShare({.share = 0.028, .temper = 2.9},
-                           0.05));  // an early model that misses a third of its trials
-  EXPECT_FALSE(StopByShare({.share = kNan}, 0.05));
+  EXPECT_DOUBLE_EQ(reason->value, 0.049);
+  EXPECT_THAT(TextOf(*reason), HasSubstr("no number of them a range by more than 4.9 %"));
+  EXPECT_FALSE(StopByOutlook({.all = {0.051, 0.02}, .temper = 1.1}, 0.05));
+  EXPECT_FALSE(StopByOutlook({.all = {0.028}, .temper = 2.9},
+                             0.05));  // an early model that misses a third of its trials
+  EXPECT_FALSE(StopByOutlook({.all = {kNan}}, 0.05));
+  EXPECT_FALSE(StopByOutlook({}, 0.05));
 }
 
-TEST(StoppingRule, WhatACalibrationLacksFallsAsOneOverItsEvaluations) {
-  const auto shortfall = ShortOfShare({.share = 0.07, .temper = 1.2}, 0.02, 40);
+TEST(StoppingRule, WhatHalfAsManyTrialsAgainWouldNarrowIsSaidFromTheShareOn) {
+  const std::vector<std::string> names{"sliding_friction", "rolling_friction"};
+  const auto shortfall = ShortOfOutlook({.again = {0.07, 0.15}, .all = {0.2, 0.4}}, 0.1, 41);
   ASSERT_TRUE(shortfall);
-  EXPECT_DOUBLE_EQ(shortfall->num_more, 100);  // 40 × 7/2 in all
   EXPECT_EQ(shortfall->lack, StopLack::kShare);
-  EXPECT_THAT(TextOf(*shortfall), HasSubstr("7 % of what the measurements leave open"));
-  EXPECT_DOUBLE_EQ(ShortOfShare({.share = 0.0671}, 0.02, 40)->num_more, 95);  // 94.2
-  EXPECT_DOUBLE_EQ(ShortOfShare({.share = 0.2}, 0.02, 47)->num_more, 430);    // 423
-  EXPECT_TRUE(std::isnan(ShortOfShare({.share = 0.5}, 0.02, 47)->num_more));
-  EXPECT_FALSE(ShortOfShare({.share = 0.019, .temper = 1.4}, 0.02, 40));
-  const auto unsure = ShortOfShare({.share = 0.01, .temper = 4}, 0.02, 40);
+  EXPECT_EQ(shortfall->num_more, 21);
+  EXPECT_EQ(TextOf(*shortfall, names),
+            "21 more simulations are expected to narrow the ranges: rolling_friction by 15 %");
+  EXPECT_FALSE(ShortOfOutlook({.again = {0.07, 0.09}, .all = {0.2, 0.4}}, 0.1, 41));
+  const auto unsure = ShortOfOutlook({.again = {0.01, 0.01}, .temper = 4}, 0.1, 40);
   ASSERT_TRUE(unsure);
-  EXPECT_TRUE(std::isnan(unsure->num_more));
-  EXPECT_THAT(TextOf(*unsure), HasSubstr("missed by 2 times what the model expects"));
+  EXPECT_THAT(TextOf(*unsure, names), testing::StartsWith("trials left out are missed by 2 times"));
 }
 
 }  // namespace

@@ -15,11 +15,7 @@ std::string ResumeCommand(double num_more) {
 }
 
 std::string BudgetText(const Alarm& a) {
-  const std::string remedy = a.value ? "about " + std::to_string(std::llround(*a.value)) +
-                                           " more simulations would meet it"
-                                     : "go on with more simulations";
-  return a.reason.value_or("") + "; " + remedy + " (" +
-         ResumeCommand(a.value.value_or(kMoreSimulations)) + ")";
+  return a.reason.value_or("") + " (" + ResumeCommand(a.value.value_or(kMoreSimulations)) + ")";
 }
 
 std::string Quoted(const std::optional<std::string>& name) {

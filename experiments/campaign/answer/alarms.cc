@@ -242,7 +242,7 @@ std::vector<Alarm> BudgetAlarms(const Answer& answer) {
   if (!answer.unsettled) return {};
   Alarm alarm{.kind = AlarmKind::kBudgetEnded,
               .reason = answer.stop.Text() + ", and " + answer.unsettled->why};
-  if (std::isfinite(answer.unsettled->num_more)) alarm.value = answer.unsettled->num_more;
+  if (answer.unsettled->num_more > 0) alarm.value = answer.unsettled->num_more;
   return {alarm};
 }
 

@@ -131,18 +131,30 @@ struct ResultConditions {
   }
 };
 
-// The budget ended the search before its stopping rule did.
+// What more simulations are expected to take from the range of a parameter.
+struct ResultNarrowing {
+  std::string parameter{};
+  double share = 0;  // of its width [-]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("parameter", self.parameter);
+    visit("share", self.share);
+  }
+};
+
+// The budget ended the search where more simulations would still narrow the ranges.
 struct ResultUnsettled {
   optimizer::StopLack lacks = optimizer::StopLack::kGain;
-  std::string why{};            // the same, in words
-  double share = kNotKnown;     // surrogate's variance / what the measurements leave open [-]
-  double num_more = kNotKnown;  // simulations that would settle it, an estimate
+  std::string why{};                         // the same, in words
+  std::vector<ResultNarrowing> narrowing{};  // of each parameter asked for, where that is known
+  int num_more = 0;                          // simulations that it is of; 0: not known
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("lacks", self.lacks);
     visit("why", self.why);
-    visit("surrogate_variance_share", self.share);
+    visit("narrowing", self.narrowing);
     visit("more_simulations", self.num_more);
   }
 };

@@ -11,6 +11,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/answer/representatives.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/device_text.h"
@@ -249,6 +250,17 @@ JointView ViewOf(const Planner& planner, const CampaignEvidence& evidence) {
   return view;
 }
 
+ResultUnsettled UnsettledBy(const optimizer::StopShortfall& lacks, const Answer& answer) {
+  std::vector<std::string> names;
+  for (const std::size_t k : AskedParameters(answer)) names.push_back(answer.parameters[k].name);
+  ResultUnsettled unsettled{
+      .lacks = lacks.lack, .why = optimizer::TextOf(lacks, names), .num_more = lacks.num_more};
+  for (std::size_t k = 0; k < lacks.narrowing.size(); ++k) {
+    unsettled.narrowing.push_back({.parameter = names[k], .share = lacks.narrowing[k]});
+  }
+  return unsettled;
+}
+
 // Whether the experiments agree and, where they do not, what each alone would say: it tells which
 // of them is the odd one.
 void AddAgreement(const Planner& planner, const CampaignEvidence& evidence, Answer& result) {
@@ -287,16 +299,11 @@ std::optional<Answer> Conclude(Planner& planner, const CampaignEvidence& evidenc
   result.name = evidence.spec.name;
   result.talus_version = base::Version();
   result.stop = planner.stop().value_or(Stop{});
-  if (const auto lacks = planner.Shortfall()) {
-    result.unsettled = {.lacks = lacks->lack,
-                        .why = optimizer::TextOf(*lacks),
-                        .share = lacks->share,
-                        .num_more = lacks->num_more};
-  }
   const journal::ObjectiveInfo& objective = journal::InfoOf(evidence.spec.objective);
   result.objective = objective.ValueKey();
   result.objective_unit = objective.unit;
   AddParameters(*answer, planner, evidence.spec, result);
+  if (const auto lacks = planner.Shortfall()) result.unsettled = UnsettledBy(*lacks, result);
   for (Eigen::Index i = 0; i < answer->correlation.rows(); ++i) {
     const Eigen::RowVectorXd row = answer->correlation.row(i);
     result.correlation.emplace_back(row.data(), row.data() + row.size());

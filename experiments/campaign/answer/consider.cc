@@ -137,7 +137,11 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
       .experiments = {},
       .nearest = NearestTrials(view.trials, view.references, point),
       .objective_unit = std::string(journal::InfoOf(view.spec.objective).unit)};
-  if (strategy->CanModel()) considered.known = KnownOf(view, strategy->Recommend());
+  if (strategy->CanModel()) {
+    const optimizer::Answer answer = strategy->Recommend();
+    considered.known = KnownOf(view, answer);
+    considered.surrogate_narrowing = answer.posterior->surrogate_narrowing;
+  }
   if (const auto standing = strategy->Consider(point)) {
     considered.credible_level = standing->credible_level;
     considered.experiments = StandingsOf(standing->experiments);
@@ -153,6 +157,9 @@ std::string ConsideredText(const ConsideredSet& c) {
     const bool inside = *c.credible_level <= 0.9;
     text += "  credible level    " + base::ShortNumber(*c.credible_level) + ": " +
             (inside ? "inside" : "outside") + " the joint 90 % region\n";
+    if (IsProvisional(c.surrogate_narrowing)) {
+      text += "                    " + ProvisionalText(c.surrogate_narrowing) + "\n";
+    }
   }
   for (const ConsideredParameter& p : c.known) text += KnownText(p);
   for (const ResultStanding& e : c.experiments) {
@@ -190,6 +197,7 @@ std::string ConsideredJson(const ConsideredSet& c) {
   json["target_scale_factor"] = c.target_scale_factor;
   json["credible_level"] =
       c.credible_level ? nlohmann::ordered_json(*c.credible_level) : nlohmann::ordered_json();
+  json["surrogate_narrowing"] = c.surrogate_narrowing;
   json["objective_unit"] = c.objective_unit;
   json["experiments"] = base::ToJson(c.experiments);
   json["nearest_trials"] = nlohmann::ordered_json::array();

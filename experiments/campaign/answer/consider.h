@@ -41,6 +41,7 @@ struct ConsideredSet {
   double target_scale_factor = 1;
   std::optional<double> credible_level;  // of the smallest joint region that holds it; nothing
                                          // while there are too few trials
+  double surrogate_narrowing = 0;        // as ResultPosterior's
   std::vector<ResultStanding> experiments;
   std::vector<NearTrial> nearest;  // the nearest first
   std::string objective_unit;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/text/csv.h"
+#include "base/text/number_text.h"
 #include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::campaign {
@@ -43,6 +44,12 @@ std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentS
   return standings;
 }
 
+std::string ProvisionalText(double surrogate_narrowing) {
+  return "provisional, since the surrogate leaves more open than the measurements do: more "
+         "simulations may move it, and narrow a range by up to " +
+         base::ShortNumber(100 * surrogate_narrowing, 2) + " %";
+}
+
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   const optimizer::ParameterSpace& space) {
   ResultPosterior posterior{.target_scale_factor = summary.target_scale_factor,
@@ -54,6 +61,7 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                             .num_left_out = summary.num_left_out,
                             .unlearnt_scale_factors = summary.unlearnt_scale_factors,
                             .fewest_at_finest = summary.fewest_at_finest,
+                            .surrogate_narrowing = summary.surrogate_narrowing,
                             .experiments = StandingsOf(summary.experiments)};
   for (const optimizer::PosteriorBranch& branch : summary.branches) {
     posterior.branches.push_back({.share = branch.share,

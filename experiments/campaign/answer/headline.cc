@@ -173,6 +173,9 @@ std::vector<std::string> Headline(const Answer& all, const std::vector<std::stri
                         Percent(answer.posterior->region_volume) + " of the searched ranges.");
   }
   sentences.push_back(NuisancesText(all, all_names));
+  if (const double share = answer.posterior->surrogate_narrowing; IsProvisional(share)) {
+    sentences.push_back("The region is " + ProvisionalText(share) + ".");
+  }
   std::erase(sentences, "");
   return sentences;
 }

@@ -87,6 +87,8 @@ struct ResultPosterior {
   int num_left_out = 0;                  // trials that the two are made of
   std::vector<double> unlearnt_scale_factors{};  // scale factors whose bias is not known yet
   int fewest_at_finest = 0;  // simulations at the smallest one, of the experiment with the fewest
+  // The largest share of its width that any number of simulations would take from a range [-].
+  double surrogate_narrowing = 0;
   std::vector<ResultStanding> experiments;  // at the recommended set
   double tension = 0;                // between the experiments [standard deviations]: agreement.h
   std::string odd{};                 // the experiment with the largest part of it; "" without
@@ -104,11 +106,18 @@ struct ResultPosterior {
     visit("num_left_out", self.num_left_out);
     visit("unlearnt_scale_factors", self.unlearnt_scale_factors);
     visit("fewest_at_finest", self.fewest_at_finest);
+    visit("surrogate_narrowing", self.surrogate_narrowing);
     visit("experiments", self.experiments);
     visit("tension", self.tension);
     visit("odd", self.odd);
     visit("alone", self.alone);
   }
 };
+
+// While the surrogate's variance is larger than all others: a range would be 1/√2 as wide without.
+inline bool IsProvisional(double surrogate_narrowing) { return surrogate_narrowing > 0.29; }
+
+// "provisional, since the surrogate …", without a full stop.
+std::string ProvisionalText(double surrogate_narrowing);
 
 }  // namespace talus::campaign

@@ -54,8 +54,8 @@ struct NoiseOptions {
 struct PosteriorOptions {
   double model_error = 1;  // sd of what no simulation can match, in run-to-run sds, in [0, 1000]
   bool learn_model_error =
-      false;                 // from what no set can fit; model_error is its prior's scale then
-  double stop_share = 0.02;  // the surrogate's variance over what the experiment leaves open [-]
+      false;                // from what no set can fit; model_error is its prior's scale then
+  double stop_share = 0.1;  // of a range's width that more simulations would take away [-]
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -66,8 +66,8 @@ struct PosteriorOptions {
           {.doc = "whether the model error of each experiment is learnt from what no set can fit; "
                   "model_error, > 0, is then the scale of its half-normal prior"});
     visit("stop_share", self.stop_share,
-          {.doc = "the search ends when, over the posterior, the surrogate's variance is below "
-                  "this share of what the experiment itself leaves open; >= 0, 0 never"});
+          {.doc = "the search ends when no number of simulations would take this share of its "
+                  "width from the range of a parameter that is asked for; >= 0, 0 never"});
   }
   void Validate(base::Problems& problems) const;
 };

@@ -243,18 +243,17 @@ TEST(Alarms, CommandsNameTheFolderWhereTheyAreShown) {
   EXPECT_EQ(WithFolder("in DIR, talus report DIRECTORY", "a"), "in DIR, talus report DIRECTORY");
 }
 
-TEST(Alarms, ABudgetThatEndedTheSearchSaysHowManyMoreWouldSettleIt) {
+TEST(Alarms, ABudgetThatEndedTheSearchSaysHowToGoOn) {
   Answer result;
   EXPECT_THAT(BudgetAlarms(result), IsEmpty());
   result.unsettled = {
-      .lacks = optimizer::StopLack::kShare, .why = "it is far off", .share = 0.1, .num_more = 160};
+      .lacks = optimizer::StopLack::kShare, .why = "they are wide", .num_more = 160};
   EXPECT_THAT(AlarmText(BudgetAlarms(result).at(0)),
-              HasSubstr("it is far off; about 160 more simulations would meet it (`talus resume "
-                        "DIR --add-simulations 160`)"));
-  result.unsettled->num_more = std::numeric_limits<double>::quiet_NaN();
+              HasSubstr("they are wide (`talus resume DIR --add-simulations 160`)"));
+  result.unsettled->num_more = 0;
   EXPECT_FALSE(BudgetAlarms(result).at(0).value);
   EXPECT_THAT(AlarmText(BudgetAlarms(result).at(0)),
-              HasSubstr("go on with more simulations (`talus resume DIR --add-simulations 20`)"));
+              HasSubstr("they are wide (`talus resume DIR --add-simulations 20`)"));
 }
 
 // One vocabulary: what measure.json calls a doubt is what result.json calls it.

@@ -107,8 +107,10 @@ TEST_F(JointCampaign, ABudgetThatEndsItTooEarlyIsSaidWithWhatIsMissing) {
   RunFake(early, {});
   const Answer cut = Result(early);
   ASSERT_TRUE(cut.unsettled);
-  EXPECT_THAT(cut.unsettled->why, HasSubstr("of what the measurements leave open"));
-  EXPECT_GT(cut.unsettled->share, 1e-6);
+  EXPECT_THAT(cut.unsettled->why, HasSubstr("more simulations are expected to narrow the ranges"));
+  ASSERT_EQ(cut.unsettled->narrowing.size(), cut.parameters.size());
+  EXPECT_EQ(cut.unsettled->narrowing[0].parameter, cut.parameters[0].name);
+  EXPECT_EQ(cut.unsettled->num_more, 10);
   EXPECT_TRUE(SaysThatTheBudgetEndedIt(cut));
   EXPECT_THAT(StatusText(early), HasSubstr("the budget of "));
   EXPECT_THAT(StatusText(early),

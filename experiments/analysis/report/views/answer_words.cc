@@ -8,7 +8,6 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/folder/folder_in_text.h"
-#include "optimizer/posterior/experiment_model.h"
 
 namespace talus::analysis {
 namespace {
@@ -22,13 +21,6 @@ std::string LongName(const ParameterInfo& parameter) {
   if (name == parameter.symbol) return name;
   std::ranges::replace(name, '_', ' ');
   return name + " " + parameter.symbol;
-}
-
-// A range's width is the root of a variance: what the measurements leave open, and the surrogate's
-// share of it beside, which more simulations take away.
-double WidthWithoutSurrogate(double share, int num_finest) {
-  const double caution = optimizer::SurrogateCaution(num_finest);
-  return 1 / std::sqrt(1 + caution * caution * share);
 }
 
 }  // namespace
@@ -53,9 +45,11 @@ std::string TradeOffWords(const Evidence& evidence) {
          ": change them together.";
 }
 
-double WidthThen(const Answer& answer) {
-  if (!answer.unsettled || !answer.posterior) return kUndefined;
-  return WidthWithoutSurrogate(answer.unsettled->share, answer.posterior->fewest_at_finest);
+double VolumeThen(const Answer& answer) {
+  if (!answer.unsettled || answer.unsettled->narrowing.empty()) return kUndefined;
+  double volume = 1;
+  for (const campaign::ResultNarrowing& one : answer.unsettled->narrowing) volume *= 1 - one.share;
+  return volume;
 }
 
 bool AsksForSimulations(const Answer& answer) {

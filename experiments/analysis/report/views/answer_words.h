@@ -17,9 +17,9 @@ std::vector<std::string> HeadlineWords(const Evidence& evidence);
 std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const campaign::Answer& answer);
 std::string TradeOffWords(const Evidence& evidence);
 
-// The ranges' width after the simulations that would settle the search over today's [-]; undefined
-// where that is not known.
-double WidthThen(const campaign::Answer& answer);
+// The volume of the ranges after the simulations that a search whose budget ended it still asks
+// for, over today's [-]; undefined where that is not known.
+double VolumeThen(const campaign::Answer& answer);
 
 // Whether an alarm asks for more simulations.
 bool AsksForSimulations(const campaign::Answer& answer);

@@ -124,14 +124,24 @@ double TimeOfOne(const Evidence& evidence) {
   return count > 0 ? sum / count : 0;
 }
 
+// "18 % of rolling_friction, 12 % of sliding_friction"
+std::string NarrowingText(const campaign::ResultUnsettled& unsettled) {
+  std::string text;
+  for (const campaign::ResultNarrowing& one : unsettled.narrowing) {
+    text += (text.empty() ? "" : ", ") + base::ShortNumber(100 * one.share, 2) + " % of " +
+            one.parameter;
+  }
+  return text;
+}
+
 // First where an alarm asks for it.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const campaign::Answer& answer = *evidence.answer;
   const bool asked = AsksForSimulations(answer);
   // It stopped because more simulations would hardly tell more.
   if (!asked && answer.stop.kind == campaign::StopKind::kRule) return;
-  const double num_more = answer.unsettled ? answer.unsettled->num_more : kUndefined;
-  const double count = std::isfinite(num_more) ? num_more : campaign::kMoreSimulations;
+  const int num_more = answer.unsettled ? answer.unsettled->num_more : 0;
+  const double count = num_more > 0 ? num_more : campaign::kMoreSimulations;
   const std::string more = std::to_string(std::llround(count));
   NextStep step{.what = "Simulate more: talus resume " + base::ShellWord(evidence.folder.string()) +
                         " --add-simulations " + more,
@@ -139,9 +149,9 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
                         trials::DurationText(count * TimeOfOne(evidence)) + " of core time",
                 .leaves = "not more than what the measurements themselves leave open",
                 .remaining = 0.95};
-  if (const double width = WidthThen(answer); std::isfinite(width)) {
-    step.leaves = "ranges about " + base::ShortNumber(width, 2) + " times as wide as now";
-    step.remaining = std::pow(width, static_cast<double>(evidence.parameters.size()));
+  if (const double volume = VolumeThen(answer); std::isfinite(volume)) {
+    step.leaves = "ranges narrower by " + NarrowingText(*answer.unsettled);
+    step.remaining = volume;
   }
   if (asked) {
     step.leaves = "an answer that the warnings above do not hang on";
