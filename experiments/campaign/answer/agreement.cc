@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimizer/posterior/moved_parameters.h"
+
 namespace talus::campaign {
 namespace {
 
@@ -44,8 +46,8 @@ Agreement AgreementOf(const JointView& view) {
     most = pull;
     agreement.odd = agreement.alone.back().experiments.front();
   }
-  const auto freedom =
-      static_cast<double>(draws.cols()) * static_cast<double>(experiments.size() - 1);
+  const double freedom = optimizer::MovedParameters(view.space.MakeDomain(), draws) *
+                         static_cast<double>(experiments.size() - 1);
   agreement.tension = std::max(0.0, NormalScore(std::max(0.0, sum), freedom));
   return agreement;
 }

@@ -1,0 +1,33 @@
+#include "optimizer/posterior/moved_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace talus::optimizer {
+namespace {
+
+// Even draws of a coordinate between two values: sd (high - low)/√12.
+Eigen::VectorXd Even(double low, double high) {
+  constexpr int kDraws = 1000;
+  return Eigen::VectorXd::LinSpaced(kDraws, low, high);
+}
+
+TEST(MovedParameters, WhatIsAskedForCountsOnce) {
+  Eigen::MatrixXd draws(1000, 2);
+  draws << Even(0, 1), Even(0.3, 0.4);
+  EXPECT_EQ(MovedParameters({.num_parameters = 2}, draws), 2);
+}
+
+TEST(MovedParameters, ANuisanceCountsByTheShareOfItsPriorsVarianceThatTheDataTake) {
+  Eigen::MatrixXd draws(1000, 2);
+  draws << Even(0, 1), Even(0.2, 0.7);
+  // Even over half of its range: a quarter of the variance is left.
+  EXPECT_NEAR(MovedParameters({.num_parameters = 2, .nuisances = {1}}, draws), 1.75, 0.01);
+  Domain known{.num_parameters = 2, .nuisances = {1}};
+  known.prior.Add(1, {.low = 0, .high = 1}, {.mean = 0.45, .sd = 0.05});
+  EXPECT_EQ(MovedParameters(known, draws), 1);  // wider than its prior: not moved
+}
+
+}  // namespace
+}  // namespace talus::optimizer
