@@ -52,6 +52,8 @@ constexpr Question kQuestions[] = {
      &campaign::SpecAnswers::grain_diameter},
     {"--restitution", "coefficient of restitution of the grains", "0.8", kNone,
      &campaign::SpecAnswers::restitution, true},
+    {"--rolling-damping", "rolling damping of the EPSD law", "0.3", kNone,
+     &campaign::SpecAnswers::rolling_damping, true},
 };
 
 // Until the answer is a quantity; nothing where there is no more input, or nobody knows it.

@@ -200,6 +200,7 @@ class Progress(unittest.TestCase):
             searched = out.read_text().split('"parameters"')[1]
             self.assertEqual("surface_energy" in searched, bool(more))
             self.assertIn('"restitution": {"min": 0.3, "max": 0.95, "nuisance": true}', searched)
+            self.assertIn('"rolling_damping": {"min": 0.05, "max": 1, "scale": "log", "nuisance": true}', searched)
             self.assertEqual('"filling": {"kind": "pour"}' in out.read_text(), bool(more))
             # (25 um (1.6e-3 J/m²)² / ((38.5 GPa)² (0.4 nm)³))^(1/3) = 0.088: DMT
             self.assertEqual('"adhesion": "dmt"' in out.read_text(), bool(more))
@@ -210,14 +211,17 @@ class Progress(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("is there already", done.stderr)
         out.unlink()
-        done = talus("init", photos, "--out", str(out), *flags, "--restitution", "0.8")
+        done = talus("init", photos, "--out", str(out), *flags, "--restitution", "0.8", "--rolling-damping", "0.2")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn('"restitution": 0.8\n    }', out.read_text())
+        self.assertIn('"restitution": 0.8,\n      "rolling_damping": 0.2\n    }', out.read_text())
         self.assertNotIn("nuisance", out.read_text())
         out.unlink()
         done = talus("init", photos, "--out", str(out), *flags, "--restitution", "1.2")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--restitution: is 1.2, must be in (0, 1]", done.stderr)
+        done = talus("init", photos, "--out", str(out), *flags, "--rolling-damping", "-1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--rolling-damping: is -1, must be positive", done.stderr)
 
     # Their names say which heap each is of; once they made one heap of eighty views.
     def test_photographs_one_by_one_are_runs(self):
@@ -238,7 +242,8 @@ class Progress(unittest.TestCase):
                    "  tapped_density": ["1480 kg/m^3"],
                    "inner diameter of the tube": ["10 mm"], "speed at which": ["fast", "50 mm/s"],
                    "mass filled": ["1.6 kilo", "", "1.602 g"], "density": ["4386 kg/m^3"],
-                   "median diameter": ["0.1 mm"], "coefficient of restitution": [""]}
+                   "median diameter": ["0.1 mm"], "coefficient of restitution": [""],
+                   "rolling damping": [""]}
         asked = []
         ours, theirs = pty.openpty()
         init = subprocess.Popen(
@@ -260,11 +265,11 @@ class Progress(unittest.TestCase):
             seen = ""
         os.close(ours)
         self.assertEqual(init.wait(timeout=600), 0)
-        self.assertEqual([len(left) for left in answers.values()], [0] * 9)
-        self.assertEqual(len(asked), 14)  # six questions, three asked again; the tests and one test's own two
+        self.assertEqual([len(left) for left in answers.values()], [0] * 10)
+        self.assertEqual(len(asked), 15)  # seven questions, three asked again; the tests and one test's own two
         self.assertFalse(any(question.startswith("diameter of the plate") for question in asked))
         self.assertIn('"mass": "1.602 g"', out.read_text())
-        self.assertIn('"nuisance": true', out.read_text())  # nobody knows the restitution
+        self.assertIn('"nuisance": true', out.read_text())  # nobody knows the restitution and the damping
         self.assertIn('"rig": {"kind": "tapped_density", "diameter": "12 mm"}', out.read_text())
         self.assertIn('"tapped_density": {"value": "1480 kg/m^3", "sd": "7.4 kg/m^3"}', out.read_text())
         done = talus("validate", str(out), "--without-experiment")

@@ -102,26 +102,33 @@ std::string Models(bool cohesive, double diameter) {
 }
 
 // A value that is not known is searched: an answer may hang on it.
-std::string Restitution(const std::string& restitution) {
-  if (!restitution.empty()) return "";
-  return ",\n    // Nobody has measured it: searched, not asked for. The answer says whether it "
-         "matters.\n"
-         "    \"restitution\": {\"min\": 0.3, \"max\": 0.95, \"nuisance\": true}";
+std::string Nuisances(const SpecAnswers& answers) {
+  std::string text;
+  const auto add = [&](const std::string& answer, const std::string& entry) {
+    if (answer.empty()) text += ",\n    " + entry;
+  };
+  add(answers.restitution, R"("restitution": {"min": 0.3, "max": 0.95, "nuisance": true})");
+  add(answers.rolling_damping,
+      R"("rolling_damping": {"min": 0.05, "max": 1, "scale": "log", "nuisance": true})");
+  if (text.empty()) return text;
+  return ",\n    // What nobody has measured: searched, not asked for. The answer says whether "
+         "it matters." +
+         text.substr(1);
 }
 
-std::string Searched(bool cohesive, const std::string& restitution) {
+std::string Searched(const SpecAnswers& answers) {
   std::string text =
       "  // What is searched, and where. A parameter that you have measured: {\"fixed\": 0.4}.\n"
       "  \"parameters\": {\n"
       "    \"sliding_friction\": {\"min\": 0.05, \"max\": 0.9},\n"
       "    \"rolling_friction\": {\"min\": 0.005, \"max\": 0.6}";
-  if (cohesive) {
+  if (answers.cohesive) {
     text += ",\n    \"surface_energy\": {\"min\": \"1e-6 J/m^2\", \"max\": \"" +
             base::ShortNumber(kMostSurfaceEnergy) +
             " J/m^2\", "
             "\"scale\": \"log\"}";
   }
-  return text + Restitution(restitution) + "\n  },\n";
+  return text + Nuisances(answers) + "\n  },\n";
 }
 
 struct Lengths {
@@ -143,6 +150,9 @@ Lengths LengthsOf(const SpecAnswers& answers) {
   if (!answers.restitution.empty()) {
     const double e = Read("--restitution", answers.restitution, Dimension::kNone, problems);
     problems.Require(e <= 1, "--restitution", e, "must be in (0, 1]");
+  }
+  if (!answers.rolling_damping.empty()) {
+    Read("--rolling-damping", answers.rolling_damping, Dimension::kNone, problems);
   }
   problems.ThrowIfAny();
   return {plate, grain};
@@ -180,6 +190,9 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "time step does\n"
          "      \"poisson_ratio\": 0.3" +
          (answers.restitution.empty() ? "" : ",\n      \"restitution\": " + answers.restitution) +
+         (answers.rolling_damping.empty()
+              ? ""
+              : ",\n      \"rolling_damping\": " + answers.rolling_damping) +
          "\n    },\n"
          "    // a measured distribution makes a better powder: size tables in docs/scene.md\n"
          "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
@@ -193,8 +206,7 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "  // Grains so many times larger than real. The last decides and should leave 30 across "
          "the "
          "plate.\n  \"coarse_graining\": {\"scale_factors\": " +
-         ScaleFactors(lengths.plate / lengths.grain) + "},\n" +
-         Searched(answers.cohesive, answers.restitution) +
+         ScaleFactors(lengths.plate / lengths.grain) + "},\n" + Searched(answers) +
          "  \"objective\": \"sad\",\n"
          "  // at most; add \"core_time\": \"4 h\" for an evening\n"
          "  \"budget\": {\"simulations\": 60},\n"

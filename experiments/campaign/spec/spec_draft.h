@@ -24,6 +24,7 @@ struct SpecAnswers {
   std::string density;
   std::string grain_diameter;
   std::string restitution;         // empty: nobody has measured it
+  std::string rolling_damping;     // … the same, of the EPSD law that the spec names
   bool cohesive = false;           // search the surface energy, too
   std::vector<DraftTest> tests{};  // made of the same powder beside the heap
 };
