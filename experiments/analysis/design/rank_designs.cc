@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/text/counted.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
 #include "experiments/analysis/next/test_design.h"
@@ -16,28 +15,24 @@ namespace {
 constexpr std::size_t kMostTests = 3;
 
 // So many that a few hundred remain in what two tests leave.
-constexpr int kDraws = 8000;
-constexpr int kDesignSize = 32;
+constexpr int kPriorDraws = 8000;
+constexpr int kSimulations = 32;  // of each test: the ranges are wider than a posterior
 
 // Equally likely before anything is measured.
 Eigen::MatrixXd PriorDraws(const campaign::JointView& view) {
   const optimizer::Domain domain = view.space.MakeDomain();
-  return optimizer::Inside(domain,
-                           domain.prior.IsUniform()
-                               ? optimizer::RSequence(kDraws, domain.num_parameters, view.spec.seed)
-                               : domain.prior.Draw(kDraws, domain.num_parameters, view.spec.seed));
+  return optimizer::Inside(
+      domain, domain.prior.IsUniform()
+                  ? optimizer::RSequence(kPriorDraws, domain.num_parameters, view.spec.seed)
+                  : domain.prior.Draw(kPriorDraws, domain.num_parameters, view.spec.seed));
 }
 
 NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
                      const campaign::CampaignParts& parts) {
-  NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
-  if (const std::string why = WhyNot(ground.view, test); !why.empty()) {
-    candidate.what = "cannot be simulated: " + why;
-    return candidate;
-  }
-  candidate.what = "carry it out in " + base::Counted(test.runs, "run");
+  auto [candidate, can_simulate] = ListTest(ground.view, test);
+  if (!can_simulate) return candidate;
   const TestDesign design =
-      SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kDesignSize}, parts);
+      SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kSimulations}, parts);
   candidate.num_made = design.num_simulations;
   candidate.core_time_made = design.core_time;
   JudgeTest(ground, test, design, candidate);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/text/counted.h"
 #include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/design_folder.h"
@@ -110,6 +111,15 @@ void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetic
 }
 
 }  // namespace
+
+ListedTest ListTest(const campaign::JointView& view, const TestCandidate& test) {
+  ListedTest listed{.candidate = {.kind = NextKind::kTest, .name = test.name}};
+  const std::string why = WhyNot(view, test);
+  listed.can_simulate = why.empty();
+  listed.candidate.what = listed.can_simulate ? "carry it out in " + base::Counted(test.runs, "run")
+                                              : "cannot be simulated: " + why;
+  return listed;
+}
 
 void JudgeTest(const Ground& ground, const TestCandidate& test, const TestDesign& design,
                NextCandidate& candidate) {

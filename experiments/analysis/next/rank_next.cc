@@ -185,14 +185,9 @@ struct Design {
 };
 
 NextCandidate CandidateOf(const JointView& view, const TestCandidate& test, Cost& cost) {
-  NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
-  if (const std::string why = WhyNot(view, test); !why.empty()) {
-    candidate.what = "cannot be simulated: " + why;
-    return candidate;
-  }
-  candidate.what = "carry it out in " + base::Counted(test.runs, "run");
-  EstimateCost(view, test, cost, candidate);
-  return candidate;
+  ListedTest listed = ListTest(view, test);
+  if (listed.can_simulate) EstimateCost(view, test, cost, listed.candidate);
+  return listed.candidate;
 }
 
 // The cheapest first.
