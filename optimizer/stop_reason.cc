@@ -31,6 +31,13 @@ std::string TextOf(const StopReason& r) {
       return r.name + " has converged";
     case StopRule::kAllEvaluated:
       return "all " + Count(r.value) + " points of " + r.name + " are evaluated";
+    case StopRule::kGoal:
+      return r.name + " is known to ± " + Rounded(r.value) + " (90 %), and ± " + Rounded(r.limit) +
+             " was asked for";
+    case StopRule::kGoalOpen:
+      return r.name + " is known to ± " + Rounded(r.value) +
+             " (90 %), and more simulations would leave ± " + Rounded(r.scale) +
+             ", which the measurements leave open; ± " + Rounded(r.limit) + " was asked for";
     case StopRule::kGridEvaluated:
       break;
   }

@@ -21,6 +21,8 @@ enum class StopRule {
   kConverged,      // the search `name` has converged
   kAllEvaluated,   // all `value` points of `name` are evaluated
   kGridEvaluated,  // … of the grid, and `limit` half-step neighbours of its best
+  kGoal,           // `value`, the half-width of the 90 % of `name`, is `limit` at most, as asked
+  kGoalOpen,       // … is not, but would still be `scale` if every set had been simulated
 };
 
 struct StopReason {
@@ -74,6 +76,8 @@ struct talus::base::Names<talus::optimizer::StopRule> {
       std::pair{"converged", R::kConverged},
       std::pair{"all_evaluated", R::kAllEvaluated},
       std::pair{"grid_evaluated", R::kGridEvaluated},
+      std::pair{"goal", R::kGoal},
+      std::pair{"goal_open", R::kGoalOpen},
   };
 };
 template <>

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "experiments/analysis/next/campaign_goal.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
 #include "experiments/campaign/start.h"
@@ -34,7 +35,7 @@ void AddCalibrateCommand(CLI::App& app) {
     const std::filesystem::path folder = arguments->out.empty()
                                              ? std::filesystem::path(arguments->spec).stem()
                                              : std::filesystem::path(arguments->out);
-    campaign::BeginOptions options;
+    campaign::BeginOptions options{.check = analysis::CheckGoal};
     if (!arguments->hold_out.empty()) options.hold_out = arguments->hold_out;
     options.reuse.assign(arguments->reuse.begin(), arguments->reuse.end());
     options.say = [&](const std::string& text) {

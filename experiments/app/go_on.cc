@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "base/json/json_writer.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/next/advise.h"
+#include "experiments/analysis/next/campaign_goal.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/sensitivity.h"
@@ -30,13 +32,25 @@ struct Ended {
   campaign::CampaignSpec spec;
 };
 
+// What looks at the spec's goal; null where it has none.
+std::unique_ptr<campaign::GoalJudge> GoalOf(const campaign::CampaignSpec& spec,
+                                            const std::filesystem::path& folder) {
+  if (!spec.goal) return nullptr;
+  // A queue's own files stand beside the goal's runs, not among those of the campaign's trials.
+  return std::make_unique<analysis::CampaignGoal>(
+      spec, folder,
+      campaign::CampaignParts{.runner = campaign::MakeRunner(spec, campaign::GoalFolder(folder)),
+                              .engine = campaign::MakeEngine(spec)});
+}
+
 Ended RunCampaign(const std::filesystem::path& folder, const campaign::ResumeOptions& options,
                   const TellOptions& tell) {
   const base::InterruptGuard interrupt;
   campaign::Console console(campaign::CampaignFolder{folder}.log(), tell.output());
   campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
   campaign::CampaignParts parts{.runner = campaign::MakeRunner(opened.spec, opened.folder.root),
-                                .engine = campaign::MakeEngine(opened.spec)};
+                                .engine = campaign::MakeEngine(opened.spec),
+                                .goal = GoalOf(opened.spec, opened.folder.root)};
   campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
                               opened.spec, std::move(parts), console);
   const campaign::CampaignEnd end = campaign.Run(interrupt);

@@ -10,6 +10,7 @@
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/analysis/design/design_spec.h"
+#include "experiments/analysis/next/campaign_goal.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/plan/cores.h"
@@ -73,6 +74,7 @@ journal::CampaignRecord MeasuredRecord(const campaign::CampaignSpec& spec,
 
 void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   const campaign::CampaignSpec spec = campaign::ReadSpecWithPosteriors(file);
+  analysis::CheckGoal(spec);
   journal::CampaignRecord record;
   if (with_experiment) record = MeasuredRecord(spec, file);
   std::cout << file.path.string() << ": is in order\n";

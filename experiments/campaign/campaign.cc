@@ -77,6 +77,7 @@ double Campaign::Elapsed() const {
 CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
   journal_.SetProgress({.elapsed_s = Elapsed()});
   TellFinished();
+  if (parts_.goal) planner_.NoteGoal(LastGoal(folder_.root, spec_));
   TakeUpRunning();
   CollectReused();
   if (const auto warning = CoresWarning(spec_, NumCores())) console_.Line("warning: " + *warning);
@@ -87,7 +88,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
       DropRunning();
       return End(asked);
     }
-    const bool started = asked == base::Interrupt::kNone && StartTrials();
+    const bool started = asked == base::Interrupt::kNone && StartTrials(interrupt);
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
@@ -139,7 +140,31 @@ void Campaign::CollectReused() {
   }
 }
 
-bool Campaign::StartTrials() {
+// Once the search is past its first design, after 16, 24, 36, … trials have ended.
+bool Campaign::IsGoalDue() const {
+  if (!parts_.goal || planner_.stop()) return false;
+  std::int64_t ended = 0;
+  bool searches = false;
+  for (const journal::TrialRecord& trial : planner_.trials()) {
+    ended += IsOfSearch(trial) && trial.status != journal::TrialStatus::kRunning;
+    searches |= trial.kind == journal::TrialKind::kSearch;
+  }
+  return searches && ended >= NextLook(planner_.goal() ? planner_.goal()->after : 0);
+}
+
+bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
+  const auto ended = std::ranges::count_if(planner_.trials(), IsOfSearch);
+  const auto state = parts_.goal->Look(ended, interrupt);
+  NoteElapsed();
+  if (!state) return false;
+  planner_.NoteGoal(state);
+  const std::string text = TextOf(*state, *spec_.goal);
+  journal_.AddEvent("goal", 0, text);
+  console_.Line("goal: " + text);
+  return true;
+}
+
+bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
     planner_.StopSearch({.kind = StopKind::kWallClock, .value = *spec_.budget.wall_clock});
   }
@@ -150,7 +175,11 @@ bool Campaign::StartTrials() {
     trials.push_back(waiting_.front());
     waiting_.pop_front();
   }
-  std::vector<journal::TrialRecord> planned = planner_.Next(room - static_cast<int>(trials.size()));
+  std::vector<journal::TrialRecord> planned;
+  if (const bool is_due = IsGoalDue(); !is_due || (running_.empty() && trials.empty())) {
+    if (is_due && !LookAtGoal(interrupt)) return true;  // the loop sees that it is to end
+    planned = planner_.Next(room - static_cast<int>(trials.size()));
+  }
   for (journal::TrialRecord& trial : planned) trial.started_utc = journal::UtcNow();
   if (!planned.empty()) {
     journal_.Start(planned, parts_.runner->JobsOutliveUs() ? base::Outlives::kPowerCut
@@ -373,7 +402,8 @@ void Campaign::Report(const journal::TrialRecord& trial) {
 
 void Campaign::ShowStatus() {
   const BudgetUse use =
-      UseOf(spec_, planner_.trials(), Elapsed(), std::max(1, parts_.runner->Capacity()));
+      UseOf(spec_, planner_.trials(), Elapsed(), std::max(1, parts_.runner->Capacity()),
+            planner_.goal() ? planner_.goal()->core_time : 0);
   CampaignProgress progress{.num_search = use.num_search,
                             .num_confirm = use.num_confirm,
                             .budget = spec_.budget.simulations,

@@ -16,6 +16,7 @@
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/console.h"
+#include "experiments/campaign/plan/goal_judge.h"
 #include "experiments/campaign/plan/planner.h"
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/record/stored.h"
@@ -30,6 +31,7 @@ namespace talus::campaign {
 struct CampaignParts {
   std::unique_ptr<runners::Runner> runner;
   std::unique_ptr<trials::TrialEngine> engine;
+  std::unique_ptr<GoalJudge> goal{};  // of a spec with a goal
 };
 
 enum class CampaignEnd { kFinished, kInterrupted, kFailed };
@@ -54,7 +56,9 @@ class Campaign {
   void TellFinished();
   void TakeUpRunning();
   void CollectReused();
-  bool StartTrials();
+  bool StartTrials(const base::InterruptGuard& interrupt);
+  bool IsGoalDue() const;
+  bool LookAtGoal(const base::InterruptGuard& interrupt);  // false where the user ends it
   void Submit(const std::vector<journal::TrialRecord>& trials);
   runners::Job JobOf(const journal::TrialRecord& trial) const;
   rigs::Case CaseOf(const journal::TrialRecord& trial) const {

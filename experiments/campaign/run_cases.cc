@@ -24,6 +24,11 @@ void Start(const runners::Job& job, runners::Runner& runner) {
 
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts) {
   const base::InterruptGuard interrupt;
+  return RunCases(runs, parts, interrupt);
+}
+
+bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
+              const base::InterruptGuard& interrupt) {
   trials::TrialEngine& engine = *parts.engine;
   std::size_t next = 0;
   int running = 0;

@@ -26,5 +26,8 @@ struct CaseRuns {
 
 // False when the user ended it; what has ended is kept.
 bool RunCases(const CaseRuns& runs, const CampaignParts& parts);
+// The same where somebody listens to the user already.
+bool RunCases(const CaseRuns& runs, const CampaignParts& parts,
+              const base::InterruptGuard& interrupt);
 
 }  // namespace talus::campaign

@@ -235,6 +235,7 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   const CampaignFolder folder{std::filesystem::absolute(root)};
   RequireOthers(options.reuse, folder);
   RequireNewFolder(folder, root);
+  options.check(spec);
   const journal::CampaignRecord record = MakeRecord(spec, file);
   const std::vector<Reference> references = ReferencesOf(record, spec);
   const auto engine = options.engine ? options.engine() : MakeEngine(spec);

@@ -33,6 +33,8 @@ struct BeginOptions {
   std::function<void(const std::string&)> say = [](const std::string&) {};
   // That the campaign simulates with, so that tests can put another in its place.
   std::function<std::unique_ptr<trials::TrialEngine>()> engine{};
+  // Throws ConfigError on what this floor cannot see, before anything is written.
+  std::function<void(const CampaignSpec&)> check = [](const CampaignSpec&) {};
 };
 
 // Makes the folder and the journal of a new campaign. Nothing is written when the spec, the

@@ -10,6 +10,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/record/stored.h"
@@ -142,7 +143,10 @@ std::string StatusText(const std::filesystem::path& root) {
     text += "  a trial takes     " + trials::DurationText(counts.seconds / counts.finished) + "\n";
   }
   text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
-  const BudgetUse use = UseOf(spec, trials, progress.elapsed_s, counts.running);
+  const std::optional<GoalState> goal = LastGoal(folder.root, spec);
+  const BudgetUse use =
+      UseOf(spec, trials, progress.elapsed_s, counts.running, goal ? goal->core_time : 0);
+  if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
   text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
   if (!answer && use.seconds_left) {
     text += "  time left         at most " + trials::DurationText(*use.seconds_left) + "\n";

@@ -4,6 +4,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/text/name.h"
+#include "experiments/analysis/next/planned_view.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/start.h"
@@ -69,14 +70,7 @@ DesignSpec LoadDesignSpec(const std::filesystem::path& path) {
 }
 
 campaign::JointView ViewOf(const DesignSpec& design, const std::filesystem::path& folder) {
-  campaign::JointView view{.folder = {folder},
-                           .spec = design.campaign,
-                           .record = {},
-                           .references = {},
-                           .space = campaign::SpaceOf(design.campaign),
-                           .trials = {}};
-  view.record.parameters = campaign::SearchedParameters(design.campaign);
-  return view;
+  return PlannedView(design.campaign, folder);
 }
 
 }  // namespace talus::analysis

@@ -9,6 +9,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
+#include "experiments/analysis/next/known.h"
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/rigs/observables/observable.h"
@@ -42,28 +43,6 @@ int CountAt(const JointView& view, int experiment, double factor) {
 
 const std::string& NameOf(const JointView& view, int experiment) {
   return view.record.experiments[static_cast<std::size_t>(experiment)].name;
-}
-
-// What is left of the variance `before` once it is `after` is what an independent measurement with
-// the difference of their precisions would leave.
-Eigen::VectorXd OfTheDifference(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  constexpr double kLeast = 1e-12;
-  return (after.cwiseInverse() - before.cwiseInverse()).cwiseMax(kLeast).cwiseInverse();
-}
-
-// One experiment as the posterior knows it: what hides the truth from each of its outputs.
-struct Known {
-  int experiment = 0;
-  OutputPredictions at;
-  Eigen::VectorXd surrogate;  // variance, mean over the draws
-
-  Eigen::VectorXd Now() const { return surrogate + at.measured + at.model; }
-};
-
-optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,
-                                          const Eigen::VectorXd& less) {
-  const Eigen::VectorXd now = known.Now();
-  return ground.Learn(known.at.mean, OfTheDifference(now, now - less));
 }
 
 NextCandidate MoreRuns(const Ground& ground, const Known& known) {
@@ -110,12 +89,7 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
 
 void AddMoreOfTheSame(const Ground& ground, const optimizer::Posterior& posterior, Cost& cost,
                       std::vector<NextCandidate>& all) {
-  const std::vector<int> answered = ground.view.Answered();
-  for (std::size_t i = 0; i < answered.size(); ++i) {
-    Known known{.experiment = answered[i],
-                .at = posterior.models()[i].Predict(ground.draws),
-                .surrogate = {}};
-    known.surrogate = known.at.variance.colwise().mean().transpose();
+  for (const Known& known : KnownExperiments(ground, posterior)) {
     all.push_back(MoreRuns(ground, known));
     all.push_back(MoreSimulations(ground, known, cost));
     AddFinerGrains(ground, known, cost, all);

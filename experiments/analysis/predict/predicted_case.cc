@@ -18,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 using campaign::JointView;
 
-constexpr double kAffordable = 240;  // of all runs without a scale factor given [core s]
-
 // What the file says of contact laws must be what the set was calibrated with.
 void RefuseOtherLaws(const JointView& view, const base::JsonFile& file, base::Problems& problems) {
   const auto given = file.root.find("models");
@@ -98,8 +96,14 @@ bool IsPossible(rigs::Case rig_case, double scale_factor) {
   return problems.empty();
 }
 
+// Simulations that are meant to be made, and what they may take.
+struct RunBudget {
+  int num_runs = 1;
+  double core_time = 0;  // of all [s]
+};
+
 // The campaign's finest that all runs can afford, else its coarsest that the case has room for.
-double AffordableScale(const JointView& view, const rigs::Case& rig_case, int num_runs) {
+double AffordableScale(const JointView& view, const rigs::Case& rig_case, const RunBudget& budget) {
   std::vector<double> levels = view.spec.coarse_graining.Levels();  // the coarsest first
   if (view.spec.coarse_graining.Target() < levels.back()) {
     levels.push_back(view.spec.coarse_graining.Target());
@@ -108,7 +112,7 @@ double AffordableScale(const JointView& view, const rigs::Case& rig_case, int nu
   bool found = false;
   for (const double level : levels) {
     if (!IsPossible(rig_case, level)) continue;
-    if (found && num_runs * CoreSecondsAt(view, rig_case, level) > kAffordable) break;
+    if (found && budget.num_runs * CoreSecondsAt(view, rig_case, level) > budget.core_time) break;
     chosen = level;
     found = true;
   }
@@ -131,7 +135,8 @@ void TakePowder(const JointView& view, rigs::Case& rig_case) {
 }
 
 void ReadRigCase(const JointView& view, const base::JsonFile& file,
-                 std::optional<double> scale_factor, int num_runs, PredictedCase& predicted) {
+                 std::optional<double> scale_factor, const RunBudget& budget,
+                 PredictedCase& predicted) {
   rigs::Case& rig_case = predicted.rig_case;
   rig_case = rigs::LoadCase(file);
   RefuseFixedWalls(view, file, rig_case);
@@ -150,7 +155,7 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
                           static_cast<Eigen::Index>(view.space.Free().size()), 0.5)),
                       view.spec.seed);
   rig_case.coarse_graining.scale_factor =
-      scale_factor ? *scale_factor : AffordableScale(view, rig_case, num_runs);
+      scale_factor ? *scale_factor : AffordableScale(view, rig_case, budget);
   base::Problems problems(file.path.string() + " with the campaign's powder at scale factor " +
                               base::ShortNumber(rig_case.coarse_graining.scale_factor),
                           {});
@@ -161,7 +166,8 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
 }  // namespace
 
 PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
-                                std::optional<double> scale_factor, int num_runs) {
+                                std::optional<double> scale_factor, int num_runs,
+                                double core_time) {
   const base::JsonFile file = base::ReadJsonFile(path);
   PredictedCase predicted{
       .name = path.stem().string(), .rig_case = {}, .scene_text = {}, .notes = {}};
@@ -178,7 +184,8 @@ PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
   if (problems.empty()) RefuseOtherLaws(view, file, problems);
   problems.ThrowIfAny();
   if (is_case) {
-    ReadRigCase(view, file, scale_factor, num_runs, predicted);
+    ReadRigCase(view, file, scale_factor, {.num_runs = num_runs, .core_time = core_time},
+                predicted);
   } else {
     ReadScene(view, file, scale_factor, predicted);
   }

@@ -25,9 +25,11 @@ struct PredictedCase {
 
 // Throws ConfigError where the file is none, contradicts the campaign, or cannot be simulated with
 // its powder at the scale factor. `num_runs` simulations are meant to be made: without a scale
-// factor, given here or in the file, they get the finest of the campaign's that they can afford.
+// factor, given here or in the file, they get the finest of the campaign's that they can afford in
+// this core time [s].
 PredictedCase ReadPredictedCase(const campaign::JointView& view, const std::filesystem::path& file,
-                                std::optional<double> scale_factor, int num_runs);
+                                std::optional<double> scale_factor, int num_runs,
+                                double core_time = 240);
 
 // What two grains of the campaign's powder state as a pair; one pair at most.
 std::vector<engine::PairSpec> PairsOfGrains(const campaign::JointView& view);

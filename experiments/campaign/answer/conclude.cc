@@ -220,7 +220,8 @@ ResultConditions ConditionsOf(const CampaignSpec& spec) {
 }
 
 ResultCost CostOf(const Planner& planner, const CampaignEvidence& evidence) {
-  ResultCost cost{.elapsed = evidence.elapsed};
+  ResultCost cost{.core_hours = planner.goal() ? planner.goal()->core_time / 3600 : 0,
+                  .elapsed = evidence.elapsed};
   for (const journal::TrialRecord& trial : planner.trials()) {
     if (trial.status == journal::TrialStatus::kRunning ||
         trial.kind == journal::TrialKind::kReused) {

@@ -52,8 +52,8 @@ double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, int num_ended,
 }  // namespace
 
 BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials,
-                double elapsed, int at_a_time) {
-  BudgetUse use;
+                double elapsed, int at_a_time, double goal_time) {
+  BudgetUse use{.core_seconds = goal_time};
   int search_ended = 0, confirm_ended = 0;
   for (const journal::TrialRecord& trial : trials) {
     if (!IsOfSearch(trial)) {

@@ -218,7 +218,9 @@ bool Planner::PlanReplicate(std::vector<journal::TrialRecord>& planned) {
   return false;
 }
 
-double Planner::CoreTimeOfSearch() { return core_time_.OfSearch(trials_); }
+double Planner::CoreTimeOfSearch() {
+  return core_time_.OfSearch(trials_) + (goal_ ? goal_->core_time : 0);
+}
 
 // Proposals that the budget of simulations has room for.
 int Planner::SetsLeft() const {
@@ -254,6 +256,10 @@ bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) 
   }
   LeaveCoresToTrials();
   if (NumOfSearch() >= spec_.budget.min_simulations) {
+    if (goal_ && goal_->reason) {
+      StopSearch({.kind = StopKind::kRule, .rule = *goal_->reason});
+      return false;
+    }
     if (const auto reason = Chooser().WhyStop()) {
       StopSearch({.kind = StopKind::kRule, .rule = *reason});
       return false;

@@ -8,9 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/plan/candidates.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/stop.h"
@@ -40,6 +42,9 @@ class Planner {
   // No more trials of noise and search, for this reason; the first one counts.
   void StopSearch(Stop stop);
   const std::optional<Stop>& stop() const { return stop_; }
+  // What is known of the spec's goal, and whether the search may end by it; none: nothing yet.
+  void NoteGoal(std::optional<GoalState> goal) { goal_ = std::move(goal); }
+  const std::optional<GoalState>& goal() const { return goal_; }
   // What the strategy's own rule lacks; nothing where the budget did not end the search.
   std::optional<optimizer::StopShortfall> Shortfall();
 
@@ -66,7 +71,8 @@ class Planner {
   const optimizer::ParameterSpace& space() const { return space_; }
   const optimizer::Domain& domain() const { return domain_; }
 
-  // Processor time of noise and search so far [core seconds], the running ones estimated.
+  // Processor time of noise and search so far [core seconds], the running ones estimated; that of
+  // the goal's runs counts.
   double CoreTimeOfSearch();
 
   // A fresh seed for each trial and attempt; small enough for any engine.
@@ -103,6 +109,7 @@ class Planner {
   std::vector<journal::TrialRecord> trials_;
   std::optional<std::vector<Candidate>> candidates_;  // of this confirmation
   std::optional<Stop> stop_;
+  std::optional<GoalState> goal_;
   CoreTime core_time_;
   const int most_threads_ = base::MostLoopThreads();
 };

@@ -22,9 +22,9 @@ namespace {
 using nlohmann::ordered_json;
 
 // Keys that a running campaign may be given anew: what to spend and where, not what to find.
-constexpr std::string_view kMayChange[] = {"name",           "budget",       "confirm",
-                                           "next",           "workers",      "threads",
-                                           "trial_time_cap", "retry_failed", "runner"};
+constexpr std::string_view kMayChange[] = {"name",         "budget",  "goal",    "confirm",
+                                           "next",         "workers", "threads", "trial_time_cap",
+                                           "retry_failed", "runner"};
 
 constexpr double kLongest = 366 * 86400.0;  // [s]
 constexpr int kMostReplicates = 1000;
@@ -189,6 +189,8 @@ void CampaignSpec::Validate(base::Problems& problems) const {
                    "budget.simulations", budget.simulations, "must be more than noise.replicates");
   ValidateExperiments(*this, problems);
   ValidatePairs(*this, problems);
+  problems.Require(!HasOwnProposer() || !goal, "goal",
+                   "is reached by the strategy \"auto\" only: the others look for one set");
   problems.Require(!HasOwnProposer() || HasOneObjective(*this), "strategy.kind",
                    "must be \"auto\" with several scale factors or experiments, or without "
                    "an image: the others minimise one objective only");

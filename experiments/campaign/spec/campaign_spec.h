@@ -11,6 +11,7 @@
 #include "base/json/json_file.h"
 #include "experiments/campaign/spec/campaign_options.h"
 #include "experiments/campaign/spec/experiment_spec.h"
+#include "experiments/campaign/spec/goal_spec.h"
 #include "experiments/campaign/spec/grain_sizes.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/campaign/spec/where_options.h"
@@ -43,6 +44,7 @@ struct CampaignSpec {
   journal::Objective objective = journal::Objective::kSad;
   optimizer::StrategyOptions strategy;
   BudgetOptions budget;
+  std::optional<GoalSpec> goal{};  // the search ends when it is reached
   NoiseOptions noise;
   int replicates = 1;  // seeds of each proposed set, >= 1
   PosteriorOptions posterior;
@@ -89,6 +91,8 @@ struct CampaignSpec {
     visit("objective", self.objective, {.doc = "what is minimised"});
     visit("strategy", self.strategy, {.doc = "how the next trial is chosen"});
     visit("budget", self.budget, {.doc = "when the search ends at the latest"});
+    visit("goal", self.goal,
+          {.doc = "what is to be predicted, and how well: the search ends when it is"});
     visit("noise", self.noise, {.doc = "how the run-to-run scatter is estimated first"});
     visit("replicates", self.replicates, {.doc = "seeds of each proposed set, >= 1"});
     visit("posterior", self.posterior, {.doc = "what the observations are held to say"});

@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--campaigns]: is a prediction narrowed as `talus next --for` expects?
+
+FOLDER is that of dem_twins.py, CASE a bulk test whose OBSERVABLE is to be predicted (examples/rigs/spreading.json
+packing_fraction). For each powder the campaign with the heap alone is asked what the wide plate would leave of it, and
+the campaign with both tests tells what it left. One line a powder: half-widths of the goal now, expected and realised.
+Two of them are means over few draws, so the last line compares the sums over all powders, too.
+
+--campaigns: the campaign with both tests runs again with this goal, to be known to 1.2 times what the first one left, and a line
+says its core time over that one's, and why it ended.
+"""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+WITHIN = 1.5
+SLACK = 1.2
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
+    return done.stdout
+
+
+def table(options, folder, *more):
+    return json.loads(run(options.talus, "next", folder, *more, "--for", options.case, "--observable",
+                          options.observable, "--json"))
+
+
+def expected(options, twin):
+    """The goal's half-width now, and the one that the wide plate is expected to leave."""
+    wide = json.loads((twin / "both.json").read_text())["experiments"][1]
+    ask = {"name": wide["name"], "device": wide["device"], "runs": wide["map_heaps"],
+           "mass_fallen": {"sd": wide["mass_fallen"]["sd"]}}
+    (twin / "candidates.json").write_text(json.dumps({"candidates": [ask]}))
+    answer = table(options, twin / "heap", twin / "candidates.json", "--simulate")
+    after = next(c["goal_half_width_90"] for c in answer["candidates"] if c["name"] == wide["name"])
+    return answer["goal"]["half_width_90"], after
+
+
+def core_hours(folder):
+    return json.loads((folder / "result.json").read_text())["cost"]["core_hours"]
+
+
+def with_goal(options, twin, half_width):
+    """Core time of a campaign that ends by its goal, over that of the one without, and why it ended."""
+    spec = json.loads((twin / "both.json").read_text())
+    spec["goal"] = {"case": str(options.case.resolve()), "observable": options.observable,
+                    "half_width": f"{half_width} {options.unit}".strip()}
+    (twin / "goal.json").write_text(json.dumps(spec))
+    run(options.talus, "calibrate", twin / "goal.json", "--out", twin / "goal", "--quiet")
+    stop = json.loads((twin / "goal" / "result.json").read_text())["stop"]["text"]
+    return core_hours(twin / "goal") / core_hours(twin / "both"), stop
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("talus")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("case", type=pathlib.Path)
+    parser.add_argument("observable")
+    parser.add_argument("--unit", default="", help="of the observable in results, such as deg")
+    parser.add_argument("--campaigns", action="store_true")
+    options = parser.parse_args()
+    rows = []
+    for twin in sorted(options.folder.glob("twin*")):
+        if not (twin / "both" / "result.json").exists():
+            continue
+        now, then = expected(options, twin)
+        left = table(options, twin / "both")["goal"]["half_width_90"]
+        rows.append((now, then, left))
+        print(f"{twin.name}: now ± {now:.3g}, expected ± {then:.3g}, realised ± {left:.3g}; ratio {left / then:.2f}",
+              flush=True)
+        if options.campaigns:
+            share, why = with_goal(options, twin, SLACK * left)
+            print(f"{twin.name}: with the goal {share:.2f} of the core time: {why}", flush=True)
+    ratios = [left / then for _, then, left in rows]
+    within = sum(1 / WITHIN <= r <= WITHIN for r in ratios)
+    print(f"{len(rows)} powders: within a factor {WITHIN} in {within}, geometric mean of the ratios "
+          f"{math.exp(sum(map(math.log, ratios)) / len(ratios)):.2f}; sums realised over expected "
+          f"{sum(r[2] for r in rows) / sum(r[1] for r in rows):.2f}")
+
+
+main()

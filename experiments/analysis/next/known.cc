@@ -1,0 +1,51 @@
+#include "experiments/analysis/next/known.h"
+
+namespace talus::analysis {
+namespace {
+
+// What is left of the variance `before` once it is `after` is what an independent measurement with
+// the difference of their precisions would leave.
+Eigen::VectorXd OfTheDifference(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  constexpr double kLeast = 1e-12;
+  return (after.cwiseInverse() - before.cwiseInverse()).cwiseMax(kLeast).cwiseInverse();
+}
+
+}  // namespace
+
+std::vector<Known> KnownExperiments(const Ground& ground, const optimizer::Posterior& posterior) {
+  const std::vector<int> answered = ground.view.Answered();
+  std::vector<Known> experiments;
+  for (std::size_t i = 0; i < answered.size(); ++i) {
+    Known known{.experiment = answered[i],
+                .at = posterior.models()[i].Predict(ground.draws),
+                .surrogate = {}};
+    known.surrogate = known.at.variance.colwise().mean().transpose();
+    experiments.push_back(std::move(known));
+  }
+  return experiments;
+}
+
+optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,
+                                          const Eigen::VectorXd& less) {
+  const Eigen::VectorXd now = known.Now();
+  return ground.Learn(known.at.mean, OfTheDifference(now, now - less));
+}
+
+optimizer::ExpectedLearning LearnWithoutSurrogate(const Ground& ground,
+                                                  const std::vector<Known>& experiments) {
+  Eigen::Index num_outputs = 0;
+  for (const Known& known : experiments) num_outputs += known.surrogate.size();
+  Eigen::MatrixXd mean(ground.draws.rows(), num_outputs);
+  Eigen::VectorXd variance(num_outputs);
+  Eigen::Index first = 0;
+  for (const Known& known : experiments) {
+    const Eigen::Index count = known.surrogate.size();
+    const Eigen::VectorXd now = known.Now();
+    mean.middleCols(first, count) = known.at.mean;
+    variance.segment(first, count) = OfTheDifference(now, now - known.surrogate);
+    first += count;
+  }
+  return ground.Learn(mean, variance);
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,66 @@
+// DIR/goal: what a campaign with a goal has found of it so far. Each look at it has a folder named
+// after the number of trials that had ended, with the runs that were made for it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "optimizer/stop_reason.h"
+
+namespace talus::campaign {
+
+// goal.json of one look; widths in the observable's unit as results have it.
+struct GoalState {
+  static constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+  std::string goal{};                             // what was asked for, as GoalText writes it
+  std::int64_t after = 0;                         // trials of noise and search that had ended
+  double half_width = kNotKnown;                  // of the 90 %: the next two in squares
+  double parameters_half_width = kNotKnown;       // what the sets leave open
+  double surrogate_half_width = kNotKnown;        // of the number as a function of the sets
+  double least_half_width = kNotKnown;            // expected once every set had been simulated
+  int num_runs = 0;                               // of all looks so far
+  double core_time = 0;                           // of these [s]
+  std::optional<optimizer::StopReason> reason{};  // why the search may end; none: it goes on
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("goal", self.goal);
+    visit("after_trials", self.after);
+    visit("half_width_90", self.half_width);
+    visit("parameters_half_width_90", self.parameters_half_width);
+    visit("surrogate_half_width_90", self.surrogate_half_width);
+    visit("least_half_width_90", self.least_half_width);
+    visit("num_runs", self.num_runs);
+    visit("core_time_s", self.core_time);
+    visit("reason", self.reason);
+  }
+};
+
+struct CampaignSpec;
+
+struct GoalSpec;
+
+std::filesystem::path GoalFolder(const std::filesystem::path& campaign);  // absolute
+// Folders of the looks, by number of trials.
+std::vector<std::filesystem::path> GoalLooks(const std::filesystem::path& campaign);
+
+// The last look that was finished, at what this spec asks for; none where it asks for nothing.
+std::optional<GoalState> LastGoal(const std::filesystem::path& campaign, const CampaignSpec& spec);
+void KeepGoal(const std::filesystem::path& look, const GoalState& state);
+
+// The spec's goal as a line; states of another one do not count.
+std::string GoalText(const CampaignSpec& spec);
+
+// "angle_deg of drum known to ± 1.2 (90 %) after 24 trials, asked for ± 1; 12 runs of it".
+std::string TextOf(const GoalState& state, const GoalSpec& asked);
+
+// The number of ended trials at which the goal is looked at after the look at `last`; 0: the first.
+std::int64_t NextLook(std::int64_t last);
+
+}  // namespace talus::campaign

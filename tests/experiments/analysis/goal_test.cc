@@ -1,0 +1,140 @@
+// Campaigns that end when a prediction is known well enough, with drawn heaps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/json/json_reader.h"
+#include "base/json/json_writer.h"
+#include "experiments/analysis/next/campaign_goal.h"
+#include "tests/experiments/campaign_fixture.h"
+
+namespace talus::analysis {
+namespace {
+
+using campaign::FakeEngine;
+using campaign::GoalState;
+using optimizer::StopRule;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class GoalTest : public campaign::CampaignFixture {
+ protected:
+  // Tapped density is 1550 − 350 μ_r kg/m³, and scatters by less than what the heap leaves of it:
+  // its model error is large, so that few simulations show what it can tell.
+  fs::path WithGoal(const std::string& half_width, const std::string& name = "run",
+                    const std::string& observable = "tapped_density",
+                    const std::string& rig = R"({"kind": "tapped_density", "diameter": "10 mm"})") {
+    fs::create_directories(scratch_.path() / (name + "_in"));
+    std::ofstream(scratch_.path() / (name + "_in") / "taps.json")
+        << R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+             "filling": {"kind": "pour"}, "rig": )"
+        << rig << "}";
+    return Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]}, "workers": 1,
+      "posterior": {"stop_share": 0, "model_error": 5}, "budget": {"simulations": 80},
+      "confirm": {"candidates": 0}, "goal": {"case": "taps.json", "observable": ")" +
+                     observable + R"(", "half_width": ")" + half_width + "\"}",
+                 name);
+  }
+  static campaign::CampaignEnd Run(const fs::path& folder) {
+    const base::InterruptGuard interrupt;
+    campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
+    campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
+    const auto parts = [&] {
+      return campaign::CampaignParts{
+          .runner = campaign::MakeRunner(opened.spec, opened.folder.root),
+          .engine =
+              std::make_unique<FakeEngine>(campaign::FakeEngineOptions{.density_scatter = 0.3})};
+    };
+    campaign::CampaignParts own = parts();
+    own.goal = std::make_unique<CampaignGoal>(opened.spec, folder, parts());
+    campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
+                                opened.spec, std::move(own), console);
+    return campaign.Run(interrupt);
+  }
+  static std::optional<GoalState> Last(const fs::path& folder) {
+    return campaign::LastGoal(folder, campaign::ReadJointView(folder).spec);
+  }
+};
+
+TEST_F(GoalTest, EndsTheSearchWhenItIsKnownAsWellAsAsked) {
+  const fs::path folder = WithGoal("100 kg/m^3");
+  EXPECT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
+  const auto answer = Result(folder);
+  ASSERT_TRUE(answer.stop.rule.has_value()) << answer.stop.Text();
+  EXPECT_EQ(answer.stop.rule->rule, StopRule::kGoal);
+  EXPECT_EQ(answer.stop.rule->limit, 100);
+  EXPECT_LE(answer.stop.rule->value, 100);
+  EXPECT_THAT(answer.stop.Text(), HasSubstr("tapped_density_kg_per_m3 of taps is known to ± "));
+  EXPECT_LT(Trials(folder).size(), 40u);
+  const auto goal = Last(folder);
+  ASSERT_TRUE(goal.has_value());
+  EXPECT_EQ(goal->num_runs, 8);
+  EXPECT_EQ(goal->after, static_cast<std::int64_t>(Trials(folder).size()));
+}
+
+// What the heap leaves open of μ_r stays open whatever is simulated, and so does the density.
+TEST_F(GoalTest, EndsTheSearchWhenSimulationsCannotNarrowIt) {
+  const fs::path folder = WithGoal("0.01 kg/m^3");
+  EXPECT_EQ(Run(folder), campaign::CampaignEnd::kFinished);
+  const auto answer = Result(folder);
+  const GoalState last = Last(folder).value();
+  ASSERT_TRUE(answer.stop.rule.has_value())
+      << answer.stop.Text() << ": sets " << last.parameters_half_width << ", surrogate "
+      << last.surrogate_half_width << ", least " << last.least_half_width;
+  EXPECT_EQ(answer.stop.rule->rule, StopRule::kGoalOpen);
+  EXPECT_GT(answer.stop.rule->scale, 0.01);
+  EXPECT_LE(answer.stop.rule->scale, answer.stop.rule->value);
+}
+
+// As if it had been killed while the goal's runs of the last look were made.
+TEST_F(GoalTest, GoesOnWhereItWasEndedToTheSameTrials) {
+  const fs::path whole = WithGoal("0.01 kg/m^3", "whole");
+  Run(whole);
+  const fs::path again = WithGoal("0.01 kg/m^3", "again");
+  Run(again);
+  ASSERT_EQ(Last(again)->half_width, Last(whole)->half_width);
+  const fs::path look = campaign::GoalLooks(again).back();
+  fs::remove(look / "goal.json");
+  fs::remove_all(look / "trials/0002");
+  fs::remove(again / "result.json");
+  const auto time = fs::last_write_time(look / "trials/0001/profile.png");
+  EXPECT_EQ(Run(again), campaign::CampaignEnd::kFinished);
+  EXPECT_EQ(fs::last_write_time(look / "trials/0001/profile.png"), time);
+  EXPECT_EQ(campaign::TrialTable(again), campaign::TrialTable(whole));
+  EXPECT_EQ(Last(again)->half_width, Last(whole)->half_width);
+  EXPECT_EQ(Result(again).stop.rule->value, Result(whole).stop.rule->value);
+}
+
+TEST_F(GoalTest, WhatItsCaseDoesNotMeasureIsRefusedBeforeAnythingIsWritten) {
+  const auto error = [&](const std::string& name, const std::string& observable,
+                         const std::string& rig) -> std::string {
+    const fs::path folder = WithGoal("1", name, observable, rig);
+    try {
+      CheckGoal(campaign::ReadJointView(folder).spec);
+    } catch (const base::ConfigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const std::string taps = R"({"kind": "tapped_density", "diameter": "10 mm"})";
+  EXPECT_THAT(error("a", "hausner_ratio", taps), "");
+  EXPECT_THAT(error("b", "coverage", taps), HasSubstr("it measures poured_density"));
+  EXPECT_THAT(error("c", "hausner_ratio", R"({"kind": "tapped_density", "diameter": "1 mm"})"),
+              HasSubstr("taps.json"));
+  EXPECT_THROW(WithGoal("1", "d", "beauty", taps), base::ConfigError);
+  EXPECT_THROW(WithGoal("-1", "e", "hausner_ratio", taps), base::ConfigError);
+}
+
+TEST(GoalLooks, StandFartherAndFartherApart) {
+  std::vector<std::int64_t> looks;
+  for (std::int64_t last = 0; looks.size() < 5; looks.push_back(last)) {
+    last = campaign::NextLook(last);
+  }
+  EXPECT_EQ(looks, (std::vector<std::int64_t>{16, 24, 36, 54, 81}));
+}
+
+}  // namespace
+}  // namespace talus::analysis
