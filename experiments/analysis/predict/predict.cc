@@ -19,6 +19,7 @@
 #include "experiments/analysis/predict/prediction_pictures.h"
 #include "experiments/analysis/predict/prediction_runs.h"
 #include "experiments/analysis/predict/prediction_text.h"
+#include "experiments/analysis/predict/regimes.h"
 #include "experiments/analysis/predict/scene_engine.h"
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/consider.h"
@@ -148,6 +149,7 @@ class Predictor {
                                   ShowProgress(runs, console);
                                 }},
                            parts_);
+    if (done) regimes_ = Regimes(runs);
     Prediction prediction = Conclude(runs);
     if (!done) {
       throw base::Interrupted("interrupted; the same command goes on in " + root_.string());
@@ -268,6 +270,45 @@ class Predictor {
     }
   }
 
+  // Of the process by all its runs, and of each test by a coarse run with the first of the sets.
+  std::vector<FlowRegime> Regimes(const PredictionRuns& runs) const {
+    std::vector<rigs::Regime> seen;
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      if (const auto regime = RegimeIn(FolderCaseOf(runs, run).folder)) seen.push_back(*regime);
+    }
+    if (seen.empty()) return {};
+    std::vector<FlowRegime> regimes{
+        DescribeRegime(case_.name, seen, FolderCaseOf(runs, 0).rig_case)};
+    regimes.front().is_process = true;
+    const auto tests = campaign::ExperimentsOf(view_.spec);
+    const auto at = [&](std::size_t test) { return TestCase(tests[test].name, test); };
+    if (!campaign::RunCases(
+            {.count = tests.size(), .at = at, .time_cap = view_.spec.trial_time_cap}, parts_)) {
+      return {};
+    }
+    for (std::size_t test = 0; test < tests.size(); ++test) {
+      const campaign::FolderCase run = at(test);
+      if (const auto regime = RegimeIn(run.folder)) {
+        regimes.push_back(DescribeRegime(tests[test].name, {*regime}, run.rig_case));
+      }
+    }
+    return regimes;
+  }
+
+  campaign::FolderCase TestCase(const std::string& name, std::size_t experiment) const {
+    const std::vector<double>& point = design_.points.front();
+    const auto unit =
+        Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+    return {
+        .folder = root_ / "tests" / base::FileWord(name),
+        .rig_case = campaign::CaseOf(view_.spec,
+                                     {.values = view_.space.ToNative(unit),
+                                      .seed = view_.spec.seed,
+                                      .scale_factor = view_.spec.coarse_graining.Levels().front(),
+                                      .experiment = static_cast<int>(experiment)},
+                                     std::nullopt)};
+  }
+
   Prediction Describe(const PredictionRuns& runs) const {
     Prediction prediction{.name = case_.name,
                           .test = case_.scene_text.empty()
@@ -320,6 +361,8 @@ class Predictor {
     Prediction prediction = Describe(runs);
     runs.Compare(measured_, prediction);
     WritePictures(runs, root_, prediction);
+    prediction.regimes = regimes_;
+    for (std::string& warning : RegimeWarnings(regimes_)) prediction.notes.push_back(warning);
     if (!case_.rig_case.frame && case_.scene_text.empty()) {
       prediction.notes.push_back("no pictures: the case has no frame");
     }
@@ -339,6 +382,7 @@ class Predictor {
   std::optional<Eigen::VectorXd> one_set_;  // instead of draws
   fs::path root_;
   PredictionDesign design_;
+  std::vector<FlowRegime> regimes_;
 };
 
 void Require(bool ok, const std::string& message) {

@@ -106,6 +106,29 @@ struct PredictedDraw {
   }
 };
 
+// How a test or process shears its powder (regimes.h): 5, 50 and 95 % of the work of shearing is
+// done below these.
+struct FlowRegime {
+  std::string name{};
+  bool is_process = false;                 // what is predicted; else a test of the campaign
+  std::vector<double> inertial_number{};   // I [-], of grains of the powder's own size
+  std::vector<double> pressure{};          // P [Pa]
+  std::vector<double> shear_rate{};        // γ̇ [1/s]
+  std::vector<double> contact_duration{};  // of a collision at γ̇ d, over 1/γ̇ [-]
+  double bond_number = 0;                  // pull-off force over weight [-]
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("is_process", self.is_process);
+    visit("inertial_number", self.inertial_number);
+    visit("pressure_Pa", self.pressure);
+    visit("shear_rate_per_s", self.shear_rate);
+    visit("contact_duration", self.contact_duration);
+    visit("bond_number", self.bond_number);
+  }
+};
+
 struct Prediction {
   std::string name{};
   std::string test{};  // the rig, or "scene"
@@ -121,7 +144,8 @@ struct Prediction {
   std::vector<PredictedDraw> draws{};
   std::vector<PredictedNumber> numbers{};
   std::optional<MeasuredImage> image{};
-  std::string mean_profile{};  // file beside this one; empty without images
+  std::vector<FlowRegime> regimes{};  // of the process and of each test; none where not known
+  std::string mean_profile{};         // file beside this one; empty without images
   std::string most_different{};
   std::vector<int> different{};  // the two draws in it, by place from 0
 
@@ -141,6 +165,7 @@ struct Prediction {
     visit("draws", self.draws);
     visit("numbers", self.numbers);
     visit("image", self.image);
+    visit("regimes", self.regimes);
     visit("mean_profile", self.mean_profile);
     visit("most_different", self.most_different);
     visit("most_different_draws", self.different);

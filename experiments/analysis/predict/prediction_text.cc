@@ -82,6 +82,18 @@ std::string ImageText(const Prediction& prediction,
   return text + "\n";
 }
 
+// "0.012 (0.003 … 0.05)": the median of the work, and what 90 % of it lies in.
+std::string RangeText(const std::vector<double>& range) {
+  return ShortNumber(range[1], 2) + " (" + ShortNumber(range[0], 2) + " … " +
+         ShortNumber(range[2], 2) + ")";
+}
+
+std::string RegimeText(const FlowRegime& r) {
+  return "  sheared in " + r.name + " at an inertial number of " + RangeText(r.inertial_number) +
+         ", under " + RangeText(r.pressure) + " Pa, Bond number " + ShortNumber(r.bond_number, 2) +
+         ", contact duration × shear rate " + ShortNumber(r.contact_duration[1], 2) + "\n";
+}
+
 std::string WhatText(const Prediction& prediction) {
   switch (prediction.by) {
     case PredictedBy::kPosterior:
@@ -137,6 +149,7 @@ std::string PredictionText(const Prediction& prediction,
     if (number.measured) text += MeasuredText(prediction, number, parameters);
   }
   if (prediction.image) text += ImageText(prediction, parameters);
+  for (const FlowRegime& regime : prediction.regimes) text += RegimeText(regime);
   return text;
 }
 

@@ -96,6 +96,7 @@ class Rig {
   double NextPicture() const;  // when it is due [s]; infinite when none is
   void TakeDuePicture();
   void Check();
+  void LookAtRegime();
   bool Held(const Phase& phase);
   bool AtRest(const RestRule& rule);
   void EndPhase(PhaseEnd reason);
@@ -108,8 +109,9 @@ class Rig {
   engine::Simulation simulation_;
   RigState state_;
   std::vector<Phase> phases_;
-  double simulated_time_ = 0;     // expected, of all phases [s]
-  std::int64_t check_steps_ = 1;  // between two looks
+  std::size_t num_filling_phases_ = 0;  // of these, which come first
+  double simulated_time_ = 0;           // expected, of all phases [s]
+  std::int64_t check_steps_ = 1;        // between two looks
   std::optional<engine::Pour> pour_;
   mutable std::optional<View> view_;
   std::vector<std::string> messages_;

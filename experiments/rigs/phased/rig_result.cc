@@ -37,6 +37,12 @@ ordered_json PhasesOf(const Case& c, const RigState& state, const std::vector<Ph
   return list;
 }
 
+ordered_json RegimeJson(const Regime& regime) {
+  return {{"inertial_number", regime.inertial_number},
+          {"pressure_Pa", regime.pressure},
+          {"shear_rate_per_s", regime.shear_rate}};
+}
+
 std::vector<std::string> CapWarnings(const RigState& state, const std::vector<Phase>& phases) {
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < phases.size(); ++i) {
@@ -109,6 +115,7 @@ std::string Rig::ResultText(const std::vector<engine::Particle>& grains,
   std::vector<Reading> readings = Readings(grains);
   if (case_.rig.camera) readings.push_back(CohesiveIndex(state_.camera, case_.frame.value()));
   AddReadings(readings, result);
+  if (const auto regime = RegimeOf(state_.regime)) result["regime"] = RegimeJson(*regime);
   result["conditions"] = CommonConditions(case_, simulation_);
   for (const auto& [name, value] : Conditions()) result["conditions"][name] = value;
   if (case_.frame) {

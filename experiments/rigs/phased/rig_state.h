@@ -9,6 +9,7 @@
 #include "engine/scene/pour.h"
 #include "experiments/rigs/phased/camera.h"
 #include "experiments/rigs/phased/phase.h"
+#include "experiments/rigs/phased/regime.h"
 
 namespace talus::rigs {
 
@@ -24,6 +25,7 @@ struct RigState {
   double particle_steps = 0;
   engine::Bed bed{};  // when the filling had settled
   CameraMemory camera{};
+  RegimeMemory regime{};  // of the rig's own phases
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -40,6 +42,7 @@ struct RigState {
     visit("solid_fraction", self.bed.solid_fraction);
     visit("coordination", self.bed.coordination);
     visit("camera", self.camera);
+    visit("regime", self.regime);
   }
 };
 

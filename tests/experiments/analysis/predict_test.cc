@@ -9,10 +9,12 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/files/checked_text.h"
 #include "base/json/json_reader.h"
 #include "engine/scene/scene_spec.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/analysis/predict/prediction_text.h"
+#include "experiments/analysis/predict/regimes.h"
 #include "experiments/analysis/predict/scene_engine.h"
 #include "experiments/analysis/predict/spread.h"
 #include "tests/experiments/campaign_fixture.h"
@@ -96,6 +98,58 @@ TEST(Draws, StandForTheWholePosteriorWithTheirWeights) {
   EXPECT_NEAR(mean, all.col(0).mean(), 0.02);
   EXPECT_EQ(ChooseDraws(all, 12, 1).points, few.points);
   EXPECT_EQ(ChooseDraws(Eigen::MatrixXd::Constant(50, 2, 0.3), 12, 1).points.size(), 1u);
+}
+
+FlowRegime Sheared(const std::string& name, bool is_process, double number, double pressure) {
+  return {.name = name,
+          .is_process = is_process,
+          .inertial_number = {number / 2, number, 2 * number},
+          .pressure = {pressure / 2, pressure, 2 * pressure}};
+}
+
+TEST(Regimes, AProcessThatNoTestReachesIsWarnedOf) {
+  const auto warnings = [](double number, double pressure) {
+    return RegimeWarnings({Sheared("drum", true, number, pressure),
+                           Sheared("heap", false, 1e-3, 10), Sheared("box", false, 1e-2, 50)});
+  };
+  EXPECT_THAT(warnings(5e-3, 20), testing::IsEmpty());
+  EXPECT_THAT(warnings(0.055, 290), testing::IsEmpty());  // within 3 times 0.02 and 100
+  ASSERT_EQ(warnings(0.1, 20).size(), 1u);
+  EXPECT_THAT(warnings(0.1, 20)[0],
+              HasSubstr("drum shears at an inertial number of 0.1, your tests at most at 0.02"));
+  EXPECT_THAT(warnings(5e-3, 1)[0], HasSubstr("a pressure of 1 Pa, your tests at least at 5 Pa"));
+  EXPECT_THAT(RegimeWarnings({Sheared("drum", true, 1, 1)}), testing::IsEmpty());  // no test known
+}
+
+// One run of 1 mm grains at scale factor 2: their I is twice the powder's, P and γ̇ are the bulk's.
+TEST(Regimes, AreOfThePowdersOwnGrains) {
+  rigs::Case rig_case;
+  rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 5e-4};
+  rig_case.powder.material.surface_energy = 1e-3;
+  rig_case.models.adhesion = engine::Adhesion::kDmt;
+  rig_case.coarse_graining.scale_factor = 2;
+  const rigs::Regime run{
+      .inertial_number = {0.01, 0.1, 1}, .pressure = {1, 10, 100}, .shear_rate = {2, 20, 200}};
+  const FlowRegime regime = DescribeRegime("heap", {run}, rig_case);
+  EXPECT_DOUBLE_EQ(regime.inertial_number[1], 0.05);
+  EXPECT_DOUBLE_EQ(regime.pressure[2], 100);
+  // πγd over ρπd³g/6.
+  const double density = rig_case.powder.material.density;
+  EXPECT_NEAR(regime.bond_number, 6 * 1e-3 / (density * 5e-4 * 5e-4 * rig_case.gravity), 1e-9);
+  // t_c γ̇ goes with γ̇^(4/5).
+  EXPECT_NEAR(regime.contact_duration[2] / regime.contact_duration[1], std::pow(10, 0.8), 1e-6);
+}
+
+TEST(Regimes, AreReadFromAResultAndNoneIsFoundWhereItHasNone) {
+  const fs::path folder = fs::path(testing::TempDir()) / "talus_regime";
+  fs::create_directories(folder);
+  std::ofstream(folder / "result.json") << base::WithChecksum(R"({"regime": {
+    "inertial_number": [1, 2, 3], "pressure_Pa": [4, 5, 6], "shear_rate_per_s": [7, 8, 9]}})"
+                                                              "\n");
+  EXPECT_EQ(RegimeIn(folder)->pressure[1], 5);
+  std::ofstream(folder / "result.json") << base::WithChecksum("{}\n");
+  EXPECT_FALSE(RegimeIn(folder).has_value());
+  EXPECT_FALSE(RegimeIn(folder / "absent").has_value());
 }
 
 class PredictTest : public campaign::CampaignFixture {
