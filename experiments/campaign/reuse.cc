@@ -57,6 +57,7 @@ struct LeftOut {
   int other_scale_factor = 0;
   int twice = 0;
   int failed = 0;
+  int incomplete = 0;
 
   std::string Text() const {
     std::string text;
@@ -67,6 +68,7 @@ struct LeftOut {
     add(other_scale_factor, "at scale factors that are not searched here");
     add(twice, "that were taken already");
     add(failed, "that failed");
+    add(incomplete, "whose folders are not complete");
     return text;
   }
 };
@@ -75,7 +77,7 @@ struct LeftOut {
 class ReuseCollector {
  public:
   explicit ReuseCollector(const Reuser& reuser)
-      : reuser_(reuser), names_(ExperimentsOf(reuser.spec)) {}
+      : reuser_(reuser), experiments_(ExperimentsOf(reuser.spec)) {}
 
   void AddFolder(const fs::path& folder) {
     folder_ = folder.string();
@@ -90,7 +92,8 @@ class ReuseCollector {
     for (std::size_t e = 0; e < reuser_.references.size(); ++e) {
       const int count = AddTests(tests, e);
       if (count > 0) {
-        taken += (taken.empty() ? "" : ", ") + std::to_string(count) + " of " + names_[e].name;
+        taken +=
+            (taken.empty() ? "" : ", ") + std::to_string(count) + " of " + experiments_[e].name;
       }
     }
     const std::size_t count = plan_.trials.size() - before;
@@ -119,7 +122,7 @@ class ReuseCollector {
     for (const FormerTest& test : tests) {
       if (const auto why_not = WhyNotOf(reuser_, experiment, test)) {
         // What is called the same was meant to be the same.
-        if (why.empty() || base::FileWord(test.name) == base::FileWord(names_[e].name)) {
+        if (why.empty() || base::FileWord(test.name) == base::FileWord(experiments_[e].name)) {
           why = "of \"" + test.name + "\" there, " + *why_not;
         }
         continue;
@@ -129,28 +132,35 @@ class ReuseCollector {
       for (const FormerTrial& former : test.trials) count += AddTrial(experiment, test, former);
     }
     if (!any_fits) {
-      plan_.messages.push_back(folder_ + ": nothing for \"" + names_[e].name + "\": " + why);
+      plan_.messages.push_back(folder_ + ": nothing for \"" + experiments_[e].name + "\": " + why);
     }
     return count;
   }
 
   bool AddTrial(const NewExperiment& experiment, const FormerTest& test,
                 const FormerTrial& former) {
-    const std::vector<double> levels = reuser_.spec.coarse_graining.Levels();
     const auto unit = UnitOf(reuser_.spec, test, former);
-    if (!unit) return ++left_out_.outside, false;
-    if (std::ranges::count(levels, former.scale_factor) == 0) {
-      return ++left_out_.other_scale_factor, false;
-    }
-    if (!known_.emplace(experiment.index, former.seed, former.scale_factor, former.native).second) {
-      return ++left_out_.twice, false;
+    if (int* count = LeftOutAs(experiment, former, unit.has_value())) {
+      ++*count;
+      return false;
     }
     plan_.trials.push_back({.former = former, .record = TrialOf(experiment, former, *unit)});
     return true;
   }
 
+  // What it is counted as where it is not taken; else null, and it is known from now on.
+  int* LeftOutAs(const NewExperiment& experiment, const FormerTrial& former, bool is_inside) {
+    if (!is_inside) return &left_out_.outside;
+    const std::vector<double> levels = reuser_.spec.coarse_graining.Levels();
+    if (std::ranges::count(levels, former.scale_factor) == 0) return &left_out_.other_scale_factor;
+    if (!reuser_.engine.IsComplete(former.folder)) return &left_out_.incomplete;
+    const bool is_new =
+        known_.emplace(experiment.index, former.seed, former.scale_factor, former.native).second;
+    return is_new ? nullptr : &left_out_.twice;
+  }
+
   const Reuser& reuser_;
-  const std::vector<ExperimentSpec> names_;
+  const std::vector<ExperimentSpec> experiments_;
   std::string folder_;
   LeftOut left_out_;
   // Experiment, seed, scale factor and values of those taken.
@@ -172,8 +182,8 @@ ReusePlan PlanReuse(const Reuser& reuser, const std::vector<fs::path>& folders) 
   return collector.Take();
 }
 
-std::vector<journal::TrialRecord> CopyReused(const Reuser& reuser, const ReusePlan& plan,
-                                             const CampaignFolder& folder) {
+std::vector<journal::TrialRecord> CopyReused(const Reuser& reuser, const CampaignFolder& folder,
+                                             ReusePlan& plan) {
   const CampaignFolder copies = CopiesOf(folder);
   fs::remove_all(copies.root);
   TakenOver taken;
@@ -187,9 +197,14 @@ std::vector<journal::TrialRecord> CopyReused(const Reuser& reuser, const ReusePl
     TakeOver(copies, ExperimentOf(reuser, static_cast<std::size_t>(trial.experiment)),
              planned.former, trial, reuser.engine, taken);
   }
-  if (taken.trials.empty() && !plan.trials.empty()) {
-    throw base::Error("--reuse: none of the " + std::to_string(plan.trials.size()) +
-                      " simulations could be read");
+  const std::size_t num_lost = plan.trials.size() - taken.trials.size();
+  if (num_lost > 0 && taken.trials.empty()) {
+    throw base::Error("--reuse: none of the " + std::to_string(num_lost) +
+                      " simulations that fit could be read");
+  }
+  if (num_lost > 0) {
+    plan.messages.push_back(std::to_string(num_lost) +
+                            " of these have failed or cannot be read, and are left out");
   }
   return taken.trials;
 }

@@ -42,9 +42,10 @@ struct ReusePlan {
 ReusePlan PlanReuse(const Reuser& reuser, const std::vector<std::filesystem::path>& folders);
 
 // Copies them beside the trials of a campaign that is about to begin, and returns those that could
-// be read, numbered from 1. What another process was killed at is cleared first.
-std::vector<journal::TrialRecord> CopyReused(const Reuser& reuser, const ReusePlan& plan,
-                                             const CampaignFolder& folder);
+// be read, numbered from 1; a message of the plan counts the others. What another process was
+// killed at is cleared first.
+std::vector<journal::TrialRecord> CopyReused(const Reuser& reuser, const CampaignFolder& folder,
+                                             ReusePlan& plan);
 // Makes the copies the campaign's trials, in one step; nothing where there are none. To be called
 // once the campaign is on the disk, by whichever process comes so far.
 void AdoptCopies(const CampaignFolder& folder);

@@ -245,7 +245,8 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   base::MakeOutputFolder(root);
   const CampaignLock lock(folder.root);
   RequireNewFolder(folder, root);  // another process may have begun one meanwhile
-  WriteCampaign(folder, record, CopyReused(reuser, plan, folder), plan.messages);
+  const std::vector<journal::TrialRecord> reused = CopyReused(reuser, folder, plan);
+  WriteCampaign(folder, record, reused, plan.messages);
   for (const std::string& message : plan.messages) options.say(message);
 }
 
