@@ -21,7 +21,8 @@ double Duration(const journal::TrialRecord& trial) {
   return std::isfinite(trial.duration_s) ? std::max(0.0, trial.duration_s) : 0;
 }
 
-// Duration of a trial that confirms, by those that have, else by those of the search that are as fine [s].
+// Duration of a trial that confirms, by those that have, else by those of the search that are as
+// fine [s].
 double ConfirmTime(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials) {
   const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
   double sum = 0, count = 0, longest = 0;
