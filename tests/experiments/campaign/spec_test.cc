@@ -180,7 +180,7 @@ TEST(Spec, OnlyBudgetWorkersAndTheLikeMayChange) {
   const auto changes = ForbiddenChanges(
       before, SpecText(Read(With(R"("seed": 2, "coarse_graining": {"scale_factor": 1.5})"))));
   EXPECT_THAT(changes, ::testing::UnorderedElementsAre("seed: 1 → 2",
-                                                       "coarse_graining.scale_factor: 1.0 → 1.5"));
+                                                       "coarse_graining.scale_factor: 1 → 1.5"));
 }
 
 TEST(Spec, AChangeInOneOfSeveralExperimentsIsNamedByItsKey) {
