@@ -32,6 +32,7 @@ struct Written {
   std::string more_parameters = {};
   std::string density = "2500 kg/m^3";
   int simulations = 24;
+  double stop_share = 0.1;
 };
 
 class Priors : public CampaignFixture {
@@ -48,6 +49,7 @@ class Priors : public CampaignFixture {
                                     << w.sliding << R"(}, "rolling_friction": {)" << w.rolling
                                     << "}" << w.more_parameters << R"(},
       "budget": {"simulations": )" << w.simulations
+                                    << R"(}, "posterior": {"stop_share": )" << w.stop_share
                                     << R"(}, "confirm": {"candidates": 1, "replicates": 2},
       "workers": 1})";
     BeginCampaign(in / "spec.json", scratch_.path() / name);
@@ -179,11 +181,14 @@ TEST_F(Priors, ANuisanceIsSearchedAndNotAskedFor) {
 }
 
 // Heaps whose slope follows the rolling friction, and a nuisance that the map determines: its
-// range says so. The mass that falls does not depend on it.
+// range says so, if the search goes on although nothing asked for gains by it. The mass that falls
+// does not depend on it.
 TEST_F(Priors, ADeterminedNuisanceIsCalledSo) {
   const Answer answer =
       AnswerOf("tapped", {.experiments = std::string(kFallen) + ", " + kTapped,
-                          .rolling = R"("min": 0.05, "max": 0.5, "nuisance": true)"});
+                          .rolling = R"("min": 0.05, "max": 0.5, "nuisance": true)",
+                          .simulations = 48,
+                          .stop_share = 0});
   EXPECT_THAT(NuisanceText(answer.parameters[1], "rolling_friction"),
               HasSubstr("rolling_friction: determined, 0."));
 }
