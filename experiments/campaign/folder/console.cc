@@ -52,7 +52,9 @@ void Console::Line(const std::string& text) {
 
 void Console::Trial(const TrialProgress& trial) {
   ClearStatus();
-  if (output_ == Output::kStandardError) std::cerr << ProgressText(trial) << std::endl;
+  // Reused ones come by dozens at once, and one line has told of them.
+  const bool shown = output_ == Output::kStandardError && trial.kind != journal::TrialKind::kReused;
+  if (shown) std::cerr << ProgressText(trial) << std::endl;
   if (output_ == Output::kJson) PrintEvent("trial", base::ToJson(trial));
   Log(ProgressText(trial));
 }
