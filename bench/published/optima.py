@@ -7,9 +7,9 @@ Predicts the heaps of published optima from coarse ones. Both powders have milli
 For each set: the three angles of repose, the height, the mass that stays and the area of the silhouette (NEBP), each as
 the median at f = 1 with the interval that holds one heap there with 90 %. The fifth set of Ti6Al4V is no optimum.
 
-The model: y = a + b (f^p - 1) + s f^1.5 e for each number and set, p = 0.5, 1 or 2 with equal weights beforehand. A
-heap of grains f times as large has f^-3 as many, hence the exponent of the scatter. b has a normal prior about 0, its
-standard deviation common to the sets of a powder; s is common, too.
+The model: y = a + b (f^p - 1)/p + s f^q e for each number and set, p = 0 (the logarithm), 0.5, 1 or 2 and q = 0.5, 1
+or 1.5 with equal weights beforehand. A heap of grains f times as large has f^-3 as many, hence the largest q. b has a normal prior about
+0, its standard deviation common to the sets of a powder; s is common, too.
 
 --other-choice   takes otherwise what was not published: dense (in place of poured), smooth (tube without friction in
                  place of one as the powder). Prints the means at the scale factors given beside those as above
@@ -48,9 +48,9 @@ PIXEL_AREA = 0.05**2  # [mm^2]
 NUMBERS = {"angle 1": ("angle_of_repose_1_deg", 1, "°"), "angle 2": ("angle_of_repose_2_deg", 1, "°"),
            "angle 3": ("angle_of_repose_3_deg", 1, "°"), "height": ("height_m", 1e3, "mm"),
            "mass": ("mass_on_plate_kg", 1e6, "mg"), "NEBP": (None, 1, "mm²")}
-POWERS = (0.5, 1.0, 2.0)
-SCATTER_POWER = 1.5
-# Slopes between nothing and the number's whole spread over the sets for each unit of f^p - 1.
+POWERS = (0.0, 0.5, 1.0, 2.0)
+SCATTER_POWERS = (0.5, 1.0, 1.5)
+# Slopes between nothing and half of the number's spread over the sets for each unit of the growth.
 SLOPE_SHARES = (0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
 NUM_DRAWS = 20000
 OTHER_CHOICES = {
@@ -123,7 +123,8 @@ def predict(points, num_sets, at, chance):
     which = which.astype(int)
     center, spread = y.mean(), max(y.std(), 1e-12)
     y = (y - center) / spread
-    models = [posterior(which, f, y, num_sets, at, p, share) for p in POWERS for share in SLOPE_SHARES]
+    models = [posterior(which, f, y, num_sets, at, p, q, share)
+              for p in POWERS for q in SCATTER_POWERS for share in SLOPE_SHARES]
     evidence = numpy.array([m[0] for m in models])
     weights = numpy.exp(evidence - evidence.max())
     counts = chance.multinomial(NUM_DRAWS, weights / weights.sum())
@@ -136,23 +137,29 @@ def predict(points, num_sets, at, chance):
     return center + spread * numpy.concatenate(draws).T
 
 
-def posterior(which, f, y, num_sets, at, power, share):
+def growth(f, power):
+    """Of the bias with the scale factor; 0 at true size."""
+    return (f**power - 1) / power if power else numpy.log(f)
+
+
+def posterior(which, f, y, num_sets, at, power, scatter_power, share):
     """Log evidence, and mean, covariance, scale and degrees of freedom of one heap of each set at `at`: a linear model
     with normal priors in units of s, which has the prior 1/s."""
     # A slope of `share` of the spread, where s is about a twentieth of it.
     prior = numpy.diag([400.0] * num_sets + [max((20 * share) ** 2, 1e-9)] * num_sets)
     rows = numpy.zeros((len(y), 2 * num_sets))
     rows[numpy.arange(len(y)), which] = 1
-    rows[numpy.arange(len(y)), num_sets + which] = f**power - 1
-    total = rows @ prior @ rows.T + numpy.diag((f / f.min()) ** (2 * SCATTER_POWER))
+    rows[numpy.arange(len(y)), num_sets + which] = growth(f, power)
+    scatter = (f / f.min()) ** (2 * scatter_power)
+    total = rows @ prior @ rows.T + numpy.diag(scatter)
     solved = numpy.linalg.solve(total, numpy.column_stack([y[:, None], rows @ prior]))
-    wanted = numpy.hstack([numpy.eye(num_sets), numpy.eye(num_sets) * (at**power - 1)])
+    wanted = numpy.hstack([numpy.eye(num_sets), numpy.eye(num_sets) * growth(at, power)])
     square = y @ solved[:, 0]
     evidence = -0.5 * numpy.linalg.slogdet(total)[1] - 0.5 * len(y) * math.log(square)
     gain = wanted @ prior @ rows.T
     mean = gain @ solved[:, 0]
     covariance = wanted @ prior @ wanted.T - gain @ solved[:, 1:] @ wanted.T
-    covariance += numpy.eye(num_sets) * (at / f.min()) ** (2 * SCATTER_POWER)
+    covariance += numpy.eye(num_sets) * (at / f.min()) ** (2 * scatter_power)
     return evidence, mean, covariance, math.sqrt(square / len(y)), len(y)
 
 
