@@ -138,8 +138,9 @@ std::string NarrowingText(const campaign::ResultUnsettled& unsettled) {
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const campaign::Answer& answer = *evidence.answer;
   const bool asked = AsksForSimulations(answer);
-  // It stopped because more simulations would hardly tell more.
-  if (!asked && answer.stop.kind == campaign::StopKind::kRule) return;
+  // The search's rule ended it, or the budget when half as many again would hardly tell more.
+  const bool is_settled = answer.posterior && !answer.unsettled;
+  if (!asked && (is_settled || answer.stop.kind == campaign::StopKind::kRule)) return;
   const int num_more = answer.unsettled ? answer.unsettled->num_more : 0;
   const double count = num_more > 0 ? num_more : campaign::kMoreSimulations;
   const std::string more = std::to_string(std::llround(count));
