@@ -26,11 +26,11 @@ import argparse
 import json
 import pathlib
 import random
-import subprocess
-import sys
 
 import numpy
 from PIL import Image
+
+from twin import device, frame, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
@@ -40,24 +40,6 @@ MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.3
             "rolling_damping": 0.3}
 POWDER = {"material": MATERIAL, "sizes": {"kind": "mono"}}
 MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
-
-
-def device(plate_mm):
-    return {"tube_inner_diameter": "10 mm", "plate_diameter": f"{plate_mm} mm", "plate": "disc",
-            "lift_velocity": "50 mm/s"}
-
-
-def frame(plate_mm):
-    width = 12 * plate_mm
-    return {"width_px": width, "height_px": 120, "pixel_size": "0.1 mm", "center_x_px": width / 2,
-            "baseline_px": 110, "plate_diameter": f"{plate_mm} mm"}
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
-    return done.stdout
 
 
 def measure(options, folder, truth, plate_mm, seed, plate=None):

@@ -13,18 +13,11 @@ import argparse
 import json
 import math
 import pathlib
-import subprocess
-import sys
+
+from twin import run
 
 WITHIN = 1.5
 SLACK = 1.2
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
-    return done.stdout
 
 
 def table(options, folder, *more):

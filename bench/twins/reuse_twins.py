@@ -23,6 +23,8 @@ import time
 
 from PIL import Image, ImageDraw
 
+from twin import device, frame, run
+
 SEARCHED = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 DRAWN = {"sliding_friction": (0.15, 0.75), "rolling_friction": (0.05, 0.5)}
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
@@ -35,27 +37,9 @@ VIEWS = 8
 FINER = 4  # sub-pixels of a pixel's side
 
 
-def device(plate_mm):
-    return {"tube_inner_diameter": "10 mm", "plate_diameter": f"{plate_mm} mm", "plate": "disc",
-            "lift_velocity": "50 mm/s"}
-
-
-def frame(plate_mm):
-    width = 12 * plate_mm
-    return {"width_px": width, "height_px": 130, "pixel_size": PIXEL, "center_x_px": width / 2,
-            "baseline_px": 110, "plate_diameter": f"{plate_mm} mm"}
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
-    return done.stdout
-
-
 def photograph(grains, plate_mm, angle, path):
     """A silhouette of grains and plate, dark on light."""
-    at = frame(plate_mm)
+    at = frame(plate_mm, height=130)
     scale = FINER / PIXEL
     size = (at["width_px"] * FINER, at["height_px"] * FINER)
     picture = Image.new("L", size, 230)
@@ -89,7 +73,7 @@ def measure(options, folder, truth, name, seed):
     mean = sum(masses) / len(masses)
     spread = math.sqrt(sum((m - mean) ** 2 for m in masses) / (len(masses) - 1))
     grain = MATERIAL["density"] * math.pi / 6 * 0.7e-3 ** 3
-    return {"name": name, "photos": str(photos), "pattern": "run{run}_view{view}.png", "frame": frame(plate_mm),
+    return {"name": name, "photos": str(photos), "pattern": "run{run}_view{view}.png", "frame": frame(plate_mm, height=130),
             "plate_diameter": f"{plate_mm} mm", "device": device(plate_mm),
             "mass_fallen": {"value": mean, "sd": max(spread, grain) / len(masses) ** 0.5}}
 

@@ -13,18 +13,11 @@ within a factor of 1.5, or both below a quarter of the half range, which no camp
 import argparse
 import json
 import pathlib
-import subprocess
-import sys
+
+from twin import run
 
 FACTOR = 1.5
 SMALL = 0.25  # half ranges
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
-    return done.stdout
 
 
 def parameters(folder):

@@ -22,28 +22,17 @@ import json
 import math
 import pathlib
 import random
-import subprocess
-import sys
 
 import numpy
 from PIL import Image
+
+from twin import device, frame, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.5), "surface_energy": (2e-4, 2e-2)}
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.7,
             "rolling_damping": 0.3}
 MODELS = {"adhesion": "dmt", "rolling": "epsd", "full_mobilisation_damping": 0}
 LEVELS = [1.4, 1]
-
-
-def device(plate_mm):
-    return {"tube_inner_diameter": "10 mm", "plate_diameter": f"{plate_mm} mm", "plate": "disc",
-            "lift_velocity": "50 mm/s"}
-
-
-def frame(plate_mm):
-    width = 12 * plate_mm
-    return {"width_px": width, "height_px": 120, "pixel_size": "0.1 mm", "center_x_px": width / 2,
-            "baseline_px": 110, "plate_diameter": f"{plate_mm} mm"}
 
 
 def tests_of(options):
@@ -68,13 +57,6 @@ def tests_of(options):
 def cell_mass(d):
     """[g] of a bed 18 grains across and 10.5 high: seven at the coarser level."""
     return round(0.55 * MATERIAL["density"] * math.pi / 4 * (18 * d) ** 2 * 10.5 * d * 1e-6, 4)
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
-    return done.stdout
 
 
 def powder(options, truth=None):

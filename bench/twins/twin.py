@@ -1,0 +1,22 @@
+"""What the benches on virtual powders have in common: the device of their heaps, the frame of their images, the program."""
+import subprocess
+import sys
+
+
+def device(plate_mm):
+    return {"tube_inner_diameter": "10 mm", "plate_diameter": f"{plate_mm} mm", "plate": "disc",
+            "lift_velocity": "50 mm/s"}
+
+
+def frame(plate_mm, height=120):
+    width = 12 * plate_mm
+    return {"width_px": width, "height_px": height, "pixel_size": "0.1 mm", "center_x_px": width / 2,
+            "baseline_px": 110, "plate_diameter": f"{plate_mm} mm"}
+
+
+def run(*command):
+    """What it prints; ends the bench with its message where it fails."""
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
+    return done.stdout
