@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""kill_test.py TALUS SOURCE_DIR [--kills N]: kill -9 of a campaign at random moments.
+"""kill_test.py TALUS SOURCE_DIR [--kills N] [--two]: kill -9 of a campaign at random moments.
 
 Two workers run another engine whose command leaves processes in sessions of their own. After each kill
 nothing of it may run on, and what was finished must stay as it was; in the end the campaign has the
-trials that it was to have, each once. `bench/kills` runs the same with 200 kills.
+trials that it was to have, each once. --two: of two experiments at three scale factors, searched by the posterior.
+`bench/kills` runs both with 200 kills.
 """
 import argparse
 import json
@@ -34,7 +35,18 @@ def without_comments(text):
     return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
 
 
-def make_spec(source, folder, simulations):
+def search_two(spec, source):
+    """Two tests and three scale factors in place of one of each."""
+    heap = spec.pop("experiment") | {"name": "heap"}
+    wide = {"name": "wide plate", "photos": str(source / "examples/photos/powder_a_wide"), "plate_diameter": "30 mm",
+            "pattern": heap["pattern"], "pixel_size": "400 um", "device": spec["device"] | {"plate_diameter": "30 mm"}}
+    spec["experiments"] = [heap, wide]
+    spec["coarse_graining"] = {"scale_factors": [2, 1.5, 1.2]}
+    spec["posterior"] = {"stop_share": 0}
+    del spec["strategy"], spec["noise"]
+
+
+def make_spec(source, folder, simulations, two):
     spec = json.loads(without_comments((source / "examples/demo/campaign.json").read_text()))
     spec["experiment"]["photos"] = str(source / "examples/photos/powder_a")
     spec["experiment"]["pixel_size"] = "200 um"
@@ -46,6 +58,8 @@ def make_spec(source, folder, simulations):
     spec["coarse_graining"] = {"scale_factor": 1}
     spec["engine"] = {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"],
                       "result": "heap.csv"}
+    if two:
+        search_two(spec, source)
     (folder / "deck").mkdir()
     (folder / "deck/run.sh").write_text(DECK)
     (folder / "spec.json").write_text(json.dumps(spec))
@@ -72,12 +86,13 @@ def finished_trials(talus, folder):
             for t in trials if t["status"] != "running"}
 
 
-def killed_campaign(talus, source, most_kills, dice):
+def killed_campaign(talus, source, most_kills, dice, two):
     """A campaign killed at random moments until it ends by itself; the kills and its trials."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name).resolve()
         simulations = 2 + 2 * most_kills
-        make_spec(source, folder, simulations)
+        confirming = 4 if two else 2
+        make_spec(source, folder, simulations, two)
         before, kills = {}, 0
         command = [talus, "calibrate", "spec.json", "--out", "out"]
         while True:
@@ -113,8 +128,8 @@ def killed_campaign(talus, source, most_kills, dice):
             if campaign.returncode == 0:
                 break
         search = [t for t in before if before[t][2] == "ok"]
-        assert len(search) == len(before) == simulations + 2, (len(search), len(before))
-        assert sorted(before) == list(range(1, simulations + 3))
+        assert len(search) == len(before) == simulations + confirming, (len(search), len(before))
+        assert sorted(before) == list(range(1, simulations + confirming + 1))
         return kills, len(before)
 
 
@@ -123,12 +138,15 @@ def main():
     parser.add_argument("talus", type=pathlib.Path)
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--two", action="store_true")
     arguments = parser.parse_args()
     talus, source = arguments.talus.resolve(), arguments.source.resolve()
     dice = random.Random(1)
     kills, trials = 0, 0
     while kills < arguments.kills:  # a fast machine ends a campaign after few kills
-        more_kills, more_trials = killed_campaign(talus, source, arguments.kills - kills, dice)
+        # The posterior's proposals become dearer with the trials: many short campaigns.
+        most = min(arguments.kills - kills, 20) if arguments.two else arguments.kills - kills
+        more_kills, more_trials = killed_campaign(talus, source, most, dice, arguments.two)
         kills, trials = kills + more_kills, trials + more_trials
     print(f"{kills} kills, {trials} trials, none lost, nothing left running")
 
