@@ -12,6 +12,7 @@
 #include "base/files/file.h"
 #include "base/json/json_file.h"
 #include "base/problems.h"
+#include "base/text/counted.h"
 #include "base/units.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -137,6 +138,15 @@ std::filesystem::path SeenFrom(const std::filesystem::path& spec,
       folder.lexically_normal());
 }
 
+std::size_t NumFiles(const std::filesystem::path& folder) {
+  std::error_code none;
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
+    count += entry.is_regular_file(none);
+  }
+  return count;
+}
+
 void Say(const std::vector<std::string>& photos, const std::string& pattern,
          const imaging::PhotoSet& set) {
   std::size_t views = 0;
@@ -145,9 +155,16 @@ void Say(const std::vector<std::string>& photos, const std::string& pattern,
     views += run.views.size();
     names += (names.empty() ? " (" : ", ") + run.run;
   }
-  std::cout << (photos.size() == 1 ? photos.front() + ": " : "") << set.runs.size() << " heaps"
-            << names << "), " << views << " photographs, read by the pattern \"" << pattern
+  std::cout << (photos.size() == 1 ? photos.front() + ": " : "")
+            << base::Counted(static_cast<long long>(set.runs.size()), "heap") << names << "), "
+            << views << " photographs, read by the pattern \"" << pattern
             << "\"; name another with --pattern\n";
+  if (photos.size() != 1) return;
+  const std::size_t others = NumFiles(photos.front()) - std::min(views, NumFiles(photos.front()));
+  if (others > 0) {
+    std::cout << "note: " << base::Counted(static_cast<long long>(others), "other file")
+              << " in it not read by this pattern\n";
+  }
 }
 
 // Photographs one by one: what their names say of runs, or else views of one heap.

@@ -61,7 +61,8 @@ void SettleFaults(bool allowed, const std::vector<std::string>& faults,
   for (const std::string& fault : faults) all += (all.empty() ? "" : "\n") + fault;
   const std::string remedy =
       faults.size() <= collection.photos.size()
-          ? "\nput them right, or go on without them: --allow-missing-views"
+          ? "\nput them right, or go on without them: \"allow_missing_views\": true in the "
+            "spec's experiment, --allow-missing-views for talus measure"
           : "\nmost photographs have a fault: give the plate's place with \"frame\", or say with "
             "\"powder\" how they are lit";
   if (!all.empty() && !allowed) throw UnusablePhotosError(all + remedy, collection.left_out);

@@ -197,9 +197,11 @@ std::string Listed(const std::filesystem::path& folder) {
 // The set with its folder in all that it says; throws where it is empty.
 PhotoSet OfFolder(PhotoSet set, const std::filesystem::path& folder, const std::string& pattern) {
   if (set.runs.empty()) {
-    throw base::ConfigError(folder.string() + ": no file matches the pattern \"" + pattern +
-                            "\" of the photographs' names; " + Listed(folder) +
-                            "; a pattern that may fit is \"" + RecognisePattern(folder) + "\"");
+    const std::string other = RecognisePattern(folder);
+    throw base::ConfigError(
+        folder.string() + ": no file matches the pattern \"" + pattern +
+        "\" of the photographs' names; " + Listed(folder) +
+        (other == pattern ? "" : "; a pattern that may fit is \"" + other + "\""));
   }
   for (std::string& missing : set.missing) missing = folder.string() + ": " + missing;
   return set;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/load_case.h"
@@ -168,8 +169,9 @@ std::vector<std::string> EstimateWarnings(const CampaignSpec& spec, const Campai
   }
   const double num_fine = std::floor(*spec.budget.core_time / each);
   if (num_fine >= kEnoughFineTrials) return {};
-  return {"even if all of it went there, the core time buys only " + base::ShortNumber(num_fine) +
-          " simulations of each experiment at scale factor " + base::ShortNumber(finest) +
+  return {"even if all of it went there, the core time buys only " +
+          base::Counted(static_cast<long long>(num_fine), "simulation") +
+          " of each experiment at scale factor " + base::ShortNumber(finest) +
           ", and the answer rests on coarser grains: give it " +
           trials::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out"};
 }

@@ -189,7 +189,7 @@ function representativeHeaps(h) {
   const others = h.representatives.filter((set) => !set.recommended);
   return element("div", {class: "grid three stacked", id: idOf("representatives")}, h.representatives.map((set) =>
     set.uri ? element("figure", {class: "card"},
-      element("h3", {}, (set.recommended ? "Recommended: " : "Set " + (others.indexOf(set) + 1) + ": ") +
+      element("h3", {}, (D.campaign.num_experiments > 1 ? D.campaign.experiment + ": " : "") + (set.recommended ? "Recommended: " : "Set " + (others.indexOf(set) + 1) + ": ") +
         setText(set.values)),
       element("img", {src: set.uri, alt: "Simulated heap of trial " + set.trial, width: set.width, height: set.height}),
       element("figcaption", {}, "Trial " + set.trial + (D.campaign.num_experiments > 1 ? " of " + D.campaign.experiment : "") +
