@@ -32,8 +32,9 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
   problems.Require(
       std::abs(e.images.plate_diameter - width) <= 0.01 * width, place + ".plate_diameter",
       e.images.plate_diameter,
-      tube ? "is not the device's plate_diameter: the images are of another test, or the "
-             "experiment needs a device of its own"
+      tube ? "is not the device's plate_diameter: one of the two is wrong, or the experiment needs "
+             "a "
+             "device of its own"
            : "is not the width of the rig, " + std::to_string(1e3 * width) +
                  " mm: the images are of another test, or the experiment needs a rig of its own");
 }
@@ -196,7 +197,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
                    "has no effect: it is a drum's; leave it out");
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
-  if (!spec.experiments) return;
+  if (!spec.experiments) return CheckWidth(all.front(), "experiment", problems);
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;
   for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
