@@ -179,14 +179,14 @@ def table(options, powder):
     chance = numpy.random.default_rng(1)
     print_head(powder, f"one heap at scale factor {options.beyond:g}, from {len(made)} at "
                        f"{', '.join(f'{f:g}' for f in sorted({f for _, f, _ in made}, reverse=True))}")
+    finer = [] if options.beyond in {f for _, f, _ in made} else heaps(options, powder, [options.beyond])
     cells, inside = [[] for _ in sets], []
     for name in NUMBERS:
         points = [(number, f, values[name]) for number, f, values in made if math.isfinite(values[name])]
         draws = predict(points, len(sets), options.beyond, chance)
         for number, of_set in enumerate(draws):
             low, high = numpy.quantile(of_set, (0.05, 0.95))
-            seen = [values[name] for n, _, values in heaps(options, powder, [options.beyond]) if n == number] \
-                if options.beyond not in {f for _, f, _ in made} else []
+            seen = [values[name] for n, _, values in finer if n == number]
             inside += [low <= value <= high for value in seen]
             cells[number].append(f"{numpy.median(of_set):.3g} ({low:.3g} … {high:.3g})"
                                  + "".join(f"; {value:.3g}" for value in seen))

@@ -30,7 +30,7 @@ import random
 import numpy
 from PIL import Image
 
-from twin import device, frame, run
+from twin import credible_level, device, frame, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
@@ -75,8 +75,7 @@ def calibrate(options, folder, name, experiments, seed, truth):
     result = json.loads((folder / name / "result.json").read_text())
     off = [(p["value"] - truth[p["name"]]) / (RANGES[p["name"]][1] - RANGES[p["name"]][0])
            for p in result["parameters"]]
-    level = json.loads(run(options.talus, "consider", folder / name, "--json",
-                           *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
+    level = credible_level(options.talus, folder / name, truth)
     volume = result["posterior"]["region_90_volume_fraction"]
     alarms = [w["experiment"] for w in result["warnings"] if w["kind"] in ("implausible", "disagree")]
     return {"level": level, "volume": volume, "distance": float(numpy.linalg.norm(off)), "alarms": alarms}

@@ -23,7 +23,7 @@ import time
 
 from PIL import Image, ImageDraw
 
-from twin import device, frame, run
+from twin import credible_level, device, frame, run
 
 SEARCHED = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 DRAWN = {"sliding_friction": (0.15, 0.75), "rolling_friction": (0.05, 0.5)}
@@ -97,9 +97,7 @@ def calibrate(options, folder, experiments, seed, budget, *more):
 
 
 def holds(options, folder, truth):
-    level = json.loads(run(options.talus, "consider", folder, "--json",
-                           *(f"{k}={v}" for k, v in truth.items())))["credible_level"]
-    return level <= 0.9
+    return credible_level(options.talus, folder, truth) <= 0.9
 
 
 def main():

@@ -26,7 +26,7 @@ import random
 import numpy
 from PIL import Image
 
-from twin import device, frame, run
+from twin import credible_level, device, frame, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.5), "surface_energy": (2e-4, 2e-2)}
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.7,
@@ -120,8 +120,7 @@ def calibrate(options, folder, name, experiments, seed, truth):
         far = math.log(high / low) if p["name"] == "surface_energy" else high - low
         ends = (p["credible_90_low"], p["credible_90_high"])
         widths[p["name"]] = (math.log(ends[1] / ends[0]) if p["name"] == "surface_energy" else ends[1] - ends[0]) / far
-    told = json.loads(run(options.talus, "consider", out, "--json", *(f"{k}={v}" for k, v in truth.items())))
-    return widths, told["credible_level"]
+    return widths, credible_level(options.talus, out, truth)
 
 
 def expected(options, folder, tests):

@@ -1,4 +1,5 @@
 """What the benches on virtual powders have in common: the device of their heaps, the frame of their images, the program."""
+import json
 import subprocess
 import sys
 
@@ -20,3 +21,9 @@ def run(*command):
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
     return done.stdout
+
+
+def credible_level(talus, campaign, truth):
+    """Of the smallest joint region that holds the truth: 0.9 or less is inside the 90 % region."""
+    told = run(talus, "consider", campaign, "--json", *(f"{k}={v}" for k, v in truth.items()))
+    return json.loads(told)["credible_level"]

@@ -160,9 +160,9 @@ void Say(const std::vector<std::string>& photos, const std::string& pattern,
             << views << " photographs, read by the pattern \"" << pattern
             << "\"; name another with --pattern\n";
   if (photos.size() != 1) return;
-  const std::size_t others = NumFiles(photos.front()) - std::min(views, NumFiles(photos.front()));
-  if (others > 0) {
-    std::cout << "note: " << base::Counted(static_cast<long long>(others), "other file")
+  const std::size_t files = NumFiles(photos.front());
+  if (files > views) {
+    std::cout << "note: " << base::Counted(static_cast<long long>(files - views), "other file")
               << " in it not read by this pattern\n";
   }
 }

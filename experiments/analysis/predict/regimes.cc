@@ -8,6 +8,7 @@
 
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "base/median.h"
 #include "base/text/number_text.h"
 
 namespace talus::analysis {
@@ -15,19 +16,13 @@ namespace {
 
 constexpr double kBeyond = 3;  // a factor that friction laws are seen to change over
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::vector<double> Medians(const std::vector<rigs::Regime>& runs,
                             rigs::RegimeRange rigs::Regime::*range) {
   std::vector<double> medians;
   for (std::size_t q = 0; q < rigs::RegimeRange{}.size(); ++q) {
     std::vector<double> values;
     for (const rigs::Regime& run : runs) values.push_back((run.*range)[q]);
-    medians.push_back(MedianOf(std::move(values)));
+    medians.push_back(base::Median(std::move(values)));
   }
   return medians;
 }
