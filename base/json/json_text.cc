@@ -13,10 +13,10 @@ namespace {
 bool IsPlain(char c) { return static_cast<unsigned char>(c) < 0x7f; }
 
 // The library escapes the characters below U+0020 itself; of the others only a text can hold some.
-std::string Escaped(const std::string& json) {
+std::string Escaped(const std::string& dumped) {
   std::string text;
-  text.reserve(json.size());
-  for (std::string_view rest = json; !rest.empty();) {
+  text.reserve(dumped.size());
+  for (std::string_view rest = dumped; !rest.empty();) {
     const auto plain = std::find_if_not(rest.begin(), rest.end(), IsPlain) - rest.begin();
     text += rest.substr(0, static_cast<std::size_t>(plain));
     rest.remove_prefix(static_cast<std::size_t>(plain));

@@ -22,6 +22,30 @@ double Largest(const std::vector<double>& radii) {
   return radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
 }
 
+bool ClearOfWalls(const WallSet& walls, const Vec3& at, double radius) {
+  for (int w = 0; w < walls.size(); ++w) {
+    if (Nearest(walls.views()[w], Vector<double>{at.x, at.y, at.z}).distance < radius) return false;
+  }
+  return true;
+}
+
+// The walls that are there now.
+WallSet PresentWalls(const Simulation& simulation) {
+  std::vector<Wall> walls;
+  for (int w = 0; w < static_cast<int>(simulation.Walls().size()); ++w) {
+    if (!simulation.IsRemoved(w)) walls.push_back(simulation.Walls()[w]);
+  }
+  return WallSet(walls);
+}
+
+Vec3 Across(const Vec3& down) {
+  const Vec3 other = std::abs(down.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 across = Cross(down, other);
+  return across / base::Norm(across);
+}
+
+}  // namespace
+
 // Spheres by place, to ask what a further one would touch.
 class Occupied {
  public:
@@ -55,30 +79,6 @@ class Occupied {
   double cell_;
   std::unordered_map<std::int64_t, std::vector<Particle>> cells_;
 };
-
-bool ClearOfWalls(const WallSet& walls, const Vec3& at, double radius) {
-  for (int w = 0; w < walls.size(); ++w) {
-    if (Nearest(walls.views()[w], Vector<double>{at.x, at.y, at.z}).distance < radius) return false;
-  }
-  return true;
-}
-
-// The walls that are there now.
-WallSet PresentWalls(const Simulation& simulation) {
-  std::vector<Wall> walls;
-  for (int w = 0; w < static_cast<int>(simulation.Walls().size()); ++w) {
-    if (!simulation.IsRemoved(w)) walls.push_back(simulation.Walls()[w]);
-  }
-  return WallSet(walls);
-}
-
-Vec3 Across(const Vec3& down) {
-  const Vec3 other = std::abs(down.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 across = Cross(down, other);
-  return across / base::Norm(across);
-}
-
-}  // namespace
 
 // What is near the mouth.
 struct Pour::Surroundings {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kLargestSphereFile = std::uint64_t{1} << 30;  // [bytes], some million
 
-std::vector<std::string_view> Split(std::string_view text, char separator) {
+std::vector<std::string_view> Parts(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(separator, start), text.size());
@@ -40,7 +40,7 @@ class SphereTable {
 
   std::vector<SphereSpec> Read(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    const std::vector<std::string_view> lines = Split(text, '\n');
+    const std::vector<std::string_view> lines = Parts(text, '\n');
     ReadTitles(lines.front());
     std::vector<SphereSpec> spheres;
     for (line_ = 1; line_ < lines.size(); ++line_) {
@@ -61,7 +61,7 @@ class SphereTable {
   }
 
   void ReadTitles(std::string_view line) {
-    for (const std::string_view title : Split(line, ',')) titles_.emplace_back(Trimmed(title));
+    for (const std::string_view title : Parts(line, ',')) titles_.emplace_back(Trimmed(title));
     for (const std::string& title : titles_) {
       if (!title.empty() && std::count(titles_.begin(), titles_.end(), title) > 1) {
         Refuse("has the column " + base::Printable(title) + " twice");
@@ -82,7 +82,7 @@ class SphereTable {
   }
 
   SphereSpec Sphere(std::string_view line) {
-    cells_ = Split(line, ',');
+    cells_ = Parts(line, ',');
     if (cells_.size() != titles_.size()) {
       RefuseLine("has " + std::to_string(cells_.size()) + " columns, the first line " +
                  std::to_string(titles_.size()));

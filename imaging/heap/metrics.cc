@@ -120,7 +120,7 @@ std::vector<Metric> Differences(const Profile& heap, const Profile& reference,
           {"iou", "-", Iou(heap.image, reference.image), Measured{.value = 1}}};
 }
 
-std::string Text(const Frame& frame) {
+std::string FrameText(const Frame& frame) {
   std::ostringstream text;
   text.precision(10);
   text << frame.width << " x " << frame.height << " px of " << frame.pixel_size
@@ -158,8 +158,9 @@ void RequireSameFrame(const Frame& a, const Frame& b) {
       close(a.center_x, b.center_x, 1e-3) && close(a.baseline, b.baseline, 1e-3)) {
     return;
   }
-  throw base::ConfigError("the two profiles cannot be compared pixel by pixel: one has " + Text(a) +
-                          ", the other " + Text(b) + "; project the heap in the frame of the AEHP");
+  throw base::ConfigError("the two profiles cannot be compared pixel by pixel: one has " +
+                          FrameText(a) + ", the other " + FrameText(b) +
+                          "; project the heap in the frame of the AEHP");
 }
 
 std::vector<Metric> DescribeProfile(const HeapImages& heap, const MetricOptions& options) {

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kSameScale = 0.01;  // how far a photograph's plate width may be off the median [-]
 
-std::string Size(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
-
 // The size that most photographs have is not known before all are read; the first readable one
 // stands for it.
 void CheckSize(PhotoCollection& collection, Photo& photo) {
@@ -26,8 +22,9 @@ void CheckSize(PhotoCollection& collection, Photo& photo) {
     collection.height = photo.height;
   }
   if (photo.width == collection.width && photo.height == collection.height) return;
-  photo.fault = photo.path.string() + ": has " + Size(photo.width, photo.height) +
-                ", the photographs before it " + Size(collection.width, collection.height) +
+  photo.fault = photo.path.string() + ": has " + PixelSizeText(photo.width, photo.height) +
+                ", the photographs before it " +
+                PixelSizeText(collection.width, collection.height) +
                 "; all photographs must be of one size and scale";
 }
 
@@ -87,6 +84,10 @@ void WarnOfLight(PhotoCollection& collection) {
 }
 
 }  // namespace
+
+std::string PixelSizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
 
 PhotoCollection CollectPhotos(const ExperimentOptions& options, const PhotoSet& set,
                               std::vector<Photo> photos) {

@@ -19,6 +19,8 @@ struct PhotoCollection {
   std::vector<PhotoWarning> warnings;
 };
 
+std::string PixelSizeText(int width, int height);  // 640 x 480 px
+
 // Keeps what is of one size and scale. Faults end the work with an UnusablePhotosError, or, with
 // `allow_missing_views`, become warnings.
 PhotoCollection CollectPhotos(const ExperimentOptions& options, const PhotoSet& set,

@@ -11,10 +11,6 @@
 namespace talus::imaging {
 namespace {
 
-std::string Size(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
-
 double MeanOver(const std::vector<PlatePose>& poses, double PlatePose::*part) {
   double sum = 0;
   for (const PlatePose& pose : poses) sum += pose.*part;
@@ -37,8 +33,9 @@ Frame FrameFor(const ExperimentOptions& options, const PhotoCollection& collecti
 Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& collection) {
   const Frame& given = *options.frame;
   if (given.width != collection.width || given.height != collection.height) {
-    throw base::ConfigError("frame: is " + Size(given.width, given.height) +
-                            ", the photographs are " + Size(collection.width, collection.height) +
+    throw base::ConfigError("frame: is " + PixelSizeText(given.width, given.height) +
+                            ", the photographs are " +
+                            PixelSizeText(collection.width, collection.height) +
                             "; give width_px and height_px of the photographs");
   }
   Placement placement{.frame = given, .photo_pixel = given.pixel_size, .poses = {}};

@@ -9,7 +9,7 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr int kDraws = 300;
+constexpr int kDrawsApart = 300;
 constexpr double kReach = 0.35;       // between draws that are tried to be joined, unit cube
 constexpr int kMostTries = 2000;      // of midpoints, each a density
 constexpr double kLeastShare = 0.02;  // of the draws
@@ -85,7 +85,7 @@ PosteriorBranch Describe(const Eigen::MatrixXd& members, const Eigen::MatrixXd& 
 
 std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
                                           const PosteriorSample& sample, std::uint64_t seed) {
-  Eigen::MatrixXd draws = sample.Draws(kDraws, seed);
+  Eigen::MatrixXd draws = sample.Draws(kDrawsApart, seed);
   Eigen::VectorXd density = posterior.LogDensity(draws);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {

@@ -41,8 +41,8 @@ std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confiden
   return ranges;
 }
 
-Eigen::VectorXd CredibleWidths(const Eigen::MatrixXd& sample, double confidence) {
-  const std::vector<Range> ranges = CredibleRanges(sample, confidence);
+Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample) {
+  const std::vector<Range> ranges = CredibleRanges(sample, 0.9);
   Eigen::VectorXd width(sample.cols());
   for (Eigen::Index i = 0; i < width.size(); ++i) {
     const Range& range = ranges[static_cast<std::size_t>(i)];

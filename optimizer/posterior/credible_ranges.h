@@ -13,7 +13,7 @@ namespace talus::optimizer {
 // above [besag1995]. With one column these are the usual quantiles.
 std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confidence);
 
-// high - low of each.
-Eigen::VectorXd CredibleWidths(const Eigen::MatrixXd& sample, double confidence);
+// high - low of each joint 90 % range.
+Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample);
 
 }  // namespace talus::optimizer

@@ -14,8 +14,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kConfidence = 0.9;
-
 // Means in the measurement's standard deviations.
 Eigen::MatrixXd Standardised(const PredictedMeasurement& m) {
   return m.mean.array().rowwise() / m.variance.array().sqrt().transpose();
@@ -56,6 +54,7 @@ std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
 double HalfWidth90(const Eigen::VectorXd& values) {
   std::vector<double> sorted(values.begin(), values.end());
   std::ranges::sort(sorted);
+  constexpr double kConfidence = 0.9;
   const auto at = [&](double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
   };
@@ -66,7 +65,7 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
                        std::uint64_t seed, const Eigen::VectorXd& goal) {
   constexpr Eigen::Index kTruths = 64;
   const bool has_goal = goal.size() > 0;
-  ExpectedLearning learning{.bits = 0, .width = CredibleWidths(draws, kConfidence)};
+  ExpectedLearning learning{.bits = 0, .width = CredibleWidths90(draws)};
   if (has_goal) learning.goal_half_width = HalfWidth90(goal);
   if (measurement.mean.cols() == 0) return learning;
   const Eigen::MatrixXd z = Standardised(measurement);
@@ -80,8 +79,7 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
     Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
     for (double& value : seen) value += random.Normal();
     const Eigen::VectorXd weights = Weights(z, seen);
-    learning.width +=
-        CredibleWidths(Resampled(draws, weights), kConfidence) / static_cast<double>(count);
+    learning.width += CredibleWidths90(Resampled(draws, weights)) / static_cast<double>(count);
     if (!has_goal) continue;
     learning.goal_half_width +=
         HalfWidth90(Resampled(goal, weights).col(0)) / static_cast<double>(count);

@@ -9,7 +9,6 @@ namespace talus::optimizer {
 namespace {
 
 constexpr int kFantasies = 8;  // draws of g
-constexpr double kConfidence = 0.9;
 
 }  // namespace
 
@@ -40,9 +39,9 @@ Eigen::VectorXd ExpectedNarrowing(const Posterior& posterior, const Eigen::Matri
     }
     const Eigen::VectorXd log_weight = then.LogDensity(fantasy) - log_density;
     const Eigen::VectorXd weight = (log_weight.array() - log_weight.maxCoeff()).exp();
-    width_then += CredibleWidths(Resampled(now, weight), kConfidence).array() / kFantasies;
+    width_then += CredibleWidths90(Resampled(now, weight)).array() / kFantasies;
   }
-  return (1 - width_then / CredibleWidths(now, kConfidence).array().max(1e-12)).max(0.0);
+  return (1 - width_then / CredibleWidths90(now).array().max(1e-12)).max(0.0);
 }
 
 }  // namespace talus::optimizer

@@ -9,21 +9,21 @@ namespace talus::optimizer {
 namespace {
 
 // Model errors in units of the prior's scale, denser where the prior is.
-constexpr std::array kNodes{0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 14.0};
+constexpr std::array kErrorNodes{0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 14.0};
 constexpr double kBroad = 4;  // of the sample that all nodes share: each is narrower or nearly so
 constexpr int kSampled = 1000;
 constexpr int kSweeps = 2;  // over the experiments: the first one sees only the others' prior
 
-using Nodes = Eigen::Array<double, static_cast<int>(kNodes.size()), 1>;
+using Nodes = Eigen::Array<double, static_cast<int>(kErrorNodes.size()), 1>;
 
 // Half-normal prior times the width of each node's part of the axis (trapezoidal rule), log.
 Nodes LogPrior() {
   Nodes log_prior;
-  for (std::size_t i = 0; i < kNodes.size(); ++i) {
-    const double low = i == 0 ? kNodes[0] : kNodes[i - 1];
-    const double high = i + 1 == kNodes.size() ? kNodes[i] : kNodes[i + 1];
+  for (std::size_t i = 0; i < kErrorNodes.size(); ++i) {
+    const double low = i == 0 ? kErrorNodes[0] : kErrorNodes[i - 1];
+    const double high = i + 1 == kErrorNodes.size() ? kErrorNodes[i] : kErrorNodes[i + 1];
     log_prior[static_cast<Eigen::Index>(i)] =
-        std::log(0.5 * (high - low)) - 0.5 * kNodes[i] * kNodes[i];
+        std::log(0.5 * (high - low)) - 0.5 * kErrorNodes[i] * kErrorNodes[i];
   }
   return log_prior;
 }
@@ -35,7 +35,7 @@ struct NodeMoments {
 
 NodeMoments MomentsOf(const Nodes& log_weight) {
   const Nodes weight = (log_weight - log_weight.maxCoeff()).exp();
-  const Nodes nodes = Eigen::Map<const Nodes>(kNodes.data());
+  const Nodes nodes = Eigen::Map<const Nodes>(kErrorNodes.data());
   const double sum = weight.sum();
   const double mean = (weight * nodes).sum() / sum;
   const double mean_square = (weight * nodes.square()).sum() / sum;
@@ -68,7 +68,7 @@ void LearnModelErrors(const Domain& domain, double scale, std::uint64_t seed,
       if (model.weight() == 0) continue;
       Nodes log_weight = log_prior;
       for (Eigen::Index i = 0; i < log_weight.size(); ++i) {
-        model.SetModelError({.value = kNodes[static_cast<std::size_t>(i)] * scale});
+        model.SetModelError({.value = kErrorNodes[static_cast<std::size_t>(i)] * scale});
         log_weight[i] += LogEvidence(posterior, outputs, prior);
       }
       const NodeMoments after = MomentsOf(log_weight);

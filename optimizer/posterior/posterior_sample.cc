@@ -7,7 +7,7 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kRegion = 0.9;  // probability of the joint region
+constexpr double kJointRegion = 0.9;  // probability of the joint region
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void PosteriorSample::SetRegion() {
   double sum = 0;
   for (const Eigen::Index i : order) {
     region_log_density = log_density[i];
-    if ((sum += weight[i]) >= kRegion) break;
+    if ((sum += weight[i]) >= kJointRegion) break;
   }
 }
 

@@ -24,12 +24,12 @@ struct PairSums {
   double Shrinkage() const { return squares > 0 ? std::min(1.0, variances / squares) : 1; }
 };
 
-struct Pair {
+struct CountedCorrelation {
   double correlation = 0;
   double count = 0;
 };
 
-Pair CorrelationOf(const Eigen::MatrixXd& stacked, Eigen::Index a, Eigen::Index b) {
+CountedCorrelation CorrelationOf(const Eigen::MatrixXd& stacked, Eigen::Index a, Eigen::Index b) {
   double ab = 0;
   double aa = 1e-12;
   double bb = 1e-12;
@@ -68,7 +68,7 @@ Eigen::MatrixXd ResidualCorrelation(const Eigen::MatrixXd& stacked, const std::v
   PairSums between;
   for (Eigen::Index a = 0; a < size; ++a) {
     for (Eigen::Index b = 0; b < a; ++b) {
-      const Pair pair = CorrelationOf(stacked, a, b);
+      const CountedCorrelation pair = CorrelationOf(stacked, a, b);
       correlation(a, b) = pair.correlation;
       (same(a, b) ? within : between).Add(pair.correlation, pair.count);
     }

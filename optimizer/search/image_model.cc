@@ -19,7 +19,7 @@ constexpr double kSmallError = 1e-3;
 constexpr double kHopeless = -1e6;  // below every logarithm of an improvement
 // Posterior sd is inflated by this factor: point-estimated hyper-parameters and constant noise make
 // it overconfident. Calibrated on synthetic heaps by bench/optimizers/range_coverage.cc.
-constexpr double kInflation = 1.5;
+constexpr double kImageInflation = 1.5;
 
 // What the modes leave of each evaluation, a row each.
 Eigen::MatrixXd Residuals(const CodedImages& data, const surrogate::PrincipalModes& modes) {
@@ -223,7 +223,7 @@ Eigen::MatrixXd ImageModel::TargetErrors(const Coefficients& nearest, int num_dr
   const double expected =
       (basis.cwiseAbs2() * nearest.variance + share * outputs_.ElementNoise()).sum();
   const double missed = (target_ - functional_.MeanImage(nearest.mean)).squaredNorm() / expected;
-  const double scale = kInflation * std::sqrt(std::max(1.0, missed) * share);
+  const double scale = kImageInflation * std::sqrt(std::max(1.0, missed) * share);
   const Eigen::VectorXd sd = scale * outputs_.ModeNoise().cwiseSqrt();
   const double of_one = scale / std::sqrt(static_cast<double>(residuals_.rows()));
   Eigen::MatrixXd errors(num_draws, basis.rows());
@@ -253,7 +253,7 @@ Eigen::MatrixXd ImageModel::Draw(const Eigen::MatrixXd& points, int num_draws,
     for (std::size_t k = 0; k < modes.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const Eigen::RowVectorXd mean = at.mean.col(column).transpose();
-      modes[k] = (kInflation * (modes[k].rowwise() - mean)).rowwise() + mean;
+      modes[k] = (kImageInflation * (modes[k].rowwise() - mean)).rowwise() + mean;
     }
   }
   ForEachPoint(draws.rows(), static_cast<double>(draws.cols()), [&](Eigen::Index d) {

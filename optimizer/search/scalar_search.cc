@@ -19,7 +19,7 @@ namespace {
 
 // Posterior sd of the answer is inflated: point-estimated hyper-parameters make it overconfident.
 // Calibrated by bench/optimizers/value_coverage.cc.
-constexpr double kInflation = 1.5;
+constexpr double kAnswerInflation = 1.5;
 
 // Below this probability that an evaluation works, no step near the best point is taken.
 constexpr double kSafe = 0.7;
@@ -146,7 +146,7 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
     return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
   }
   const ScalarFit& fit = Fit(record);
-  Answer answer = DescribeMinimum(ScalarModel(fit, kInflation), record.domain(), Best(record),
+  Answer answer = DescribeMinimum(ScalarModel(fit, kAnswerInflation), record.domain(), Best(record),
                                   {.seed = record.options().seed});
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();
   const Eigen::ArrayXd error = left_out.mean - fit.process.values();

@@ -10,9 +10,8 @@
 namespace talus::surrogate {
 namespace {
 
-constexpr double kReach = 4;       // widths from the edge beyond which a pixel is black or white
-constexpr double kNoEdge = 3;      // widths inside the image an edge must lie to be measured
-constexpr double kMinWidth = 0.2;  // [px]: sharper than pixels can tell
+constexpr double kReach = 4;   // widths from the edge beyond which a pixel is black or white
+constexpr double kNoEdge = 3;  // widths inside the image an edge must lie to be measured
 // A column without powder has no edge: it is given one that is white all the same, and equal in all
 // images, so that it tells nothing.
 constexpr double kEmptyWidth = 1;    // [px]
@@ -90,7 +89,7 @@ ColumnEdges FitEdges(std::span<const float> field, const FieldSize& size, const 
   const Eigen::VectorXd grey =
       (columns.array() * (vessel.open().array() - columns.array())).colwise().sum();
   ColumnEdges edges{.height = area,
-                    .width = (std::sqrt(std::numbers::pi) * grey).cwiseMax(kMinWidth)};
+                    .width = (std::sqrt(std::numbers::pi) * grey).cwiseMax(kSharpestEdge)};
   std::vector<bool> known(static_cast<std::size_t>(size.width));
   for (int c = 0; c < size.width; ++c) {
     const double margin = kNoEdge * edges.width[c] + 0.5;

@@ -20,6 +20,8 @@
 
 namespace talus::surrogate {
 
+inline constexpr double kSharpestEdge = 0.2;  // least width [px]; pixels cannot tell less
+
 struct ColumnEdges {
   Eigen::VectorXd height;  // h [px], one a column; far below 0 where there is no powder
   Eigen::VectorXd width;   // s [px], > 0

@@ -4,7 +4,6 @@ namespace talus::surrogate {
 namespace {
 
 constexpr double kWidthWeight = 0.8;
-constexpr double kMinWidth = 0.2;        // [px]: a predicted width must stay positive
 constexpr double kSmallVariance = 1e-8;  // [px²]: below it the expectation is the value
 
 }  // namespace
@@ -23,7 +22,7 @@ Eigen::VectorXd EdgeCode::Encode(std::span<const float> field) const {
 
 ColumnEdges EdgeCode::Edges(const Eigen::VectorXd& vector) const {
   return {.height = vector.head(size_.width),
-          .width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kMinWidth)};
+          .width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kSharpestEdge)};
 }
 
 std::vector<float> EdgeCode::Decode(const Eigen::VectorXd& vector) const {
@@ -33,7 +32,7 @@ std::vector<float> EdgeCode::Decode(const Eigen::VectorXd& vector) const {
 // Φ(y / w) blurred by a normal distribution of variance v is Φ(y / √(w² + v)).
 Eigen::VectorXd EdgeCode::MeanOfImages(const Eigen::VectorXd& vector,
                                        const Eigen::VectorXd& variance) const {
-  const Eigen::ArrayXd width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kMinWidth);
+  const Eigen::ArrayXd width = (vector.tail(size_.width) / kWidthWeight).cwiseMax(kSharpestEdge);
   Eigen::VectorXd mean = vector;
   mean.tail(size_.width) =
       kWidthWeight * (width.square() + variance.head(size_.width).array()).sqrt();
@@ -45,7 +44,7 @@ Eigen::VectorXd EdgeCode::OneOfMean(const Eigen::VectorXd& mean,
   const Eigen::ArrayXd width = mean.tail(size_.width) / kWidthWeight;
   const Eigen::ArrayXd squared = width.square() - variance.head(size_.width).array();
   Eigen::VectorXd one = mean;
-  one.tail(size_.width) = kWidthWeight * squared.max(kMinWidth * kMinWidth).sqrt();
+  one.tail(size_.width) = kWidthWeight * squared.max(kSharpestEdge * kSharpestEdge).sqrt();
   return one;
 }
 

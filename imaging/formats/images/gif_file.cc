@@ -135,7 +135,7 @@ std::string Compressed(const std::vector<std::uint8_t>& pixels) {
   return writer.Blocks();
 }
 
-std::string Frame(const ColorImage& image, const Palette& palette, int hundredths) {
+std::string GifFrame(const ColorImage& image, const Palette& palette, int hundredths) {
   std::string bytes("\x21\xf9\x04\x00", 4);  // graphic control: no transparency
   AddShort(hundredths, bytes);
   bytes += std::string("\x00\x00\x2c", 3);  // … its end, and the image's separator
@@ -159,7 +159,7 @@ std::string EncodeGif(std::span<const ColorImage> frames, double frame_time) {
   bytes += std::string("\xf7\x00\x00", 3);  // a palette of 256 colours of 8 bits
   bytes += palette.Bytes();
   bytes += std::string("\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00", 19);  // for ever
-  for (const ColorImage& frame : frames) bytes += Frame(frame, palette, hundredths);
+  for (const ColorImage& frame : frames) bytes += GifFrame(frame, palette, hundredths);
   return bytes + '\x3b';
 }
 

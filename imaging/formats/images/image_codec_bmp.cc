@@ -27,7 +27,7 @@ class Bytes {
   const std::string& name_;
 };
 
-struct Layout {
+struct BmpLayout {
   std::size_t pixels = 0;   // offset of the first row
   std::size_t palette = 0;  // offset
   int width = 0;
@@ -36,7 +36,7 @@ struct Layout {
   std::size_t bits = 0;  // a pixel
 };
 
-Layout ReadLayout(const Bytes& bytes, std::size_t num_bytes, const std::string& name) {
+BmpLayout ReadLayout(const Bytes& bytes, std::size_t num_bytes, const std::string& name) {
   const auto signed_height = static_cast<std::int32_t>(bytes.Number(22, 4));
   const auto width = static_cast<std::int32_t>(bytes.Number(18, 4));
   const std::int64_t height = signed_height < 0 ? -std::int64_t{signed_height} : signed_height;
@@ -62,7 +62,7 @@ Layout ReadLayout(const Bytes& bytes, std::size_t num_bytes, const std::string& 
 
 RawImage DecodeBmp(std::string_view data, const std::string& name) {
   const Bytes bytes(data, name);
-  const Layout layout = ReadLayout(bytes, data.size(), name);
+  const BmpLayout layout = ReadLayout(bytes, data.size(), name);
   RawImage image{.width = layout.width, .height = layout.height, .channels = 3, .bits = 8};
   std::vector<std::uint16_t> samples;
   const std::size_t stride = (static_cast<std::size_t>(layout.width) * layout.bits + 31) / 32 * 4;

@@ -22,18 +22,18 @@ void OnMessage(j_common_ptr jpeg, int level) {
   if (level < 0) OnError(jpeg);
 }
 
-struct Reader {
+struct JpegReader {
   jpeg_error_mgr errors;
   jpeg_decompress_struct jpeg;
-  explicit Reader(const std::string& name) {
+  explicit JpegReader(const std::string& name) {
     jpeg.err = jpeg_std_error(&errors);
     errors.error_exit = OnError;
     errors.emit_message = OnMessage;
     jpeg_create_decompress(&jpeg);
     jpeg.client_data = const_cast<std::string*>(&name);
   }
-  Reader(const Reader&) = delete;
-  ~Reader() { jpeg_destroy_decompress(&jpeg); }
+  JpegReader(const JpegReader&) = delete;
+  ~JpegReader() { jpeg_destroy_decompress(&jpeg); }
 };
 
 // The orientation in the first APP1 segment that holds EXIF.
@@ -49,7 +49,7 @@ int OrientationOf(const jpeg_decompress_struct& jpeg) {
 }  // namespace
 
 RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
-  Reader reader(name);
+  JpegReader reader(name);
   jpeg_decompress_struct& jpeg = reader.jpeg;
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   constexpr unsigned kWholeSegment = 0xffff;

@@ -16,32 +16,32 @@ void OnError(png_structp png, png_const_charp message) {
 }
 void OnWarning(png_structp, png_const_charp) {}
 
-struct Source {
+struct PngSource {
   std::string_view bytes;
   std::size_t position = 0;
 };
 
 void ReadBytes(png_structp png, png_bytep out, png_size_t count) {
-  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+  auto& source = *static_cast<PngSource*>(png_get_io_ptr(png));
   if (source.bytes.size() - source.position < count) png_error(png, "ends early");
   std::memcpy(out, source.bytes.data() + source.position, count);
   source.position += count;
 }
 
-struct Reader {
+struct PngReader {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  explicit Reader(const std::string& name)
+  explicit PngReader(const std::string& name)
       : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, const_cast<std::string*>(&name), OnError,
                                    OnWarning)),
         info(png_create_info_struct(png)) {}
-  Reader(const Reader&) = delete;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 // Palettes become RGB, packed grey becomes 8 bits, a transparent colour becomes alpha.
 // Returns how often the rows are gone through.
-int ReadHeader(Reader& reader, Source& source, RawImage& image, const std::string& name) {
+int ReadHeader(PngReader& reader, PngSource& source, RawImage& image, const std::string& name) {
   png_set_read_fn(reader.png, &source, ReadBytes);
   png_read_info(reader.png, reader.info);
   CheckImageSize({.width = png_get_image_width(reader.png, reader.info),
@@ -67,7 +67,7 @@ void AddRow(std::span<const png_byte> bytes, std::vector<std::uint16_t>& samples
 }
 
 // An interlaced image is whole only after its last pass, so that it is held in memory.
-std::vector<png_byte> ReadInterlaced(Reader& reader, const RawImage& image, std::size_t stride,
+std::vector<png_byte> ReadInterlaced(PngReader& reader, const RawImage& image, std::size_t stride,
                                      const std::string& name) {
   constexpr std::size_t kLargest = 400'000'000;  // [bytes]
   const auto height = static_cast<std::size_t>(image.height);
@@ -84,7 +84,7 @@ std::vector<png_byte> ReadInterlaced(Reader& reader, const RawImage& image, std:
 }
 
 // After the whole file is read: the chunk may follow the pixels.
-int OrientationOf(Reader& reader) {
+int OrientationOf(PngReader& reader) {
   png_uint_32 size = 0;
   png_bytep exif = nullptr;
   if (png_get_eXIf_1(reader.png, reader.info, &size, &exif) == 0) return kUpright;
@@ -119,8 +119,8 @@ std::string Encode(const std::uint8_t* pixels, int width, int height, int channe
 
 RawImage DecodePng(std::string_view bytes, const std::string& name, double white) {
   RawImage image{.white = white};
-  Source source{.bytes = bytes};
-  Reader reader(name);
+  PngSource source{.bytes = bytes};
+  PngReader reader(name);
   const int passes = ReadHeader(reader, source, image, name);
   const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
   std::vector<std::uint16_t> samples(static_cast<std::size_t>(image.width) *

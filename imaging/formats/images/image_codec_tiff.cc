@@ -13,13 +13,13 @@ namespace talus::imaging {
 namespace {
 
 // A file in memory, as libtiff's callbacks want it.
-struct Source {
+struct TiffSource {
   std::string_view bytes;
   std::size_t position = 0;
 };
 
 tmsize_t Read(thandle_t handle, void* out, tmsize_t count) {
-  auto& source = *static_cast<Source*>(handle);
+  auto& source = *static_cast<TiffSource*>(handle);
   const std::size_t left = source.bytes.size() - std::min(source.position, source.bytes.size());
   const std::size_t taken = std::min(left, static_cast<std::size_t>(count));
   std::memcpy(out, source.bytes.data() + source.position, taken);
@@ -28,17 +28,17 @@ tmsize_t Read(thandle_t handle, void* out, tmsize_t count) {
 }
 tmsize_t Write(thandle_t, void*, tmsize_t) { return 0; }
 toff_t Seek(thandle_t handle, toff_t offset, int whence) {
-  auto& source = *static_cast<Source*>(handle);
+  auto& source = *static_cast<TiffSource*>(handle);
   const std::size_t from = whence == SEEK_SET   ? 0
                            : whence == SEEK_CUR ? source.position
                                                 : source.bytes.size();
   return source.position = from + offset;
 }
 int Close(thandle_t) { return 0; }
-toff_t Size(thandle_t handle) { return static_cast<Source*>(handle)->bytes.size(); }
+toff_t FileSize(thandle_t handle) { return static_cast<TiffSource*>(handle)->bytes.size(); }
 void OnWarning(const char*, const char*, std::va_list) {}
 
-struct Layout {
+struct TiffLayout {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint16_t bits = 1;
@@ -49,8 +49,8 @@ struct Layout {
   std::uint16_t orientation = ORIENTATION_TOPLEFT;  // numbered as in EXIF
 };
 
-Layout ReadLayout(TIFF* tiff, std::size_t num_bytes, const std::string& name) {
-  Layout layout;
+TiffLayout ReadTiffLayout(TIFF* tiff, std::size_t num_bytes, const std::string& name) {
+  TiffLayout layout;
   TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &layout.width);
   TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &layout.height);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &layout.bits);
@@ -70,7 +70,7 @@ Layout ReadLayout(TIFF* tiff, std::size_t num_bytes, const std::string& name) {
   return layout;
 }
 
-RawImage EmptyImage(const Layout& layout, int channels, int bits) {
+RawImage EmptyImage(const TiffLayout& layout, int channels, int bits) {
   RawImage image{.width = static_cast<int>(layout.width),
                  .height = static_cast<int>(layout.height),
                  .channels = channels,
@@ -80,7 +80,7 @@ RawImage EmptyImage(const Layout& layout, int channels, int bits) {
 }
 
 // 16-bit rows in strips, which libtiff's ready-made conversion would cut to 8 bits.
-RawImage ReadDeep(TIFF* tiff, const Layout& layout, const std::string& name, double white) {
+RawImage ReadDeep(TIFF* tiff, const TiffLayout& layout, const std::string& name, double white) {
   RawImage image = EmptyImage(layout, layout.channels, 16);
   image.white = white;
   const bool inverted = layout.photometric == PHOTOMETRIC_MINISWHITE;
@@ -96,7 +96,7 @@ RawImage ReadDeep(TIFF* tiff, const Layout& layout, const std::string& name, dou
 }
 
 // Everything else through libtiff's own conversion to RGBA (palettes, tiles, 1-bit, CMYK, YCbCr).
-RawImage ReadConverted(TIFF* tiff, const Layout& layout, const std::string& name) {
+RawImage ReadConverted(TIFF* tiff, const TiffLayout& layout, const std::string& name) {
   RawImage image = EmptyImage(layout, 4, 8);
   std::vector<std::uint32_t> raster(static_cast<std::size_t>(layout.width) * layout.height);
   if (TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, raster.data(),
@@ -120,12 +120,13 @@ RawImage ReadConverted(TIFF* tiff, const Layout& layout, const std::string& name
 RawImage DecodeTiff(std::string_view bytes, const std::string& name, double white) {
   TIFFSetErrorHandler(OnWarning);  // the exception says it
   TIFFSetWarningHandler(OnWarning);
-  Source source{.bytes = bytes};
+  TiffSource source{.bytes = bytes};
   const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(
-      TIFFClientOpen(name.c_str(), "rm", &source, Read, Write, Seek, Close, Size, nullptr, nullptr),
+      TIFFClientOpen(name.c_str(), "rm", &source, Read, Write, Seek, Close, FileSize, nullptr,
+                     nullptr),
       TIFFClose);
   if (!tiff) ThrowDamaged(name, "not a readable TIFF");
-  const Layout layout = ReadLayout(tiff.get(), bytes.size(), name);
+  const TiffLayout layout = ReadTiffLayout(tiff.get(), bytes.size(), name);
   const bool deep = layout.bits == 16 && layout.channels <= 4 &&
                     layout.planar == PLANARCONFIG_CONTIG && layout.format == SAMPLEFORMAT_UINT &&
                     layout.photometric <= PHOTOMETRIC_RGB && !TIFFIsTiled(tiff.get());
