@@ -1,6 +1,9 @@
 // How densely a bed of grains lies: what a packed or tapped cup is judged by.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+
 #include "engine/simulation.h"
 
 namespace talus::engine {
@@ -13,8 +16,9 @@ struct Bed {
 };
 
 struct Vessel {
-  double area = 0;   // of the cross-section [m²]
-  double floor = 0;  // height of its floor [m]
+  double area = 0;                                                 // of the cross-section [m²]
+  double floor = 0;                                                // height of its floor [m]
+  std::int64_t end_id = std::numeric_limits<std::int64_t>::max();  // grains from it on: others'
 };
 
 // For a level bed of even density the height is that of its surface. Grains below the floor have

@@ -52,9 +52,15 @@ void ValidateTaps(const Case& c, const TapRule& taps, const char* path, base::Pr
           " mm at most, or raise youngs_modulus " + base::ShortNumber(ratio) + " times");
 }
 
+// Of a bed of powder beside the vessel, over the powder's own mass.
+double BedShare(const Case& c) {
+  const auto bed = EntryOf(c).vessel(c).bed;
+  return bed ? bed->mass / c.powder.mass : 0;
+}
+
 void ValidateWithRig(const Case& c, base::Problems& problems) {
   const PowderSize size = EstimatePowder(c);
-  const std::string too_many = engine::TooManyGrains(size.grains);
+  const std::string too_many = engine::TooManyGrains(size.grains * (1 + BedShare(c)));
   problems.Require(too_many.empty(), "powder.mass", too_many);
   problems.Require(size.num_grains >= 1, "powder.mass", c.powder.mass,
                    "is less than one grain; the coarse graining may be too strong");
@@ -100,7 +106,8 @@ CaseSize EstimateCase(const Case& c) {
   const double leave = c.rig.kind == RigKind::kLiftedTube ? 1 - ExpectHeap(c).share : 0;
   const double time =
       size.simulated_time - pouring / 2 - leave * (0.15 * test_time + 0.9 * kRestTime);
-  size.grain_time = time * static_cast<double>(size.num_grains);
+  size.grain_time =
+      (time + BedShare(c) * size.simulated_time) * static_cast<double>(size.num_grains);
   return size;
 }
 

@@ -59,6 +59,9 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
         imaging::ProjectHeap(SpheresOf(grains), *case_.frame, NumViewsOf(case_));
     base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(profile.image));
   }
+  if (const auto picture = rig_->FromAbove(grains)) {
+    base::WriteFileAtomically(folder_ / "from_above.png", imaging::EncodePng(*picture));
+  }
   base::WriteFileAtomically(folder_ / "result.json", rig_->ResultText(grains, timing));
 }
 

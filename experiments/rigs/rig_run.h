@@ -1,8 +1,8 @@
 // A bulk test in a trial folder.
 //
 // Written there: heap.vtp and heap.csv (the grains that the image shows), profile.png (when the
-// case has a frame; with a camera the mean of its pictures, and profile_sd.png), state_NNNN.vtp (at
-// the times of the case), result.json last.
+// case has a frame; with a camera the mean of its pictures, and profile_sd.png), from_above.png
+// (of a spread layer), state_NNNN.vtp (at the times of the case), result.json last.
 #pragma once
 
 #include <filesystem>

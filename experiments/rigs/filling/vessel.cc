@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "experiments/rigs/case/materials.h"
@@ -11,22 +12,25 @@
 namespace talus::rigs {
 namespace {
 
-void FillDensely(const Case& c, const engine::FillRegion& region, FilledScene& made) {
+// Adds grains that are numbered from `first_id` on.
+engine::Filling FillDensely(const Case& c, const engine::FillRegion& region, std::int64_t first_id,
+                            engine::Scene& scene) {
   const std::vector<double> radii = DrawRadii(c);
   const engine::FillRequest request{.region = region,
                                     .max_overlap = c.rules.fill_max_overlap,
                                     .max_sweeps = c.rules.fill_max_sweeps,
                                     .seed = c.seed};
-  made.filling = engine::Fill(radii, request);
+  engine::Filling filling = engine::Fill(radii, request);
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    made.scene.particles.push_back({.id = static_cast<std::int64_t>(i),
-                                    .material = 0,
-                                    .radius = radii[i],
-                                    .position = made.filling.positions[i],
-                                    .velocity = {},
-                                    .angular_velocity = {}});
+    scene.particles.push_back({.id = first_id + static_cast<std::int64_t>(i),
+                               .material = 0,
+                               .radius = radii[i],
+                               .position = filling.positions[i],
+                               .velocity = {},
+                               .angular_velocity = {}});
   }
-  made.filling.positions.clear();
+  filling.positions.clear();
+  return filling;
 }
 
 }  // namespace
@@ -35,6 +39,11 @@ Vessel BoxVessel(const engine::Vec3& foot, double length, double width) {
   const engine::FillRegion region{
       .shape = engine::RegionShape::kBox, .base = foot, .width_x = length, .width_y = width};
   return {.region = region, .area = region.Area(), .across = std::min(length, width)};
+}
+
+std::int64_t FirstBedId(const Case& c, const Vessel& vessel) {
+  if (!vessel.bed) return std::numeric_limits<std::int64_t>::max();
+  return static_cast<std::int64_t>(DrawRadii(c).size());
 }
 
 double FilledVolume(const Case& c, std::int64_t num_grains) {
@@ -50,12 +59,17 @@ FilledScene FillVessel(const Case& c, const Vessel& vessel) {
   FilledScene made;
   engine::Scene& scene = made.scene;
   if (c.filling.kind == FillingKind::kDense) {
-    FillDensely(c, vessel.region, made);
+    made.filling = FillDensely(c, vessel.region, 0, scene);
   } else {
     // The step must suit the grains that are to come.
     const double smallest = engine::SizeCurve(c.powder.sizes).smallest() / 2;
     const double radius = c.coarse_graining.scale_factor * smallest;
     scene.time_step = c.rayleigh_fraction * engine::RayleighTime(c.powder.material, radius);
+  }
+  if (vessel.bed) {
+    Case bed = c;
+    bed.powder.mass = vessel.bed->mass;
+    FillDensely(bed, vessel.bed->region, FirstBedId(c, vessel), scene);
   }
   scene.materials = MaterialsOf(c);
   scene.pairs = PairsOf(c);

@@ -17,12 +17,19 @@ struct Funnel {
   double outlet = 0;  // its diameter [m]
 };
 
+// More of the same powder beside the vessel, there from the beginning.
+struct PowderBed {
+  engine::FillRegion region;
+  double mass = 0;  // [kg]
+};
+
 // An upright tube or box, or a plate.
 struct Vessel {
   engine::FillRegion region;
   double area = 0;    // of its cross-section [m²]
   double across = 0;  // the diameter, or the shorter edge [m]
   std::optional<Funnel> funnel{};
+  std::optional<PowderBed> bed{};
 };
 
 // `foot` is the centre of its floor; along x and y [m].
@@ -30,10 +37,14 @@ Vessel BoxVessel(const engine::Vec3& foot, double length, double width);
 
 struct FilledScene {
   engine::Scene scene;      // without walls
-  engine::Filling filling;  // without the positions, which are in the scene
+  engine::Filling filling;  // of the vessel; without the positions, which are in the scene
 };
 
-// At time 0; without grains where the powder is to be poured.
+// The first of a bed's grains, which are numbered after the powder's own; beyond all where there is
+// none.
+std::int64_t FirstBedId(const Case& rig_case, const Vessel& vessel);
+
+// At time 0; without the powder's grains where it is to be poured.
 FilledScene FillVessel(const Case& rig_case, const Vessel& vessel);
 
 // The volume of the first grains of a filling, in their order [m³].

@@ -60,7 +60,9 @@ FilledRig FillRig(const Case& c, const Vessel& vessel,
   state.fill_overlap = made.filling.max_overlap;
   state.filled_height = made.filling.height;
   state.fill_sweeps = made.filling.num_sweeps;
-  state.num_filled = simulation.num_particles();
+  if (c.filling.kind == FillingKind::kDense) {
+    state.num_filled = std::min(FirstBedId(c, vessel), simulation.num_particles());
+  }
   return {.state = std::move(state), .simulation = std::move(simulation)};
 }
 
@@ -239,7 +241,9 @@ void Rig::WeighOut(const std::function<bool(const engine::Particle&)>& leaves, d
 }
 
 engine::Bed Rig::BedNow() const {
-  return engine::MeasureBed(simulation_, {.area = vessel_.area, .floor = vessel_.region.base.z});
+  return engine::MeasureBed(
+      simulation_,
+      {.area = vessel_.area, .floor = vessel_.region.base.z, .end_id = FirstBedId(case_, vessel_)});
 }
 
 double Rig::MassOf(GrainSpan grains) const {

@@ -17,6 +17,7 @@
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/phased/phase.h"
 #include "experiments/rigs/phased/rig_state.h"
+#include "imaging/gray_image.h"
 
 namespace talus::rigs {
 
@@ -40,6 +41,11 @@ class Rig {
 
   // The grains that an image shows, in a frame whose centre is x = 0 and whose baseline is z = 0.
   virtual std::vector<engine::Particle> Grains() const { return simulation_.Particles(); }
+
+  // A picture from above, of rigs that are looked at so; `grains` as Grains gives them.
+  virtual std::optional<imaging::GrayImage> FromAbove(std::span<const engine::Particle>) const {
+    return std::nullopt;
+  }
 
   // The content of result.json; `grains` as Grains gives them.
   std::string ResultText(const std::vector<engine::Particle>& grains,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace talus::rigs {
@@ -27,40 +28,60 @@ bool LayerWindow::Holds(const engine::Particle& grain) const {
          std::abs(grain.position.y) < half_width;
 }
 
-Layer LayerOf(std::span<const engine::Particle> grains, const LayerWindow& window,
-              double mean_diameter) {
-  const double pixel = kPixel * mean_diameter;
-  const int along = std::max(1, static_cast<int>((window.to - window.from) / pixel));
-  const int across = std::max(1, static_cast<int>(2 * window.half_width / pixel));
-  std::vector<double> height(static_cast<std::size_t>(along) * static_cast<std::size_t>(across));
+HeightMap HeightMapOf(std::span<const engine::Particle> grains, const LayerWindow& window,
+                      double pixel) {
+  HeightMap map;
+  map.along = std::max(1, static_cast<int>((window.to - window.from) / pixel));
+  map.across = std::max(1, static_cast<int>(2 * window.half_width / pixel));
+  map.heights.resize(static_cast<std::size_t>(map.along) * static_cast<std::size_t>(map.across));
   for (const engine::Particle& p : grains) {
     const double x = p.position.x - window.from;
     const double y = p.position.y + window.half_width;
-    const PixelRange columns = PixelsIn(x - p.radius, x + p.radius, pixel, along);
-    const PixelRange rows = PixelsIn(y - p.radius, y + p.radius, pixel, across);
+    const PixelRange columns = PixelsIn(x - p.radius, x + p.radius, pixel, map.along);
+    const PixelRange rows = PixelsIn(y - p.radius, y + p.radius, pixel, map.across);
     for (int j = rows.first; j <= rows.last; ++j) {
       for (int i = columns.first; i <= columns.last; ++i) {
         const double dx = (i + 0.5) * pixel - x;
         const double dy = (j + 0.5) * pixel - y;
         const double square = p.radius * p.radius - dx * dx - dy * dy;
         if (square < 0) continue;
-        double& h = height[static_cast<std::size_t>(j) * static_cast<std::size_t>(along) +
-                           static_cast<std::size_t>(i)];
+        double& h = map.heights[static_cast<std::size_t>(j) * static_cast<std::size_t>(map.along) +
+                                static_cast<std::size_t>(i)];
         h = std::max(h, p.position.z + std::sqrt(square));
       }
     }
   }
+  return map;
+}
+
+Layer LayerOf(const HeightMap& map) {
   Layer layer;
-  const auto count = static_cast<double>(height.size());
-  for (const double h : height) {
+  const auto count = static_cast<double>(map.heights.size());
+  for (const double h : map.heights) {
     layer.coverage += h > 0 ? 1 / count : 0;
     layer.thickness += h / count;
   }
-  for (const double h : height) {
+  for (const double h : map.heights) {
     layer.roughness += (h - layer.thickness) * (h - layer.thickness) / count;
   }
   layer.roughness = std::sqrt(layer.roughness);
   return layer;
+}
+
+Layer LayerOf(std::span<const engine::Particle> grains, const LayerWindow& window,
+              double mean_diameter) {
+  return LayerOf(HeightMapOf(grains, window, kPixel * mean_diameter));
+}
+
+imaging::GrayImage ImageOf(const HeightMap& map, double highest) {
+  constexpr double kLightest = 210;  // of powder, so that a bare place stands out
+  imaging::GrayImage image{.width = map.along, .height = map.across, .pixels = {}};
+  image.pixels.reserve(map.heights.size());
+  for (const double h : map.heights) {
+    const double level = h > 0 ? kLightest * (1 - std::min(1.0, h / highest)) : 255;
+    image.pixels.push_back(static_cast<std::uint8_t>(level + 0.5));
+  }
+  return image;
 }
 
 }  // namespace talus::rigs

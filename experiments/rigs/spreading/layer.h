@@ -7,8 +7,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "engine/scene.h"
+#include "imaging/gray_image.h"
 
 namespace talus::rigs {
 
@@ -22,14 +24,31 @@ struct LayerWindow {
   double Area() const { return 2 * half_width * (to - from); }
 };
 
+// The highest point of any grain at each pixel's centre [m], 0 where there is none; row by row
+// across, along the path in a row.
+struct HeightMap {
+  int along = 0;   // [px]
+  int across = 0;  // [px]
+  std::vector<double> heights;
+};
+
+// Grains beside the window reach into it.
+HeightMap HeightMapOf(std::span<const engine::Particle> grains, const LayerWindow& window,
+                      double pixel);
+
 struct Layer {
   double coverage = 0;   // [-]
   double thickness = 0;  // [m]
   double roughness = 0;  // [m]
 };
 
-// `mean_diameter` sets the raster [m]; grains beside the window reach into it.
+Layer LayerOf(const HeightMap& map);
+
+// `mean_diameter` sets the raster [m].
 Layer LayerOf(std::span<const engine::Particle> grains, const LayerWindow& window,
               double mean_diameter);
+
+// Bare places white, the darker the higher, black from `highest` on [m].
+imaging::GrayImage ImageOf(const HeightMap& map, double highest);
 
 }  // namespace talus::rigs

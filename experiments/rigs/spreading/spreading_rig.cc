@@ -2,73 +2,70 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/text/number_text.h"
-#include "experiments/rigs/case/materials.h"
-#include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
 namespace {
 
-constexpr int kBlade = 0;
-constexpr int kGate = 1;
-constexpr double kEnds = 0.15;      // of the plate at either end, which the layer is not read on
-constexpr double kBladeHeight = 3;  // heights of the heap: it piles up before the blade
+constexpr double kEnds = 0.15;  // of the plate at either end, which the layer is not read on
+constexpr double kPicturePixel = 0.05;  // of the picture from above, in mean diameters
+constexpr int kMostPixels = 4000;       // of it along the path
 
 }  // namespace
 
 SpreadingRig::SpreadingRig(const Case& c, State state, engine::Simulation simulation)
-    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
-  const SpreadingOptions& o = c.rig.spreading;
-  Phase spreading = Lasting("spreading", (o.feed + o.length) / o.speed);
+    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
+      first_bed_id_(FirstBedId(c, vessel())) {
+  Phase spreading = Lasting("spreading", TestTime(c, 0));
   spreading.begin = [this] { Start(); };
   spreading.end = [this] { Stop(); };
   SetPhases({spreading, Resting("resting", c.rules.heap)}, TestTime(c, FilledHeight(c, vessel())));
 }
 
 void SpreadingRig::Start() {
-  scene().SetMotion(kBlade,
-                    {{.time = scene().time(), .velocity = {rig_case().rig.spreading.speed, 0, 0}}});
-  scene().RemoveWall(kGate);
+  const SpreadingOptions& o = rig_case().rig.spreading;
+  MoveSpreader({.time = scene().time(),
+                .velocity = {o.speed, 0, 0},
+                .angular_velocity = {0, -o.turning.value_or(0), 0}});
+  const std::vector<engine::Wall> walls = scene().Walls();
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    if (IsGate(walls[i])) scene().RemoveWall(static_cast<int>(i));
+  }
+  if (o.bed) StrikeOffBed();
 }
 
-void SpreadingRig::Stop() { scene().SetMotion(kBlade, {{.time = scene().time()}}); }
+void SpreadingRig::Stop() { MoveSpreader({.time = scene().time()}); }
 
-double SpreadingRig::GapOf(const Case& c) {
-  return c.rig.spreading.gap.value_or(3 * engine::SizeCurve(c.powder.sizes).VolumeQuantile(0.9));
+void SpreadingRig::MoveSpreader(const engine::MotionStep& motion) {
+  for (int wall = 0; wall < NumSpreaderWalls(rig_case()); ++wall) scene().SetMotion(wall, {motion});
 }
 
-std::vector<engine::Wall> SpreadingRig::Walls(const Case& c, double height) {
-  const SpreadingOptions& o = c.rig.spreading;
-  const double gap = GapOf(c);
-  const auto upright = [&](double x, double low, double high) {
-    return engine::Rectangle{.center = {x, 0, (low + high) / 2},
-                             .normal = {1, 0, 0},
-                             .edge = {0, 1, 0},
-                             .width = o.width,
-                             .height = high - low};
-  };
-  const auto side = [](double y, double normal) {
-    return engine::Plane{.point = {0, y, 0}, .normal = {0, normal, 0}};
-  };
-  const engine::Rectangle platform{
-      .center = {-o.feed / 2, 0, gap}, .width = o.feed, .height = o.width};
-  return {{.name = "blade",
-           .shape = upright(-o.feed, gap, gap + kBladeHeight * height),
-           .material = kWalls},
-          {.name = "gate", .shape = upright(0, gap, gap + 1.5 * height), .material = kWalls},
-          {.name = "plate", .shape = engine::Plane{}, .material = kFloor},
-          {.name = "platform", .shape = platform, .material = kFloor},
-          {.name = "step", .shape = upright(0, 0, gap), .material = kFloor},
-          {.name = "front", .shape = side(-o.width / 2, 1), .material = kWalls},
-          {.name = "back", .shape = side(o.width / 2, -1), .material = kWalls}};
+void SpreadingRig::StrikeOffBed() {
+  std::vector<std::int64_t> above;
+  for (const engine::Particle& p : view().particles) {
+    if (p.id >= first_bed_id_ && p.position.z + p.radius > 0) above.push_back(p.id);
+  }
+  std::sort(above.begin(), above.end());
+  Remove(above);
 }
 
-Vessel SpreadingRig::VesselOf(const Case& c) {
-  const SpreadingOptions& o = c.rig.spreading;
-  return BoxVessel({-o.feed / 2, 0, GapOf(c)}, o.feed, o.width);
+std::vector<engine::Particle> SpreadingRig::Heap(GrainSpan grains) const {
+  std::vector<engine::Particle> heap;
+  for (const engine::Particle& p : grains) {
+    if (p.id < first_bed_id_) heap.push_back(p);
+  }
+  return heap;
+}
+
+std::vector<std::pair<const char*, std::int64_t>> SpreadingRig::Counts(GrainSpan grains) const {
+  const std::vector<engine::Particle> heap = Heap(grains);
+  auto counts = Rig::Counts(heap);
+  if (vessel().bed) {
+    counts.emplace_back("bed", static_cast<std::int64_t>(grains.size() - heap.size()));
+  }
+  return counts;
 }
 
 void SpreadingRig::Validate(const Case& c, base::Problems& problems) {
@@ -76,7 +73,18 @@ void SpreadingRig::Validate(const Case& c, base::Problems& problems) {
   problems.Require(!c.filling.taps, "filling.taps", "are not of this rig: remove them");
   problems.Require(o.length > 5 * LargestDiameter(c), "rig.length", o.length,
                    "must be above five (scaled) grain diameters: a layer is read on it");
-  const double higher = FilledHeight(c, VesselOf(c)) / o.feed;
+  if (o.bed) {
+    problems.Require(*o.bed > 2 * LargestDiameter(c), "rig.bed", *o.bed,
+                     "m must be above two (scaled) grain diameters: less is no bed");
+  }
+  const double height = FilledHeight(c, VesselOf(c));
+  const double diameter = 2 * o.RollerRadius();
+  problems.Require(o.spreader != Spreader::kRoller || diameter >= height, "rig.roller_diameter",
+                   diameter,
+                   "m is below the height of the heap, " + base::ShortNumber(1e3 * height) +
+                       " mm: powder would run over the roller; take a larger one, less powder or a "
+                       "longer rig.feed");
+  const double higher = height / o.feed;
   problems.Require(
       higher <= 3, "powder.mass", c.powder.mass,
       "stands " + base::ShortNumber(higher) +
@@ -88,7 +96,7 @@ double SpreadingRig::Width(const Case& c) { return c.rig.spreading.length; }
 
 double SpreadingRig::TestTime(const Case& c, double) {
   const SpreadingOptions& o = c.rig.spreading;
-  return (o.feed + o.length) / o.speed;
+  return (o.feed + BehindHeap(c) + o.length) / o.speed;
 }
 
 // Away from both ends, and from the side walls by a grain where the strip has room.
@@ -127,32 +135,43 @@ Reading SpreadingRig::SizeDrift(GrainSpan grains) const {
   return {Observable::kSizeDrift, (moment[2] / volume[2]) / (moment[0] / volume[0])};
 }
 
+// Grains whose centres lie below the level of a bed are the bed's.
 std::vector<Reading> SpreadingRig::Readings(GrainSpan grains) const {
   const double length = rig_case().rig.spreading.length;
   const LayerWindow window = Window();
   double seen = 0;   // in the window [kg]
   double plate = 0;  // on the whole plate [kg]
   for (const engine::Particle& p : grains) {
+    if (p.position.z <= 0) continue;
     if (window.Holds(p)) seen += MassOf({&p, 1});
     if (p.position.x >= 0 && p.position.x <= length) plate += MassOf({&p, 1});
   }
   const double solid = seen / rig_case().powder.material.density;
   const Layer layer = LayerOf(grains, window, MeanDiameter());
-  return {{Observable::kPackingFraction, solid / (window.Area() * GapOf(rig_case()))},
+  const std::vector<engine::Particle> heap = Heap(grains);
+  return {{Observable::kPackingFraction, solid / (window.Area() * SpreadingGap(rig_case()))},
           {Observable::kThickness, layer.thickness},
-          {Observable::kCoverage, layer.coverage},
+          {Observable::kCoverage, LayerOf(heap, window, MeanDiameter()).coverage},
           {Observable::kRoughness, layer.roughness},
           {Observable::kLayerMass, plate},
-          {Observable::kMassAhead, MassAhead(grains)},
-          SizeDrift(grains)};
+          {Observable::kMassAhead, MassAhead(heap)},
+          SizeDrift(heap)};
+}
+
+std::optional<imaging::GrayImage> SpreadingRig::FromAbove(GrainSpan grains) const {
+  const SpreadingOptions& o = rig_case().rig.spreading;
+  const double pixel = std::max(kPicturePixel * MeanDiameter(), o.length / kMostPixels);
+  return ImageOf(HeightMapOf(grains, {.to = o.length, .half_width = o.width / 2}, pixel),
+                 SpreadingGap(rig_case()));
 }
 
 std::vector<std::string> SpreadingRig::Warnings(GrainSpan grains) const {
   const double least = 0.02 * FilledMass();
-  if (MassAhead(grains) > least) return {};
-  return {
-      "the heap was used up before the blade reached the plate's end: its last part had no "
-      "powder before the blade; take more"};
+  if (MassAhead(Heap(grains)) > least) return {};
+  const std::string spreader(base::NameOf(rig_case().rig.spreading.spreader));
+  return {"the heap was used up before the " + spreader +
+          " reached the plate's end: its last part had no powder before the " + spreader +
+          "; take more"};
 }
 
 }  // namespace talus::rigs

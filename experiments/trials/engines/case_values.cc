@@ -1,6 +1,7 @@
 #include "experiments/trials/engines/case_values.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "base/random.h"
 #include "base/text/number_text.h"
@@ -76,7 +77,9 @@ struct RigValues {
   Scalars& scalars;
   std::string prefix;
 
-  void operator()(std::string_view key, const rigs::RigKind& kind, base::FieldInfo = {}) {
+  template <class Kind>
+  requires std::is_enum_v<Kind>
+  void operator()(std::string_view key, Kind kind, base::FieldInfo = {}) {
     scalars[prefix + std::string(key)] = base::NameOf(kind);
   }
   void operator()(std::string_view key, double value, base::FieldInfo = {}) {
