@@ -28,14 +28,16 @@ GrayArray DecodeImage(const py::bytes& bytes) {
   return ArrayOf(imaging::DecodeGrayImage(std::string(bytes), "the image"));
 }
 
-GrayArray Project(const SphereArray& spheres, const py::dict& frame, int num_views) {
-  return ArrayOf(imaging::ProjectHeap(SpheresOf(spheres), FrameOf(frame), num_views).image);
+GrayArray Project(const py::object& spheres, const py::dict& frame, int num_views) {
+  const imaging::Frame known = FrameOf(frame);
+  return ArrayOf(
+      imaging::ProjectHeap(SpheresOf(spheres, known.plate_diameter), known, num_views).image);
 }
 
-py::dict Compare(const GrayArray& heap, const GrayArray& reference, const py::dict& frame) {
+py::dict Compare(const py::object& heap, const py::object& reference, const py::dict& frame) {
   const imaging::Frame known = FrameOf(frame);
-  const auto images = [&](const char* name, const GrayArray& array) {
-    const imaging::GrayImage image = ImageOf(array);
+  const auto images = [&](const char* name, const py::object& array) {
+    const imaging::GrayImage image = ImageOf(array, name);
     if (image.width != known.width || image.height != known.height) {
       throw base::ConfigError(std::string(name) + ": has " + std::to_string(image.width) + " x " +
                               std::to_string(image.height) + " px, its frame " +
@@ -73,8 +75,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("compare", &talus::python::Compare, py::arg("heap"), py::arg("reference"),
              py::arg("frame"));
   py::class_<Strategy>(module, "Strategy")
-      .def(py::init<const py::list&, const py::dict&, std::uint64_t,
-                    const std::optional<talus::python::GrayArray>&, double>(),
+      .def(py::init<const py::list&, const py::dict&, std::uint64_t, const py::object&, double>(),
            py::arg("parameters"), py::arg("options") = py::dict(), py::arg("seed") = 1,
            py::arg("target") = py::none(), py::arg("pixel_area") = 1.0)
       .def("ask", &Strategy::Ask, py::arg("count") = 1)

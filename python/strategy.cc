@@ -13,10 +13,10 @@ namespace {
 
 namespace py = pybind11;
 
-std::vector<float> FieldOf(const GrayArray& image) {
+std::vector<float> FieldOf(const imaging::GrayImage& image) {
   std::vector<float> field;
-  for (py::ssize_t i = 0; i < image.size(); ++i) {
-    field.push_back(static_cast<float>(255 - image.data()[i]) / 255.0F);
+  for (const std::uint8_t level : image.pixels) {
+    field.push_back(static_cast<float>(255 - level) / 255.0F);
   }
   return field;
 }
@@ -28,28 +28,36 @@ void RequireInside(const optimizer::Parameter& parameter, double native, double 
                           " is outside the searched range");
 }
 
-void RequireWorkable(double value) {
+constexpr double kLargestPixel = 1e12;  // in whatever unit of area the user has
+
+// Of an evaluation; NaN and infinity say that it has failed.
+double ValueOf(const py::handle& value) {
   constexpr double kLargest = 1e100;  // squares of it are summed up
-  if (std::isfinite(value) && std::abs(value) > kLargest) {
+  const double number = NumberOf(value, "value");
+  if (std::isfinite(number) && std::abs(number) > kLargest) {
     throw base::ConfigError("value: is beyond 1e100, which no search can work with");
   }
+  return number;
 }
 
 }  // namespace
 
 Strategy::Strategy(const py::list& parameters, const py::dict& options, std::uint64_t seed,
-                   const std::optional<GrayArray>& target, double pixel_area) {
+                   const py::object& target, double pixel_area) {
   py::dict space;
   space["parameters"] = parameters;
   space_ =
       base::LoadOptions<optimizer::ParameterSpace>(base::ParseJson(JsonOf(space), "parameters"));
   const auto read =
       base::LoadOptions<optimizer::StrategyOptions>(base::ParseJson(JsonOf(options), "options"));
-  if (target) {
-    const imaging::GrayImage image = ImageOf(*target);
+  if (!(pixel_area > 0 && pixel_area <= kLargestPixel)) {
+    throw base::ConfigError("pixel_area: must be positive and at most 1e12");
+  }
+  if (!target.is_none()) {
+    const imaging::GrayImage image = ImageOf(target, "target");
     field_ = optimizer::FieldObjective{.width = image.width,
                                        .height = image.height,
-                                       .target = FieldOf(*target),
+                                       .target = FieldOf(image),
                                        .sad_scale = pixel_area};
   }
   strategy_ = optimizer::MakeStrategy(read, space_.MakeDomain(), field_ ? &*field_ : nullptr, seed);
@@ -70,7 +78,11 @@ Eigen::VectorXd Strategy::PointOf(const py::dict& values) const {
     if (!values.contains(parameter.name.c_str())) {
       throw base::ConfigError(parameter.name + ": is missing among the values");
     }
-    native.push_back(values[parameter.name.c_str()].cast<double>());
+    native.push_back(NumberOf(values[parameter.name.c_str()], parameter.name));
+  }
+  if (values.size() > native.size()) {
+    throw base::ConfigError("values: have names that are no parameters'; give " +
+                            std::to_string(native.size()) + " of the strategy's own");
   }
   const Eigen::VectorXd unit = space_.ToUnit(native);
   const std::vector<int> free = space_.Free();
@@ -91,14 +103,16 @@ py::list Strategy::Ask(int count) {
   return asked;
 }
 
-void Strategy::Tell(const py::dict& values, std::optional<double> value,
-                    const std::optional<GrayArray>& image, bool failed) {
-  if (!failed && !value && !(image && field_)) {
+void Strategy::Tell(const py::dict& values, const py::object& value, const py::object& image,
+                    bool failed) {
+  if (!failed && value.is_none() && (image.is_none() || !field_)) {
     throw base::ConfigError(
         "tell: needs a value, an image of a strategy with a target, or "
         "failed=True");
   }
-  if (!failed && value) RequireWorkable(*value);
+  if (!image.is_none() && !field_) {
+    throw base::ConfigError("image: the strategy has no target to compare it with");
+  }
   optimizer::Observation observation{.point = PointOf(values), .failed = failed};
   // What was asked for is told as it was asked, not as its decimals came back.
   const auto found =
@@ -109,14 +123,16 @@ void Strategy::Tell(const py::dict& values, std::optional<double> value,
     observation.point = *found;
     pending_.erase(found);
   }
-  if (!failed && image && field_) {
-    if (image->ndim() != 2 || image->shape(1) != field_->width ||
-        image->shape(0) != field_->height) {
+  if (!failed && !image.is_none()) {
+    const imaging::GrayImage read = ImageOf(image, "image");
+    if (read.width != field_->width || read.height != field_->height) {
       throw base::ConfigError("image: must have the size of the target");
     }
-    observation.field = FieldOf(*image);
+    observation.field = FieldOf(read);
   }
-  if (!failed) observation.value = value ? *value : field_->Value(observation.field);
+  if (!failed) {
+    observation.value = value.is_none() ? field_->Value(observation.field) : ValueOf(value);
+  }
   if (!std::isfinite(observation.value)) observation.failed = true;
   strategy_->Tell(observation);
 }

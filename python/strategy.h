@@ -16,14 +16,15 @@ namespace talus::python {
 class Strategy {
  public:
   // `parameters`: dictionaries of optimizer::Parameter; `options`: of optimizer::StrategyOptions.
-  // `target`: the measured image, for evaluations that bring images; `pixel_area` makes the sum of
-  // absolute differences an area.
+  // `target`: the measured image, for evaluations that bring images, or None; `pixel_area` makes
+  // the sum of absolute differences an area.
   Strategy(const pybind11::list& parameters, const pybind11::dict& options, std::uint64_t seed,
-           const std::optional<GrayArray>& target, double pixel_area);
+           const pybind11::object& target, double pixel_area);
 
   pybind11::list Ask(int count);
-  void Tell(const pybind11::dict& values, std::optional<double> value,
-            const std::optional<GrayArray>& image, bool failed);
+  // `value` and `image` may be None.
+  void Tell(const pybind11::dict& values, const pybind11::object& value,
+            const pybind11::object& image, bool failed);
   std::optional<std::string> StopReason();  // in words
   pybind11::dict Answer();
 

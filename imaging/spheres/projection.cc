@@ -86,6 +86,7 @@ void CutIntoRows(const base::Sphere& sphere, const Frame& frame, std::vector<Row
   const double center = frame.baseline - sphere.position.z / frame.pixel_size - 0.5;
   const double top = std::max(std::floor(center - radius), 0.0);
   const double bottom = std::min(std::ceil(center + radius), static_cast<double>(LastRow(frame)));
+  if (!(top <= bottom)) return;  // and so fits into an int
   for (int row = static_cast<int>(top); row <= bottom; ++row) {
     const double squared = radius * radius - (row - center) * (row - center);
     if (squared >= 0) {
@@ -140,6 +141,9 @@ Silhouettes Render(std::span<const base::Sphere> spheres, const Frame& frame, in
   frame.Validate(problems);
   problems.Require(num_views >= 1 && num_views <= 3600, "num_views", num_views,
                    "must be from 1 to 3600");
+  constexpr double kMostPixels = 2e10;  // of all views together, a bit each
+  problems.Require(static_cast<double>(frame.width) * frame.height * num_views <= kMostPixels,
+                   "num_views", num_views, "times the frame's pixels must be at most 2e10");
   problems.ThrowIfAny();
   const std::vector<Direction> directions = Directions(num_views);
   Silhouettes images(frame, num_views);

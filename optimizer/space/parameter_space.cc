@@ -96,6 +96,11 @@ void Parameter::Validate(base::Problems& problems) const {
                    "must be given and finite (or give \"fixed\")");
   if (!std::isfinite(low) || !std::isfinite(high)) return;
   problems.Require(high > low, "high", high, "must be above low");
+  constexpr double kLargest = 1e100, kSmallest = 1e-100, kNarrowest = 1e-12;
+  const double largest = std::max(std::abs(low), std::abs(high));
+  problems.Require(largest <= kLargest, "high", high, "must not be beyond 1e100, nor low");
+  problems.Require(!(high > low) || high - low >= std::max(kSmallest, kNarrowest * largest), "high",
+                   high, "is too near to low to be told from it");
   if (scale == Scale::kLog) {
     problems.Require(low > 0, "low", low, "must be positive on a log scale");
   }

@@ -1,6 +1,7 @@
 """A campaign's folder as tables and arrays, and what can be asked of it."""
 import html
 import json
+import numbers
 import pathlib
 import sqlite3
 
@@ -22,7 +23,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     else:
         file = pathlib.Path(spec)
     folder = pathlib.Path(out) if out is not None else pathlib.Path(file.stem)
-    program.run(["calibrate", file, "--out", folder] +
+    program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
                 (["--hold-out", hold_out] if hold_out is not None else []), progress)
     return Campaign(folder)
 
@@ -32,7 +33,7 @@ class Campaign:
     it may be running."""
 
     def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
+        self.folder = pathlib.Path(program.path(folder))
         if not (self.folder / "journal.sqlite").exists():
             raise FileNotFoundError(f"{self.folder}: holds no campaign; `talus calibrate SPEC` begins one")
 
@@ -206,7 +207,10 @@ class Campaign:
     def consider(self, **values):
         """Where a parameter set stands, as `talus consider` says it: a dictionary with its credible_level,
         what is expected at each experiment, and the nearest trials."""
-        return program.ask("consider", self.folder, *(f"{name}={value!r}" for name, value in values.items()))
+        for name, value in values.items():
+            if not isinstance(value, (numbers.Real, str)):
+                raise ConfigError(f"{name}: must be a number or a text with a unit; it is a {type(value).__name__}")
+        return program.ask("consider", self.folder, *(f"{name}={value}" for name, value in values.items()))
 
     def next(self, candidates=None, simulate=False, budget=None):
         """What to do next, the most informative first [pandas.DataFrame]: expected bits, cost, and the
@@ -215,7 +219,7 @@ class Campaign:
         import pandas
         if budget is not None and not simulate:
             raise ConfigError("budget: is for simulate=True")
-        table = program.ask("next", self.folder, *([] if candidates is None else [candidates]),
+        table = program.ask("next", self.folder, *([] if candidates is None else [program.path(candidates)]),
                             *(["--simulate"] if simulate else []),
                             *([] if budget is None else ["--budget", f"{budget} s"]))
         rows = [{**{key: row[key] for key in ("name", "kind", "what", "bits", "num_simulations", "core_time_s")},

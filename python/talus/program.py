@@ -16,6 +16,11 @@ def program():
     return os.path.abspath(found)
 
 
+def path(name):
+    """A file or folder as an argument, never a flag."""
+    return os.path.abspath(name) if os.fspath(name).startswith("-") else name
+
+
 def _raise(code, text):
     words = text.strip().removeprefix("talus: ") or f"talus ended with status {code}"
     if code == 2:

@@ -1,9 +1,13 @@
 """Ask and tell."""
+from collections.abc import Mapping
+
 from . import _core
 
 
-def _named(parameter):
+def _named(parameter, place):
     """`min` and `max`, as specs have them, are `low` and `high`."""
+    if not isinstance(parameter, Mapping):
+        raise _core.ConfigError(f"parameters[{place}]: must be a dictionary with name, min and max")
     parameter = dict(parameter)
     for name, other in (("min", "low"), ("max", "high")):
         if name in parameter:
@@ -13,12 +17,42 @@ def _named(parameter):
     return parameter
 
 
-class Strategy(_core.Strategy):
-    __doc__ = _core.Strategy.__doc__
+class Strategy:
+    """Chooses the next parameter sets of expensive, noisy evaluations.
 
-    def __init__(self, parameters, *arguments, **keys):
-        super().__init__([_named(parameter) for parameter in parameters], *arguments, **keys)
-        self._names = [parameter["name"] for parameter in parameters]
+    `parameters`: dictionaries with name, min, max and, if wanted, scale ("linear" or "log"), guess, fixed, levels.
+    `options`: those of a campaign's strategy, such as {"kind": "gp"}. With `target`, the measured image, evaluations
+    may bring images; `pixel_area` makes the sum of absolute differences an area. Equal arguments and evaluations
+    make equal proposals.
+    """
+
+    def __init__(self, parameters, options=None, seed=1, target=None, pixel_area=1.0):
+        if isinstance(parameters, (str, bytes, Mapping)) or not hasattr(parameters, "__iter__"):
+            raise _core.ConfigError("parameters: must be a list of dictionaries with name, min and max")
+        named = [_named(parameter, place) for place, parameter in enumerate(parameters)]
+        if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**64:
+            raise _core.ConfigError("seed: must be a whole number from 0 to 2^64 - 1")
+        self._core = _core.Strategy(named, dict(options or {}), seed, target, pixel_area)
+        self._names = [parameter["name"] for parameter in named]
+
+    def ask(self, count=1):
+        """Up to `count` (1 to 8) sets to evaluate; fewer, or none, when there are no more."""
+        return self._core.ask(count)
+
+    def tell(self, values, value=None, image=None, failed=False):
+        """One evaluation: its value, which is minimised, or its image; or that it failed."""
+        if not isinstance(values, Mapping):
+            raise _core.ConfigError("values: must be a dictionary of the parameters by name")
+        self._core.tell(dict(values), value, image, failed)
+
+    def stop_reason(self):
+        """Why going on is not worth it; None while it is."""
+        return self._core.stop_reason()
+
+    def answer(self):
+        """`values` of the recommended set, `predicted`, `predicted_sd`, `noise_sd`, `ranges_90` (90 % for all
+        parameters together), `tied_volume`, `is_guess`."""
+        return self._core.answer()
 
     def __repr__(self):
         return f"<talus.Strategy of {', '.join(self._names)}>"

@@ -6,6 +6,8 @@
 
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
+#include "experiments/analysis/design/design_spec.h"
+#include "experiments/analysis/next/test_candidate.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/checksums.h"
 #include "experiments/journal/journal.h"
@@ -35,6 +37,10 @@ void Case(std::string_view bytes) {
     base::Problems problems;
     rigs::ValidateCase(rig_case, problems);
   });
+}
+
+void Candidates(std::string_view bytes) {
+  Expect([&] { analysis::ReadTests(base::ParseJson(bytes, "candidates.json")); });
 }
 
 void Template(std::string_view bytes) {
@@ -98,6 +104,9 @@ void Slurm(std::string_view bytes) {
 
 constexpr Target kTargets[] = {{"spec", Load<campaign::CampaignSpec>},
                                {"case", Case},
+                               {"experiment", Load<campaign::ExperimentSpec>},
+                               {"candidates", Candidates},
+                               {"design", Load<analysis::DesignSpec>},
                                {"problem", Load<trials::OptimizeProblem>},
                                {"template", Template},
                                {"scalars", Scalars},

@@ -62,6 +62,35 @@ def check_ask_tell():
         raises(talus.ConfigError, "outside the searched range", strategy.tell, {"friction": 0.5, "energy": energy}, 1.0)
     raises(ValueError, "frictoin", talus.Strategy, [{"name": "a", "low": 0, "high": 1}],
            {"frictoin": 1})
+    check_refusals()
+
+
+def check_refusals():
+    """Every argument's kind, shape and range: words of ours, never a crash and never a silent answer."""
+    one = [{"name": "a", "low": 0, "high": 1}]
+    for bad in (None, 3, "a", {"name": "a"}):
+        raises(talus.ConfigError, "parameters: must be a list", talus.Strategy, bad)
+    raises(talus.ConfigError, "parameters[1]: must be a dictionary", talus.Strategy, [*one, "b"])
+    for low, high in ((-1e308, 1e308), (0, 1e-320), (1, 1 + 1e-15)):
+        raises(talus.ConfigError, "high: is", talus.Strategy, [{"name": "a", "low": low, "high": high}])
+    for seed in (-1, 2**64, 1.5, True):
+        raises(talus.ConfigError, "seed", talus.Strategy, one, seed=seed)
+    image = numpy.full((8, 9), 255, numpy.uint8)
+    for bad in (numpy.nan, -1, 0, numpy.inf):
+        raises(talus.ConfigError, "pixel_area", talus.Strategy, one, target=image, pixel_area=bad)
+    for bad, words in ((image[0], "two dimensions"), (image[:0], "is empty"), (image / 255, "of float64"),
+                       (image == 0, "of bool"), (image.astype(int), "of int64"), ("image", "must be bytes")):
+        raises(talus.ConfigError, "target: ", talus.Strategy, one, target=bad)
+        raises(talus.ConfigError, words, talus.Strategy, one, target=bad)
+        raises(talus.ConfigError, words, talus.Strategy(one, target=image).tell, {"a": .5}, image=bad)
+        raises(talus.ConfigError, words, talus.compare, bad, numpy.zeros((80, 120), numpy.uint8), FRAME)
+    strategy = talus.Strategy(one)
+    raises(talus.ConfigError, "no target", strategy.tell, {"a": .5}, 1.0, image=image)
+    raises(talus.ConfigError, "values: must be a dictionary", strategy.tell, [.5], 1.0)
+    raises(talus.ConfigError, "a: must be a number; it is a str", strategy.tell, {"a": "x"}, 1.0)
+    raises(talus.ConfigError, "value: must be a number; it is a list", strategy.tell, {"a": .5}, [1])
+    raises(talus.ConfigError, "no parameters'", strategy.tell, {"a": .5, "b": 1}, 1.0)
+    raises(AttributeError, "_core", talus.Strategy.__new__(talus.Strategy).ask)
 
 
 def check_images_as_evaluations():
@@ -98,6 +127,12 @@ def check_projection():
     raises(talus.ConfigError, "four columns", talus.project, numpy.zeros((2, 3)), FRAME)
     for bad in ([numpy.nan, 0, 0, 1e-3], [0, 0, 0, -1e-3], [0, 0, 0, numpy.inf]):
         raises(talus.ConfigError, "row 1", talus.project, numpy.array([[0, 0, 0, 1e-3], bad]), FRAME)
+    raises(talus.ConfigError, "give metres", talus.project, numpy.array([[0, 0, 1, 2.]]), FRAME)
+    for bad in (numpy.zeros((1, 4), complex), [["a"] * 4], None):
+        raises(talus.ConfigError, "must be numbers", talus.project, bad, FRAME)
+    assert (talus.project(numpy.array([[1e300, 0, -1e300, 1e-3]]), FRAME) == 255).all()  # far away
+    raises(talus.ConfigError, "num_views", talus.project, numpy.zeros((0, 4)),
+           {**FRAME, "width_px": 65500, "height_px": 3000}, 3600)
     empty = numpy.zeros((0, 0), numpy.uint8)
     raises(talus.ConfigError, "is empty", talus.compare, empty, empty, FRAME)
     raises(talus.ConfigError, "reference: has 7 x 5 px", talus.compare, image, numpy.zeros((5, 7), numpy.uint8), FRAME)
@@ -133,6 +168,13 @@ def check_campaign(program, root):
     raises(talus.ConfigError, "powder", talus.calibrate, root / "bad.json", out=root / "bad", progress=False)
     raises(talus.ConfigError, "budget: is for simulate", campaign.next, budget=3)
     raises(talus.ConfigError, "sliding_friction", campaign.consider, sliding_friction=3.0)
+    for bad, words in ((numpy.nan, "sliding_friction"), ("wide", "does not start with a number"), (None, "NoneType"),
+                       ([.5], "it is a list")):
+        raises(talus.ConfigError, words, campaign.consider, sliding_friction=bad)
+    raises(talus.ConfigError, "cannot be read", campaign.next, "--help")
+    raises(talus.ConfigError, "cannot be read", talus.calibrate, "--help", out=root / "help", progress=False)
+    raises(talus.ConfigError, "add-simulations", campaign.resume, add_simulations="many", progress=False)
+    raises(FileNotFoundError, "holds no campaign", talus.Campaign, "--help")
     assert campaign.consider(sliding_friction=0.5)["values"] == {"sliding_friction": 0.5}
     assert repr(campaign).startswith('<talus.Campaign "a <drawn> heap", finished, 4 trials')
     shown = campaign._repr_html_()

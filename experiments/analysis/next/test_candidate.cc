@@ -75,7 +75,11 @@ void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems&
 }
 
 std::vector<TestCandidate> LoadTests(const std::filesystem::path& file) {
-  return base::LoadOptions<CandidateFile>(base::ReadJsonFile(file)).candidates;
+  return ReadTests(base::ReadJsonFile(file));
+}
+
+std::vector<TestCandidate> ReadTests(const base::JsonFile& file) {
+  return base::LoadOptions<CandidateFile>(file).candidates;
 }
 
 campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandidate& test) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/json/json_reader.h"
 #include "base/problems.h"
 #include "experiments/campaign/answer/joint_view.h"
 
@@ -49,6 +50,7 @@ void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems&
 
 // What `talus next DIR CANDIDATES` reads: {"candidates": [{"name": …, "device": …}, …]}.
 std::vector<TestCandidate> LoadTests(const std::filesystem::path& file);
+std::vector<TestCandidate> ReadTests(const base::JsonFile& file);  // the same, parsed already
 
 // The campaign's spec with this test as its only experiment.
 campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandidate& test);
