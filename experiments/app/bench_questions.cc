@@ -3,9 +3,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cctype>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/problems.h"
@@ -61,10 +62,10 @@ bool IsAsked(const Question& question, const SpecAnswers& answers) {
 
 // What people type has its unit: a bare 10 for a plate is seldom ten metres.
 void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example) {
-  const char last = answer.back();
-  if (dimension == kNone || !(std::isdigit(static_cast<unsigned char>(last)) || last == '.')) {
-    return;
-  }
+  char* end = nullptr;
+  std::strtod(answer.c_str(), &end);
+  const std::string_view unit = end;
+  if (dimension == kNone || unit.find_first_not_of(" \t") != std::string_view::npos) return;
   throw base::ConfigError("\"" + answer + "\" has no unit; write one, such as \"" + example + "\"");
 }
 
