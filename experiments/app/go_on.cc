@@ -81,7 +81,7 @@ bool IsWorthAdvice(const Ended& ended) {
          answer.verdict->kind != campaign::VerdictKind::kPoint &&
          !campaign::HasAlarm(answer,
                              {campaign::AlarmKind::kImplausible, campaign::AlarmKind::kDisagree,
-                              campaign::AlarmKind::kMisses});
+                              campaign::AlarmKind::kMisses, campaign::AlarmKind::kSearchMisses});
 }
 
 // The few simulations that tell which further test would narrow the answer.

@@ -9,13 +9,15 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/text/counted.h"
 #include "base/text/printable.h"
 #include "imaging/photos/photo_pattern.h"
 
 namespace talus::imaging {
 namespace {
 
-constexpr const char* kFolders = "{run}/*";  // a folder a heap
+constexpr const char* kFolders = "{run}/*";        // a folder a heap
+constexpr const char* kDeepFolders = "*/{run}/*";  // … in folders by day, or by powder
 
 // Numbers by value, before words.
 struct ByNumber {
@@ -177,6 +179,26 @@ std::vector<std::filesystem::path> ImagesBelow(const std::filesystem::path& fold
   return files;
 }
 
+// Whether every folder of images two below has a name of its own, as a run needs it.
+bool AreNamedApart(const std::vector<std::filesystem::path>& files) {
+  std::map<std::string, std::filesystem::path> folders;
+  for (const std::filesystem::path& file : files) {
+    const std::filesystem::path folder = file.parent_path();
+    if (folders.try_emplace(folder.filename().string(), folder).first->second != folder) {
+      return false;
+    }
+  }
+  return !files.empty();
+}
+
+// Whether the pattern fits every name.
+bool FitsAll(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
+  const PhotoPattern parsed(pattern);
+  return std::ranges::all_of(files, [&](const std::filesystem::path& file) {
+    return parsed.Fit(NameOf(file, parsed.num_folders())).has_value();
+  });
+}
+
 // What is in a folder, for a message: the first names.
 std::string Listed(const std::filesystem::path& folder) {
   constexpr std::size_t kMostNames = 3;
@@ -219,7 +241,9 @@ std::vector<std::filesystem::path> ImagesIn(const std::filesystem::path& folder)
 
 std::string RecognisePattern(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> files = ImagesIn(folder);
-  return files.empty() && !ImagesBelow(folder, 1).empty() ? kFolders : RecognisePattern(files);
+  if (!files.empty()) return RecognisePattern(files);
+  if (!ImagesBelow(folder, 1).empty()) return kFolders;
+  return AreNamedApart(ImagesBelow(folder, 2)) ? kDeepFolders : RecognisePattern(files);
 }
 
 std::string RecognisePattern(const std::vector<std::filesystem::path>& files) {
@@ -227,11 +251,56 @@ std::string RecognisePattern(const std::vector<std::filesystem::path>& files) {
     return file.parent_path() != files.front().parent_path();
   };
   if (std::ranges::any_of(files, elsewhere)) return kFolders;
-  if (!SortPhotos(files, kUsualPattern).runs.empty()) return kUsualPattern;
-  for (const char* pattern : {"{run}_{view}.*", "{run}-{view}.*"}) {
+  if (!files.empty() && FitsAll(files, kUsualPattern)) return kUsualPattern;
+  for (const char* pattern :
+       {"{run}_{view}.*", "{run}-{view}.*", "{run} ({view}).*", "{run} {view}.*"}) {
     if (Splits(files, pattern)) return pattern;
   }
-  return "*";
+  // Some of them have the usual names: the others are said to be left unread.
+  return SortPhotos(files, kUsualPattern).runs.empty() ? "*" : kUsualPattern;
+}
+
+std::string ReadingText(const PhotoSet& set) {
+  constexpr std::size_t kMostNames = 12;
+  std::size_t views = 0;
+  std::string names;
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    views += set.runs[i].views.size();
+    if (i < kMostNames) names += (i == 0 ? "" : ", ") + base::Printable(set.runs[i].run);
+  }
+  if (set.runs.size() > kMostNames) names += ", …";
+  return base::Counted(static_cast<long long>(set.runs.size()), "heap") + " (" + names + "), " +
+         base::Counted(static_cast<long long>(views), "photograph");
+}
+
+std::vector<std::filesystem::path> UnreadImages(const std::filesystem::path& folder,
+                                                const PhotoSet& set) {
+  std::set<std::filesystem::path> read;
+  for (const PhotoFiles& run : set.runs) {
+    for (const PhotoFile& view : run.views) read.insert(view.path.lexically_normal());
+  }
+  std::vector<std::filesystem::path> unread;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
+    const std::filesystem::path path = entry.path().lexically_normal();
+    if (entry.is_regular_file(none) && IsImage(path) && !read.contains(path)) {
+      unread.push_back(path);
+    }
+  }
+  std::ranges::sort(unread);
+  return unread;
+}
+
+std::string UnreadText(const std::filesystem::path& folder, const PhotoSet& set) {
+  constexpr std::size_t kMostNames = 3;
+  const std::vector<std::filesystem::path> unread = UnreadImages(folder, set);
+  if (unread.empty()) return "";
+  std::string text = base::Counted(static_cast<long long>(unread.size()), "image") + " not read: ";
+  for (std::size_t i = 0; i < std::min(unread.size(), kMostNames); ++i) {
+    text += (i == 0 ? "" : ", ") +
+            base::Printable(unread[i].lexically_relative(folder.lexically_normal()).string());
+  }
+  return text + (unread.size() > kMostNames ? ", …" : "");
 }
 
 PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {

@@ -35,10 +35,20 @@ inline constexpr const char* kUsualPattern = "run{run}_view{view}.*";
 std::vector<std::filesystem::path> ImagesIn(const std::filesystem::path& folder);
 
 // The pattern that fits the images of a folder, or the files: the usual one, {run}/* for a folder a
-// heap, or one that makes runs of equally many views; "*" where none does: they are views of one
-// heap, as a phone names them.
+// heap (*/{run}/* where these stand in further ones), or one that makes runs of equally many views;
+// "*" where none does: they are views of one heap, as a phone names them.
 std::string RecognisePattern(const std::filesystem::path& folder);
 std::string RecognisePattern(const std::vector<std::filesystem::path>& files);
+
+// How photographs were read: "3 heaps (01, 02, 03), 48 photographs".
+std::string ReadingText(const PhotoSet& set);
+
+// The images in the folder, and in those within it, that are not in the set.
+std::vector<std::filesystem::path> UnreadImages(const std::filesystem::path& folder,
+                                                const PhotoSet& set);
+
+// The same in words, "2 images not read: a.jpg, b.jpg"; empty where all were.
+std::string UnreadText(const std::filesystem::path& folder, const PhotoSet& set);
 
 // A pattern (photo_pattern.h) without {view} numbers the files of a run in order of name. Throws
 // ConfigError when the folder cannot be read or holds no match, and says what is there.

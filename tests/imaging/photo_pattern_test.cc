@@ -53,9 +53,39 @@ TEST(PhotoPattern, NamesTellOfRuns) {
   EXPECT_EQ(recognise({"run1_view1.jpg", "run1_view2.jpg"}), kUsualPattern);
   EXPECT_EQ(recognise({"h1_01.jpg", "h1_02.jpg", "h2_01.jpg", "h2_02.jpg"}), "{run}_{view}.*");
   EXPECT_EQ(recognise({"h1-01.jpg", "h1-02.jpg", "h2-01.jpg", "h2-02.jpg"}), "{run}-{view}.*");
+  EXPECT_EQ(recognise({"h 1 (1).jpg", "h 1 (2).jpg", "h 2 (1).jpg", "h 2 (2).jpg"}),
+            "{run} ({view}).*");
   EXPECT_EQ(recognise({"a/1.jpg", "b/1.jpg"}), "{run}/*");
   // A phone's names: views of one heap.
   EXPECT_EQ(recognise({"IMG_20240101_1201.jpg", "IMG_20240101_1202.jpg"}), "*");
+}
+
+TEST(PhotoPattern, HeapsInFoldersByDayAreHeapsWhereTheirNamesDiffer) {
+  const fs::path folder = EmptyFolder("days");
+  for (const char* name : {"monday/heap 1/IMG_7.jpg", "monday/heap 1/IMG_8.jpg",
+                           "tuesday/heap 2/IMG_1.jpg", "tuesday/heap 2/IMG_2.jpg"}) {
+    Touch(folder / name);
+  }
+  EXPECT_EQ(RecognisePattern(folder), "*/{run}/*");
+  EXPECT_EQ(Read(folder, "*/{run}/*"), "heap 1:2 heap 2:2");
+  // Two heaps of one name would be taken for one.
+  Touch(folder / "wednesday/heap 2/IMG_1.jpg");
+  EXPECT_NE(RecognisePattern(folder), "*/{run}/*");
+}
+
+// A pattern that fits a part of the photographs is taken for that part, and the rest is named.
+TEST(PhotoPattern, WhatIsNotReadIsNamed) {
+  const fs::path folder = EmptyFolder("partly");
+  for (const char* name : {"run1_view1.jpg", "run1_view2.jpg", "run2_view1.jpg", "run2_view2.jpg",
+                           "again.JPG", "extra/a.png", "notes.txt"}) {
+    Touch(folder / name);
+  }
+  const std::string pattern = RecognisePattern(folder);
+  EXPECT_EQ(pattern, kUsualPattern);
+  const PhotoSet set = FindPhotos(folder, pattern);
+  EXPECT_EQ(ReadingText(set), "2 heaps (1, 2), 4 photographs");
+  EXPECT_EQ(UnreadText(folder, set), "2 images not read: again.JPG, extra/a.png");
+  EXPECT_EQ(UnreadText(folder / "extra", FindPhotos(folder / "extra", "*")), "");
 }
 
 TEST(PhotoPattern, ErrorSaysWhatIsThereAndWhatMayFit) {

@@ -238,10 +238,10 @@ class Progress(unittest.TestCase):
     # As a user at a terminal: it asks for what no flag has said, and again after a wrong answer.
     def test_init_asks_on_a_terminal(self):
         out = self.folder / "asked.json"
-        answers = {"a further test": ["tilt", "tapped_density", ""], "  diameter": ["12 mm"],
+        answers = {"a further test": ["tilt", "tapped_density", ""], "  mass": [""], "  diameter": ["12", "12 mm"],
                    "  tapped_density": ["1480 kg/m^3"],
                    "inner diameter of the tube": ["10 mm"], "speed at which": ["fast", "50 mm/s"],
-                   "mass filled": ["1.6 kilo", "", "1.602 g"], "density": ["4386 kg/m^3"],
+                   "mass filled": ["1.6 kilo", "", "1.602", "1.602 g"], "density": ["4.386 kg/m3", "4386 kg/m^3"],
                    "median diameter": ["0.1 mm"], "coefficient of restitution": [""],
                    "rolling damping": [""]}
         asked = []
@@ -265,8 +265,8 @@ class Progress(unittest.TestCase):
             seen = ""
         os.close(ours)
         self.assertEqual(init.wait(timeout=600), 0)
-        self.assertEqual([len(left) for left in answers.values()], [0] * 10)
-        self.assertEqual(len(asked), 15)  # seven questions, three asked again; the tests and one test's own two
+        self.assertEqual([len(left) for left in answers.values()], [0] * 11)
+        self.assertEqual(len(asked), 19)  # seven questions, five asked again; the tests and one test's own three, one again
         self.assertFalse(any(question.startswith("diameter of the plate") for question in asked))
         self.assertIn('"mass": "1.602 g"', out.read_text())
         self.assertIn('"nuisance": true', out.read_text())  # nobody knows the restitution and the damping
@@ -291,6 +291,19 @@ class Progress(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertIn(f'"kind": "{name}"', out.read_text())
         self.assertIn('"sd": "13kg/m^3"', (self.folder / "tapped_density.json").read_text())
+
+    # Numbers of other tests are enough: no photographs, no plate, no tube.
+    def test_init_writes_a_spec_of_tests_without_photographs(self):
+        out = self.folder / "numbers.json"
+        flags = ["--mass", "20 g", "--density", "2500 kg/m^3", "--grain-diameter", "0.4 mm"]
+        done = talus("init", "--out", str(out), *flags, "--test", "tilting_box:mass=5g,angle=33deg",
+                     "--test", "lifted_tube:mass=1.6g,angle_of_repose_triangle=30deg±1deg")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertNotIn("photos", out.read_text())
+        self.assertIn('"mass": "5g"', out.read_text())
+        done = talus("validate", str(out))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("numbers only", done.stdout)
 
     def test_a_spec_for_a_heap_on_a_table_names_its_scale(self):
         out = self.folder / "table.json"

@@ -48,6 +48,12 @@ std::string MissesText(const Alarm& a) {
           (a.value ? ", " : "") + base::ShortNumber(100 * *a.share, 2) + " % of the powder's area";
     }
   }
+  if (a.kind == AlarmKind::kSearchMisses) {
+    return text + ", and the search is not done: " + a.reason.value_or("") +
+           "; more simulations come before any doubt of the contact law, the plate or the set-up "
+           "(" +
+           ResumeCommand(kMoreSimulations) + ")";
+  }
   return text +
          ": nothing stands on this answer before the contact law, the plate and the set-up "
          "are checked";
@@ -98,6 +104,7 @@ std::string AlarmText(const Alarm& a) {
     case AlarmKind::kWorseThanPredicted:
       return WorseThanPredictedText(a);
     case AlarmKind::kMisses:
+    case AlarmKind::kSearchMisses:
       return MissesText(a);
     case AlarmKind::kWorseThanObserved:
       return "trial " + std::to_string(a.trial.value_or(0)) +

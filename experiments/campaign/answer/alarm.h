@@ -20,6 +20,7 @@ enum class AlarmKind {
   kDisagree,     // the experiments pull apart by `value`, `experiment` most
   kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
                  // `share` of its powder's area, or its `number` by `value` standard errors
+  kSearchMisses,         // the same, but another set may fit, for `reason`: the search is to blame
   kContradictsPrior,     // the posterior of `parameter` is `value` sd off its prior, `reason`
   kWorseThanPredicted,   // `shown` is worse than predicted, by `value` of the objective
   kWorseThanObserved,    // … than trial `trial` at the same `scale_factor`, by `value`
@@ -104,6 +105,7 @@ struct talus::base::Names<talus::campaign::AlarmKind> {
       std::pair{"implausible", K::kImplausible},
       std::pair{"disagree", K::kDisagree},
       std::pair{"misses", K::kMisses},
+      std::pair{"search_misses", K::kSearchMisses},
       std::pair{"contradicts_prior", K::kContradictsPrior},
       std::pair{"worse_than_predicted", K::kWorseThanPredicted},
       std::pair{"worse_than_observed", K::kWorseThanObserved},

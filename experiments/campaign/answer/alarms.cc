@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/record/stored.h"
+#include "experiments/journal/objective.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "optimizer/search/describe_minimum.h"
 
@@ -106,6 +108,56 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
   }
 }
 
+// "(sliding_friction 0.31, rolling_friction 0.12)"
+std::string SetText(const Answer& answer, const std::vector<double>& values) {
+  std::string text;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    text += (k == 0 ? "(" : ", ") + answer.parameters.at(k).name + " " +
+            base::ShortNumber(values[k], 3);
+  }
+  return text + ")";
+}
+
+// Another set that was simulated again and comes clearly nearer.
+const ResultCandidate* NearerSet(const Answer& answer) {
+  constexpr double kClearly = 0.7;  // of the recommended set's distance
+  const auto& all = answer.confirmed;
+  if (all.empty()) return nullptr;
+  const ResultCandidate* nearest = nullptr;
+  double least = kClearly * FarthestMiss(answer, all.front());
+  for (const ResultCandidate& candidate : all) {
+    const double miss = FarthestMiss(answer, candidate);
+    if (!(miss < least)) continue;
+    nearest = &candidate;
+    least = miss;
+  }
+  return nearest;
+}
+
+// The model held the recommended set for one that fits this image.
+bool WasExpectedToFit(const Answer& answer, const MeasurementFit& fit) {
+  const ResultStanding* standing = StandingOf(answer, fit.experiment);
+  const auto experiment =
+      std::ranges::find(answer.experiments, fit.experiment, &ResultExperiment::name);
+  if (!fit.number.empty() || standing == nullptr || !experiment->noise_floor) return false;
+  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
+  return is_sad && standing->predicted <= kCloseRuns * *experiment->noise_floor &&
+         PredictionAlarm(answer, *experiment);
+}
+
+// Why a miss is the search's, which has not found what may fit; nothing where it has done its part.
+std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFit& fit) {
+  if (const ResultCandidate* nearer = NearerSet(answer)) {
+    return SetText(answer, nearer->values) + ", simulated again, too, " +
+           (Misses(answer, *nearer) ? "misses less" : "fits");
+  }
+  if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";
+  if (answer.posterior && IsProvisional(answer.posterior->surrogate_narrowing)) {
+    return "its region is still more the surrogate's than the measurements'";
+  }
+  return std::nullopt;
+}
+
 void Append(const std::vector<Alarm>& more, std::vector<Alarm>& alarms) {
   alarms.insert(alarms.end(), more.begin(), more.end());
 }
@@ -118,7 +170,10 @@ std::vector<Alarm> MissAlarms(const Answer& answer) {
     const ResultStanding* standing = StandingOf(answer, fit.experiment);
     if (fit.meets != Meets::kNo || standing == nullptr) continue;  // the latter: it is held out
     if (standing->implausibility > kImplausible) continue;
-    Alarm alarm{.kind = AlarmKind::kMisses, .experiment = fit.experiment};
+    const std::optional<std::string> fault = SearchFault(answer, fit);
+    Alarm alarm{.kind = fault ? AlarmKind::kSearchMisses : AlarmKind::kMisses,
+                .experiment = fit.experiment,
+                .reason = fault};
     if (!fit.number.empty()) alarm.number = fit.number;
     if (std::isfinite(fit.off)) alarm.value = fit.off;
     if (std::isfinite(fit.share)) alarm.share = fit.share;

@@ -6,7 +6,6 @@
 namespace talus::campaign {
 namespace {
 
-constexpr double kCloseRuns = 1.5;   // noise floors: a simulation scatters, too
 constexpr double kCloseNumber = 2;   // standard errors
 constexpr double kMostShare = 0.05;  // of the powder's area
 
@@ -90,6 +89,27 @@ bool Misses(const Answer& answer, const ResultCandidate& candidate) {
     }
   }
   return false;
+}
+
+double FarthestMiss(const Answer& answer, const ResultCandidate& candidate) {
+  double farthest = kNotKnown;
+  const auto add = [&](double off) { farthest = std::fmax(farthest, off); };
+  for (const ResultConfirmed& confirmed : candidate.experiments) {
+    const auto experiment =
+        std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);
+    if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
+    if (confirmed.over_floor) {
+      add(*confirmed.over_floor / kCloseRuns);
+    } else if (confirmed.profile_sad_mm2 && experiment->powder_area) {
+      add(SadWithoutScatter(confirmed) / (kMostShare * *experiment->powder_area));
+    }
+    for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
+      const ResultNumber& measured = experiment->numbers[i];
+      add(std::abs(confirmed.scalars.at(i).mean - measured.value) /
+          (kCloseNumber * measured.standard_error));
+    }
+  }
+  return farthest;
 }
 
 std::vector<MeasurementFit> FitsOf(const Answer& answer) {

@@ -16,6 +16,7 @@
 namespace talus::campaign {
 
 inline constexpr double kImplausible = 3;  // implausibility above which no set fits
+inline constexpr double kCloseRuns = 1.5;  // noise floors that fit: a simulation scatters, too
 
 enum class Meets {
   kYes,     // within what the measurement itself leaves open
@@ -41,6 +42,10 @@ std::vector<MeasurementFit> FitsOf(const Answer& answer);
 
 // Whether a set that was simulated again misses an image or a number.
 bool Misses(const Answer& answer, const ResultCandidate& candidate);
+
+// Its farthest measurement, in what is still a fit: above 1 it misses. NaN with nothing to judge
+// by.
+double FarthestMiss(const Answer& answer, const ResultCandidate& candidate);
 
 // The SAD that the set would have without the scatter of its simulations.
 double SadWithoutScatter(const ResultConfirmed& confirmed);

@@ -63,6 +63,10 @@ std::string MissText(const Answer& answer) {
   if (HasAlarm(answer, {AlarmKind::kMisses})) {
     return "The recommended set misses a measurement: the ranges are of the sets that miss least.";
   }
+  if (HasAlarm(answer, {AlarmKind::kSearchMisses})) {
+    return "The recommended set misses a measurement, and the search is not done: the ranges are "
+           "provisional until it has found what fits.";
+  }
   return "";
 }
 

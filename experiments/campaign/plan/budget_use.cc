@@ -21,33 +21,85 @@ double Duration(const journal::TrialRecord& trial) {
   return std::isfinite(trial.duration_s) ? std::max(0.0, trial.duration_s) : 0;
 }
 
-// Duration of a trial that confirms, by those that have, else by those of the search that are as
-// fine [s].
-double ConfirmTime(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials) {
-  const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
-  double sum = 0, count = 0, longest = 0;
-  for (const journal::TrialRecord& trial : trials) {
-    if (!HasEnded(trial)) continue;
-    longest = std::max(longest, Duration(trial));
-    if (trial.scale_factor != factor) continue;
-    sum += Duration(trial);
-    count += 1;
+// Duration of a trial of the experiment at the scale factor [s]: the mean of those that have ended,
+// else from the nearest scale factor that some have ended at, as the cost goes with f⁻⁴. Another
+// experiment's where this one has none; 0 where no trial has ended.
+double TimeOfOne(std::span<const journal::TrialRecord> trials, int experiment, double factor) {
+  double sum = 0, count = 0;
+  double nearest = std::numeric_limits<double>::infinity();  // |ln(f / factor)|
+  for (const bool own : {true, false}) {
+    for (const journal::TrialRecord& trial : trials) {
+      if (!HasEnded(trial) || (own && trial.experiment != experiment)) continue;
+      const double away = std::abs(std::log(trial.scale_factor / factor));
+      if (away > nearest) continue;
+      if (away < nearest) sum = count = 0;
+      nearest = away;
+      sum += Duration(trial) * std::pow(trial.scale_factor / factor, 4);
+      count += 1;
+    }
+    if (count > 0) break;
   }
-  return count > 0 ? sum / count : longest;
+  return count > 0 ? sum / count : 0;
 }
 
+// What the trials so far say of the pace.
+struct Pace {
+  std::span<const journal::TrialRecord> trials;
+  int num_experiments;
+  int num_ended;   // of the search, one at least
+  double elapsed;  // [s]
+  int at_a_time;
+
+  // Wall time of each further trial of the search at most [s]: all may be at the finest scale
+  // factor, and of the dearest experiment. Proposals and pauses stay as they were.
+  double OfEach(double finest) const {
+    double durations = 0, dearest = 0;
+    for (const journal::TrialRecord& trial : trials) {
+      if (HasEnded(trial) && IsOfSearch(trial) && IsPaidFor(trial)) durations += Duration(trial);
+    }
+    for (int e = 0; e < num_experiments; ++e) {
+      dearest = std::max(dearest, TimeOfOne(trials, e, finest));
+    }
+    const double beside = std::max(0.0, elapsed - durations / at_a_time) / num_ended;
+    return beside + dearest / at_a_time;
+  }
+};
+
 // By whichever part of the budget ends the search first [s].
-double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, int num_ended, double elapsed) {
+double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, const Pace& pace) {
   const BudgetOptions& budget = spec.budget;
   double left = std::numeric_limits<double>::infinity();
-  if (budget.simulations > 0 && num_ended > 0) {
-    left = std::min(left, elapsed * (budget.simulations - num_ended) / num_ended);
+  if (budget.simulations > 0) {
+    left =
+        (budget.simulations - pace.num_ended) * pace.OfEach(spec.coarse_graining.Levels().back());
   }
   if (budget.core_time && use.core_seconds > 0) {
-    left = std::min(left, elapsed * (*budget.core_time - use.core_seconds) / use.core_seconds);
+    left = std::min(left, pace.elapsed * (*budget.core_time - use.core_seconds) / use.core_seconds);
   }
-  if (budget.wall_clock) left = std::min(left, *budget.wall_clock - elapsed);
+  if (budget.wall_clock) left = std::min(left, *budget.wall_clock - pace.elapsed);
   return std::max(0.0, left);
+}
+
+// The recommended set, branches and ends of every experiment [s].
+double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace) {
+  const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
+  double left = 0;
+  for (int e = 0; e < pace.num_experiments; ++e) {
+    const auto ended = std::ranges::count_if(pace.trials, [&](const journal::TrialRecord& trial) {
+      return !IsOfSearch(trial) && trial.experiment == e && HasEnded(trial);
+    });
+    left += std::max(0.0, spec.confirm.MostTrials() - static_cast<double>(ended)) *
+            TimeOfOne(pace.trials, e, factor);
+  }
+  return left / pace.at_a_time;
+}
+
+// What follows the answer by itself, further tests and what it owes to the fixed, [s].
+double AfterwardsLeft(const CampaignSpec& spec, double core_time, int at_a_time) {
+  const bool advises =
+      spec.engine.kind == EngineKind::kTalus && spec.runner.kind == RunnerKind::kLocal;
+  const double share = (advises ? spec.next.share : 0) + spec.budget.sensitivity_share;
+  return share * core_time / at_a_time;
 }
 
 }  // namespace
@@ -55,11 +107,10 @@ double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, int num_ended,
 BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> trials,
                 double elapsed, int at_a_time, double goal_time) {
   BudgetUse use{.core_seconds = goal_time};
-  int search_ended = 0, confirm_ended = 0;
+  int search_ended = 0;
   for (const journal::TrialRecord& trial : trials) {
     if (!IsOfSearch(trial)) {
       ++use.num_confirm;
-      confirm_ended += HasEnded(trial);
       continue;
     }
     if (!IsPaidFor(trial)) continue;
@@ -72,12 +123,17 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
     use.core_seconds = std::min(use.core_seconds, *spec.budget.core_time);
   }
   if (search_ended == 0) return use;
-  const double search = use.num_confirm > 0 ? 0 : SearchLeft(spec, use, search_ended, elapsed);
-  const int to_confirm =
-      spec.confirm.MostTrials() * static_cast<int>(ExperimentsOf(spec).size()) - confirm_ended;
-  const double confirm =
-      std::max(0, to_confirm) * ConfirmTime(spec, trials) / std::max(1, at_a_time);
-  if (std::isfinite(search)) use.seconds_left = search + confirm;
+  const Pace pace{.trials = trials,
+                  .num_experiments = static_cast<int>(ExperimentsOf(spec).size()),
+                  .num_ended = search_ended,
+                  .elapsed = elapsed,
+                  .at_a_time = std::max(1, at_a_time)};
+  const double search = use.num_confirm > 0 ? 0 : SearchLeft(spec, use, pace);
+  if (!std::isfinite(search)) return use;
+  const double work = search + ConfirmationLeft(spec, pace);
+  const double core_time =
+      use.core_seconds + work * pace.at_a_time * CoresOfTrial(spec);  // when that is done
+  use.seconds_left = work + AfterwardsLeft(spec, core_time, pace.at_a_time);
   return use;
 }
 

@@ -1,5 +1,6 @@
-// How much of its budget a campaign has used, and how long it will still take at most: by the pace
-// that it has had, its own pauses and proposals counted.
+// How much of its budget a campaign has used, and how long it will still take at most: by what its
+// trials took, its own pauses and proposals counted, with the confirmation, the ends among it, and
+// with what follows by itself.
 #pragma once
 
 #include <optional>

@@ -45,6 +45,23 @@ std::string UsualError(const rigs::ObservableInfo& info) {
   return "";
 }
 
+// The lifted tube's own keys stand under `device`.
+void CollectOptions(const rigs::Case& rig_case, OptionCollector& collector) {
+  if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) {
+    rigs::LiftedTubeOptions::Visit(rig_case.rig.lifted_tube, collector);
+    std::erase_if(collector.questions,
+                  [](const TestQuestion& question) { return question.key == "plate_height"; });
+  } else {
+    rigs::RigOptions::Visit(rig_case.rig, collector);
+  }
+}
+
+// A heap without photographs has its angle by hand.
+bool IsAsked(rigs::RigKind kind, const rigs::RigObservable& measured) {
+  return measured.usual || (kind == rigs::RigKind::kLiftedTube &&
+                            measured.observable == rigs::Observable::kReposeTriangle);
+}
+
 std::string Listed(const std::vector<TestQuestion>& questions) {
   std::string text;
   for (const TestQuestion& question : questions) {
@@ -98,15 +115,18 @@ std::string Spaced(std::string name) {
 
 std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
   const rigs::Case rig_case = CaseOfKind(kind);
-  OptionCollector collector;
-  rigs::RigOptions::Visit(rig_case.rig, collector);
+  OptionCollector collector{.questions = {{.key = "mass",
+                                           .words = "filled in, where it is another one",
+                                           .part = TestPart::kMass,
+                                           .dimension = base::Dimension::kMass}}};
+  CollectOptions(rig_case, collector);
   for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
-    if (!measured.usual) continue;
+    if (!IsAsked(kind, measured)) continue;
     const rigs::ObservableInfo& info = rigs::InfoOf(measured.observable);
     collector.questions.push_back({.key = info.key,
                                    .words = std::string(info.title) + ", " + info.doc,
+                                   .part = TestPart::kNumber,
                                    .dimension = info.dimension,
-                                   .is_number = true,
                                    .usual_error = UsualError(info)});
   }
   return collector.questions;
@@ -115,7 +135,6 @@ std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
 std::string TestNames() {
   std::string names;
   for (const auto& [name, kind] : base::Names<rigs::RigKind>::kList) {
-    if (kind == rigs::RigKind::kLiftedTube) continue;
     names += (names.empty() ? "" : ", ") + std::string(name);
   }
   return names;
@@ -126,7 +145,7 @@ DraftTest ParseDraftTest(const std::string& text) {
   const std::string name = text.substr(0, colon);
   std::optional<DraftTest> test;
   for (const auto& [known, kind] : base::Names<rigs::RigKind>::kList) {
-    if (known == name && kind != rigs::RigKind::kLiftedTube) test = DraftTest{.kind = kind};
+    if (known == name) test = DraftTest{.kind = kind};
   }
   if (!test) {
     throw base::ConfigError("--test: \"" + name + "\" is no test that can be added; write one of " +
@@ -150,17 +169,42 @@ DraftTest ParseDraftTest(const std::string& text) {
   return *test;
 }
 
+void CheckAnswer(const TestQuestion& question, const std::string& answer) {
+  if (answer.empty()) return;
+  if (question.part != TestPart::kNumber) {
+    base::ParseQuantity(answer, question.dimension);
+    return;
+  }
+  const MeasuredText measured = SplitNumber(question, answer);
+  base::ParseQuantity(measured.value, question.dimension);
+  base::ParseQuantity(measured.error, question.dimension);
+}
+
+std::string FlagText(const DraftTest& test) {
+  std::string text(base::NameOf(test.kind));
+  char separator = ':';
+  for (const auto& [key, answer] : test.answers) {
+    if (answer.empty()) continue;
+    text += separator + key + "=" + answer;
+    separator = ',';
+  }
+  return text;
+}
+
 std::string DraftTestText(const DraftTest& test) {
   const std::string kind(base::NameOf(test.kind));
-  std::string rig = "\"rig\": {\"kind\": " + InQuotes(kind);
+  std::string options;
+  std::string mass;
   std::vector<std::string> numbers;
   for (const TestQuestion& question : QuestionsOf(test.kind)) {
     const auto given =
         std::ranges::find(test.answers, question.key, &std::pair<std::string, std::string>::first);
     const bool is_given = given != test.answers.end() && !given->second.empty();
-    if (!question.is_number) {
-      rig += ", " + InQuotes(question.key) + ": " +
-             InQuotes(is_given ? given->second : question.usual);
+    if (question.part == TestPart::kOption) {
+      options += ", " + InQuotes(question.key) + ": " +
+                 InQuotes(is_given ? given->second : question.usual);
+    } else if (is_given && question.part == TestPart::kMass) {
+      mass = ",\n      \"mass\": " + InQuotes(given->second);
     } else if (is_given) {
       const MeasuredText measured = SplitNumber(question, given->second);
       numbers.push_back(InQuotes(question.key) + ": {\"value\": " + InQuotes(measured.value) +
@@ -169,15 +213,19 @@ std::string DraftTestText(const DraftTest& test) {
   }
   if (numbers.empty()) {
     std::vector<TestQuestion> asked = QuestionsOf(test.kind);
-    std::erase_if(asked, [](const TestQuestion& q) { return !q.is_number; });
+    std::erase_if(asked, [](const TestQuestion& q) { return q.part != TestPart::kNumber; });
     throw base::ConfigError("--test " + kind +
                             ": needs a number that it has measured: " + Listed(asked));
   }
+  const bool is_tube = test.kind == rigs::RigKind::kLiftedTube;
+  const std::string device =
+      is_tube ? "},\n      \"device\": {\"plate\": \"disc\"" + options + "}" : options + "}";
   const bool pours =
       test.kind == rigs::RigKind::kTappedDensity || test.kind == rigs::RigKind::kFunnelHeap;
-  return "    {\"name\": " + InQuotes(Spaced(kind)) + ", // docs/rigs.md has every key\n      " +
-         rig + "}" + (pours ? ",\n      \"filling\": {\"kind\": \"pour\"}" : "") +
-         NumberLines(numbers) + "\n    }";
+  return "    {\"name\": " + InQuotes(Spaced(kind)) +
+         ", // docs/rigs.md has every key\n      \"rig\": {\"kind\": " + InQuotes(kind) + device +
+         mass + (pours ? ",\n      \"filling\": {\"kind\": \"pour\"}" : "") + NumberLines(numbers) +
+         "\n    }";
 }
 
 }  // namespace talus::campaign

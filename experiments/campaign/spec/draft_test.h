@@ -10,18 +10,28 @@
 
 namespace talus::campaign {
 
-// What is to be known of a test: a size or speed of its rig, or a number that it has measured.
+enum class TestPart {
+  kMass,    // filled in, where it is another one than the campaign's
+  kOption,  // a size or speed of its rig
+  kNumber   // what it has measured
+};
+
+// What is to be known of a test.
 struct TestQuestion {
   std::string key;    // in the spec: "diameter", "tapped_density"
   std::string words;  // what it is
+  TestPart part = TestPart::kOption;
   base::Dimension dimension = base::Dimension::kNone;
-  std::string usual{};  // of the rig's own, with its unit; empty: it must be given
-  bool is_number = false;
+  std::string usual{};        // of the rig's own, with its unit
   std::string usual_error{};  // of a number, as the bench states it: "0.5 %", "1 deg"
 };
 
-// All of a rig's: what it is made with, then what it usually measures.
+// All of a rig's: its filling and what it is made with, then what it usually measures.
 std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind);
+
+// Throws ConfigError that says what is wrong with an answer and what to write; an empty one is
+// none.
+void CheckAnswer(const TestQuestion& question, const std::string& answer);
 
 struct DraftTest {
   rigs::RigKind kind = rigs::RigKind::kTappedDensity;
@@ -32,7 +42,10 @@ struct DraftTest {
 // or the keys of this one.
 DraftTest ParseDraftTest(const std::string& text);
 
-// The rigs that can be added to a photographed heap, by name, with commas.
+// The same text again, as the program is given it.
+std::string FlagText(const DraftTest& test);
+
+// The rigs by name, with commas.
 std::string TestNames();
 
 // Its entry of a spec's `experiments`. Throws ConfigError where no number is given.

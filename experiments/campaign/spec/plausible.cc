@@ -1,11 +1,13 @@
 #include "experiments/campaign/spec/plausible.h"
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "base/text/number_text.h"
+#include "experiments/campaign/spec/plausible_quantity.h"
 
 namespace talus::campaign {
 namespace {
@@ -14,7 +16,8 @@ using rigs::Observable;
 
 constexpr double kSolidFraction = 0.6;              // of a filled tube, roughly [-]
 constexpr double kMostDiameters = 50;               // height of the filling / tube diameter
-constexpr double kFastestLift = 5;                  // [m/s]
+constexpr double kFewestGrains = 20;                // that could make a heap
+constexpr double kFastest = 5;                      // part of a rig [m/s]
 constexpr double kSteepest = std::numbers::pi / 2;  // [rad]
 constexpr double kLargestAngleError = 0.5;          // [rad]
 constexpr double kLooseFill = 1.02;                 // of the mass filled: a balance is that good
@@ -84,22 +87,96 @@ void CheckMasses(const MeasuredNumbers& numbers, double filled, const Place& pla
   check("mass_left", numbers.Of<Observable::kMassLeft>());
 }
 
-// How high the powder stands in the tube, and how fast that is lifted.
-void CheckTube(const rigs::Powder& powder, const rigs::Device& device, const Place& place,
-               base::Problems& problems) {
-  const double across = device.tube_inner_diameter;
+void RequirePlausible(BenchQuantity quantity, double value, const std::string& path,
+                      base::Problems& problems) {
+  const std::string text = ImplausibleText(quantity, value);
+  problems.Require(text.empty(), path, value, text);
+}
+
+// A typical diameter of the grains and its key; 0 where a file or a table has it.
+std::pair<const char*, double> GrainDiameter(const engine::SizeDistribution& sizes) {
+  if (sizes.diameter) return {"diameter", *sizes.diameter};
+  if (sizes.mean) return {"mean", *sizes.mean};
+  if (sizes.median) return {"median", *sizes.median};
+  if (sizes.max) return {"max", *sizes.max};
+  return {"diameters", sizes.diameters.empty() ? 0 : sizes.diameters.back()};
+}
+
+void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
+  const engine::Material& grains = spec.powder.material;
+  const std::string material = "powder.material.";
+  RequirePlausible(BenchQuantity::kGrainDensity, grains.density, material + "density", problems);
+  RequirePlausible(BenchQuantity::kYoungsModulus, grains.youngs_modulus,
+                   material + "youngs_modulus", problems);
+  RequirePlausible(BenchQuantity::kSurfaceEnergy, grains.surface_energy,
+                   material + "surface_energy", problems);
+  const auto& [key, diameter] = GrainDiameter(spec.powder.sizes);
+  RequirePlausible(BenchQuantity::kGrainDiameter, diameter, "powder.sizes." + std::string(key),
+                   problems);
+  if (!spec.parameters || !spec.parameters->surface_energy) return;
+  const auto& searched = *spec.parameters->surface_energy;
+  RequirePlausible(BenchQuantity::kSurfaceEnergy, searched.fixed.value_or(searched.max),
+                   std::string("parameters.surface_energy.") + (searched.fixed ? "fixed" : "max"),
+                   problems);
+}
+
+// Of all the numbers that give it one is wrong, and nothing tells which.
+void CheckNumberOfGrains(const rigs::Powder& powder, const std::string& path,
+                         base::Problems& problems) {
+  const double diameter = GrainDiameter(powder.sizes).second;
+  const double one = powder.material.density * std::numbers::pi / 6 * std::pow(diameter, 3);
+  const double number = powder.mass / one;
+  if (!(number < kFewestGrains) || !(powder.mass > 0)) return;
+  problems.Add(path, "of " + base::ShortNumber(powder.mass) + " kg is " +
+                         base::ShortNumber(number, 2) + " grains of " +
+                         base::ShortNumber(1e3 * diameter) + " mm and " +
+                         base::ShortNumber(powder.material.density) +
+                         " kg/m^3: one of the three has another unit");
+}
+
+// How high the powder stands in the tube, where each number by itself can be.
+void CheckHeight(const rigs::Powder& powder, double across, const std::string& path,
+                 base::Problems& problems) {
   const double area = std::numbers::pi / 4 * across * across;
   const double height = powder.mass / (kSolidFraction * powder.material.density * area);
-  const std::string mass = base::ShortNumber(powder.mass);
-  problems.Require(!(height > kMostDiameters * across && powder.material.density > 0),
-                   "powder.mass", powder.mass,
-                   "in kg, which stands " + base::ShortNumber(height) + " m high in a tube of " +
-                       base::ShortNumber(1e3 * across) + " mm; write \"" + mass + " g\" for grams");
-  const std::string speed = base::ShortNumber(device.lift_velocity);
-  problems.Require(!(device.lift_velocity > kFastestLift), place("device.lift_velocity"),
-                   device.lift_velocity,
-                   "in m/s, must be at most 5; write \"" + speed + " mm/s\" for millimetres");
+  if (!(height > kMostDiameters * across) || !(powder.material.density > 0)) return;
+  std::string text = "in kg, which stands " + base::ShortNumber(height) + " m high in a tube of " +
+                     base::ShortNumber(1e3 * across) + " mm";
+  // As grams it would fill the tube as usual.
+  text += height > across && height < 1e3 * kMostDiameters * across
+              ? "; write \"" + base::ShortNumber(powder.mass) + " g\" for grams"
+              : ": one of mass, density and tube has another unit";
+  problems.Require(false, path, powder.mass, text);
 }
+
+void CheckTube(const rigs::Device& device, const Place& place, base::Problems& problems) {
+  RequirePlausible(BenchQuantity::kTubeDiameter, device.tube_inner_diameter,
+                   place("device.tube_inner_diameter"), problems);
+  RequirePlausible(BenchQuantity::kPlateDiameter, device.plate_diameter,
+                   place("device.plate_diameter"), problems);
+  RequirePlausible(BenchQuantity::kLiftVelocity, device.lift_velocity,
+                   place("device.lift_velocity"), problems);
+}
+
+// Speeds and angles of another rig's own.
+struct RigChecker {
+  const Place& place;
+  base::Problems& problems;
+
+  void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
+    const std::string path = place("rig." + std::string(key));
+    const std::string number = base::ShortNumber(value);
+    if (info.dimension == base::Dimension::kVelocity) {
+      problems.Require(!(value > kFastest), path, value,
+                       "in m/s, must be at most 5; write \"" + number + " mm/s\"");
+    } else if (info.dimension == base::Dimension::kAngle) {
+      problems.Require(!(value > 2 * std::numbers::pi), path, value,
+                       "in rad, is more than a turn; write \"" + number + " deg\"");
+    }
+  }
+  template <class Other>
+  void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
+};
 
 // What may be filled in at most [kg]: a searched mass is tried up to its largest.
 double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
@@ -114,6 +191,8 @@ double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
 
 void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>& experiments,
                     base::Problems& problems) {
+  const std::size_t before = problems.size();
+  CheckPowder(spec, problems);
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const ExperimentSpec& e = experiments[i];
     const Place place(spec.experiments ? "experiments[" + std::to_string(i) + "]" : "");
@@ -121,11 +200,20 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     CheckAngle(e.numbers.Of<Observable::kShearAngle>(), place("shear_angle"), problems);
     CheckDensities(e.numbers, spec.powder.material.density, place, problems);
     if (e.mass) CheckMasses(e.numbers, *e.mass, place, problems);
-    if (e.rig && e.rig->kind != rigs::RigKind::kLiftedTube) continue;
-    const bool own = spec.experiments && (*spec.experiments)[i].device;
     rigs::Powder powder = spec.powder;
     powder.mass = MostMass(spec, e);
-    CheckTube(powder, *e.device, own ? place : Place(""), problems);
+    const bool own_mass = spec.experiments && (*spec.experiments)[i].mass;
+    const std::string mass = own_mass ? place("mass") : "powder.mass";
+    const bool is_tube = !e.rig || e.rig->kind == rigs::RigKind::kLiftedTube;
+    const bool own_device = spec.experiments && (*spec.experiments)[i].device;
+    if (is_tube) CheckTube(*e.device, own_device ? place : Place(""), problems);
+    if (!is_tube) {
+      RigChecker checker{place, problems};
+      rigs::RigOptions::Visit(*e.rig, checker);
+    }
+    if (problems.size() > before) continue;  // what is wrong by itself is said of itself
+    CheckNumberOfGrains(powder, mass, problems);
+    if (is_tube) CheckHeight(powder, e.device->tube_inner_diameter, mass, problems);
   }
 }
 

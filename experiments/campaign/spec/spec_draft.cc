@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
@@ -132,21 +133,22 @@ std::string Searched(const SpecAnswers& answers) {
 }
 
 struct Lengths {
-  double plate = 0;  // diameter [m]
+  double plate = 0;  // diameter [m]; 0 without photographs
   double grain = 0;  // median diameter [m]
 };
 
 Lengths LengthsOf(const SpecAnswers& answers) {
   using base::Dimension;
   base::Problems problems;
-  const double plate =
-      Read("--plate-diameter", answers.plate_diameter, Dimension::kLength, problems);
-  Read("--tube-diameter", answers.tube_diameter, Dimension::kLength, problems);
-  Read("--lift-velocity", answers.lift_velocity, Dimension::kVelocity, problems);
+  Lengths lengths;
+  if (answers.HasPhotographs()) {
+    lengths.plate = Read("--plate-diameter", answers.plate_diameter, Dimension::kLength, problems);
+    Read("--tube-diameter", answers.tube_diameter, Dimension::kLength, problems);
+    Read("--lift-velocity", answers.lift_velocity, Dimension::kVelocity, problems);
+  }
   Read("--mass", answers.mass, Dimension::kMass, problems);
   Read("--density", answers.density, Dimension::kDensity, problems);
-  const double grain =
-      Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
+  lengths.grain = Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
   if (!answers.restitution.empty()) {
     const double e = Read("--restitution", answers.restitution, Dimension::kNone, problems);
     problems.Require(e <= 1, "--restitution", e, "must be in (0, 1]");
@@ -155,7 +157,7 @@ Lengths LengthsOf(const SpecAnswers& answers) {
     Read("--rolling-damping", answers.rolling_damping, Dimension::kNone, problems);
   }
   problems.ThrowIfAny();
-  return {plate, grain};
+  return lengths;
 }
 
 std::string ScaleOf(const SpecAnswers& answers) {
@@ -166,25 +168,27 @@ std::string ScaleOf(const SpecAnswers& answers) {
          " // two points in pixels, and their distance\n";
 }
 
-// The heap alone, or with the other tests of the powder, which one parameter set is to meet.
+// The heap alone, or with the other tests of the powder, which one parameter set is to meet; or
+// these alone.
 std::string Experiments(const SpecAnswers& answers) {
-  const std::string heap = Photographs(answers) + ScaleOf(answers);
+  const bool has_heap = answers.HasPhotographs();
+  const std::string heap = has_heap ? Photographs(answers) + ScaleOf(answers) : "";
   if (answers.tests.empty()) return "  \"experiment\": {\n" + heap + "  },\n";
-  std::string text = "  \"experiments\": [\n    {\"name\": \"heap\",\n" + heap + "    }";
-  for (const DraftTest& test : answers.tests) text += ",\n" + DraftTestText(test);
+  std::string text = "  \"experiments\": [\n";
+  const char* separator = "";
+  if (has_heap) {
+    text += "    {\"name\": \"heap\",\n" + heap + "    }";
+    separator = ",\n";
+  }
+  for (const DraftTest& test : answers.tests) {
+    text += separator + DraftTestText(test);
+    separator = ",\n";
+  }
   return text + "\n  ],\n";
 }
 
-}  // namespace
-
-std::string DraftSpec(const SpecAnswers& answers) {
-  const Lengths lengths = LengthsOf(answers);
-  return "// " + answers.name +
-         ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
-         "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
-         "{\n  \"name\": " +
-         Quoted(answers.name) + ",\n" + Experiments(answers) +
-         "  \"powder\": {\n    \"material\": {\n      \"density\": " + Quoted(answers.density) +
+std::string Powder(const SpecAnswers& answers) {
+  return "  \"powder\": {\n    \"material\": {\n      \"density\": " + Quoted(answers.density) +
          ", // of the grains, not of the bulk\n"
          "      \"youngs_modulus\": \"10 MPa\", // softer than real: the heap hardly sees it, the "
          "time step does\n"
@@ -197,16 +201,62 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "    // a measured distribution makes a better powder: size tables in docs/scene.md\n"
          "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
          Quoted(answers.grain_diameter) + "},\n    \"mass\": " + Quoted(answers.mass) +
-         " // filled into the tube\n  },\n"
-         "  \"device\": {\n    \"tube_inner_diameter\": " +
-         Quoted(answers.tube_diameter) +
+         (answers.HasPhotographs()
+              ? " // filled into the tube\n  },\n"
+              : " // filled into each test that has no mass of its own\n  },\n");
+}
+
+std::string Device(const SpecAnswers& answers) {
+  if (!answers.HasPhotographs()) return "";
+  return "  \"device\": {\n    \"tube_inner_diameter\": " + Quoted(answers.tube_diameter) +
          ",\n    \"plate_diameter\": " + Quoted(answers.plate_diameter) +
          ",\n    \"plate\": \"disc\",\n    \"lift_velocity\": " + Quoted(answers.lift_velocity) +
-         "\n  },\n" + Models(answers.cohesive, lengths.grain) +
-         "  // Grains so many times larger than real. The last decides and should leave 30 across "
-         "the "
-         "plate.\n  \"coarse_graining\": {\"scale_factors\": " +
-         ScaleFactors(lengths.plate / lengths.grain) + "},\n" + Searched(answers) +
+         "\n  },\n";
+}
+
+// So coarse that the largest filling is of some ten thousand grains, which a core simulates in
+// seconds: numbers have no outline that single grains would show in.
+std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths) {
+  constexpr double kGrains = 1e4;
+  double mass = base::ParseQuantity(answers.mass, base::Dimension::kMass);
+  for (const DraftTest& test : answers.tests) {
+    for (const auto& [key, answer] : test.answers) {
+      if (key != "mass" || answer.empty()) continue;
+      mass = std::max(mass, base::ParseQuantity(answer, base::Dimension::kMass));
+    }
+  }
+  const double density = base::ParseQuantity(answers.density, base::Dimension::kDensity);
+  const double one = density * std::numbers::pi / 6 * std::pow(lengths.grain, 3);
+  return base::ShortNumber(Rounded(std::cbrt(mass / one / kGrains)));
+}
+
+std::string CoarseGraining(const SpecAnswers& answers, const Lengths& lengths) {
+  if (!answers.HasPhotographs()) {
+    return "  // Grains so many times larger than real: the cost falls with the fourth power.\n"
+           "  \"coarse_graining\": {\"scale_factors\": [" +
+           FactorForNumbers(answers, lengths) + "]},\n";
+  }
+  return "  // Grains so many times larger than real. The last decides and should leave 30 across "
+         "the plate.\n  \"coarse_graining\": {\"scale_factors\": " +
+         ScaleFactors(lengths.plate / lengths.grain) + "},\n";
+}
+
+}  // namespace
+
+std::string DraftSpec(const SpecAnswers& answers) {
+  const Lengths lengths = LengthsOf(answers);
+  if (!answers.HasPhotographs() && answers.tests.empty()) {
+    throw base::ConfigError(
+        "there is nothing to calibrate on: give photographs of a heap, or what a test has "
+        "measured with --test");
+  }
+  return "// " + answers.name +
+         ": a first spec, written by `talus init`. `talus validate` says what it will cost,\n"
+         "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
+         "{\n  \"name\": " +
+         Quoted(answers.name) + ",\n" + Experiments(answers) + Powder(answers) + Device(answers) +
+         Models(answers.cohesive, lengths.grain) + CoarseGraining(answers, lengths) +
+         Searched(answers) +
          "  \"objective\": \"sad\",\n"
          "  // at most; add \"core_time\": \"4 h\" for an evening\n"
          "  \"budget\": {\"simulations\": 60},\n"

@@ -10,7 +10,8 @@
 
 namespace talus::campaign {
 
-// Quantities as the user wrote them, with their units.
+// Quantities as the user wrote them, with their units. Without photographs the tests alone are what
+// is calibrated on, and the keys of plate and tube are empty.
 struct SpecAnswers {
   std::string name;
   std::filesystem::path folder;         // of the photographs, or
@@ -27,6 +28,8 @@ struct SpecAnswers {
   std::string rolling_damping;     // … the same, of the EPSD law that the spec names
   bool cohesive = false;           // search the surface energy, too
   std::vector<DraftTest> tests{};  // made of the same powder beside the heap
+
+  bool HasPhotographs() const { return !folder.empty() || !runs.empty(); }
 };
 
 // The text of a spec that `talus validate` accepts: comments say what each part is for and what to

@@ -40,10 +40,8 @@ struct LiftedTubeOptions {
           {.dimension = Dimension::kVelocity, .doc = "of the tube, > 0"});
   }
   void Validate(base::Problems& problems) const {
-    RequirePositive(problems, "tube_inner_diameter", tube_inner_diameter);
-    RequirePositive(problems, "plate_diameter", plate_diameter);
-    problems.Require(!(plate_diameter > kLargestLength), "plate_diameter", plate_diameter,
-                     "must be at most 2 m; write \"10 mm\" for 10 mm");
+    RequireLength(problems, "tube_inner_diameter", tube_inner_diameter);
+    RequireLength(problems, "plate_diameter", plate_diameter);
     RequirePositive(problems, "plate_height", plate_height);
     RequirePositive(problems, "lift_velocity", lift_velocity);
     if (tube_length) RequirePositive(problems, "tube_length", *tube_length);

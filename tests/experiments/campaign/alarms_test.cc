@@ -380,6 +380,60 @@ TEST(Candidates, EndsOfAValleyAreConfirmedAfterRecommendedSetAndBranches) {
   EXPECT_EQ((ConfirmOptions{.candidates = 0, .replicates = 3}.MostTrials()), 0);
 }
 
+// A small search confirms 2.7 noise floors. Law and plate are blamed where nothing speaks against
+// the search alone.
+class MissedImage : public testing::Test {
+ protected:
+  MissedImage() : answer_(ConfirmedAt(4)) {
+    answer_.parameters = {{.name = "friction"}, {.name = "rolling"}};
+    answer_.experiments[0].noise_floor = 0.9;
+    HeapOf(answer_).profile_sad_mm2 = 2.43;
+    HeapOf(answer_).over_floor = 2.7;
+  }
+  Alarm OnlyAlarm() const {
+    const auto alarms = MissAlarms(answer_);
+    EXPECT_THAT(alarms, SizeIs(1));
+    return alarms.empty() ? Alarm{} : alarms.front();
+  }
+  void AddEnd(double over_floor) {
+    answer_.confirmed.push_back({.role = CandidateRole::kEnd,
+                                 .values = {0.3, 0.1},
+                                 .experiments = {{.name = "heap",
+                                                  .num_trials = 3,
+                                                  .profile_sad_mm2 = 0.9 * over_floor,
+                                                  .over_floor = over_floor}}});
+  }
+  Answer answer_;
+};
+
+TEST_F(MissedImage, IsOfTheSetUpWhereNothingSpeaksAgainstTheSearch) {
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kMisses);
+  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("the contact law, the plate and the set-up"));
+  AddEnd(2.4);  // no nearer than chance
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kMisses);
+}
+
+TEST_F(MissedImage, IsOfTheSearchWhereAnotherSetFits) {
+  AddEnd(1.2);
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(OnlyAlarm()),
+              HasSubstr("(friction 0.3, rolling 0.1), simulated again, too, fits"));
+  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("--add-simulations 20"));
+  answer_.warnings = {OnlyAlarm()};
+  EXPECT_THAT(HeadlineText(answer_), testing::Not(HasSubstr("Sets are found")));
+}
+
+TEST_F(MissedImage, IsOfTheSearchWhereItsModelExpectedAFit) {
+  answer_.posterior->experiments[0].predicted = 1.0;  // below 1.5 noise floors
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("its model expected this set to fit"));
+}
+
+TEST_F(MissedImage, IsOfTheSearchWhereTheRegionIsStillTheSurrogates) {
+  answer_.posterior->surrogate_narrowing = 0.5;
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
+}
+
 // What is shown as fitting equally is held to the same bounds as the recommended set.
 TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
   Answer answer = ConfirmedAt(4);

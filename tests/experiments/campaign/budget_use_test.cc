@@ -18,6 +18,7 @@ CampaignSpec SpecOf(const BudgetOptions& budget) {
   spec.experiment.emplace();
   spec.budget = budget;
   spec.confirm = {.candidates = 1, .replicates = 3, .ends = false};
+  spec.next.share = 0;
   return spec;
 }
 
@@ -74,6 +75,27 @@ TEST(BudgetUse, OnceItConfirmsOnlyThatIsLeft) {
   const BudgetUse use = UseOf(SpecOf({.simulations = 60}), trials, 160, 2);
   EXPECT_EQ(use.num_confirm, 2);
   EXPECT_DOUBLE_EQ(use.seconds_left.value(), 2 * kTrial / 2);
+}
+
+// The two ends are six trials more; further tests take a fifth of the core time of all, which is
+// 200 s so far, 400 of the search and 90 of the confirmation.
+TEST(BudgetUse, EndsAndFurtherTestsAreCounted) {
+  CampaignSpec spec = SpecOf({.simulations = 60});
+  spec.confirm.ends = true;
+  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(), 200 + 9 * kTrial / 2);
+  spec.next.share = 0.2;
+  EXPECT_DOUBLE_EQ(UseOf(spec, Trials(20, 2), 100, 2).seconds_left.value(),
+                   245 + 0.2 * (200 + 490) / 2);
+}
+
+// Coarse trials come first. Those at half the scale factor take 16 times as long: 40 of them, two
+// at a time, and 3 to confirm.
+TEST(BudgetUse, FinerTrialsToComeTakeLonger) {
+  CampaignSpec spec = SpecOf({.simulations = 60});
+  spec.coarse_graining.scale_factors = {2, 1};
+  std::vector<journal::TrialRecord> trials = Trials(20, 2);
+  for (journal::TrialRecord& trial : trials) trial.scale_factor = 2;
+  EXPECT_DOUBLE_EQ(UseOf(spec, trials, 100, 2).seconds_left.value(), (40 + 3) * 16 * kTrial / 2);
 }
 
 TEST(BudgetUse, NothingIsSaidBeforeATrialHasEnded) {

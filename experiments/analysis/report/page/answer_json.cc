@@ -191,7 +191,7 @@ PageValue HeadlineJson(const ReportData& data) {
       {"verdict_kind", a.verdict ? base::NameOf(a.verdict->kind) : ""},
       {"fits",
        !campaign::HasAlarm(a, {campaign::AlarmKind::kImplausible, campaign::AlarmKind::kDisagree,
-                               campaign::AlarmKind::kMisses})},
+                               campaign::AlarmKind::kMisses, campaign::AlarmKind::kSearchMisses})},
       {"trade_off", TradeOffWords(e)},
       {"traded", traded ? PageValue{traded->first, traded->second} : PageValue::array()},
       {"unsettled", a.unsettled.has_value()},

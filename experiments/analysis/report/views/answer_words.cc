@@ -53,9 +53,9 @@ double VolumeThen(const Answer& answer) {
 }
 
 bool AsksForSimulations(const Answer& answer) {
-  return campaign::HasAlarm(
-      answer, {AlarmKind::kWorseThanPredicted, AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
-               AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
+  return campaign::HasAlarm(answer, {AlarmKind::kSearchMisses, AlarmKind::kWorseThanPredicted,
+                                     AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
+                                     AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
 }
 
 std::string UseWords(const Answer& answer) {
@@ -68,6 +68,10 @@ std::string UseWords(const Answer& answer) {
   if (campaign::HasAlarm(answer, {AlarmKind::kMisses})) {
     return "No: a simulation with it misses what was measured. Check contact law, plate and set-up "
            "first.";
+  }
+  if (campaign::HasAlarm(answer, {AlarmKind::kSearchMisses})) {
+    return "No: a simulation with it misses what was measured, and the search is not done. "
+           "Simulate more first.";
   }
   if (!answer.verdict) return "";
   if (answer.verdict->kind != campaign::VerdictKind::kPoint) {

@@ -1,0 +1,222 @@
+#include "experiments/app/bench_questions.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/problems.h"
+#include "base/text/number_text.h"
+#include "base/text/shell_text.h"
+#include "base/units.h"
+#include "experiments/campaign/spec/plausible_quantity.h"
+
+namespace talus::app {
+namespace {
+
+using campaign::BenchQuantity;
+using campaign::SpecAnswers;
+
+enum class Asked {
+  kAlways,
+  kOfHeap,    // with photographs only
+  kMayBeOpen  // without an answer the spec searches it
+};
+
+struct Question {
+  const char* flag;
+  const char* words;    // of the question and the help
+  const char* example;  // with its unit
+  base::Dimension dimension;
+  std::string SpecAnswers::*answer;
+  Asked asked = Asked::kAlways;
+  std::optional<BenchQuantity> quantity{};  // that it must be plausible as
+};
+using enum base::Dimension;
+constexpr Question kQuestions[] = {
+    {"--plate-diameter", "diameter of the plate", "10 mm", kLength, &SpecAnswers::plate_diameter,
+     Asked::kOfHeap, BenchQuantity::kPlateDiameter},
+    {"--tube-diameter", "inner diameter of the tube", "10 mm", kLength, &SpecAnswers::tube_diameter,
+     Asked::kOfHeap, BenchQuantity::kTubeDiameter},
+    {"--lift-velocity", "speed at which the tube is lifted", "10 mm/s", kVelocity,
+     &SpecAnswers::lift_velocity, Asked::kOfHeap, BenchQuantity::kLiftVelocity},
+    {"--mass", "mass filled in", "1.5 g", kMass, &SpecAnswers::mass, Asked::kAlways,
+     BenchQuantity::kMass},
+    {"--density", "density of the grains", "4400 kg/m^3", kDensity, &SpecAnswers::density,
+     Asked::kAlways, BenchQuantity::kGrainDensity},
+    {"--grain-diameter", "median diameter of the grains", "80 um", kLength,
+     &SpecAnswers::grain_diameter, Asked::kAlways, BenchQuantity::kGrainDiameter},
+    {"--restitution", "coefficient of restitution of the grains", "0.8", kNone,
+     &SpecAnswers::restitution, Asked::kMayBeOpen},
+    {"--rolling-damping", "rolling damping of the EPSD law", "0.3", kNone,
+     &SpecAnswers::rolling_damping, Asked::kMayBeOpen},
+};
+
+bool IsAsked(const Question& question, const SpecAnswers& answers) {
+  return question.asked != Asked::kOfHeap || answers.HasPhotographs();
+}
+
+// What people type has its unit: a bare 10 for a plate is seldom ten metres.
+void RequireUnit(const std::string& answer, base::Dimension dimension, const std::string& example) {
+  char* end = nullptr;
+  std::strtod(answer.c_str(), &end);
+  const std::string_view unit = end;
+  if (dimension == kNone || unit.find_first_not_of(" \t") != std::string_view::npos) return;
+  throw base::ConfigError("\"" + answer + "\" has no unit; write one, such as \"" + example + "\"");
+}
+
+// Throws ConfigError that says what is wrong with it.
+void Check(const Question& question, const std::string& answer) {
+  const double value = base::ParseQuantity(answer, question.dimension);
+  RequireUnit(answer, question.dimension, question.example);
+  const std::string is = "\"" + answer + "\" is " + base::ShortNumber(value, 6) + ", ";
+  if (!(value > 0)) throw base::ConfigError(is + "must be positive");
+  if (question.flag == std::string_view("--restitution") && value > 1) {
+    throw base::ConfigError(is + "must be in (0, 1]");
+  }
+  if (!question.quantity) return;
+  const std::string text = campaign::ImplausibleText(*question.quantity, value);
+  if (!text.empty()) throw base::ConfigError(is + text);
+}
+
+// Until `check` lets the answer pass; `kept` where Enter is typed and may be.
+template <class Checker>
+std::string AskUntil(const std::string& words, const std::string& kept, bool may_be_empty,
+                     Checker&& check) {
+  while (std::cin) {
+    const std::string answer = AskLine(words);
+    if (answer.empty() && (!kept.empty() || may_be_empty)) return kept;
+    if (answer.empty()) continue;
+    try {
+      check(answer);
+      return answer;
+    } catch (const base::ConfigError& error) {
+      std::cerr << error.what() << '\n';
+    }
+  }
+  return kept;
+}
+
+std::string Ask(const Question& question, const std::string& kept) {
+  std::string words = std::string(question.words) + " (such as " + question.example;
+  if (!kept.empty()) {
+    words += "; Enter: " + kept;
+  } else if (question.asked == Asked::kMayBeOpen) {
+    words += "; Enter when nobody has measured it";
+  }
+  return AskUntil(words + ")", kept, question.asked == Asked::kMayBeOpen,
+                  [&](const std::string& answer) { Check(question, answer); });
+}
+
+std::string WordsOf(const campaign::TestQuestion& question) {
+  const std::string words = "  " + question.key + ", " + question.words;
+  switch (question.part) {
+    case campaign::TestPart::kMass:
+      return words + " (Enter: the same)";
+    case campaign::TestPart::kOption:
+      return words + " (Enter: " + question.usual + ")";
+    case campaign::TestPart::kNumber:
+      break;
+  }
+  return words + " (\"value ± error\"" +
+         (question.usual_error.empty() ? "" : "; without an error ± " + question.usual_error) +
+         "; Enter: not measured)";
+}
+
+std::string AskOf(const campaign::TestQuestion& question) {
+  return AskUntil(WordsOf(question), "", true, [&](const std::string& answer) {
+    campaign::CheckAnswer(question, answer);
+    RequireUnit(answer, question.dimension, "1 " + std::string(base::SiUnit(question.dimension)));
+  });
+}
+
+// The tests that were made of the powder, one after the other, until there are no more.
+void AskTests(SpecAnswers& answers) {
+  const std::string of_heap = "a further test of the same powder, if one was made (";
+  while (std::cin) {
+    const bool is_first = !answers.HasPhotographs() && answers.tests.empty();
+    const std::string name = AskLine((is_first ? "a test that was made (" : of_heap) +
+                                     campaign::TestNames() + "; Enter: none)");
+    if (name.empty()) return;
+    try {
+      campaign::DraftTest test = campaign::ParseDraftTest(name);
+      for (const campaign::TestQuestion& question : campaign::QuestionsOf(test.kind)) {
+        test.answers.emplace_back(question.key, AskOf(question));
+      }
+      campaign::DraftTestText(test);
+      answers.tests.push_back(std::move(test));
+    } catch (const base::ConfigError& error) {
+      std::cerr << error.what() << '\n';
+    }
+  }
+}
+
+}  // namespace
+
+void AddQuestionFlags(CLI::App& verb, SpecAnswers& answers) {
+  for (const Question& question : kQuestions) {
+    verb.add_option(
+        question.flag, answers.*question.answer,
+        std::string(question.words) +
+            (question.asked == Asked::kMayBeOpen
+                 ? "; without it the spec searches it, as a nuisance"
+                 : " with its unit, such as \"" + std::string(question.example) + "\""));
+  }
+}
+
+bool AsksOnTerminal() { return ::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1; }
+
+std::string AskLine(const std::string& words) {
+  std::string answer;
+  std::cerr << words << ": " << std::flush;
+  std::getline(std::cin, answer);
+  return answer;
+}
+
+void Complete(SpecAnswers& answers) {
+  const bool asks = AsksOnTerminal();
+  base::Problems problems;
+  for (const Question& question : kQuestions) {
+    if (!IsAsked(question, answers)) continue;
+    std::string& answer = answers.*question.answer;
+    if (asks && answer.empty()) answer = Ask(question, "");
+    if (answer.empty() && question.asked != Asked::kMayBeOpen) {
+      problems.Add(question.flag, std::string("is missing; give the ") + question.words + ": \"" +
+                                      question.example + "\"");
+    }
+  }
+  problems.ThrowIfAny();
+  if (asks && answers.tests.empty()) AskTests(answers);
+}
+
+bool AskAgain(SpecAnswers& answers) {
+  for (const Question& question : kQuestions) {
+    if (!IsAsked(question, answers)) continue;
+    answers.*question.answer = Ask(question, answers.*question.answer);
+  }
+  if (!answers.tests.empty() &&
+      !AskLine("the further tests (Enter: as they are; no: ask again)").empty()) {
+    answers.tests.clear();
+    AskTests(answers);
+  }
+  return static_cast<bool>(std::cin);
+}
+
+std::string AnswerFlags(const SpecAnswers& answers) {
+  std::string flags;
+  for (const Question& question : kQuestions) {
+    const std::string& answer = answers.*question.answer;
+    if (!answer.empty()) flags += std::string(" ") + question.flag + "=" + base::ShellWord(answer);
+  }
+  if (answers.cohesive) flags += " --cohesive";
+  for (const campaign::DraftTest& test : answers.tests) {
+    flags += " --test " + base::ShellWord(campaign::FlagText(test));
+  }
+  return flags;
+}
+
+}  // namespace talus::app

@@ -1,0 +1,82 @@
+#include "experiments/campaign/spec/plausible_quantity.h"
+
+#include <array>
+#include <span>
+
+#include "base/text/number_text.h"
+
+namespace talus::campaign {
+namespace {
+
+using base::Dimension;
+
+// The value was typed as one unit and read as another: written as `value · factor` of this one.
+struct Slip {
+  double factor;
+  const char* unit;
+};
+
+struct Plausible {
+  Dimension dimension;
+  double low, high;           // SI
+  std::array<Slip, 2> slips;  // the likelier first
+};
+
+const Plausible& PlausibleOf(BenchQuantity quantity) {
+  // From foamed polystyrene to osmium.
+  static constexpr Plausible kDensity{
+      Dimension::kDensity, 25, 25e3, {{{1, "g/cm^3"}, {1e-3, "kg/m^3"}}}};
+  // Below a micrometre a powder is no more a heap of separate spheres.
+  static constexpr Plausible kGrain{Dimension::kLength, 1e-6, 0.05, {{{1, "mm"}, {1e6, "mm"}}}};
+  static constexpr Plausible kVessel{Dimension::kLength, 5e-4, 2, {{{1, "mm"}, {1e3, "mm"}}}};
+  static constexpr Plausible kVelocity{
+      Dimension::kVelocity, 1e-4, 5, {{{1, "mm/s"}, {1e6, "mm/s"}}}};
+  static constexpr Plausible kFilling{Dimension::kMass, 1e-7, 200, {{{1, "g"}, {1e3, "g"}}}};
+  // Softer than any gel, stiffer than diamond.
+  static constexpr Plausible kModulus{Dimension::kPressure, 1e3, 2e12, {{{1, "MPa"}, {1, "GPa"}}}};
+  // A few times that of a clean metal.
+  static constexpr Plausible kSurface{
+      Dimension::kSurfaceEnergy, 0, 10, {{{1, "mJ/m^2"}, {1, "uJ/m^2"}}}};
+  switch (quantity) {
+    case BenchQuantity::kGrainDensity:
+      return kDensity;
+    case BenchQuantity::kGrainDiameter:
+      return kGrain;
+    case BenchQuantity::kTubeDiameter:
+    case BenchQuantity::kPlateDiameter:
+      return kVessel;
+    case BenchQuantity::kLiftVelocity:
+      return kVelocity;
+    case BenchQuantity::kMass:
+      return kFilling;
+    case BenchQuantity::kYoungsModulus:
+      return kModulus;
+    case BenchQuantity::kSurfaceEnergy:
+      return kSurface;
+  }
+  return kDensity;
+}
+
+bool IsWithin(const Plausible& plausible, double value) {
+  return value >= plausible.low && value <= plausible.high;
+}
+
+}  // namespace
+
+Dimension DimensionOf(BenchQuantity quantity) { return PlausibleOf(quantity).dimension; }
+
+std::string ImplausibleText(BenchQuantity quantity, double value) {
+  const Plausible& plausible = PlausibleOf(quantity);
+  if (!(value > 0) || IsWithin(plausible, value)) return "";
+  std::string text = "in " + std::string(base::SiUnit(plausible.dimension)) + ", must be ";
+  text += plausible.low > 0 ? "from " + base::ShortNumber(plausible.low, 6) + " to " : "at most ";
+  text += base::ShortNumber(plausible.high, 6);
+  for (const Slip& slip : plausible.slips) {
+    const std::string meant = base::ShortNumber(slip.factor * value) + " " + slip.unit;
+    if (!IsWithin(plausible, base::ParseQuantity(meant, plausible.dimension))) continue;
+    return text + "; write \"" + meant + "\"";
+  }
+  return text;
+}
+
+}  // namespace talus::campaign
