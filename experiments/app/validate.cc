@@ -142,16 +142,17 @@ void ValidateCommandCase(const base::JsonFile& file, bool) {
   std::cout << file.path.string() << ": is a case of another engine in order\n";
 }
 
-// What a file is: by a key that only it has. The order matters: a campaign has a powder, too.
+// What a file is: by a key that only it has. The order matters: a campaign has a powder, too,
+// and a problem of a table has candidates.
 struct ValidatedKind {
   const char* key;
   void (*validate)(const base::JsonFile& file, bool with_experiment);
 };
 constexpr ValidatedKind kKinds[] = {
-    {"candidates", &ValidateDesign},   {"budget", &ValidateCampaign},
-    {"experiment", &ValidateCampaign}, {"experiments", &ValidateCampaign},
-    {"engine", &ValidateCommandCase},  {"powder", &ValidateHeap},
-    {"materials", &ValidateScene},     {"evaluations", &ValidateProblem},
+    {"evaluations", &ValidateProblem},  {"candidates", &ValidateDesign},
+    {"budget", &ValidateCampaign},      {"experiment", &ValidateCampaign},
+    {"experiments", &ValidateCampaign}, {"engine", &ValidateCommandCase},
+    {"powder", &ValidateHeap},          {"materials", &ValidateScene},
     {"target", &ValidateProblem}};
 
 void Validate(const std::string& path, bool with_experiment) {

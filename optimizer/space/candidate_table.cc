@@ -50,7 +50,9 @@ double Number(const std::string& cell, const std::string& place) {
 
 std::vector<std::vector<double>> ReadCandidateTable(const std::filesystem::path& path,
                                                     const std::vector<std::string>& names) {
-  std::istringstream text(base::ReadFile(path));
+  std::string content = base::ReadFile(path);
+  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);  // a spreadsheet's byte order mark
+  std::istringstream text(content);
   std::string line;
   std::getline(text, line);
   const std::vector<std::size_t> columns = Columns(Cells(line), names, path.string());

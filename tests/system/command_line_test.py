@@ -327,6 +327,18 @@ class Progress(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertIn(says, done.stdout)
 
+    def test_a_table_of_candidates_may_come_from_a_spreadsheet(self):
+        (self.folder / "runs.csv").write_bytes(b"\xef\xbb\xbfa,b\n1,2\n3,4\n")  # with a byte order mark
+        problem = self.folder / "problem.json"
+        problem.write_text(json.dumps({"parameters": [{"name": name, "low": 0, "high": 5} for name in "ab"],
+                                       "candidates": "runs.csv", "evaluations": 2}))
+        done = talus("validate", str(problem))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("is a problem for `talus optimize`", done.stdout)
+        done = talus("optimize", str(problem), "--out", str(self.folder / "table"), "--",
+                     "python3", "-c", "import json, sys; print(json.dumps({'value': json.load(sys.stdin)['a']}))")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     # The report is watched from the second trial on, which ends when the page has been read; it must end
     # by itself with the campaign, and only its pages of the running campaign may load themselves again.
     def test_a_watched_report_follows_the_campaign_to_its_end(self):
