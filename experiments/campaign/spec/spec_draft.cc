@@ -190,7 +190,8 @@ std::string Experiments(const SpecAnswers& answers) {
 std::string Powder(const SpecAnswers& answers) {
   return "  \"powder\": {\n    \"material\": {\n      \"density\": " + Quoted(answers.density) +
          ", // of the grains, not of the bulk\n"
-         "      \"youngs_modulus\": \"10 MPa\", // softer than real for longer time steps; what a heap "
+         "      \"youngs_modulus\": \"10 MPa\", // softer than real for longer time steps; what a "
+         "heap "
          "notices: docs/validation.md, Softness\n"
          "      \"poisson_ratio\": 0.3" +
          (answers.restitution.empty() ? "" : ",\n      \"restitution\": " + answers.restitution) +

@@ -389,6 +389,15 @@ Case Small(RigKind kind) {
   c.rig.drum = {.diameter = 0.012, .width = 0.005, .speed = 10, .start_turns = 0.1, .turns = 0.1};
   c.rig.orifice_flow = {.diameter = 0.008, .orifice = 0.005, .cone_angle = 1, .arch_time = 0.05};
   c.rig.funnel_heap = {.plate_diameter = 0.008, .height = 0.008, .outlet = 0.004};
+  c.rig.spreading = {.spreader = Spreader::kRoller,
+                     .gap = 2.5e-3,
+                     .speed = 0.2,
+                     .length = 0.012,
+                     .width = 0.006,
+                     .feed = 0.01,
+                     .bed = 2.5e-3,
+                     .roller_diameter = 0.012,
+                     .turning = 33};
   if (IsFilmed(kind)) c.rig.camera = {.frames = 5, .interval = 0.005};
   c.frame = Filmed().frame;
   if (kind == RigKind::kFunnelHeap) c.filling.kind = FillingKind::kPour;
@@ -446,7 +455,8 @@ INSTANTIATE_TEST_SUITE_P(Rigs, EveryRig,
                          ::testing::Values(RigKind::kLiftedTube, RigKind::kTappedDensity,
                                            RigKind::kColumnCollapse, RigKind::kTiltingBox,
                                            RigKind::kDrawDown, RigKind::kDrum,
-                                           RigKind::kOrificeFlow, RigKind::kFunnelHeap),
+                                           RigKind::kOrificeFlow, RigKind::kFunnelHeap,
+                                           RigKind::kSpreading),
                          [](const auto& rig) { return std::string(base::NameOf(rig.param)); });
 
 TEST(RigRun, WritesTheContractOfATrialFolder) {
@@ -626,8 +636,8 @@ Case SpreadBy(Spreader spreader) {
   return c;
 }
 
-// A roller presses powder into its nip, a blade scrapes it off: seen 0.344 and 0.280, and 0.343 with a
-// roller that does not turn.
+// A roller presses powder into its nip, a blade scrapes it off: seen 0.344 and 0.280, and 0.343
+// with a roller that does not turn.
 TEST(Spreading, ARollerLeavesADenserLayerThanABlade) {
   const Case blade = SpreadBy(Spreader::kBlade);
   const Case roller = SpreadBy(Spreader::kRoller);
