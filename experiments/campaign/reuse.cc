@@ -51,7 +51,7 @@ std::optional<std::string> WhyNotOf(const Reuser& reuser, const NewExperiment& e
   return "the folders of its simulations are empty or gone";
 }
 
-// What of a folder is not taken.
+// What a folder has that is not taken.
 struct LeftOut {
   int outside = 0;
   int other_scale_factor = 0;

@@ -52,7 +52,7 @@ void ValidateTaps(const Case& c, const TapRule& taps, const char* path, base::Pr
           " mm at most, or raise youngs_modulus " + base::ShortNumber(ratio) + " times");
 }
 
-// Of a bed of powder beside the vessel, over the powder's own mass.
+// The mass of a bed of powder beside the vessel, over that of the powder itself.
 double BedShare(const Case& c) {
   const auto bed = EntryOf(c).vessel(c).bed;
   return bed ? bed->mass / c.powder.mass : 0;

@@ -31,7 +31,7 @@ constexpr int kUsualRuns = kFirstRuns + 4 * kMoreRuns;  // that the scale factor
 constexpr double kUsualTime = 240;                      // of these [core s]
 constexpr double kShare = 0.25;                         // or of the budget's core time
 
-// Of the half-width: what must be left of it in vain, and what the surrogate may hide.
+// Shares of the half-width: what must be left of it in vain, and what the surrogate may hide.
 constexpr double kHardlyLess = 0.9;
 constexpr double kClearly = 0.5;
 

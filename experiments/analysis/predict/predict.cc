@@ -190,7 +190,7 @@ class Predictor {
     return last;
   }
 
-  // Of as many parameters as are searched now.
+  // Draws have as many parameters as are searched now.
   bool HasPoints(const PredictionDesign& design) const {
     return std::ranges::all_of(design.points, [&](const std::vector<double>& point) {
       return point.size() == view_.space.Free().size();
@@ -270,7 +270,7 @@ class Predictor {
     }
   }
 
-  // Of the process by all its runs, and of each test by a coarse run with the first of the sets.
+  // The process by all its runs, and each test by a coarse run with the first of the sets.
   std::vector<FlowRegime> Regimes(const PredictionRuns& runs) const {
     std::vector<rigs::Regime> seen;
     for (std::size_t run = 0; run < runs.size(); ++run) {

@@ -27,7 +27,7 @@ std::vector<double> Medians(const std::vector<rigs::Regime>& runs,
   return medians;
 }
 
-// Of two equal grains, γ* = 2γ and R* = d/4 (docs/physics.md, A1 and A4).
+// For two equal grains: γ* = 2γ and R* = d/4 (docs/physics.md, A1 and A4).
 double PullOff(const rigs::Case& rig_case, double diameter) {
   const double plain = std::numbers::pi * rig_case.powder.material.surface_energy * diameter;
   switch (rig_case.models.adhesion) {

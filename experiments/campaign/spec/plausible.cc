@@ -120,7 +120,7 @@ void CheckPowder(const CampaignSpec& spec, base::Problems& problems) {
                    problems);
 }
 
-// Of all the numbers that give it one is wrong, and nothing tells which.
+// One of the numbers that give it is wrong, and nothing tells which.
 void CheckNumberOfGrains(const rigs::Powder& powder, const std::string& path,
                          base::Problems& problems) {
   const double diameter = GrainDiameter(powder.sizes).second;

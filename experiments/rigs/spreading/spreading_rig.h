@@ -37,7 +37,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
   static double Width(const Case& rig_case);
   static double TestTime(const Case& rig_case, double filled_height);
 
-  // Of the whole plate, from above: the path to the right.
+  // The whole plate from above, the path to the right.
   std::optional<imaging::GrayImage> FromAbove(GrainSpan grains) const override;
 
  protected:

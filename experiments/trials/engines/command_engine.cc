@@ -219,7 +219,7 @@ TemplateValues ValuesOf(const CommandOptions& options, const rigs::Case& rig_cas
   return values;
 }
 
-// What of it decides about a run: templates may lie elsewhere where they are the same.
+// The part that decides about a run: templates may lie elsewhere where they are the same.
 nlohmann::ordered_json EngineJson(CommandOptions options) {
   if (!options.templates_hash.empty()) options.templates.reset();
   return base::ToJson(options);

@@ -13,15 +13,12 @@
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/drum/drum_rig.h"
 #include "experiments/rigs/load_case.h"
-#include "experiments/rigs/phased/camera.h"
-#include "experiments/rigs/phased/spheres.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/rig_run.h"
-#include "experiments/rigs/spreading/layer.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
-#include "imaging/spheres/projection.h"
+#include "tests/experiments/rigs/rig_case.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::rigs {
@@ -29,39 +26,6 @@ namespace {
 
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
-
-constexpr double kDensity = 2500;  // [kg/m³]
-
-// Grains of 1 mm, soft so that a test takes seconds.
-Case CaseOf(RigKind kind, double sliding, double rolling, double mass) {
-  Case c;
-  c.powder.material = {.density = kDensity,
-                       .youngs_modulus = 1e6,
-                       .restitution = 0.5,
-                       .sliding_friction = sliding,
-                       .rolling_friction = rolling};
-  c.powder.sizes = {.kind = engine::SizeKind::kUniform, .min = 0.9e-3, .max = 1.1e-3};
-  c.powder.mass = mass;
-  c.rig.kind = kind;
-  return c;
-}
-
-double Value(const Case& c, const Rig& rig, const std::string& name) {
-  const auto result = nlohmann::json::parse(rig.ResultText(rig.Grains(), {}));
-  EXPECT_TRUE(result["observables"].contains(name)) << result.dump(2);
-  EXPECT_EQ(result["kind"], base::NameOf(c.rig.kind));
-  return result["observables"].value(name, std::nan(""));
-}
-
-std::unique_ptr<Rig> Ran(const Case& c) {
-  base::Problems problems;
-  ValidateCase(c, problems);
-  EXPECT_TRUE(problems.empty());
-  auto rig = MakeRig(c);
-  while (rig->Advance()) {
-  }
-  return rig;
-}
 
 Case Tapped(int count) {
   Case c = CaseOf(RigKind::kTappedDensity, 0.6, 0.2, 0.8e-3);
@@ -201,87 +165,6 @@ TEST(Drum, TheDynamicAngleGrowsWithFriction) {
   EXPECT_GT(angles[0], 5);
   EXPECT_GT(angles[1], angles[0] + 5);
   EXPECT_LT(angles[1], 60);
-}
-
-// A drum filmed while it turns.
-Case Filmed() {
-  Case c = CaseOf(RigKind::kDrum, 0.5, 0.1, 0.15e-3);
-  c.rig.drum = {.diameter = 0.012, .width = 0.005, .speed = 10, .start_turns = 0.1, .turns = 0.1};
-  c.rig.camera = {.frames = 4, .interval = 0.01, .start = 0.005};
-  c.frame = imaging::Frame{.width = 130,
-                           .height = 130,
-                           .pixel_size = 1e-4,
-                           .center_x = 65,
-                           .baseline = 125,
-                           .plate_diameter = 0.012};
-  return c;
-}
-
-// The pictures of another run of the same case, stopped at the times of the camera.
-TEST(Camera, TheProfileIsTheMeanOfSilhouettesWhileThePowderMoves) {
-  const Case c = Filmed();
-  const auto filmed = Ran(c);
-  Case still = c;
-  still.rig.camera.reset();
-  const auto run = Ran(still);
-  ASSERT_EQ(filmed->simulation().step(), run->simulation().step());
-  for (std::size_t i = 0; i < run->Grains().size(); ++i) {  // who looks on changes nothing
-    EXPECT_EQ(filmed->Grains()[i].position.x, run->Grains()[i].position.x);
-  }
-  const auto again = MakeRig(still);
-  std::vector<imaging::GrayImage> views;
-  for (int frame = 0; frame < 4; ++frame) {
-    const double at = run->RecordOf("turning").start_time + 0.005 + 0.01 * frame;
-    while (again->simulation().time() + again->simulation().time_step() / 2 < at) {
-      again->Advance(at);
-    }
-    views.push_back(imaging::ProjectViews(SpheresOf(again->Grains()), *c.frame, 1).front());
-  }
-  EXPECT_NE(views.front().pixels, views.back().pixels);
-  const Pictures pictures = PicturesOf(filmed->state().camera, *c.frame);
-  EXPECT_EQ(pictures.mean.pixels, imaging::MeanImage(views).pixels);
-  EXPECT_GT(Value(c, *filmed, "cohesive_index_m"), 0);
-}
-
-TEST(Camera, ASeriesGoesOnFromACheckpoint) {
-  const Case c = Filmed();
-  const auto whole = Ran(c);
-  auto first = MakeRig(c);
-  while (first->state().camera.num_frames < 2) first->Advance();
-  auto second = RestoreRig(c, first->StateLine(),
-                           engine::Simulation::Restore(first->simulation().Checkpoint()));
-  while (second->Advance()) {
-  }
-  EXPECT_EQ(second->state().camera.num_frames, 4);
-  EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
-}
-
-// In four frames the six pixels of a row showed powder in none, one, two, four, four and four.
-TEST(Camera, MeanAndStandardDeviationAreThoseOfEachPixel) {
-  const imaging::Frame frame{.width = 6, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
-  const CameraMemory memory{.num_frames = 4, .runs = {0, 1, 1, 1, 2, 1, 4, 3}};
-  const Pictures pictures = PicturesOf(memory, frame);
-  EXPECT_EQ(pictures.mean.pixels, (std::vector<std::uint8_t>{255, 191, 128, 0, 0, 0}));
-  EXPECT_EQ(pictures.standard_deviation.pixels,
-            (std::vector<std::uint8_t>{0, 110, 128, 0, 0, 0}));  // 255 √(3/16), 255 / 2
-  EXPECT_NEAR(CohesiveIndex(memory, frame).value, (std::sqrt(3.0 / 16) + 0.5) * 1e-6 / 0.01, 1e-15);
-  EXPECT_THAT(CohesiveIndex({.num_frames = 1, .runs = {1, 6}}, frame).undefined,
-              HasSubstr("no standard deviation"));
-}
-
-// A column comes to rest long before a second.
-TEST(Camera, PicturesAfterTheEndAreAFailure) {
-  Case c = CaseOf(RigKind::kColumnCollapse, 0.5, 0.1, 0.1e-3);
-  c.rig.column_collapse = {.length = 0.006, .width = 0.005};
-  c.rig.camera = {.frames = 2, .interval = 5};
-  c.rules.heap.max_time = 0.3;
-  c.frame = Filmed().frame;
-  try {
-    Ran(c);
-    ADD_FAILURE();
-  } catch (const base::Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("had taken 1 of 2 pictures when running out ended"));
-  }
 }
 
 // A trial keeps both under their names.
@@ -492,15 +375,6 @@ TEST(RigRun, WritesTheContractOfATrialFolder) {
   EXPECT_GE(right, 60 + static_cast<int>((0.003 + runout) / 1e-4) - 1);
 }
 
-std::string ErrorOf(const char* text) {
-  try {
-    LoadCase(base::ParseJson(text, "case.json"));
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(RigOptions, OnlyTheKeysOfTheKindAreKnown) {
   const std::string powder = R"({"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"},
                                 "mass": "1 g"}, "rig": )";
@@ -564,143 +438,6 @@ TEST(Surface, TheSlopeOfARampIsItsAngle) {
               0.2);
   EXPECT_FALSE(AngleOf(Observable::kAngle, {}).undefined.empty());
   EXPECT_NEAR(MassQuantile(grains, 0.5, [](const auto& p) { return p.position.x; }), 4.95, 0.06);
-}
-
-// A strip six grains wide.
-Case Spread(double gap, double speed = 0.2) {
-  Case c = CaseOf(RigKind::kSpreading, 0.5, 0.1, 1.3e-3);
-  c.rig.spreading = {.gap = gap, .speed = speed, .length = 0.024, .width = 0.006, .feed = 0.01};
-  return c;
-}
-
-// The largest grain is 1.1 mm.
-TEST(Spreading, BelowAGapOfOneGrainNothingIsSpread) {
-  const Case c = Spread(0.7e-3);
-  const auto rig = Ran(c);
-  EXPECT_LT(Value(c, *rig, "layer_mass_kg"), 0.02 * c.powder.mass);
-  EXPECT_LT(Value(c, *rig, "coverage"), 0.05);
-  EXPECT_GT(Value(c, *rig, "mass_ahead_kg"), 0.9 * c.powder.mass);
-}
-
-// A gap of one and a half grains, two and a half, four: seen up to 0.384, where the poured bed has
-// 0.58.
-TEST(Spreading, PackingGrowsWithTheGapTowardsThatOfTheBulk) {
-  double last = 0.05;
-  for (const double gap : {1.5e-3, 2.5e-3, 4e-3}) {
-    Case c = Spread(gap);
-    c.powder.mass = 2.2e-3;
-    const auto rig = Ran(c);
-    const double packing = Value(c, *rig, "packing_fraction");
-    EXPECT_GT(packing, last) << gap;
-    EXPECT_LT(packing, 0.58);
-    last = packing;
-  }
-  EXPECT_GT(last, 0.35);
-}
-
-TEST(Spreading, AFasterBladeLeavesAThinnerLayer) {
-  const Case slow = Spread(2.5e-3, 0.05);
-  const Case fast = Spread(2.5e-3, 0.6);
-  const auto after_slow = Ran(slow);
-  const auto after_fast = Ran(fast);
-  EXPECT_LT(Value(fast, *after_fast, "thickness_m"), 0.9 * Value(slow, *after_slow, "thickness_m"));
-  EXPECT_LT(Value(fast, *after_fast, "layer_mass_kg"),
-            0.9 * Value(slow, *after_slow, "layer_mass_kg"));
-}
-
-// Pull-off 1.5 π γ R = 100 grain weights: lumps that do not pass a gap of two grains.
-TEST(Spreading, CohesionLowersTheCoverage) {
-  const Case dry = Spread(2e-3);
-  Case sticky = dry;
-  sticky.models.adhesion = engine::Adhesion::kDmt;
-  sticky.powder.material.surface_energy = 0.4;
-  const auto after_dry = Ran(dry);
-  const auto after_sticky = Ran(sticky);
-  EXPECT_LT(Value(sticky, *after_sticky, "coverage"), Value(dry, *after_dry, "coverage") - 0.05);
-}
-
-// The strip with a heap that is no higher than the roller. Turning a roller against rolling, at the
-// speed of its path, moves its lowest line twice as fast as it goes.
-Case SpreadBy(Spreader spreader) {
-  Case c = Spread(2.5e-3);
-  c.rig.spreading.feed = 0.016;
-  c.rig.spreading.spreader = spreader;
-  if (spreader == Spreader::kRoller) {
-    c.rig.spreading.roller_diameter = 0.012;
-    c.rig.spreading.turning = 33;
-  }
-  if (spreader == Spreader::kComb) {
-    c.rig.spreading.teeth = 2;
-    c.rig.spreading.slot = 2e-3;
-  }
-  return c;
-}
-
-// A roller presses powder into its nip, a blade scrapes it off: seen 0.344 and 0.280, and 0.343
-// with a roller that does not turn.
-TEST(Spreading, ARollerLeavesADenserLayerThanABlade) {
-  const Case blade = SpreadBy(Spreader::kBlade);
-  const Case roller = SpreadBy(Spreader::kRoller);
-  EXPECT_GT(Value(roller, *Ran(roller), "packing_fraction"),
-            1.1 * Value(blade, *Ran(blade), "packing_fraction"));
-}
-
-// Through the slots of a comb more passes than below a blade: seen 0.38 and 0.24 g.
-TEST(Spreading, ACombLeavesMoreThanABlade) {
-  const Case blade = SpreadBy(Spreader::kBlade);
-  const Case comb = SpreadBy(Spreader::kComb);
-  EXPECT_GT(Value(comb, *Ran(comb), "layer_mass_kg"),
-            1.2 * Value(blade, *Ran(blade), "layer_mass_kg"));
-}
-
-// Grains on a plate are swept along; those of a bed hold what comes to lie on them. Seen 0.395 and
-// 0.280. The bed is struck off: none of its grains stands above its level at first.
-TEST(Spreading, ABedOfPowderHoldsMoreThanABarePlate) {
-  const Case plate = SpreadBy(Spreader::kBlade);
-  Case bed = plate;
-  bed.rig.spreading.bed = 4e-3;
-  const auto rig = Ran(bed);
-  EXPECT_GT(Value(bed, *rig, "packing_fraction"),
-            1.1 * Value(plate, *Ran(plate), "packing_fraction"));
-  const auto result = nlohmann::json::parse(rig->ResultText(rig->Grains(), {}));
-  EXPECT_EQ(result["counts"]["left"], 0);
-  EXPECT_GT(result["counts"]["bed"], 300);
-}
-
-TEST(Spreading, APictureFromAboveShowsThePlateAsLongAsItIs) {
-  const Case c = SpreadBy(Spreader::kBlade);
-  const auto rig = Ran(c);
-  const auto picture = rig->FromAbove(rig->Grains());
-  ASSERT_TRUE(picture.has_value());
-  // A pixel is a twentieth of the mean diameter by volume, which is 1 mm within 2 %.
-  EXPECT_NEAR(picture->width, 24 * 20, 10);
-  EXPECT_NEAR(picture->height, 6 * 20, 3);
-  const auto bare = std::count(picture->pixels.begin(), picture->pixels.end(), 255);
-  EXPECT_GT(bare, 0);
-  EXPECT_LT(bare, 0.4 * static_cast<double>(picture->pixels.size()));
-}
-
-TEST(Spreading, KeysOfAnotherSpreaderAreRefused) {
-  const std::string powder = R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"},
-                                "mass": "0.01 g"}, "rig": {"kind": "spreading", )";
-  EXPECT_THAT(ErrorOf((powder + R"("teeth": 3}})").c_str()), HasSubstr("is a comb's"));
-  EXPECT_THAT(ErrorOf((powder + R"("spreader": "comb", "turning": 3}})").c_str()),
-              HasSubstr("is a roller's"));
-  EXPECT_THAT(ErrorOf((powder + R"("spreader": "comb", "slot": "1 mm"}})").c_str()),
-              HasSubstr("leaves nothing of the teeth"));
-}
-
-// One grain of diameter d in the middle of a square of edge 2d: π/16 of it is covered, and the mean
-// height is that of half an ellipsoid with its cylinder, (π d²/4)(d/2 + d/3)/(4 d²).
-TEST(Layer, OfOneGrainIsItsDisc) {
-  const double d = 1e-3;
-  const engine::Particle grain{.radius = d / 2, .position = {0.01, 0, d / 2}};
-  const LayerWindow window{.from = 0.01 - d, .to = 0.01 + d, .half_width = d};
-  const Layer layer = LayerOf({&grain, 1}, window, 0.05 * d);  // a fine raster
-  EXPECT_NEAR(layer.coverage, std::numbers::pi / 16, 2e-3);
-  EXPECT_NEAR(layer.thickness, std::numbers::pi / 16 * d * (1.0 / 2 + 1.0 / 3), 2e-3 * d);
-  EXPECT_TRUE(window.Holds(grain));
-  EXPECT_EQ(LayerOf({}, window, d).coverage, 0);
 }
 
 }  // namespace

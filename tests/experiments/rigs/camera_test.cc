@@ -1,0 +1,88 @@
+// Pictures of a rig while its powder moves.
+#include "experiments/rigs/phased/camera.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+#include "experiments/rigs/phased/spheres.h"
+#include "imaging/spheres/projection.h"
+#include "tests/experiments/rigs/rig_case.h"
+
+namespace talus::rigs {
+namespace {
+
+using ::testing::HasSubstr;
+
+// The pictures of another run of the same case, stopped at the times of the camera.
+TEST(Camera, TheProfileIsTheMeanOfSilhouettesWhileThePowderMoves) {
+  const Case c = Filmed();
+  const auto filmed = Ran(c);
+  Case still = c;
+  still.rig.camera.reset();
+  const auto run = Ran(still);
+  ASSERT_EQ(filmed->simulation().step(), run->simulation().step());
+  for (std::size_t i = 0; i < run->Grains().size(); ++i) {  // who looks on changes nothing
+    EXPECT_EQ(filmed->Grains()[i].position.x, run->Grains()[i].position.x);
+  }
+  const auto again = MakeRig(still);
+  std::vector<imaging::GrayImage> views;
+  for (int frame = 0; frame < 4; ++frame) {
+    const double at = run->RecordOf("turning").start_time + 0.005 + 0.01 * frame;
+    while (again->simulation().time() + again->simulation().time_step() / 2 < at) {
+      again->Advance(at);
+    }
+    views.push_back(imaging::ProjectViews(SpheresOf(again->Grains()), *c.frame, 1).front());
+  }
+  EXPECT_NE(views.front().pixels, views.back().pixels);
+  const Pictures pictures = PicturesOf(filmed->state().camera, *c.frame);
+  EXPECT_EQ(pictures.mean.pixels, imaging::MeanImage(views).pixels);
+  EXPECT_GT(Value(c, *filmed, "cohesive_index_m"), 0);
+}
+
+TEST(Camera, ASeriesGoesOnFromACheckpoint) {
+  const Case c = Filmed();
+  const auto whole = Ran(c);
+  auto first = MakeRig(c);
+  while (first->state().camera.num_frames < 2) first->Advance();
+  auto second = RestoreRig(c, first->StateLine(),
+                           engine::Simulation::Restore(first->simulation().Checkpoint()));
+  while (second->Advance()) {
+  }
+  EXPECT_EQ(second->state().camera.num_frames, 4);
+  EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
+}
+
+// In four frames the six pixels of a row showed powder in none, one, two, four, four and four.
+TEST(Camera, MeanAndStandardDeviationAreThoseOfEachPixel) {
+  const imaging::Frame frame{.width = 6, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
+  const CameraMemory memory{.num_frames = 4, .runs = {0, 1, 1, 1, 2, 1, 4, 3}};
+  const Pictures pictures = PicturesOf(memory, frame);
+  EXPECT_EQ(pictures.mean.pixels, (std::vector<std::uint8_t>{255, 191, 128, 0, 0, 0}));
+  EXPECT_EQ(pictures.standard_deviation.pixels,
+            (std::vector<std::uint8_t>{0, 110, 128, 0, 0, 0}));  // 255 √(3/16), 255 / 2
+  EXPECT_NEAR(CohesiveIndex(memory, frame).value, (std::sqrt(3.0 / 16) + 0.5) * 1e-6 / 0.01, 1e-15);
+  EXPECT_THAT(CohesiveIndex({.num_frames = 1, .runs = {1, 6}}, frame).undefined,
+              HasSubstr("no standard deviation"));
+}
+
+// A column comes to rest long before a second.
+TEST(Camera, PicturesAfterTheEndAreAFailure) {
+  Case c = CaseOf(RigKind::kColumnCollapse, 0.5, 0.1, 0.1e-3);
+  c.rig.column_collapse = {.length = 0.006, .width = 0.005};
+  c.rig.camera = {.frames = 2, .interval = 5};
+  c.rules.heap.max_time = 0.3;
+  c.frame = Filmed().frame;
+  try {
+    Ran(c);
+    ADD_FAILURE();
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("had taken 1 of 2 pictures when running out ended"));
+  }
+}
+
+}  // namespace
+}  // namespace talus::rigs
