@@ -41,21 +41,23 @@ if(TALUS_FUZZ)
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
 
-# talus_unite_folders(target sources…)
-function(talus_unite_folders target)
+# talus_unite_folders(target ON|OFF sources…)
+function(talus_unite_folders target unite)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  foreach(source ${ARGN})
-    get_filename_component(folder ${source} DIRECTORY)
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_")
-  endforeach()
+  if(unite)
+    foreach(source ${ARGN})
+      get_filename_component(folder ${source} DIRECTORY)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_")
+    endforeach()
+  endif()
 endfunction()
 
-# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...])
-# PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. The files of a folder
-# are compiled together where CMAKE_UNITY_BUILD is on, in half of the time; so their unnamed namespaces
-# share no name.
+# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [UNITY])
+# PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. UNITY: the files of a
+# folder are compiled together where CMAKE_UNITY_BUILD is on, in half of the time; so their unnamed
+# namespaces share no name.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
@@ -66,7 +68,7 @@ function(talus_add_library name)
       FILES ${ARG_HEADERS})
   target_link_libraries(talus_${name} PUBLIC talus::compile_options ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE})
-  talus_unite_folders(talus_${name} ${ARG_SOURCES})
+  talus_unite_folders(talus_${name} ${ARG_UNITY} ${ARG_SOURCES})
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
 
