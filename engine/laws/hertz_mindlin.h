@@ -35,11 +35,9 @@ struct NormalForce {
   V rolling;   // and rolling torque (R4) [N]
 };
 
-// η_n u_n, of (T4) alone: the sums of N5 and JKR have it as a product of their own, which the
-// kernels' compiler fuses with the sum.
 template <class V, class T>
 TALUS_INLINE V NormalDashpot(const PairConstantsOf<T>& p, const Contact<V>& c,
-                             const ContactArea<V>& area) {
+                             const ContactArea<V>& area) {  // η_n u_n
   const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
   return damping * c.closing_speed;
 }
@@ -47,8 +45,7 @@ TALUS_INLINE V NormalDashpot(const PairConstantsOf<T>& p, const Contact<V>& c,
 template <class V, class T>
 TALUS_INLINE V HertzForce(const PairConstantsOf<T>& p, const Contact<V>& c,
                           const ContactArea<V>& area) {  // N5
-  const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
-  return V(p.normal_stiffness) * area.s * c.overlap + damping * c.closing_speed;
+  return V(p.normal_stiffness) * area.s * c.overlap + NormalDashpot(p, c, area);
 }
 
 // What a sliding spring carries of the limit, the dashpot the rest. (T2) lets the dashpot take more
