@@ -3,8 +3,7 @@
 //   s = √(R*δ)     k_n = (4/3) Y* s     k_t = 8 G* s
 //   F_n = k_n δ + η_n u_n               F_t = k_t δ_t + η_t u_t,   |F_t| ≤ μ_t |F_n|
 //
-// F_n is not clamped at zero: e is exact only with the short pull before separation. (T4), which is
-// asked for by name, bounds F_t by μ_t k_n δ in place of μ_t |F_n|.
+// F_n is not clamped at zero: e is exact only with the short pull before separation.
 #pragma once
 
 #include "engine/laws/contact.h"
@@ -36,31 +35,14 @@ struct NormalForce {
 };
 
 template <class V, class T>
-TALUS_INLINE V NormalDashpot(const PairConstantsOf<T>& p, const Contact<V>& c,
-                             const ContactArea<V>& area) {  // η_n u_n
-  const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
-  return damping * c.closing_speed;
-}
-
-template <class V, class T>
 TALUS_INLINE V HertzForce(const PairConstantsOf<T>& p, const Contact<V>& c,
                           const ContactArea<V>& area) {  // N5
-  return V(p.normal_stiffness) * area.s * c.overlap + NormalDashpot(p, c, area);
-}
-
-// What a sliding spring carries of the limit, the dashpot the rest. (T2) lets the dashpot take more
-// than there is, and the spring then pushes forward: where a damped impact begins by sliding, the
-// contact later slides back. (T4) leaves the spring nothing there.
-template <class V, class T>
-TALUS_INLINE Vector<V> SpringShare(const PairConstantsOf<T>& p, const Vector<V>& force,
-                                   const Vector<V>& dashpot) {
-  const Vector<V> rest = force - dashpot;
-  if (!p.elastic_only) return rest;
-  return OrZero(Dot(rest, force) > V(0.0), rest);
+  const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
+  return V(p.normal_stiffness) * area.s * c.overlap + damping * c.closing_speed;
 }
 
 // The friction on i is minus the result. Advances the spring (K4) and shortens it when the contact
-// slides (T2, T4), unless it is kept (A7).
+// slides (T2), unless it is kept (A7).
 template <class V, class T>
 TALUS_INLINE Vector<V> Friction(const PairConstantsOf<T>& p, const Contact<V>& c,
                                 const ContactArea<V>& area, const V& limiting, const V& dt,
@@ -71,14 +53,13 @@ TALUS_INLINE Vector<V> Friction(const PairConstantsOf<T>& p, const Contact<V>& c
   const Vector<V> dashpot = (V(p.tangential_damping) * area.root_s * c.root_m_star) * c.sliding;
   const Vector<V> trial = stiffness * spring + dashpot;  // T1
   const V square = Dot(trial, trial);
-  const V bounding = p.elastic_only ? limiting - NormalDashpot(p, c, area) : limiting;
-  const V limit = V(p.sliding_friction) * Abs(bounding);
+  const V limit = V(p.sliding_friction) * Abs(limiting);
   const auto slides = square > limit * limit;
   const V scale = Select(slides, limit * Rsqrt(square), V(1.0));
   const Vector<V> force = scale * trial;
   if (p.keeps_spring) return force;
   const V compliance = area.inverse_s * V(p.shear_compliance);
-  spring = Select(slides, compliance * SpringShare(p, force, dashpot), spring);
+  spring = Select(slides, compliance * (force - dashpot), spring);
   return force;
 }
 

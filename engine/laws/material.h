@@ -52,9 +52,6 @@ enum class JkrRollingLimit { kNetForce, kFromPullOff };
 // What a tangential spring of JKR between two spheres does while it slides (A7).
 enum class JkrSlidingSpring { kKept, kShortened };
 
-// Which normal force bounds friction: all of it with the spring of (T2), or its elastic part (T4).
-enum class CoulombLimit { kTotalForce, kElasticForce };
-
 // Which laws act between all bodies of a scene.
 struct ContactModels {
   Adhesion adhesion = Adhesion::kNone;
@@ -64,7 +61,6 @@ struct ContactModels {
   double adhesion_cutoff = 0.1;  // C [-], in (0, 1): DMT force at which the gap range ends (A2)
   JkrRollingLimit jkr_rolling_limit = JkrRollingLimit::kNetForce;
   JkrSlidingSpring jkr_sliding_spring = JkrSlidingSpring::kKept;
-  CoulombLimit coulomb_limit = CoulombLimit::kTotalForce;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -83,10 +79,6 @@ struct ContactModels {
     visit("jkr_sliding_spring", self.jkr_sliding_spring,
           {.doc = "kept, as published: between spheres the tangential spring grows on while it "
                   "slides; shortened: to its limit, as against walls"});
-    visit("coulomb_limit", self.coulomb_limit,
-          {.doc = "what friction is limited by, times mu_t: total_force, as published, spring and "
-                  "dashpot of the normal force; elastic_force, its spring alone, so that a damped "
-                  "impact that slides takes Coulomb's impulse mu_t (1 + e) m v"});
   }
   void Validate(base::Problems& problems) const;
 };
@@ -118,10 +110,4 @@ struct talus::base::Names<talus::engine::JkrSlidingSpring> {
   using S = talus::engine::JkrSlidingSpring;
   static constexpr std::array kList{std::pair{"kept", S::kKept},
                                     std::pair{"shortened", S::kShortened}};
-};
-template <>
-struct talus::base::Names<talus::engine::CoulombLimit> {
-  using L = talus::engine::CoulombLimit;
-  static constexpr std::array kList{std::pair{"total_force", L::kTotalForce},
-                                    std::pair{"elastic_force", L::kElasticForce}};
 };

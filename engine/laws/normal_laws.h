@@ -69,7 +69,8 @@ struct JkrAdhesion {
     const V cube = a * a * a;
     const V elastic =
         V(p.normal_stiffness) * cube / c.r_star - Sqrt(V(4 * p.pull_off * p.y_star) * cube);
-    const V total = elastic + NormalDashpot(p, c, area);
+    const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
+    const V total = elastic + damping * c.closing_speed;
     return {total, total + V(1.5 * p.pull_off) * c.r_star,
             total + V(p.rolling_pull_off) * c.r_star};
   }

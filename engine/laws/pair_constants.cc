@@ -67,7 +67,6 @@ PairConstants MakePairConstants(const Material& a, const Material& b, const Cont
   pair.rolling_damping =
       2 * HarmonicMean(a.rolling_damping, b.rolling_damping) * std::sqrt(pair.rolling_stiffness);
   pair.mobilised_damping = models.full_mobilisation_damping;
-  pair.elastic_only = models.coulomb_limit == CoulombLimit::kElasticForce;
   if (models.adhesion != Adhesion::kNone) AddAdhesion(a, b, models, pair);
   return pair;
 }

@@ -26,7 +26,6 @@ struct PairConstantsOf {
   T jkr_cube_root = 0;        // ∛(2πγ*/Y*) [m^⅓] (A4)
   T rolling_pull_off = 0;     // added to F_n / R* in JKR's rolling limit [N/m] (A6)
   bool keeps_spring = false;  // a sliding spring is not shortened (A7); never against a wall
-  bool elastic_only = false;  // friction is bounded by the elastic normal force (T4)
   T hamaker = 0;              // A/6 [J] (A3), zero without adhesion
   T plateau_gap = 0;          // -δ₀ [m] (A2): up to this gap the pull is F_po
   T adhesion_gap = 0;         // -δ_c [m] (A2): beyond this gap there is none; 0 without DMT

@@ -40,7 +40,6 @@ SingleConstants ToUnits(const PairConstants& pair, const Units& units) {
           .jkr_cube_root = in(pair.jkr_cube_root, std::cbrt(units.length)),
           .rolling_pull_off = in(pair.rolling_pull_off, units.SurfaceEnergy()),
           .keeps_spring = pair.keeps_spring,
-          .elastic_only = pair.elastic_only,
           .hamaker = in(pair.hamaker, units.Torque()),
           .plateau_gap = in(pair.plateau_gap, units.length),
           .adhesion_gap = in(pair.adhesion_gap, units.length)};
