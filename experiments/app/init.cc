@@ -185,8 +185,9 @@ void AddInitCommand(CLI::App& app) {
   verb->add_flag("--cohesive", arguments->answers.cohesive,
                  "search the surface energy, too: fine or moist powder");
   verb->add_option("--test", arguments->tests,
-                   "a test of the same powder, beside the heap or alone, such as "
-                   "\"tapped_density:diameter=12mm,tapped_density=1480kg/m^3±5kg/m^3\"; any of " +
+                   "a test of the same powder, such as "
+                   "\"tapped_density:diameter=12mm,tapped_density=1480kg/m^3±5kg/m^3\"; with "
+                   "photographs of a heap or alone, any of " +
                        campaign::TestNames())
       ->allow_extra_args(false);
   verb->footer("On a terminal it asks for what is not given.");

@@ -337,7 +337,9 @@ class Progress(unittest.TestCase):
         self.assertIn("is a problem for `talus optimize`", done.stdout)
         done = talus("optimize", str(problem), "--out", str(self.folder / "table"), "--",
                      "python3", "-c", "import json, sys; print(json.dumps({'value': json.load(sys.stdin)['a']}))")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        values = [json.loads(line)["value"] for line in done.stderr.splitlines()]
+        self.assertEqual(sorted(values), [1, 3])  # the table's rows
 
     # The report is watched from the second trial on, which ends when the page has been read; it must end
     # by itself with the campaign, and only its pages of the running campaign may load themselves again.
