@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/byte_order_mark.h"
 #include "base/units.h"
 #include "engine/scene/size_distribution.h"
 
@@ -101,8 +102,7 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     Refuse(path, "is UTF-16; export or save it as UTF-8");
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  const std::string plain = Plain(text);
+  const std::string plain = Plain(base::WithoutByteOrderMark(text));
   const char separator = SeparatorOf(plain);
   Table table;
   std::vector<Row> above;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/byte_order_mark.h"
 #include "base/text/printable.h"
 #include "engine/scene/scene_spec.h"
 
@@ -39,8 +40,7 @@ class SphereTable {
       : spec_(spec), materials_(materials) {}
 
   std::vector<SphereSpec> Read(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    const std::vector<std::string_view> lines = Parts(text, '\n');
+    const std::vector<std::string_view> lines = Parts(base::WithoutByteOrderMark(text), '\n');
     ReadTitles(lines.front());
     std::vector<SphereSpec> spheres;
     for (line_ = 1; line_ < lines.size(); ++line_) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/byte_order_mark.h"
 
 namespace talus::optimizer {
 namespace {
@@ -50,9 +51,8 @@ double Number(const std::string& cell, const std::string& place) {
 
 std::vector<std::vector<double>> ReadCandidateTable(const std::filesystem::path& path,
                                                     const std::vector<std::string>& names) {
-  std::string content = base::ReadFile(path);
-  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);  // a spreadsheet's byte order mark
-  std::istringstream text(content);
+  const std::string content = base::ReadFile(path);
+  std::istringstream text{std::string(base::WithoutByteOrderMark(content))};
   std::string line;
   std::getline(text, line);
   const std::vector<std::size_t> columns = Columns(Cells(line), names, path.string());

@@ -13,6 +13,7 @@
 #include "experiments/rigs/rig_list.h"
 #include "experiments/rigs/shear_cell/shear_cell_rig.h"
 #include "experiments/rigs/shear_cell/squeeze.h"
+#include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
 namespace {
@@ -35,16 +36,6 @@ Case Cell(double sliding, double surface_energy = 0) {
   c.rig.shear_cell.diameter = 0.014;
   c.rig.shear_cell.travel = 0.012;
   return c;
-}
-
-std::unique_ptr<Rig> Ran(const Case& c) {
-  base::Problems problems;
-  ValidateCase(c, problems);
-  EXPECT_TRUE(problems.empty());
-  auto rig = MakeRig(c);
-  while (rig->Advance()) {
-  }
-  return rig;
 }
 
 nlohmann::json ResultOf(const Rig& rig) {
