@@ -7,14 +7,22 @@
 //                                     .doc = "solid density of a grain, > 0"});
 //   }
 //
+// Where there is no more to say of the fields than their names, TALUS_FIELDS lists them:
+//
+//   static constexpr base::FieldKey kKeys[] = {{"elapsed", "elapsed_s"}};  // keys carry units
+//   TALUS_FIELDS(num_trials, num_failed, elapsed);
+//
 // A field is a bool, an integer, a double, a string, a path, an enum that has Names, another struct
 // with Visit, a std::optional or a std::vector of one of these, or a base::Vec3.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
+#include "base/enumerators.h"
 #include "base/units.h"
 
 namespace talus::base {
@@ -25,13 +33,69 @@ struct FieldInfo {
   const char* doc = "";   // what it is, its unit and range: shown by editors from the JSON Schema
 };
 
-// The names of an enum as they stand in JSON. Specialise beside the enum:
+// A field whose key is not its own name.
+struct FieldKey {
+  std::string_view field;
+  std::string_view key;
+};
+
+// The key of the first of `names`, "name, value", which is taken off.
+template <class Owner>
+constexpr std::string_view TakeKey(std::string_view& names) {
+  const std::string_view name = names.substr(0, names.find(','));
+  names.remove_prefix(std::min(names.size(), name.size() + 2));
+  if constexpr (requires { Owner::kKeys; }) {
+    for (const FieldKey& renamed : Owner::kKeys) {
+      if (renamed.field == name) return renamed.key;
+    }
+  }
+  return name;
+}
+
+// Whether each of the owner's kKeys is of a field in `names`.
+template <class Owner>
+constexpr bool HasItsKeys(std::string_view names) {
+  if constexpr (requires { Owner::kKeys; }) {
+    std::size_t num_renamed = 0;
+    while (!names.empty()) {
+      const std::string_view name = names.substr(0, names.find(','));
+      num_renamed += TakeKey<Owner>(names) != name ? 1 : 0;
+    }
+    return num_renamed == std::size(Owner::kKeys);
+  }
+  return true;
+}
+
+#define TALUS_FIELDS(...)                                         \
+  auto Fields() { return std::tie(__VA_ARGS__); }                 \
+  auto Fields() const { return std::tie(__VA_ARGS__); }           \
+  template <class Self, class Visitor>                            \
+  static void Visit(Self& self, Visitor&& visit) {                \
+    static_assert(::talus::base::HasItsKeys<Self>(#__VA_ARGS__)); \
+    std::string_view names = #__VA_ARGS__;                        \
+    const auto each = [&](auto&... fields) {                      \
+      (visit(::talus::base::TakeKey<Self>(names), fields), ...);  \
+    };                                                            \
+    std::apply(each, self.Fields());                              \
+  }                                                               \
+  static_assert(true)
+
+// The names of an enum as they stand in JSON: those of its enumerators (base/enumerators.h) where
+// a function beside it names the last, kLeftOut being "left_out":
+//   constexpr AlarmKind LastOf(AlarmKind) { return AlarmKind::kLeftOut; }
+// Others are listed, beside the enum:
 //   template <> struct base::Names<Rolling> {
 //     static constexpr std::array kList{std::pair{"none", Rolling::kNone}, …};
 //   };
 // kRetired, where there is one, holds names that were once in the list, with their remedies.
 template <class Enum>
 struct Names;
+
+template <class Enum>
+requires requires(Enum value) { LastOf(value); }
+struct Names<Enum> {
+  static constexpr auto kList = EnumeratorNames<LastOf(Enum{})>();
+};
 
 template <class Enum>
 concept NamedEnum = requires {

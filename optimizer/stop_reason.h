@@ -24,6 +24,7 @@ enum class StopRule {
   kGoal,           // `value`, the half-width of the 90 % of `name`, is `limit` at most, as asked
   kGoalOpen,       // … is not, but would still be `scale` if every set had been simulated
 };
+constexpr StopRule LastOf(StopRule) { return StopRule::kGoalOpen; }
 
 struct StopReason {
   StopRule rule = StopRule::kConverged;
@@ -32,14 +33,7 @@ struct StopReason {
   double scale = 0;
   std::string name{};  // for people: "DIRECT-L", "the Latin hypercube"
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("rule", self.rule);
-    visit("value", self.value);
-    visit("limit", self.limit);
-    visit("scale", self.scale);
-    visit("name", self.name);
-  }
+  TALUS_FIELDS(rule, value, limit, scale, name);
 };
 
 // "what is left to gain, at most 0.012, is below 0.7 x the noise sd of one evaluation, 0.021"
@@ -50,6 +44,7 @@ enum class StopLack {
   kGain,         // a better set may still be found
   kShare,  // more would narrow a range by too large a share, or the model misses its own trials
 };
+constexpr StopLack LastOf(StopLack) { return StopLack::kShare; }
 
 struct StopShortfall {
   StopLack lack = StopLack::kGain;
@@ -65,24 +60,3 @@ struct StopShortfall {
 std::string TextOf(const StopShortfall& shortfall, const std::vector<std::string>& names);
 
 }  // namespace talus::optimizer
-
-template <>
-struct talus::base::Names<talus::optimizer::StopRule> {
-  using R = talus::optimizer::StopRule;
-  static constexpr std::array kList{
-      std::pair{"gain", R::kGain},
-      std::pair{"exact_gain", R::kExactGain},
-      std::pair{"share", R::kShare},
-      std::pair{"converged", R::kConverged},
-      std::pair{"all_evaluated", R::kAllEvaluated},
-      std::pair{"grid_evaluated", R::kGridEvaluated},
-      std::pair{"goal", R::kGoal},
-      std::pair{"goal_open", R::kGoalOpen},
-  };
-};
-template <>
-struct talus::base::Names<talus::optimizer::StopLack> {
-  using L = talus::optimizer::StopLack;
-  static constexpr std::array kList{std::pair{"first_trials", L::kFirstTrials},
-                                    std::pair{"gain", L::kGain}, std::pair{"share", L::kShare}};
-};

@@ -43,14 +43,18 @@ struct Material {
 };
 
 enum class Adhesion { kNone, kDmt, kJkr };
+constexpr Adhesion LastOf(Adhesion) { return Adhesion::kJkr; }
 enum class Rolling { kNone, kConstant, kViscous, kEpsd, kEpsd2 };
+constexpr Rolling LastOf(Rolling) { return Rolling::kEpsd2; }
 
 // Which normal force of JKR bounds the rolling torque (A6): the net one, or that above the
 // pull-off.
 enum class JkrRollingLimit { kNetForce, kFromPullOff };
+constexpr JkrRollingLimit LastOf(JkrRollingLimit) { return JkrRollingLimit::kFromPullOff; }
 
 // What a tangential spring of JKR between two spheres does while it slides (A7).
 enum class JkrSlidingSpring { kKept, kShortened };
+constexpr JkrSlidingSpring LastOf(JkrSlidingSpring) { return JkrSlidingSpring::kShortened; }
 
 // Which laws act between all bodies of a scene.
 struct ContactModels {
@@ -84,30 +88,3 @@ struct ContactModels {
 };
 
 }  // namespace talus::engine
-
-template <>
-struct talus::base::Names<talus::engine::Adhesion> {
-  using A = talus::engine::Adhesion;
-  static constexpr std::array kList{std::pair{"none", A::kNone}, std::pair{"dmt", A::kDmt},
-                                    std::pair{"jkr", A::kJkr}};
-};
-template <>
-struct talus::base::Names<talus::engine::Rolling> {
-  using R = talus::engine::Rolling;
-  static constexpr std::array kList{std::pair{"none", R::kNone},
-                                    std::pair{"constant", R::kConstant},
-                                    std::pair{"viscous", R::kViscous}, std::pair{"epsd", R::kEpsd},
-                                    std::pair{"epsd2", R::kEpsd2}};
-};
-template <>
-struct talus::base::Names<talus::engine::JkrRollingLimit> {
-  using L = talus::engine::JkrRollingLimit;
-  static constexpr std::array kList{std::pair{"net_force", L::kNetForce},
-                                    std::pair{"from_pull_off", L::kFromPullOff}};
-};
-template <>
-struct talus::base::Names<talus::engine::JkrSlidingSpring> {
-  using S = talus::engine::JkrSlidingSpring;
-  static constexpr std::array kList{std::pair{"kept", S::kKept},
-                                    std::pair{"shortened", S::kShortened}};
-};

@@ -28,17 +28,8 @@ struct SceneRunState {
   SeriesState series;
   std::string stop_reason;  // "time", "steps", "at_rest"; empty before the end
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("quiet_steps", self.quiet_steps);
-    visit("energy_ratio", self.energy_ratio);
-    visit("particle_steps", self.particle_steps);
-    visit("num_left", self.num_left);
-    visit("num_at_start", self.num_at_start);
-    visit("pours", self.pours);
-    visit("series", self.series);
-    visit("stop_reason", self.stop_reason);
-  }
+  TALUS_FIELDS(quiet_steps, energy_ratio, particle_steps, num_left, num_at_start, pours, series,
+               stop_reason);
 };
 
 class SceneRun : public Run {

@@ -22,14 +22,7 @@ struct SeriesState {
   std::vector<double> last_mass{};  // beyond each section then [kg]
   std::vector<double> left_mass{};  // that has left the scene beyond each section [kg]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("text", self.text);
-    visit("num_rows", self.num_rows);
-    visit("last_time", self.last_time);
-    visit("last_mass", self.last_mass);
-    visit("left_mass", self.left_mass);
-  }
+  TALUS_FIELDS(text, num_rows, last_time, last_mass, left_mass);
 };
 
 class Series {

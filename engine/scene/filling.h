@@ -23,6 +23,7 @@ namespace talus::engine {
 using base::Vec3;
 
 enum class RegionShape { kCylinder, kBox };
+constexpr RegionShape LastOf(RegionShape) { return RegionShape::kBox; }
 
 // Upright; `base` is the centre of its lower face.
 struct FillRegion {
@@ -72,9 +73,3 @@ std::string TooManyGrains(double num_grains);
 std::vector<double> Shuffled(std::vector<double> values, std::uint64_t seed);
 
 }  // namespace talus::engine
-
-template <>
-struct talus::base::Names<talus::engine::RegionShape> {
-  using R = talus::engine::RegionShape;
-  static constexpr std::array kList{std::pair{"cylinder", R::kCylinder}, std::pair{"box", R::kBox}};
-};

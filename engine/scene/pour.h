@@ -82,11 +82,7 @@ struct PourState {
   std::int64_t num_poured = 0;
   std::int64_t num_batches = 0;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("num_poured", self.num_poured);
-    visit("num_batches", self.num_batches);
-  }
+  TALUS_FIELDS(num_poured, num_batches);
 };
 
 class Pour {

@@ -14,7 +14,9 @@
 namespace talus::engine {
 
 enum class SizeKind { kMono, kUniform, kNormal, kLogNormal, kClasses, kCumulative, kFile };
+constexpr SizeKind LastOf(SizeKind) { return SizeKind::kFile; }
 enum class Weighting { kVolume, kNumber };
+constexpr Weighting LastOf(Weighting) { return Weighting::kNumber; }
 
 // Which of the optional fields a kind needs stands at the field.
 struct SizeDistribution {
@@ -95,19 +97,3 @@ std::vector<double> DrawDiameters(const SizeCurve& curve, double volume);
 double SampleVolumeQuantile(std::span<const double> diameters, double q);
 
 }  // namespace talus::engine
-
-template <>
-struct talus::base::Names<talus::engine::SizeKind> {
-  using K = talus::engine::SizeKind;
-  static constexpr std::array kList{
-      std::pair{"mono", K::kMono},       std::pair{"uniform", K::kUniform},
-      std::pair{"normal", K::kNormal},   std::pair{"log_normal", K::kLogNormal},
-      std::pair{"classes", K::kClasses}, std::pair{"cumulative", K::kCumulative},
-      std::pair{"file", K::kFile}};
-};
-template <>
-struct talus::base::Names<talus::engine::Weighting> {
-  using W = talus::engine::Weighting;
-  static constexpr std::array kList{std::pair{"volume", W::kVolume},
-                                    std::pair{"number", W::kNumber}};
-};

@@ -14,6 +14,7 @@
 namespace talus::engine {
 
 enum class WallKind { kPlane, kDisc, kOpenCylinder, kSolidCylinder, kAnnulus, kRectangle, kCone };
+constexpr WallKind LastOf(WallKind) { return WallKind::kCone; }
 
 struct MotionSpec {
   double time = 0;        // [s]
@@ -116,15 +117,3 @@ struct WallSpec {
 };
 
 }  // namespace talus::engine
-
-template <>
-struct talus::base::Names<talus::engine::WallKind> {
-  using K = talus::engine::WallKind;
-  static constexpr std::array kList{std::pair{"plane", K::kPlane},
-                                    std::pair{"disc", K::kDisc},
-                                    std::pair{"open_cylinder", K::kOpenCylinder},
-                                    std::pair{"solid_cylinder", K::kSolidCylinder},
-                                    std::pair{"annulus", K::kAnnulus},
-                                    std::pair{"rectangle", K::kRectangle},
-                                    std::pair{"cone", K::kCone}};
-};

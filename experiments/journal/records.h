@@ -21,27 +21,10 @@ enum class TrialKind {
   kConfirm,  // a final candidate with a fresh seed; the optimiser is not told
   kReused    // made by a former campaign or a design; the optimiser is told before anything else
 };
+constexpr TrialKind LastOf(TrialKind) { return TrialKind::kReused; }
 
 enum class TrialStatus { kRunning, kOk, kFailed };
-
-}  // namespace talus::journal
-
-template <>
-struct talus::base::Names<talus::journal::TrialKind> {
-  using K = talus::journal::TrialKind;
-  static constexpr std::array kList{std::pair{"noise", K::kNoise}, std::pair{"design", K::kDesign},
-                                    std::pair{"search", K::kSearch},
-                                    std::pair{"confirm", K::kConfirm},
-                                    std::pair{"reused", K::kReused}};
-};
-template <>
-struct talus::base::Names<talus::journal::TrialStatus> {
-  using S = talus::journal::TrialStatus;
-  static constexpr std::array kList{std::pair{"running", S::kRunning}, std::pair{"ok", S::kOk},
-                                    std::pair{"failed", S::kFailed}};
-};
-
-namespace talus::journal {
+constexpr TrialStatus LastOf(TrialStatus) { return TrialStatus::kFailed; }
 
 // A calibrated parameter.
 struct ParameterRecord {
@@ -53,14 +36,7 @@ struct ParameterRecord {
 
   bool operator==(const ParameterRecord&) const = default;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("low", self.low);
-    visit("high", self.high);
-    visit("scale", self.scale);
-    visit("unit", self.unit);
-  }
+  TALUS_FIELDS(name, low, high, scale, unit);
 };
 
 // "surface_energy_J_per_m2": its name in a table's head.
@@ -75,14 +51,7 @@ struct MetricRecord {
   // The value's, from run to run: known of an experiment of several runs only.
   double standard_error = std::numeric_limits<double>::quiet_NaN();
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("value", self.value);
-    visit("unit", self.unit);
-    visit("undefined", self.undefined);
-    visit("standard_error", self.standard_error);
-  }
+  TALUS_FIELDS(name, value, unit, undefined, standard_error);
 };
 
 // The image of one of an experiment's runs.
@@ -90,10 +59,7 @@ struct RunRecord {
   std::string name;
   std::string png;  // mean of its views, in the experiment's frame
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-  }
+  TALUS_FIELDS(name);
 };
 
 // A number that an experiment has measured beside its images.
@@ -102,12 +68,7 @@ struct ScalarRecord {
   double value = 0;
   double standard_error = 0;  // of the value, > 0
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("value", self.value);
-    visit("standard_error", self.standard_error);
-  }
+  TALUS_FIELDS(name, value, standard_error);
 };
 
 // What is doubtful about an experiment's photographs.
@@ -117,13 +78,7 @@ struct PhotoWarningRecord {
   double value = 0;   // as the kind says
   std::string text;   // for people
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("kind", self.kind);
-    visit("photo", self.photo);
-    visit("value", self.value);
-    visit("text", self.text);
-  }
+  TALUS_FIELDS(kind, photo, value, text);
 };
 
 // What trials are compared with: what was measured on the real powder by one test.
@@ -141,18 +96,8 @@ struct ExperimentRecord {
   std::vector<PhotoWarningRecord> warnings{};
 
   // All but the images.
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("reference", self.reference);
-    visit("frame_json", self.frame_json);
-    visit("nebp_px", self.nebp_px);
-    visit("num_heaps", self.num_heaps);
-    visit("experimental_noise_floor_mm2", self.noise_mm2);
-    visit("runs", self.runs);
-    visit("scalars", self.scalars);
-    visit("warnings", self.warnings);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"noise_mm2", "experimental_noise_floor_mm2"}};
+  TALUS_FIELDS(name, reference, frame_json, nebp_px, num_heaps, noise_mm2, runs, scalars, warnings);
 };
 
 // What holds for the campaign as a whole. Written once, when it starts.
@@ -169,19 +114,8 @@ struct CampaignRecord {
   std::vector<ExperimentRecord> experiments;  // one at least
 
   // All but the images.
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("spec_path", self.spec_path);
-    visit("spec_text", self.spec_text);
-    visit("spec_json", self.spec_json);
-    visit("spec_hash", self.spec_hash);
-    visit("talus_version", self.talus_version);
-    visit("created_utc", self.created_utc);
-    visit("objective", self.objective);
-    visit("parameters", self.parameters);
-    visit("experiments", self.experiments);
-  }
+  TALUS_FIELDS(name, spec_path, spec_text, spec_json, spec_hash, talus_version, created_utc,
+               objective, parameters, experiments);
 };
 
 // What changes while it runs.
@@ -220,33 +154,10 @@ struct TrialRecord {
   std::string job;  // the runner's own name for it, such as a cluster's job number
   std::vector<MetricRecord> metrics;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("id", self.id);
-    visit("kind", self.kind);
-    visit("kind_index", self.kind_index);
-    visit("set", self.set);
-    visit("origin", self.origin);
-    visit("objective", self.objective);
-    visit("unit_point", self.unit);
-    visit("values", self.native);
-    visit("seed", self.seed);
-    visit("experiment", self.experiment);
-    visit("scale_factor", self.scale_factor);
-    visit("status", self.status);
-    visit("reason", self.reason);
-    visit("attempts", self.attempts);
-    visit("finish_order", self.finish_order);
-    visit("started_utc", self.started_utc);
-    visit("finished_utc", self.finished_utc);
-    visit("duration_s", self.duration_s);
-    visit("cpu_s", self.cpu_s);
-    visit("num_steps", self.num_steps);
-    visit("num_particles", self.num_particles);
-    visit("host", self.host);
-    visit("job", self.job);
-    visit("metrics", self.metrics);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"unit", "unit_point"}, {"native", "values"}};
+  TALUS_FIELDS(id, kind, kind_index, set, origin, objective, unit, native, seed, experiment,
+               scale_factor, status, reason, attempts, finish_order, started_utc, finished_utc,
+               duration_s, cpu_s, num_steps, num_particles, host, job, metrics);
 
   // The value of a metric; nothing when the trial has none or it is not defined.
   std::optional<double> Metric(std::string_view name) const;

@@ -34,6 +34,7 @@ enum class JobEnd {
   kCancelled,    // by Cancel
   kNotStarted    // the command cannot be run, or the queue refused it
 };
+constexpr JobEnd LastOf(JobEnd) { return JobEnd::kNotStarted; }
 
 struct FinishedJob {
   std::int64_t id = 0;
@@ -78,16 +79,3 @@ class Runner {
 };
 
 }  // namespace talus::runners
-
-template <>
-struct talus::base::Names<talus::runners::JobEnd> {
-  using E = talus::runners::JobEnd;
-  static constexpr std::array kList{std::pair{"exit", E::kExit},
-                                    std::pair{"signal", E::kSignal},
-                                    std::pair{"time_cap", E::kTimeCap},
-                                    std::pair{"out_of_memory", E::kOutOfMemory},
-                                    std::pair{"node_failure", E::kNodeFailure},
-                                    std::pair{"preempted", E::kPreempted},
-                                    std::pair{"cancelled", E::kCancelled},
-                                    std::pair{"not_started", E::kNotStarted}};
-};

@@ -17,6 +17,9 @@ struct Names<Color> {
   static constexpr std::array kList{std::pair{"red", Color::kRed}, std::pair{"blue", Color::kBlue}};
 };
 
+enum class Ending { kDone, kTimeCap, kLostGrains };
+constexpr Ending LastOf(Ending) { return Ending::kLostGrains; }
+
 namespace {
 
 using ::testing::HasSubstr;
@@ -55,6 +58,16 @@ struct Outer {
   }
 };
 
+struct Record {
+  std::string name{};
+  double elapsed = 0;  // [s]
+  Ending ending = Ending::kDone;
+  std::optional<double> mass{};
+
+  static constexpr FieldKey kKeys[] = {{"elapsed", "elapsed_s"}, {"mass", "mass_kg"}};
+  TALUS_FIELDS(name, elapsed, ending, mass);
+};
+
 // The default breaks the rule, so that a value must be given.
 struct Powder {
   double mass = 0;
@@ -77,6 +90,21 @@ std::string ErrorOf(std::string_view text) {
     return error.what();
   }
   return "";
+}
+
+TEST(FieldList, NamesTheKeysInTheOrderOfTheListAndReadsThemBack) {
+  const Record record{.name = "a", .elapsed = 2.5, .ending = Ending::kLostGrains, .mass = 3e-3};
+  const std::string text = JsonText(ToJson(record));
+  EXPECT_EQ(text, R"({"name":"a","elapsed_s":2.5,"ending":"lost_grains","mass_kg":0.003})");
+  const auto again = LoadOptions<Record>(ParseJson(text, "record.json"));
+  EXPECT_EQ(JsonText(ToJson(again)), text);
+}
+
+TEST(EnumeratorNames, AreInSnakeCaseFromTheFirstToTheLast) {
+  std::vector<std::string> names;
+  for (const auto& [name, ending] : Names<Ending>::kList) names.emplace_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("done", "time_cap", "lost_grains"));
+  EXPECT_EQ(NameOf(Ending::kTimeCap), "time_cap");
 }
 
 TEST(JsonChanges, NamesWhatDiffersByItsPath) {

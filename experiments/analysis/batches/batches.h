@@ -23,12 +23,8 @@ struct BatchRange {
   double low = 0;
   double high = 0;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("median", self.median);
-    visit("low_90", self.low);
-    visit("high_90", self.high);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"low", "low_90"}, {"high", "high_90"}};
+  TALUS_FIELDS(median, low, high);
 };
 
 // This batch less the first.
@@ -38,13 +34,9 @@ struct BatchDifference {
   double probability = 0;  // that it is larger than that, either way
   bool is_found = false;   // the 90 % leave out 0
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("difference", self.range);
-    visit("matters", self.matters);
-    visit("probability_larger", self.probability);
-    visit("is_found", self.is_found);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"range", "difference"},
+                                             {"probability", "probability_larger"}};
+  TALUS_FIELDS(range, matters, probability, is_found);
 };
 
 struct BatchParameter {
@@ -53,13 +45,7 @@ struct BatchParameter {
   std::vector<BatchRange> batches{};
   std::vector<BatchDifference> differences{};  // of all but the first batch
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("unit", self.unit);
-    visit("batches", self.batches);
-    visit("differences", self.differences);
-  }
+  TALUS_FIELDS(name, unit, batches, differences);
 };
 
 // All parameters of a batch less those of the first: a curve of equal sets may hide in single
@@ -71,12 +57,8 @@ struct BatchTogether {
   double level = 0;
   bool is_found = false;  // it is not
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("batch", self.batch);
-    visit("credible_level_of_none", self.level);
-    visit("is_found", self.is_found);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"level", "credible_level_of_none"}};
+  TALUS_FIELDS(batch, level, is_found);
 };
 
 // The photographs of an experiment beside those of the first batch.
@@ -88,15 +70,8 @@ struct BatchPictures {
   double probability = 1;    // of one as large by chance
   int num_arrangements = 0;  // of the runs that this is counted over
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("batch", self.batch);
-    visit("experiment", self.experiment);
-    visit("absent", self.absent);
-    visit("sad_mm2", self.sad_mm2);
-    visit("probability_by_chance", self.probability);
-    visit("num_arrangements", self.num_arrangements);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"probability", "probability_by_chance"}};
+  TALUS_FIELDS(batch, experiment, absent, sad_mm2, probability, num_arrangements);
 };
 
 // Whether a batch differs from the first, in words.
@@ -105,12 +80,7 @@ struct BatchVerdict {
   bool is_found = false;
   std::string text{};  // "no difference found", or what differs
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("batch", self.batch);
-    visit("is_found", self.is_found);
-    visit("text", self.text);
-  }
+  TALUS_FIELDS(batch, is_found, text);
 };
 
 struct BatchComparison {
@@ -120,14 +90,7 @@ struct BatchComparison {
   std::vector<BatchPictures> pictures{};
   std::vector<BatchVerdict> verdicts{};  // of all but the first batch
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("batches", self.batches);
-    visit("parameters", self.parameters);
-    visit("together", self.together);
-    visit("pictures", self.pictures);
-    visit("verdicts", self.verdicts);
-  }
+  TALUS_FIELDS(batches, parameters, together, pictures, verdicts);
 };
 
 // At least two folders. `matters` is the difference that counts of a parameter, by name and as text

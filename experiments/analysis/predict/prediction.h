@@ -19,6 +19,7 @@ enum class PredictedBy {
   kRecommended,  // the recommended set
   kSet           // one that the user gave
 };
+constexpr PredictedBy LastOf(PredictedBy) { return PredictedBy::kSet; }
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -32,16 +33,8 @@ struct MeasuredThere {
   int nearest_draw = 0;            // by its place from 0
   bool nearest_is_inside = false;  // of the 90 % that this draw alone predicts
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("value", self.value);
-    visit("standard_error", self.standard_error);
-    visit("low_90", self.low);
-    visit("high_90", self.high);
-    visit("is_inside", self.is_inside);
-    visit("nearest_draw", self.nearest_draw);
-    visit("nearest_is_inside", self.nearest_is_inside);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"low", "low_90"}, {"high", "high_90"}};
+  TALUS_FIELDS(value, standard_error, low, high, is_inside, nearest_draw, nearest_is_inside);
 };
 
 struct PredictedNumber {
@@ -58,21 +51,9 @@ struct PredictedNumber {
   std::vector<double> by_draw{};       // mean of each draw; null where it is not defined
   std::optional<MeasuredThere> measured{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("is_usual", self.is_usual);
-    visit("num_defined", self.num_defined);
-    visit("undefined", self.undefined);
-    visit("mean", self.mean);
-    visit("low_90", self.low);
-    visit("high_90", self.high);
-    visit("parameters_sd", self.parameters_sd);
-    visit("run_sd", self.run_sd);
-    visit("parameters_share", self.parameters_share);
-    visit("by_draw", self.by_draw);
-    visit("measured", self.measured);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"low", "low_90"}, {"high", "high_90"}};
+  TALUS_FIELDS(name, is_usual, num_defined, undefined, mean, low, high, parameters_sd, run_sd,
+               parameters_share, by_draw, measured);
 };
 
 // A measured profile beside the simulated ones. Distances are areas between silhouettes.
@@ -84,26 +65,14 @@ struct MeasuredImage {
   double nearest_sad_mm2 = kUnknown;
   bool nearest_is_inside = false;  // nearer than 90 % of single runs are to their draw's mean
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("sad_mm2", self.sad_mm2);
-    visit("sad_90_mm2", self.sad_90_mm2);
-    visit("is_inside", self.is_inside);
-    visit("nearest_draw", self.nearest_draw);
-    visit("nearest_sad_mm2", self.nearest_sad_mm2);
-    visit("nearest_is_inside", self.nearest_is_inside);
-  }
+  TALUS_FIELDS(sad_mm2, sad_90_mm2, is_inside, nearest_draw, nearest_sad_mm2, nearest_is_inside);
 };
 
 struct PredictedDraw {
   double weight = 0;
   std::vector<double> values{};  // of the searched parameters, SI
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("weight", self.weight);
-    visit("values", self.values);
-  }
+  TALUS_FIELDS(weight, values);
 };
 
 // How a test or process shears its powder (regimes.h): 5, 50 and 95 % of the work of shearing is
@@ -117,16 +86,10 @@ struct FlowRegime {
   std::vector<double> contact_duration{};  // of a collision at γ̇ d, over 1/γ̇ [-]
   double bond_number = 0;                  // pull-off force over weight [-]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("is_process", self.is_process);
-    visit("inertial_number", self.inertial_number);
-    visit("pressure_Pa", self.pressure);
-    visit("shear_rate_per_s", self.shear_rate);
-    visit("contact_duration", self.contact_duration);
-    visit("bond_number", self.bond_number);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"pressure", "pressure_Pa"},
+                                             {"shear_rate", "shear_rate_per_s"}};
+  TALUS_FIELDS(name, is_process, inertial_number, pressure, shear_rate, contact_duration,
+               bond_number);
 };
 
 struct Prediction {
@@ -149,35 +112,12 @@ struct Prediction {
   std::string most_different{};
   std::vector<int> different{};  // the two draws in it, by place from 0
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("test", self.test);
-    visit("by", self.by);
-    visit("scale_factor", self.scale_factor);
-    visit("after_trial", self.last_trial);
-    visit("num_runs", self.num_runs);
-    visit("num_ended", self.num_ended);
-    visit("num_failed", self.num_failed);
-    visit("failure", self.failure);
-    visit("core_time_s", self.core_time);
-    visit("notes", self.notes);
-    visit("draws", self.draws);
-    visit("numbers", self.numbers);
-    visit("image", self.image);
-    visit("regimes", self.regimes);
-    visit("mean_profile", self.mean_profile);
-    visit("most_different", self.most_different);
-    visit("most_different_draws", self.different);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"},
+                                             {"core_time", "core_time_s"},
+                                             {"different", "most_different_draws"}};
+  TALUS_FIELDS(name, test, by, scale_factor, last_trial, num_runs, num_ended, num_failed, failure,
+               core_time, notes, draws, numbers, image, regimes, mean_profile, most_different,
+               different);
 };
 
 }  // namespace talus::analysis
-
-template <>
-struct talus::base::Names<talus::analysis::PredictedBy> {
-  using P = talus::analysis::PredictedBy;
-  static constexpr std::array kList{std::pair{"posterior", P::kPosterior},
-                                    std::pair{"recommended", P::kRecommended},
-                                    std::pair{"set", P::kSet}};
-};

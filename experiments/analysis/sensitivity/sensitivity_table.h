@@ -17,13 +17,9 @@ struct OutputShift {
                          // mean square over its modes, of a number with its sign
   double noise = 0;      // sd that chance gives the shift; of an image its root mean square
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("experiment", self.experiment);
-    visit("output", self.output);
-    visit("shift_in_noise_sd", self.shift);
-    visit("by_chance", self.noise);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"shift", "shift_in_noise_sd"},
+                                             {"noise", "by_chance"}};
+  TALUS_FIELDS(experiment, output, shift, noise);
 };
 
 // What the answer would be with the moved value, SI.
@@ -35,15 +31,9 @@ struct AnswerShift {
   double half_ranges = 0;     // the shift over half of the stated range [-], on the searched scale
   double half_ranges_error = 0;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("parameter", self.parameter);
-    visit("from", self.from);
-    visit("to", self.to);
-    visit("standard_error", self.standard_error);
-    visit("shift_in_half_ranges", self.half_ranges);
-    visit("shift_error_in_half_ranges", self.half_ranges_error);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"half_ranges", "shift_in_half_ranges"},
+                                             {"half_ranges_error", "shift_error_in_half_ranges"}};
+  TALUS_FIELDS(parameter, from, to, standard_error, half_ranges, half_ranges_error);
   // Beyond half of the range, and not by chance.
   bool Exceeds() const;
   // Whether more simulations would not change what Exceeds says.
@@ -60,17 +50,7 @@ struct FixedMove {
   std::vector<OutputShift> outputs{};
   std::vector<AnswerShift> answer{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("from", self.from);
-    visit("to", self.to);
-    visit("replicates", self.replicates);
-    visit("num_failed", self.num_failed);
-    visit("why_not", self.why_not);
-    visit("outputs", self.outputs);
-    visit("answer", self.answer);
-  }
+  TALUS_FIELDS(name, from, to, replicates, num_failed, why_not, outputs, answer);
   bool Exceeds() const;  // any parameter
   bool IsTold() const;   // all parameters
   double MostHalfRanges() const;
@@ -83,14 +63,9 @@ struct SensitivityParameter {
   double low = 0;    // stated range
   double high = 0;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("unit", self.unit);
-    visit("value", self.value);
-    visit("credible_90_low", self.low);
-    visit("credible_90_high", self.high);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"low", "credible_90_low"},
+                                             {"high", "credible_90_high"}};
+  TALUS_FIELDS(name, unit, value, low, high);
 };
 
 struct SensitivityTable {
@@ -101,15 +76,9 @@ struct SensitivityTable {
   std::vector<SensitivityParameter> parameters{};
   std::vector<FixedMove> moves{};  // the largest shift of the answer first
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("scale_factor", self.scale_factor);
-    visit("after_trial", self.last_trial);
-    visit("num_simulations", self.num_simulations);
-    visit("core_time_s", self.core_time);
-    visit("parameters", self.parameters);
-    visit("moves", self.moves);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"},
+                                             {"core_time", "core_time_s"}};
+  TALUS_FIELDS(scale_factor, last_trial, num_simulations, core_time, parameters, moves);
 };
 
 }  // namespace talus::analysis

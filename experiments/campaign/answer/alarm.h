@@ -44,6 +44,7 @@ enum class AlarmKind {
   kViewDisagrees,
   kOverexposed
 };
+constexpr AlarmKind LastOf(AlarmKind) { return AlarmKind::kOverexposed; }
 
 struct Alarm;
 
@@ -97,35 +98,3 @@ inline constexpr int kMoreSimulations = 20;  // to go on with where no better nu
 Alarm PhotographAlarm(const journal::PhotoWarningRecord& warning, const std::string& experiment);
 
 }  // namespace talus::campaign
-
-template <>
-struct talus::base::Names<talus::campaign::AlarmKind> {
-  using K = talus::campaign::AlarmKind;
-  static constexpr std::array kList{
-      std::pair{"implausible", K::kImplausible},
-      std::pair{"disagree", K::kDisagree},
-      std::pair{"misses", K::kMisses},
-      std::pair{"search_misses", K::kSearchMisses},
-      std::pair{"contradicts_prior", K::kContradictsPrior},
-      std::pair{"worse_than_predicted", K::kWorseThanPredicted},
-      std::pair{"worse_than_observed", K::kWorseThanObserved},
-      std::pair{"poor_model", K::kPoorModel},
-      std::pair{"extrapolated", K::kExtrapolated},
-      std::pair{"unlearnt_scale_factor", K::kUnlearntScaleFactor},
-      std::pair{"budget_ended", K::kBudgetEnded},
-      std::pair{"few_simulations", K::kFewSimulations},
-      std::pair{"correlated", K::kCorrelated},
-      std::pair{"bound", K::kBound},
-      std::pair{"few_grains", K::kFewGrains},
-      std::pair{"left_out", K::kLeftOut},
-      std::pair{"run_disagrees", K::kRunDisagrees},
-      std::pair{"front_lit", K::kFrontLit},
-      std::pair{"mixed_light", K::kMixedLight},
-      std::pair{"hidden_top", K::kHiddenTop},
-      std::pair{"no_powder", K::kNoPowder},
-      std::pair{"touches_frame", K::kTouchesFrame},
-      std::pair{"beside_plate", K::kBesidePlate},
-      std::pair{"view_disagrees", K::kViewDisagrees},
-      std::pair{"overexposed", K::kOverexposed},
-  };
-};

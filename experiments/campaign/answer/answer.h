@@ -38,21 +38,10 @@ struct ResultParameter {
   std::optional<ResultPrior> prior{};        // none: uniform
   std::optional<ResultNuisance> nuisance{};  // none: it is asked for
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("unit", self.unit);
-    visit("value", self.value);
-    visit("searched_low", self.searched_low);
-    visit("searched_high", self.searched_high);
-    visit("scale", self.scale);
-    visit("credible_90_low", self.credible_low);
-    visit("credible_90_high", self.credible_high);
-    visit("sobol_first", self.sobol_first);
-    visit("sobol_total", self.sobol_total);
-    visit("prior", self.prior);
-    visit("nuisance", self.nuisance);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"credible_low", "credible_90_low"},
+                                             {"credible_high", "credible_90_high"}};
+  TALUS_FIELDS(name, unit, value, searched_low, searched_high, scale, credible_low, credible_high,
+               sobol_first, sobol_total, prior, nuisance);
   // Its searched range, for ToUnit and ToNative.
   optimizer::Parameter Range() const {
     return {.name = name, .low = searched_low, .high = searched_high, .scale = scale};
@@ -67,12 +56,7 @@ struct ResultNumber {
   double value = kNotKnown;
   double standard_error = kNotKnown;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("value", self.value);
-    visit("standard_error", self.standard_error);
-  }
+  TALUS_FIELDS(name, value, standard_error);
 };
 
 // What was measured, and how far simulations of it scatter.
@@ -86,17 +70,10 @@ struct ResultExperiment {
   std::optional<double> noise_sd{};       // of the objective of one simulation, by the model
   std::optional<double> replicates_sd{};  // the same, from the replicates before the search
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("has_image", self.has_image);
-    visit("num_heaps", self.num_heaps);
-    visit("powder_area_mm2", self.powder_area);
-    visit("numbers", self.numbers);
-    visit("noise_floor_mm2", self.noise_floor);
-    visit("noise_sd", self.noise_sd);
-    visit("replicates_sd", self.replicates_sd);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"powder_area", "powder_area_mm2"},
+                                             {"noise_floor", "noise_floor_mm2"}};
+  TALUS_FIELDS(name, has_image, num_heaps, powder_area, numbers, noise_floor, noise_sd,
+               replicates_sd);
 };
 
 // What an experiment is made with.
@@ -104,11 +81,7 @@ struct ResultDevice {
   std::string experiment{};
   std::string text{};  // "drum: diameter 84 mm, speed 10 rpm"
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("experiment", self.experiment);
-    visit("text", self.text);
-  }
+  TALUS_FIELDS(experiment, text);
 };
 
 // A calibrated set, above all γ, holds only together with these.
@@ -120,15 +93,8 @@ struct ResultConditions {
   std::string adhesion{};
   std::string rolling{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("scale_factor", self.scale_factor);
-    visit("surface_energy_exponent", self.surface_energy_exponent);
-    visit("youngs_modulus_Pa", self.youngs_modulus);
-    visit("devices", self.devices);
-    visit("adhesion", self.adhesion);
-    visit("rolling", self.rolling);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"youngs_modulus", "youngs_modulus_Pa"}};
+  TALUS_FIELDS(scale_factor, surface_energy_exponent, youngs_modulus, devices, adhesion, rolling);
 };
 
 // What more simulations are expected to take from the range of a parameter.
@@ -136,11 +102,7 @@ struct ResultNarrowing {
   std::string parameter{};
   double share = 0;  // of its width [-]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("parameter", self.parameter);
-    visit("share", self.share);
-  }
+  TALUS_FIELDS(parameter, share);
 };
 
 // The budget ended the search where more simulations would still narrow the ranges.
@@ -150,13 +112,8 @@ struct ResultUnsettled {
   std::vector<ResultNarrowing> narrowing{};  // of each parameter asked for, where that is known
   int num_more = 0;                          // simulations that it is of; 0: not known
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("lacks", self.lacks);
-    visit("why", self.why);
-    visit("narrowing", self.narrowing);
-    visit("more_simulations", self.num_more);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"num_more", "more_simulations"}};
+  TALUS_FIELDS(lacks, why, narrowing, num_more);
 };
 
 // Without what was reused, which others have paid for.
@@ -166,13 +123,8 @@ struct ResultCost {
   double core_hours = 0;
   double elapsed = 0;  // [s], all sessions together
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("num_trials", self.num_trials);
-    visit("num_failed", self.num_failed);
-    visit("core_hours", self.core_hours);
-    visit("elapsed_s", self.elapsed);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"elapsed", "elapsed_s"}};
+  TALUS_FIELDS(num_trials, num_failed, core_hours, elapsed);
 };
 
 struct Answer {
@@ -197,28 +149,10 @@ struct Answer {
   ResultCost cost{};
   std::vector<ResultReused> reused{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("talus_version", self.talus_version);
-    visit("stop", self.stop);
-    visit("unsettled", self.unsettled);
-    visit("objective", self.objective);
-    visit("objective_unit", self.objective_unit);
-    visit("verdict", self.verdict);
-    visit("representative_sets", self.representative);
-    visit("parameters", self.parameters);
-    visit("experiments", self.experiments);
-    visit("confirmed", self.confirmed);
-    visit("correlation", self.correlation);
-    visit("model", self.model);
-    visit("posterior", self.posterior);
-    visit("held_out", self.held_out);
-    visit("warnings", self.warnings);
-    visit("conditions", self.conditions);
-    visit("cost", self.cost);
-    visit("reused", self.reused);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"representative", "representative_sets"}};
+  TALUS_FIELDS(name, talus_version, stop, unsettled, objective, objective_unit, verdict,
+               representative, parameters, experiments, confirmed, correlation, model, posterior,
+               held_out, warnings, conditions, cost, reused);
 };
 
 // result.json's text, and back.

@@ -18,11 +18,7 @@ struct ResultScalar {
   std::string name{};
   double mean = kNotKnown;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("mean", self.mean);
-  }
+  TALUS_FIELDS(name, mean);
 };
 
 // How the confirming trials of one experiment came out.
@@ -36,17 +32,12 @@ struct ResultConfirmed {
   std::optional<double> over_floor{};       // … over the experiment's noise floor
   std::vector<ResultScalar> scalars{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("num_trials", self.num_trials);
-    visit("objective_mean", self.mean);
-    visit("objective_standard_error", self.standard_error);
-    visit("sad_mm2", self.sad_mm2);
-    visit("mean_profile_sad_mm2", self.profile_sad_mm2);
-    visit("mean_profile_sad_over_noise_floor", self.over_floor);
-    visit("scalars", self.scalars);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"mean", "objective_mean"},
+                                             {"standard_error", "objective_standard_error"},
+                                             {"profile_sad_mm2", "mean_profile_sad_mm2"},
+                                             {"over_floor", "mean_profile_sad_over_noise_floor"}};
+  TALUS_FIELDS(name, num_trials, mean, standard_error, sad_mm2, profile_sad_mm2, over_floor,
+               scalars);
 };
 
 // A set that was simulated again with fresh seeds.
@@ -56,13 +47,7 @@ struct ResultCandidate {
   double scale_factor = 1;
   std::vector<ResultConfirmed> experiments{};  // in the campaign's order
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("role", self.role);
-    visit("values", self.values);
-    visit("scale_factor", self.scale_factor);
-    visit("experiments", self.experiments);
-  }
+  TALUS_FIELDS(role, values, scale_factor, experiments);
 };
 
 }  // namespace talus::campaign

@@ -21,16 +21,11 @@ struct PredictedNumber {
 
   bool IsInside() const { return measured >= low && measured <= high; }
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("predicted", self.mean);
-    visit("predicted_sd", self.sd);
-    visit("predicted_low", self.low);
-    visit("predicted_high", self.high);
-    visit("measured", self.measured);
-    visit("measured_sd", self.measured_sd);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"mean", "predicted"},
+                                             {"sd", "predicted_sd"},
+                                             {"low", "predicted_low"},
+                                             {"high", "predicted_high"}};
+  TALUS_FIELDS(name, mean, sd, low, high, measured, measured_sd);
 };
 
 struct ResultHeldOut {
@@ -42,15 +37,9 @@ struct ResultHeldOut {
   double least_implausibility = 0;  // over the others' joint 90 % region
   std::vector<PredictedNumber> numbers{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("predicted_objective", self.predicted);
-    visit("predicted_objective_sd", self.predicted_sd);
-    visit("implausibility", self.implausibility);
-    visit("least_implausibility", self.least_implausibility);
-    visit("numbers", self.numbers);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},
+                                             {"predicted_sd", "predicted_objective_sd"}};
+  TALUS_FIELDS(name, predicted, predicted_sd, implausibility, least_implausibility, numbers);
 };
 
 }  // namespace talus::campaign

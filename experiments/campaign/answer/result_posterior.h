@@ -17,13 +17,7 @@ struct ResultBranch {
   std::vector<double> low{};
   std::vector<double> high{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("share", self.share);
-    visit("values", self.values);
-    visit("low", self.low);
-    visit("high", self.high);
-  }
+  TALUS_FIELDS(share, values, low, high);
 };
 
 // A number of an experiment at a set, as the model expects it: in the order of the experiment's.
@@ -31,11 +25,7 @@ struct ResultPredictedNumber {
   double predicted = 0;     // mean over seeds, in the metric's unit
   double predicted_sd = 0;  // of that mean
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("predicted", self.predicted);
-    visit("predicted_sd", self.predicted_sd);
-  }
+  TALUS_FIELDS(predicted, predicted_sd);
 };
 
 // A set beside an experiment, at the target scale factor.
@@ -48,16 +38,10 @@ struct ResultStanding {
   double model_error_told = 0;  // share of its prior's sd that was learnt, in [0, 1]; 0: stated
   std::vector<ResultPredictedNumber> numbers{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("predicted_objective", self.predicted);
-    visit("predicted_objective_sd", self.predicted_sd);
-    visit("implausibility", self.implausibility);
-    visit("model_error", self.model_error);
-    visit("model_error_told", self.model_error_told);
-    visit("numbers", self.numbers);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},
+                                             {"predicted_sd", "predicted_objective_sd"}};
+  TALUS_FIELDS(name, predicted, predicted_sd, implausibility, model_error, model_error_told,
+               numbers);
 };
 
 // What one experiment answers by itself. Values in the order of the parameters, SI.
@@ -67,13 +51,7 @@ struct ResultAlone {
   std::vector<double> low{};  // joint 90 % ranges
   std::vector<double> high{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("name", self.name);
-    visit("values", self.values);
-    visit("low", self.low);
-    visit("high", self.high);
-  }
+  TALUS_FIELDS(name, values, low, high);
 };
 
 struct ResultPosterior {
@@ -94,24 +72,12 @@ struct ResultPosterior {
   std::string odd{};                 // the experiment with the largest part of it; "" without
   std::vector<ResultAlone> alone{};  // where experiments disagree only
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("target_scale_factor", self.target_scale_factor);
-    visit("is_extrapolated", self.is_extrapolated);
-    visit("region_90_volume_fraction", self.region_volume);
-    visit("branches", self.branches);
-    visit("temper", self.temper);
-    visit("raw_coverage_90", self.raw_coverage);
-    visit("tempered_coverage_90", self.tempered_coverage);
-    visit("num_left_out", self.num_left_out);
-    visit("unlearnt_scale_factors", self.unlearnt_scale_factors);
-    visit("fewest_at_finest", self.fewest_at_finest);
-    visit("surrogate_narrowing", self.surrogate_narrowing);
-    visit("experiments", self.experiments);
-    visit("tension", self.tension);
-    visit("odd", self.odd);
-    visit("alone", self.alone);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"region_volume", "region_90_volume_fraction"},
+                                             {"raw_coverage", "raw_coverage_90"},
+                                             {"tempered_coverage", "tempered_coverage_90"}};
+  TALUS_FIELDS(target_scale_factor, is_extrapolated, region_volume, branches, temper, raw_coverage,
+               tempered_coverage, num_left_out, unlearnt_scale_factors, fewest_at_finest,
+               surrogate_narrowing, experiments, tension, odd, alone);
 };
 
 // While the surrogate's variance is larger than all others: a range would be 1/√2 as wide without.

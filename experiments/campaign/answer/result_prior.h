@@ -13,13 +13,9 @@ struct ResultPrior {
   double high = std::numeric_limits<double>::quiet_NaN();
   double offset = 0;  // of the posterior's mean from its, in its standard deviations
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("text", self.text);
-    visit("low_90", self.low);
-    visit("high_90", self.high);
-    visit("offset_sd", self.offset);
-  }
+  static constexpr base::FieldKey kKeys[] = {
+      {"low", "low_90"}, {"high", "high_90"}, {"offset", "offset_sd"}};
+  TALUS_FIELDS(text, low, high, offset);
 };
 
 // What a parameter that is not asked for does to those that are.
@@ -27,11 +23,7 @@ struct ResultNuisance {
   double narrowing = 0;    // the share by which a range would shrink if it were known: narrowing.h
   std::string of_range{};  // the parameter of that range, the one that would shrink most
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("narrowing", self.narrowing);
-    visit("of_range", self.of_range);
-  }
+  TALUS_FIELDS(narrowing, of_range);
 };
 
 }  // namespace talus::campaign

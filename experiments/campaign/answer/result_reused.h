@@ -15,12 +15,7 @@ struct ResultReused {
   int num_trials = 0;     // that have been told
   double core_hours = 0;  // that they took there
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("from", self.from);
-    visit("num_trials", self.num_trials);
-    visit("core_hours", self.core_hours);
-  }
+  TALUS_FIELDS(from, num_trials, core_hours);
 };
 
 // By folder, in the order in which they were told. `num_cores`: of a trial.

@@ -19,16 +19,13 @@ enum class VerdictKind {
   kRegion,   // a range is wide, and no other parameter ties it
   kSeparate  // several unconnected regions
 };
+constexpr VerdictKind LastOf(VerdictKind) { return VerdictKind::kSeparate; }
 
 struct ResultVerdict {
   VerdictKind kind = VerdictKind::kPoint;
   std::string text{};  // Headline, with the parameters' names
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("kind", self.kind);
-    visit("text", self.text);
-  }
+  TALUS_FIELDS(kind, text);
 };
 
 // Correlation from which on two parameters are known together only.
@@ -39,11 +36,3 @@ std::optional<std::pair<std::size_t, std::size_t>> TiedPair(
     const std::vector<std::vector<double>>& correlation, double least = kTied);
 
 }  // namespace talus::campaign
-
-template <>
-struct talus::base::Names<talus::campaign::VerdictKind> {
-  using K = talus::campaign::VerdictKind;
-  static constexpr std::array kList{std::pair{"point", K::kPoint}, std::pair{"curve", K::kCurve},
-                                    std::pair{"region", K::kRegion},
-                                    std::pair{"separate", K::kSeparate}};
-};

@@ -22,14 +22,7 @@ struct DesignRecord {
   std::vector<journal::ParameterRecord> parameters{};  // that are searched
   std::vector<std::vector<double>> points{};           // unit cube of these
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("test", self.test);
-    visit("scale_factor", self.scale_factor);
-    visit("seed", self.seed);
-    visit("parameters", self.parameters);
-    visit("points", self.points);
-  }
+  TALUS_FIELDS(test, scale_factor, seed, parameters, points);
 };
 
 struct DesignFolder {

@@ -28,18 +28,14 @@ struct GoalState {
   double core_time = 0;                           // of these [s]
   std::optional<optimizer::StopReason> reason{};  // why the search may end; none: it goes on
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("goal", self.goal);
-    visit("after_trials", self.after);
-    visit("half_width_90", self.half_width);
-    visit("parameters_half_width_90", self.parameters_half_width);
-    visit("surrogate_half_width_90", self.surrogate_half_width);
-    visit("least_half_width_90", self.least_half_width);
-    visit("num_runs", self.num_runs);
-    visit("core_time_s", self.core_time);
-    visit("reason", self.reason);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"after", "after_trials"},
+                                             {"half_width", "half_width_90"},
+                                             {"parameters_half_width", "parameters_half_width_90"},
+                                             {"surrogate_half_width", "surrogate_half_width_90"},
+                                             {"least_half_width", "least_half_width_90"},
+                                             {"core_time", "core_time_s"}};
+  TALUS_FIELDS(goal, after, half_width, parameters_half_width, surrogate_half_width,
+               least_half_width, num_runs, core_time, reason);
 };
 
 struct CampaignSpec;

@@ -26,21 +26,9 @@ struct TrialProgress {
   std::string reason{};                   // of a failure
   double duration = 0;                    // [s]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("trial", self.trial);
-    visit("kind", self.kind);
-    visit("status", self.status);
-    visit("parameters", self.parameters);
-    visit("values", self.values);
-    visit("scale_factor", self.scale_factor);
-    visit("experiment", self.experiment);
-    visit("objective", self.objective);
-    visit("unit", self.unit);
-    visit("best", self.best);
-    visit("reason", self.reason);
-    visit("duration_s", self.duration);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"duration", "duration_s"}};
+  TALUS_FIELDS(trial, kind, status, parameters, values, scale_factor, experiment, objective, unit,
+               best, reason, duration);
 };
 
 struct CampaignProgress {
@@ -56,19 +44,9 @@ struct CampaignProgress {
   std::string unit{};
   std::optional<double> seconds_left{};  // at most
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("num_search", self.num_search);
-    visit("num_confirm", self.num_confirm);
-    visit("budget", self.budget);
-    visit("core_seconds", self.core_seconds);
-    visit("core_seconds_budget", self.core_seconds_budget);
-    visit("num_running", self.num_running);
-    visit("best_objective", self.best);
-    visit("best_trial", self.best_trial);
-    visit("unit", self.unit);
-    visit("seconds_left", self.seconds_left);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"best", "best_objective"}};
+  TALUS_FIELDS(num_search, num_confirm, budget, core_seconds, core_seconds_budget, num_running,
+               best, best_trial, unit, seconds_left);
 };
 
 // "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1: 1.2 mm², the best so far, 12 s"

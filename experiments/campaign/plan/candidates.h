@@ -19,6 +19,7 @@ inline constexpr double kWideRange = 0.25;
 inline constexpr double kRegionLevel = 0.9;  // credible level of the joint region
 
 enum class CandidateRole { kRecommended, kBranch, kEnd };
+constexpr CandidateRole LastOf(CandidateRole) { return CandidateRole::kEnd; }
 
 struct Candidate {
   Eigen::VectorXd point;  // unit cube
@@ -47,10 +48,3 @@ std::vector<Candidate> CandidatesOf(const optimizer::Answer& answer, const Equal
 bool AreNear(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
 }  // namespace talus::campaign
-
-template <>
-struct talus::base::Names<talus::campaign::CandidateRole> {
-  using K = talus::campaign::CandidateRole;
-  static constexpr std::array kList{std::pair{"recommended", K::kRecommended},
-                                    std::pair{"branch", K::kBranch}, std::pair{"end", K::kEnd}};
-};

@@ -20,6 +20,7 @@ enum class StopKind {
   kUndefined,    // none of the first `value` trials defines the measured number `cause`
   kNothingLeft,  // the strategy has no more to propose
 };
+constexpr StopKind LastOf(StopKind) { return StopKind::kNothingLeft; }
 
 struct Stop {
   StopKind kind = StopKind::kNothingLeft;
@@ -41,15 +42,3 @@ struct Stop {
 };
 
 }  // namespace talus::campaign
-
-template <>
-struct talus::base::Names<talus::campaign::StopKind> {
-  using K = talus::campaign::StopKind;
-  static constexpr std::array kList{std::pair{"rule", K::kRule},
-                                    std::pair{"simulations", K::kSimulations},
-                                    std::pair{"core_time", K::kCoreTime},
-                                    std::pair{"wall_clock", K::kWallClock},
-                                    std::pair{"all_failed", K::kAllFailed},
-                                    std::pair{"undefined", K::kUndefined},
-                                    std::pair{"nothing_left", K::kNothingLeft}};
-};

@@ -12,6 +12,7 @@
 namespace talus::campaign {
 
 enum class EngineKind { kTalus, kCommand };
+constexpr EngineKind LastOf(EngineKind) { return EngineKind::kCommand; }
 
 struct EngineOptions {
   EngineKind kind = EngineKind::kTalus;
@@ -28,6 +29,7 @@ struct EngineOptions {
 };
 
 enum class RunnerKind { kLocal, kSlurm };
+constexpr RunnerKind LastOf(RunnerKind) { return RunnerKind::kSlurm; }
 
 struct RunnerOptions {
   RunnerKind kind = RunnerKind::kLocal;
@@ -45,15 +47,3 @@ struct RunnerOptions {
 };
 
 }  // namespace talus::campaign
-
-template <>
-struct talus::base::Names<talus::campaign::EngineKind> {
-  using E = talus::campaign::EngineKind;
-  static constexpr std::array kList{std::pair{"talus", E::kTalus},
-                                    std::pair{"command", E::kCommand}};
-};
-template <>
-struct talus::base::Names<talus::campaign::RunnerKind> {
-  using R = talus::campaign::RunnerKind;
-  static constexpr std::array kList{std::pair{"local", R::kLocal}, std::pair{"slurm", R::kSlurm}};
-};

@@ -14,10 +14,8 @@ namespace talus::rigs {
 struct DrumMemory {
   std::vector<double> angles{};  // of the surface at each look [deg]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("angles_deg", self.angles);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"angles", "angles_deg"}};
+  TALUS_FIELDS(angles);
 };
 
 class DrumRig : public RememberingRig<DrumMemory> {

@@ -13,10 +13,8 @@ namespace talus::rigs {
 struct FunnelHeapMemory {
   double mass_fallen = 0;  // out of the scene [kg]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("mass_fallen_kg", self.mass_fallen);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"mass_fallen", "mass_fallen_kg"}};
+  TALUS_FIELDS(mass_fallen);
 };
 
 class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {

@@ -16,11 +16,7 @@ struct LiftedTubeMemory {
   std::int64_t num_fallen = 0;   // left over the plate's rim
   std::int64_t num_carried = 0;  // taken away by the tube
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("num_fallen", self.num_fallen);
-    visit("num_carried", self.num_carried);
-  }
+  TALUS_FIELDS(num_fallen, num_carried);
 };
 
 class LiftedTubeRig : public RememberingRig<LiftedTubeMemory> {

@@ -12,6 +12,7 @@ namespace talus::rigs {
 // kDense: placed at rest, at a solid fraction of 0.55, in no simulated time. kPour: from the mouth
 // of a funnel, grain by grain.
 enum class FillingKind { kDense, kPour };
+constexpr FillingKind LastOf(FillingKind) { return FillingKind::kPour; }
 
 // Before the lift, plate and tube are lifted together and let fall.
 struct TapRule {
@@ -62,9 +63,3 @@ struct FillingRule {
 };
 
 }  // namespace talus::rigs
-
-template <>
-struct talus::base::Names<talus::rigs::FillingKind> {
-  using F = talus::rigs::FillingKind;
-  static constexpr std::array kList{std::pair{"dense", F::kDense}, std::pair{"pour", F::kPour}};
-};

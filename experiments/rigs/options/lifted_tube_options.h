@@ -14,6 +14,7 @@
 namespace talus::rigs {
 
 enum class PlateKind { kSolidCylinder, kDisc };
+constexpr PlateKind LastOf(PlateKind) { return PlateKind::kDisc; }
 
 struct LiftedTubeOptions {
   double tube_inner_diameter = 0.01;    // D_i [m], > 0
@@ -52,10 +53,3 @@ struct LiftedTubeOptions {
 };
 
 }  // namespace talus::rigs
-
-template <>
-struct talus::base::Names<talus::rigs::PlateKind> {
-  using P = talus::rigs::PlateKind;
-  static constexpr std::array kList{std::pair{"solid_cylinder", P::kSolidCylinder},
-                                    std::pair{"disc", P::kDisc}};
-};

@@ -33,6 +33,7 @@ enum class RigKind {
   kSpreading,
   kShearCell
 };
+constexpr RigKind LastOf(RigKind) { return RigKind::kShearCell; }
 
 // Whether its powder moves when it is measured, so that a camera can take pictures of it.
 constexpr bool IsFilmed(RigKind kind) {
@@ -117,18 +118,3 @@ struct RigOptions {
 };
 
 }  // namespace talus::rigs
-
-template <>
-struct talus::base::Names<talus::rigs::RigKind> {
-  using R = talus::rigs::RigKind;
-  static constexpr std::array kList{std::pair{"lifted_tube", R::kLiftedTube},
-                                    std::pair{"tapped_density", R::kTappedDensity},
-                                    std::pair{"column_collapse", R::kColumnCollapse},
-                                    std::pair{"tilting_box", R::kTiltingBox},
-                                    std::pair{"draw_down", R::kDrawDown},
-                                    std::pair{"drum", R::kDrum},
-                                    std::pair{"orifice_flow", R::kOrificeFlow},
-                                    std::pair{"funnel_heap", R::kFunnelHeap},
-                                    std::pair{"spreading", R::kSpreading},
-                                    std::pair{"shear_cell", R::kShearCell}};
-};

@@ -15,6 +15,7 @@
 namespace talus::rigs {
 
 enum class Spreader { kBlade, kRoller, kComb };
+constexpr Spreader LastOf(Spreader) { return Spreader::kComb; }
 
 struct SpreadingOptions {
   Spreader spreader = Spreader::kBlade;
@@ -85,7 +86,12 @@ struct SpreadingOptions {
   }
 
  private:
-  void RequireSpreader(base::Problems& problems, bool given, const char* key, Spreader owner) const;
+  void RequireSpreader(base::Problems& problems, bool given, const char* key,
+                       Spreader owner) const {
+    const std::string name(base::NameOf(owner));
+    problems.Require(!given || spreader == owner, key,
+                     "is a " + name + "'s: add \"spreader\": \"" + name + "\", or remove it");
+  }
 
   void ValidateRoller(base::Problems& problems) const {
     RequireSpreader(problems, roller_diameter.has_value(), "roller_diameter", Spreader::kRoller);
@@ -108,23 +114,5 @@ struct SpreadingOptions {
                      "leaves nothing of the teeth: must be below the width over their number");
   }
 };
-
-}  // namespace talus::rigs
-
-template <>
-struct talus::base::Names<talus::rigs::Spreader> {
-  using S = talus::rigs::Spreader;
-  static constexpr std::array kList{std::pair{"blade", S::kBlade}, std::pair{"roller", S::kRoller},
-                                    std::pair{"comb", S::kComb}};
-};
-
-namespace talus::rigs {
-
-inline void SpreadingOptions::RequireSpreader(base::Problems& problems, bool given, const char* key,
-                                              Spreader owner) const {
-  const std::string name(base::NameOf(owner));
-  problems.Require(!given || spreader == owner, key,
-                   "is a " + name + "'s: add \"spreader\": \"" + name + "\", or remove it");
-}
 
 }  // namespace talus::rigs

@@ -16,11 +16,8 @@ struct OrificeFlowMemory {
   std::vector<Passed> flow{};
   double mass_gone = 0;  // out of the scene [kg]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("flow", self.flow);
-    visit("mass_gone_kg", self.mass_gone);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"mass_gone", "mass_gone_kg"}};
+  TALUS_FIELDS(flow, mass_gone);
 };
 
 class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {

@@ -17,11 +17,7 @@ struct CameraMemory {
   int num_frames = 0;
   std::vector<int> runs{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("num_frames", self.num_frames);
-    visit("runs", self.runs);
-  }
+  TALUS_FIELDS(num_frames, runs);
 };
 
 // One picture more, seen from the front.

@@ -14,20 +14,14 @@ struct Passed {
   double time = 0;  // since it was opened [s]
   double mass = 0;  // [kg]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("time_s", self.time);
-    visit("mass_kg", self.mass);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"time", "time_s"}, {"mass", "mass_kg"}};
+  TALUS_FIELDS(time, mass);
 };
 
 struct FlowMemory {
   std::vector<Passed> flow{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("flow", self.flow);
-  }
+  TALUS_FIELDS(flow);
 };
 
 // Until 95 % of `passed` [kg] had run out, and the mean rate between 20 and 60 % of it; without a

@@ -13,6 +13,7 @@ namespace talus::rigs {
 
 // How a phase ended.
 enum class PhaseEnd { kNone, kPoured, kTapped, kAtRest, kCleared, kTimeCap, kEmpty, kDone };
+constexpr PhaseEnd LastOf(PhaseEnd) { return PhaseEnd::kDone; }
 
 struct Phase {
   std::string name;
@@ -34,24 +35,9 @@ struct PhaseRecord {
   std::int64_t steps = 0;   // of the phase
   double energy_ratio = 0;  // mean kinetic energy of a grain / (m g d) at its last check [-]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("reason", self.reason);
-    visit("start_time_s", self.start_time);
-    visit("end_time_s", self.end_time);
-    visit("steps", self.steps);
-    visit("energy_ratio", self.energy_ratio);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"start_time", "start_time_s"},
+                                             {"end_time", "end_time_s"}};
+  TALUS_FIELDS(reason, start_time, end_time, steps, energy_ratio);
 };
 
 }  // namespace talus::rigs
-
-template <>
-struct talus::base::Names<talus::rigs::PhaseEnd> {
-  using E = talus::rigs::PhaseEnd;
-  static constexpr std::array kList{
-      std::pair{"none", E::kNone},       std::pair{"poured", E::kPoured},
-      std::pair{"tapped", E::kTapped},   std::pair{"at_rest", E::kAtRest},
-      std::pair{"cleared", E::kCleared}, std::pair{"time_cap", E::kTimeCap},
-      std::pair{"empty", E::kEmpty},     std::pair{"done", E::kDone}};
-};

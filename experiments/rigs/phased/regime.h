@@ -28,10 +28,7 @@ struct LogHistogram {
   void Add(double value, double weight);
   double Quantile(double share) const;  // NaN while it is empty
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("weights", self.weights);
-  }
+  TALUS_FIELDS(weights);
 };
 
 // What has been seen so far; part of a checkpoint.
@@ -41,13 +38,9 @@ struct RegimeMemory {
   LogHistogram pressure{};    // [Pa]
   LogHistogram shear_rate{};  // [1/s]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("num_looks", self.num_looks);
-    visit("inertial_number", self.inertial_number);
-    visit("pressure_Pa", self.pressure);
-    visit("shear_rate_per_s", self.shear_rate);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"pressure", "pressure_Pa"},
+                                             {"shear_rate", "shear_rate_per_s"}};
+  TALUS_FIELDS(num_looks, inertial_number, pressure, shear_rate);
 };
 
 // The grains as they are at a look, by id, and their contacts.

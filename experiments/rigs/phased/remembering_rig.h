@@ -23,11 +23,7 @@ class RememberingRig : public Rig {
     RigState common;
     Memory memory;
 
-    template <class Self, class Visitor>
-    static void Visit(Self& self, Visitor&& visit) {
-      visit("common", self.common);
-      visit("memory", self.memory);
-    }
+    TALUS_FIELDS(common, memory);
   };
 
   static State ParseState(const std::string& line) {

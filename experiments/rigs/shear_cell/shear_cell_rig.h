@@ -21,23 +21,17 @@ struct ShearSample {
   double travel = 0;        // under this stress [m]
   double shear_stress = 0;  // τ [Pa]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("stress", self.stress);
-    visit("travel_m", self.travel);
-    visit("shear_stress_pa", self.shear_stress);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"travel", "travel_m"},
+                                             {"shear_stress", "shear_stress_pa"}};
+  TALUS_FIELDS(stress, travel, shear_stress);
 };
 
 struct ShearCellMemory {
   double closing_time = 0;  // that the lid takes to come down [s]
   std::vector<ShearSample> samples{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("closing_time_s", self.closing_time);
-    visit("samples", self.samples);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"closing_time", "closing_time_s"}};
+  TALUS_FIELDS(closing_time, samples);
 };
 
 class ShearCellRig : public RememberingRig<ShearCellMemory> {

@@ -15,10 +15,7 @@ namespace talus::rigs {
 struct TappedDensityMemory {
   double solid_fraction = 0;  // after the taps [-]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("solid_fraction", self.solid_fraction);
-  }
+  TALUS_FIELDS(solid_fraction);
 };
 
 class TappedDensityRig : public RememberingRig<TappedDensityMemory> {

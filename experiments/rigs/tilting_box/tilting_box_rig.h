@@ -16,12 +16,9 @@ struct TiltingBoxMemory {
   double angle = 0;         // at which the load slid; 0 before [rad]
   double mass_left = 0;     // over the lip [kg]
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("start_centre_m", self.start_centre);
-    visit("angle_rad", self.angle);
-    visit("mass_left_kg", self.mass_left);
-  }
+  static constexpr base::FieldKey kKeys[] = {
+      {"start_centre", "start_centre_m"}, {"angle", "angle_rad"}, {"mass_left", "mass_left_kg"}};
+  TALUS_FIELDS(start_centre, angle, mass_left);
 };
 
 class TiltingBoxRig : public RememberingRig<TiltingBoxMemory> {

@@ -16,6 +16,7 @@ namespace talus::trials {
 
 // The direction in the engine's own coordinates that points away from the plate.
 enum class UpAxis { kX, kY, kZ };
+constexpr UpAxis LastOf(UpAxis) { return UpAxis::kZ; }
 
 struct CommandOptions {
   std::optional<std::filesystem::path>
@@ -52,10 +53,3 @@ struct CommandOptions {
 };
 
 }  // namespace talus::trials
-
-template <>
-struct talus::base::Names<talus::trials::UpAxis> {
-  using U = talus::trials::UpAxis;
-  static constexpr std::array kList{std::pair{"x", U::kX}, std::pair{"y", U::kY},
-                                    std::pair{"z", U::kZ}};
-};
