@@ -2,10 +2,8 @@
 // words in one place.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/field.h"

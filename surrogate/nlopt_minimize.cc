@@ -2,7 +2,6 @@
 
 #include <nlopt.h>
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>

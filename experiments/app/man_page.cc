@@ -1,7 +1,6 @@
 // The man pages, from the same definitions as --help.
 #include <CLI/CLI.hpp>
 #include <string>
-#include <vector>
 
 #include "base/version.h"
 #include "experiments/app/command_line.h"

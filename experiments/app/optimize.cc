@@ -4,7 +4,6 @@
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
 #include "base/files/output_folder.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_schema.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"

@@ -13,7 +13,6 @@
 #include "experiments/campaign/answer/first_answer.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
-#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/start.h"
 #include "experiments/trials/simulate/run_log.h"

@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>

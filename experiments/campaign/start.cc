@@ -14,7 +14,6 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
-#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/reuse.h"
 #include "experiments/campaign/spec/drum_images.h"

@@ -2,7 +2,6 @@
 // a campaign that runs.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>

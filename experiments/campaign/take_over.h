@@ -2,7 +2,6 @@
 // made of a test before the test was, and those of former campaigns and designs (reuse.h).
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

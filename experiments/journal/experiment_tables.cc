@@ -1,7 +1,6 @@
 #include "experiments/journal/experiment_tables.h"
 
 #include <cmath>
-#include <string>
 
 #include "base/error.h"
 #include "base/json/json_text.h"

@@ -6,12 +6,10 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
-#include <unordered_map>
 
 #include "base/error.h"
 #include "base/files/file.h"
 #include "experiments/journal/checksums.h"
-#include "experiments/journal/experiment_tables.h"
 #include "experiments/journal/objective.h"
 #include "experiments/journal/schema.h"
 

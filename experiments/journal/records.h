@@ -1,12 +1,10 @@
 // What a campaign's journal holds, as plain data. All quantities in SI.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/field.h"

@@ -2,12 +2,10 @@
 // commands; what they compute it does not know.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/field.h"

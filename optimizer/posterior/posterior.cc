@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "base/random.h"
 #include "optimizer/designs/r_sequence.h"

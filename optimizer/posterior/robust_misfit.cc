@@ -1,7 +1,6 @@
 #include "optimizer/posterior/robust_misfit.h"
 
 #include <cmath>
-#include <vector>
 
 namespace talus::optimizer {
 namespace {

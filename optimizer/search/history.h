@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 #include "optimizer/observation.h"
 

@@ -10,7 +10,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "optimizer/outputs/field_objective.h"
 #include "optimizer/outputs/image_functional.h"

@@ -6,9 +6,6 @@
 // values are luck.
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include "optimizer/search/history.h"
 #include "optimizer/search/objective_model.h"
 #include "surrogate/process/gaussian_process.h"

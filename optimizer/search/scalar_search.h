@@ -10,7 +10,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 
 #include "optimizer/answer.h"
 #include "optimizer/search/scalar_model.h"

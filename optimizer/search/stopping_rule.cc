@@ -1,7 +1,6 @@
 #include "optimizer/search/stopping_rule.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace talus::optimizer {

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/files/file.h"

@@ -1,6 +1,5 @@
 #include "optimizer/strategy/make_strategy.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "base/error.h"

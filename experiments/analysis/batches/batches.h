@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/field.h"
-#include "experiments/campaign/answer/joint_view.h"
+#include "imaging/gray_image.h"
 
 namespace talus::analysis {
 

@@ -1,9 +1,7 @@
 #include "experiments/analysis/compare/experiment_fit.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <optional>
 
 #include "base/text/counted.h"
 #include "base/text/number_text.h"

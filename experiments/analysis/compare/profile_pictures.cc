@@ -7,7 +7,6 @@
 
 #include "experiments/analysis/compare/crop.h"
 #include "imaging/drawing/canvas.h"
-#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/difference_map.h"
 
 namespace talus::analysis {

@@ -1,7 +1,6 @@
 #include "experiments/analysis/design/rank_designs.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"

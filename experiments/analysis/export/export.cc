@@ -3,7 +3,6 @@
 #include <cmath>
 #include <set>
 
-#include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "base/json/json_text.h"

@@ -5,8 +5,6 @@
 // the spec and these trials: a look that was ended is finished by the next process.
 #pragma once
 
-#include <vector>
-
 #include "experiments/analysis/predict/predicted_case.h"
 #include "experiments/analysis/predict/prediction.h"
 #include "experiments/campaign/campaign.h"

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "base/error.h"
-#include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/name.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <iostream>
-#include <limits>
 #include <utility>
 
 #include "base/error.h"

@@ -1,7 +1,5 @@
 #include "experiments/analysis/predict/predicted_case.h"
 
-#include <algorithm>
-
 #include "base/json/json_file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"

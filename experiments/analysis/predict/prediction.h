@@ -2,11 +2,9 @@
 // prediction.json. Terminal and report read it.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/field.h"

@@ -5,7 +5,6 @@
 #include "base/text/counted.h"
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
-#include "experiments/analysis/compare/labels.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/trials/simulate/run_log.h"
 

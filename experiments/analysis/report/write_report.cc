@@ -3,7 +3,6 @@
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
 #include "experiments/analysis/report/data/tables.h"
-#include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/page/summary.h"
 
 namespace talus::analysis {

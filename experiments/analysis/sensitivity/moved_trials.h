@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "experiments/analysis/sensitivity/moves.h"

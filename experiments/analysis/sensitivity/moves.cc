@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
-#include <utility>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"

@@ -1,7 +1,5 @@
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 
-#include <algorithm>
-
 #include "base/files/file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/campaign/answer/hold_out.h"
+#include "experiments/campaign/answer/joint_view.h"
 
 namespace talus::campaign {
 

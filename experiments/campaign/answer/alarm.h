@@ -1,11 +1,9 @@
 // What a user should know before trusting a result: facts as data, put in words in one place.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "base/field.h"
 #include "experiments/journal/records.h"

@@ -1,6 +1,5 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 
-#include <cmath>
 #include <map>
 
 #include "base/text/csv.h"

@@ -7,7 +7,6 @@
 // powder's area and 1.5 times that scatter away. A number is met within two standard errors.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "experiments/campaign/answer/headline.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/nuisances.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/nearest.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/record/stored.h"
 

@@ -2,7 +2,6 @@
 // several separate sets. headline.h puts it in words.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>

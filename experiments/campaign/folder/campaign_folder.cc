@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <string>
 #include <utility>
 
 #include "base/error.h"

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <utility>
 #include <vector>
 
 #include "base/field.h"

@@ -1,9 +1,7 @@
 #include "experiments/campaign/plan/core_time.h"
 
 #include <cmath>
-#include <utility>
 
-#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/load_case.h"
 

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <span>
-#include <utility>
 
-#include "base/parallel_for.h"
 #include "base/random.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/cores.h"

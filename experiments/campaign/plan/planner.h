@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

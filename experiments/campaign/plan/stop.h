@@ -1,10 +1,8 @@
 // Why a search ended: a kind with its data, put in words in one place.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "base/field.h"
 #include "optimizer/stop_reason.h"

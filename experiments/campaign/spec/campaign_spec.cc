@@ -1,8 +1,5 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
-#include <cmath>
-
-#include "base/error.h"
 #include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"

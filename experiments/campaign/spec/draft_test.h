@@ -1,7 +1,6 @@
 // A further bulk test for the first spec: any rig, in the words that the bench knows it by.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "experiments/campaign/spec/drum_images.h"
 
 #include <filesystem>
-#include <optional>
 #include <utility>
 #include <vector>
 

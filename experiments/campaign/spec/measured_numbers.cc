@@ -1,9 +1,7 @@
 #include "experiments/campaign/spec/measured_numbers.h"
 
-#include <cmath>
 #include <numeric>
 #include <string_view>
-#include <utility>
 
 namespace talus::campaign {
 namespace {

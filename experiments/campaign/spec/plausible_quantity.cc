@@ -1,7 +1,6 @@
 #include "experiments/campaign/spec/plausible_quantity.h"
 
 #include <array>
-#include <span>
 
 #include "base/text/number_text.h"
 

@@ -1,9 +1,6 @@
 // What simulates a trial, and where.
 #pragma once
 
-#include <array>
-#include <utility>
-
 #include "base/field.h"
 #include "base/problems.h"
 #include "experiments/runners/slurm_options.h"

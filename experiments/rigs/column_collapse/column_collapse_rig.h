@@ -3,8 +3,6 @@
 //   runout = x of the farthest grains - L/2     all but 1 % of the mass lies nearer
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "experiments/rigs/phased/remembering_rig.h"

@@ -1,7 +1,6 @@
 // The pouring of a test's powder into its tube or box.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "engine/scene/pour.h"

@@ -1,7 +1,6 @@
 #include "experiments/rigs/filling/vessel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

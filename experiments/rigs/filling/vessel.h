@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "engine/scene.h"
 #include "engine/scene/filling.h"

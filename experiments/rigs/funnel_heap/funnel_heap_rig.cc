@@ -1,7 +1,6 @@
 #include "experiments/rigs/funnel_heap/funnel_heap_rig.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "experiments/rigs/case/materials.h"

@@ -1,6 +1,5 @@
 #include "experiments/rigs/lifted_tube/connectivity.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "engine/run/resisted_spins.h"

@@ -1,7 +1,6 @@
 // Which grains hang together with the plate, and which with the tube only.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 

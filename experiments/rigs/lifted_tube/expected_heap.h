@@ -1,7 +1,6 @@
 // What a lifted tube will leave, for what a test costs: a cone of middling slope on the plate.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

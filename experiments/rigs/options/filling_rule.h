@@ -1,7 +1,6 @@
 // How the powder gets into the tube.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "base/field.h"

@@ -2,10 +2,7 @@
 // `device`.
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <optional>
-#include <utility>
 
 #include "base/field.h"
 #include "base/problems.h"

@@ -1,7 +1,6 @@
 // An upright cylinder with a flat floor or a cone, whose orifice is opened: a flowmeter funnel.
 #pragma once
 
-#include <cmath>
 #include <numbers>
 #include <optional>
 

@@ -1,7 +1,6 @@
 // Which bulk test a case is of, and what that test is made with.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 

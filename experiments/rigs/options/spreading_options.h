@@ -2,11 +2,9 @@
 // strip between two side walls.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "base/field.h"
 #include "base/problems.h"

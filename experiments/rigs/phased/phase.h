@@ -1,11 +1,9 @@
 // A phase of a bulk test: a change of the scene at its start, a criterion or a cap for its end.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <utility>
 
 #include "base/field.h"
 

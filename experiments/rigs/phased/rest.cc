@@ -1,7 +1,6 @@
 #include "experiments/rigs/phased/rest.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/run/resisted_spins.h"
 

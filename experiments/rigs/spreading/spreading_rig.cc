@@ -1,8 +1,6 @@
 #include "experiments/rigs/spreading/spreading_rig.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "base/text/number_text.h"
 

@@ -4,8 +4,6 @@
 //   bed
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "experiments/rigs/phased/remembering_rig.h"

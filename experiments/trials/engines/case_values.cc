@@ -1,6 +1,5 @@
 #include "experiments/trials/engines/case_values.h"
 
-#include <cmath>
 #include <type_traits>
 
 #include "base/random.h"

@@ -1,7 +1,6 @@
 #include "experiments/trials/engines/command_engine.h"
 
 #include <algorithm>
-#include <fstream>
 #include <numbers>
 #include <utility>
 

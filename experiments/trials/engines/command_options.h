@@ -1,11 +1,9 @@
 // Another DEM engine: a folder of template files and a command (docs/foreign_engines.md).
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/field.h"

@@ -14,7 +14,6 @@
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
 #include "base/units.h"
-#include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/mass_study.h"

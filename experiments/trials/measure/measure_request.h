@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "imaging/drums/drum.h"

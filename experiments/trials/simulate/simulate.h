@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "base/json/json_file.h"
 #include "experiments/trials/simulate/run_folder.h"

@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <cmath>
 
 #include "base/json/json_text.h"
 #include "experiments/analysis/compare/knowledge.h"
-#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/page/base64.h"

@@ -1,7 +1,6 @@
 #include "experiments/analysis/report/views/heap_views.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "experiments/analysis/compare/crop.h"
