@@ -1,10 +1,14 @@
-#include "experiments/rigs/draw_down/draw_down_rig.h"
-
+// How fast a powder runs through a slot, how much stays above, and the slopes that it leaves above
+// and below. x is across the slot, its origin in the slot's middle; z = 0 is the lower floor.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/flow.h"
+#include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
@@ -12,94 +16,108 @@ namespace {
 
 constexpr int kGate = 0;
 
+class DrawDownRig : public RememberingRig<FlowMemory> {
+ public:
+  static constexpr RigObservable kMeasured[] = {
+      {Observable::kMassFallen},          {Observable::kMassLeft, true},
+      {Observable::kDischargeTime, true}, {Observable::kDischargeRate},
+      {Observable::kAngle, true},         {Observable::kShearAngle}};
+
+  DrawDownRig(const Case& c, State state, engine::Simulation simulation)
+      : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
+    Phase discharging = Resting("discharging", c.rules.heap);
+    discharging.filmed = true;
+    discharging.begin = [this] { scene().RemoveWall(kGate); };
+    SetPhases({discharging}, TestTime(c, FilledHeight(c, vessel())));
+  }
+
+  static Vessel VesselOf(const Case& c) {
+    const DrawDownOptions& box = c.rig.draw_down;
+    return BoxVessel({0, 0, box.height}, box.length, box.width);
+  }
+
+  static std::vector<engine::Wall> Walls(const Case& c, double) {
+    const DrawDownOptions& box = c.rig.draw_down;
+    const double shelf = (box.length - box.slot) / 2;
+    const auto level = [&](double x, double width) {
+      return engine::Rectangle{.center = {x, 0, box.height}, .width = width, .height = box.width};
+    };
+    const auto side = [](engine::Vec3 point, engine::Vec3 normal) {
+      return engine::Plane{.point = point, .normal = normal};
+    };
+    return {
+        {.name = "gate", .shape = level(0, box.slot), .material = kFloor},
+        {.name = "left shelf", .shape = level(-(box.slot + shelf) / 2, shelf), .material = kFloor},
+        {.name = "right shelf", .shape = level((box.slot + shelf) / 2, shelf), .material = kFloor},
+        {.name = "floor", .shape = engine::Plane{}, .material = kFloor},
+        {.name = "left", .shape = side({-box.length / 2, 0, 0}, {1, 0, 0}), .material = kWalls},
+        {.name = "right", .shape = side({box.length / 2, 0, 0}, {-1, 0, 0}), .material = kWalls},
+        {.name = "front", .shape = side({0, -box.width / 2, 0}, {0, 1, 0}), .material = kWalls},
+        {.name = "back", .shape = side({0, box.width / 2, 0}, {0, -1, 0}), .material = kWalls}};
+  }
+
+  static void Validate(const Case& c, base::Problems& problems) {
+    problems.Require(c.rig.draw_down.slot > 2 * LargestDiameter(c), "rig.slot",
+                     c.rig.draw_down.slot,
+                     "must be above two (scaled) grain diameters, or nothing runs through it");
+  }
+
+  static double Width(const Case& c) { return c.rig.draw_down.length; }
+
+  // As Beverloo's law has it for a slot, 1.03 ρ_b √g W (D - 1.4 d)^1.5, ten diameters wide.
+  static double TestTime(const Case& c, double filled_height) {
+    const DrawDownOptions& box = c.rig.draw_down;
+    const double rate = std::sqrt(c.gravity) * std::pow(0.8 * box.slot, 1.5);  // of area [m²/s]
+    return filled_height * box.length / rate;
+  }
+
+ protected:
+  std::optional<PhaseEnd> Look() override {
+    if (phase_name() == "discharging") {
+      memory().flow.push_back(
+          {.time = simulation().time() - phase_start(), .mass = MassBelow(view().particles)});
+    }
+    return std::nullopt;
+  }
+
+  std::vector<Reading> Readings(GrainSpan grains) const override {
+    const DrawDownOptions& box = rig_case().rig.draw_down;
+    const double passed = MassBelow(grains);
+    std::vector<Reading> all{{Observable::kMassFallen, passed},
+                             {Observable::kMassLeft, FilledMass() - passed}};
+    for (Reading& reading : FlowReadings(memory().flow, passed, "nothing ran through the slot")) {
+      all.push_back(std::move(reading));
+    }
+    // Both halves are one, seen at |x|.
+    std::vector<engine::Particle> above, below;
+    for (engine::Particle p : grains) {
+      p.position.x = std::abs(p.position.x);
+      (p.position.z < box.height ? below : above).push_back(p);
+    }
+    const double foot = MassQuantile(below, 0.98, [](const auto& p) { return p.position.x; });
+    all.push_back(
+        AngleOf(Observable::kAngle,
+                SurfaceOf(below, {.from = 0.2 * foot, .to = 0.8 * foot, .width = MeanDiameter()})));
+    all.push_back(AngleOf(
+        Observable::kShearAngle,
+        SurfaceOf(above, {.from = box.slot / 2, .to = box.length / 2, .width = MeanDiameter()})));
+    return all;
+  }
+
+ private:
+  // the slot [kg]
+  double MassBelow(GrainSpan grains) const {
+    const double height = rig_case().rig.draw_down.height;
+    double mass = 0;
+    for (const engine::Particle& p : grains) {
+      if (p.position.z < height) mass += MassOf({&p, 1});
+    }
+    return mass;
+  }
+};
+
 }  // namespace
 
-DrawDownRig::DrawDownRig(const Case& c, State state, engine::Simulation simulation)
-    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
-  Phase discharging = Resting("discharging", c.rules.heap);
-  discharging.filmed = true;
-  discharging.begin = [this] { scene().RemoveWall(kGate); };
-  SetPhases({discharging}, TestTime(c, FilledHeight(c, vessel())));
-}
-
-double DrawDownRig::MassBelow(GrainSpan grains) const {
-  const double height = rig_case().rig.draw_down.height;
-  double mass = 0;
-  for (const engine::Particle& p : grains) {
-    if (p.position.z < height) mass += MassOf({&p, 1});
-  }
-  return mass;
-}
-
-std::optional<PhaseEnd> DrawDownRig::Look() {
-  if (phase_name() == "discharging") {
-    memory().flow.push_back(
-        {.time = simulation().time() - phase_start(), .mass = MassBelow(view().particles)});
-  }
-  return std::nullopt;
-}
-
-std::vector<engine::Wall> DrawDownRig::Walls(const Case& c, double) {
-  const DrawDownOptions& box = c.rig.draw_down;
-  const double shelf = (box.length - box.slot) / 2;
-  const auto level = [&](double x, double width) {
-    return engine::Rectangle{.center = {x, 0, box.height}, .width = width, .height = box.width};
-  };
-  const auto side = [](engine::Vec3 point, engine::Vec3 normal) {
-    return engine::Plane{.point = point, .normal = normal};
-  };
-  return {
-      {.name = "gate", .shape = level(0, box.slot), .material = kFloor},
-      {.name = "left shelf", .shape = level(-(box.slot + shelf) / 2, shelf), .material = kFloor},
-      {.name = "right shelf", .shape = level((box.slot + shelf) / 2, shelf), .material = kFloor},
-      {.name = "floor", .shape = engine::Plane{}, .material = kFloor},
-      {.name = "left", .shape = side({-box.length / 2, 0, 0}, {1, 0, 0}), .material = kWalls},
-      {.name = "right", .shape = side({box.length / 2, 0, 0}, {-1, 0, 0}), .material = kWalls},
-      {.name = "front", .shape = side({0, -box.width / 2, 0}, {0, 1, 0}), .material = kWalls},
-      {.name = "back", .shape = side({0, box.width / 2, 0}, {0, -1, 0}), .material = kWalls}};
-}
-
-Vessel DrawDownRig::VesselOf(const Case& c) {
-  const DrawDownOptions& box = c.rig.draw_down;
-  return BoxVessel({0, 0, box.height}, box.length, box.width);
-}
-
-void DrawDownRig::Validate(const Case& c, base::Problems& problems) {
-  problems.Require(c.rig.draw_down.slot > 2 * LargestDiameter(c), "rig.slot", c.rig.draw_down.slot,
-                   "must be above two (scaled) grain diameters, or nothing runs through it");
-}
-
-double DrawDownRig::Width(const Case& c) { return c.rig.draw_down.length; }
-
-// As Beverloo's law has it for a slot, 1.03 ρ_b √g W (D - 1.4 d)^1.5, ten diameters wide.
-double DrawDownRig::TestTime(const Case& c, double filled_height) {
-  const DrawDownOptions& box = c.rig.draw_down;
-  const double rate = std::sqrt(c.gravity) * std::pow(0.8 * box.slot, 1.5);  // of area [m²/s]
-  return filled_height * box.length / rate;
-}
-
-std::vector<Reading> DrawDownRig::Readings(GrainSpan grains) const {
-  const DrawDownOptions& box = rig_case().rig.draw_down;
-  const double passed = MassBelow(grains);
-  std::vector<Reading> all{{Observable::kMassFallen, passed},
-                           {Observable::kMassLeft, FilledMass() - passed}};
-  for (Reading& reading : FlowReadings(memory().flow, passed, "nothing ran through the slot")) {
-    all.push_back(std::move(reading));
-  }
-  // Both halves are one, seen at |x|.
-  std::vector<engine::Particle> above, below;
-  for (engine::Particle p : grains) {
-    p.position.x = std::abs(p.position.x);
-    (p.position.z < box.height ? below : above).push_back(p);
-  }
-  const double foot = MassQuantile(below, 0.98, [](const auto& p) { return p.position.x; });
-  all.push_back(
-      AngleOf(Observable::kAngle,
-              SurfaceOf(below, {.from = 0.2 * foot, .to = 0.8 * foot, .width = MeanDiameter()})));
-  all.push_back(AngleOf(
-      Observable::kShearAngle,
-      SurfaceOf(above, {.from = box.slot / 2, .to = box.length / 2, .width = MeanDiameter()})));
-  return all;
-}
+const RigEntry kDrawDownRig = EntryFor<DrawDownRig>(RigKind::kDrawDown);
 
 }  // namespace talus::rigs

@@ -1,12 +1,16 @@
-#include "experiments/rigs/drum/drum_rig.h"
-
+// The dynamic angle of repose in a turning drum: the mean slope of the middle half of the surface,
+// over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
+// towards -x. Front and back are of the floor's material where there is one, else of the side's.
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
@@ -16,104 +20,121 @@ constexpr double kBoxWidth = 1.2;   // of the box that is filled, in radii
 constexpr double kBoxFloor = 0.2;   // its floor above the lowest point, in radii
 constexpr double kBoxHeight = 1.6;  // in radii
 
-}  // namespace
+struct DrumMemory {
+  std::vector<double> angles{};  // of the surface at each look [deg]
 
-DrumRig::DrumRig(const Case& c, State state, engine::Simulation simulation)
-    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
-  const DrumOptions& drum = rig_case().rig.drum;
-  const double turn = 2 * std::numbers::pi / drum.speed;
-  Phase starting = Lasting("starting", drum.start_turns * turn);
-  starting.begin = [this] { Turn(); };
-  Phase turning = Lasting("turning", drum.turns * turn);
-  turning.filmed = true;
-  SetPhases({starting, turning}, TestTime(c, FilledHeight(c, vessel())));
-}
+  static constexpr base::FieldKey kKeys[] = {{"angles", "angles_deg"}};
+  TALUS_FIELDS(angles);
+};
 
-void DrumRig::Turn() {
-  const engine::MotionStep motion{.time = scene().time(),
-                                  .angular_velocity = {0, rig_case().rig.drum.speed, 0}};
-  for (int wall = 0; wall < 3; ++wall) scene().SetMotion(wall, {motion});
-}
+class DrumRig : public RememberingRig<DrumMemory> {
+ public:
+  static constexpr RigObservable kMeasured[] = {
+      {Observable::kAngle, true}, {Observable::kAngleSd}, {Observable::kCohesiveIndex}};
 
-std::optional<PhaseEnd> DrumRig::Look() {
-  if (phase_name() != "turning") return std::nullopt;
-  const std::vector<engine::Particle>& grains = view().particles;
-  const auto along = [](const auto& p) { return p.position.x; };
-  const double low = MassQuantile(grains, 0.02, along);
-  const double high = MassQuantile(grains, 0.98, along);
-  const auto slope = SlopeOf(SurfaceOf(
-      grains,
-      {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()}));
-  if (slope) memory().angles.push_back(SlopeAngle(-*slope));
-  return std::nullopt;
-}
-
-std::vector<engine::Wall> DrumRig::Walls(const Case& c, double) {
-  const DrumOptions& drum = c.rig.drum;
-  const double radius = drum.diameter / 2;
-  const int covers = c.materials.floor ? kFloor : kWalls;
-  const auto lid = [&](double y) {
-    return engine::Disc{.center = {0, y, radius}, .normal = {0, 1, 0}, .radius = radius};
-  };
-  const engine::OpenCylinder side{.base = {0, -drum.width / 2, radius},
-                                  .axis = {0, 1, 0},
-                                  .radius = radius,
-                                  .length = drum.width};
-  return {{.name = "side", .shape = side, .material = kWalls},
-          {.name = "front", .shape = lid(-drum.width / 2), .material = covers},
-          {.name = "back", .shape = lid(drum.width / 2), .material = covers}};
-}
-
-Vessel DrumRig::VesselOf(const Case& c) {
-  const double radius = c.rig.drum.diameter / 2;
-  return BoxVessel({0, 0, kBoxFloor * radius}, kBoxWidth * radius, c.rig.drum.width);
-}
-
-void DrumRig::Validate(const Case& c, base::Problems& problems) {
-  problems.Require(!c.filling.taps, "filling.taps", "are not of this rig: remove them");
-  problems.Require(c.filling.kind == FillingKind::kDense, "filling.kind",
-                   "must be \"dense\": a closed drum is not poured into");
-  const DrumOptions& drum = c.rig.drum;
-  const double froude = drum.speed * drum.speed * drum.diameter / 2 / c.gravity;
-  problems.Require(froude < 1, "rig.speed", drum.speed,
-                   "rad/s is so fast that the powder turns with the drum: ω²R/g is " +
-                       base::ShortNumber(froude) + ", must be below 1");
-  if (c.rig.camera) {
-    const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
-    problems.Require(c.rig.camera->LastTime() <= measured, "rig.camera",
-                     "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
-                         " s after start_turns, when the drum has ended: its turns take " +
-                         base::ShortNumber(measured) + " s; raise rig.turns to " +
-                         base::ShortNumber(drum.turns * c.rig.camera->LastTime() / measured, 3) +
-                         " or more, or take fewer pictures");
+  DrumRig(const Case& c, State state, engine::Simulation simulation)
+      : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)) {
+    const DrumOptions& drum = rig_case().rig.drum;
+    const double turn = 2 * std::numbers::pi / drum.speed;
+    Phase starting = Lasting("starting", drum.start_turns * turn);
+    starting.begin = [this] { Turn(); };
+    Phase turning = Lasting("turning", drum.turns * turn);
+    turning.filmed = true;
+    SetPhases({starting, turning}, TestTime(c, FilledHeight(c, vessel())));
   }
-  const double most = kBoxHeight * c.rig.drum.diameter / 2;
-  const double filled = FilledHeight(c, VesselOf(c));
-  problems.Require(filled < most, "powder.mass", c.powder.mass,
-                   "is too much for the drum: it is filled to six tenths at most");
-}
 
-double DrumRig::Width(const Case& c) { return c.rig.drum.diameter; }
+  static Vessel VesselOf(const Case& c) {
+    const double radius = c.rig.drum.diameter / 2;
+    return BoxVessel({0, 0, kBoxFloor * radius}, kBoxWidth * radius, c.rig.drum.width);
+  }
 
-double DrumRig::TestTime(const Case& c, double) {
-  const DrumOptions& drum = c.rig.drum;
-  return (drum.start_turns + drum.turns) * 2 * std::numbers::pi / drum.speed;
-}
+  static std::vector<engine::Wall> Walls(const Case& c, double) {
+    const DrumOptions& drum = c.rig.drum;
+    const double radius = drum.diameter / 2;
+    const int covers = c.materials.floor ? kFloor : kWalls;
+    const auto lid = [&](double y) {
+      return engine::Disc{.center = {0, y, radius}, .normal = {0, 1, 0}, .radius = radius};
+    };
+    const engine::OpenCylinder side{.base = {0, -drum.width / 2, radius},
+                                    .axis = {0, 1, 0},
+                                    .radius = radius,
+                                    .length = drum.width};
+    return {{.name = "side", .shape = side, .material = kWalls},
+            {.name = "front", .shape = lid(-drum.width / 2), .material = covers},
+            {.name = "back", .shape = lid(drum.width / 2), .material = covers}};
+  }
 
-std::vector<Reading> DrumRig::Readings(GrainSpan) const {
-  const std::vector<double>& angles = memory().angles;
-  Reading angle{Observable::kAngle};
-  Reading spread{Observable::kAngleSd};
-  if (angles.size() < 2) {
-    angle.undefined = spread.undefined = "the surface has too few grains across";
+  static void Validate(const Case& c, base::Problems& problems) {
+    problems.Require(!c.filling.taps, "filling.taps", "are not of this rig: remove them");
+    problems.Require(c.filling.kind == FillingKind::kDense, "filling.kind",
+                     "must be \"dense\": a closed drum is not poured into");
+    const DrumOptions& drum = c.rig.drum;
+    const double froude = drum.speed * drum.speed * drum.diameter / 2 / c.gravity;
+    problems.Require(froude < 1, "rig.speed", drum.speed,
+                     "rad/s is so fast that the powder turns with the drum: ω²R/g is " +
+                         base::ShortNumber(froude) + ", must be below 1");
+    if (c.rig.camera) {
+      const double measured = drum.turns * 2 * std::numbers::pi / drum.speed;
+      problems.Require(c.rig.camera->LastTime() <= measured, "rig.camera",
+                       "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
+                           " s after start_turns, when the drum has ended: its turns take " +
+                           base::ShortNumber(measured) + " s; raise rig.turns to " +
+                           base::ShortNumber(drum.turns * c.rig.camera->LastTime() / measured, 3) +
+                           " or more, or take fewer pictures");
+    }
+    const double most = kBoxHeight * c.rig.drum.diameter / 2;
+    const double filled = FilledHeight(c, VesselOf(c));
+    problems.Require(filled < most, "powder.mass", c.powder.mass,
+                     "is too much for the drum: it is filled to six tenths at most");
+  }
+
+  static double Width(const Case& c) { return c.rig.drum.diameter; }
+
+  static double TestTime(const Case& c, double) {
+    const DrumOptions& drum = c.rig.drum;
+    return (drum.start_turns + drum.turns) * 2 * std::numbers::pi / drum.speed;
+  }
+
+ protected:
+  std::optional<PhaseEnd> Look() override {
+    if (phase_name() != "turning") return std::nullopt;
+    const std::vector<engine::Particle>& grains = view().particles;
+    const auto along = [](const auto& p) { return p.position.x; };
+    const double low = MassQuantile(grains, 0.02, along);
+    const double high = MassQuantile(grains, 0.98, along);
+    const auto slope = SlopeOf(SurfaceOf(
+        grains,
+        {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()}));
+    if (slope) memory().angles.push_back(SlopeAngle(-*slope));
+    return std::nullopt;
+  }
+
+  std::vector<Reading> Readings(GrainSpan) const override {
+    const std::vector<double>& angles = memory().angles;
+    Reading angle{Observable::kAngle};
+    Reading spread{Observable::kAngleSd};
+    if (angles.size() < 2) {
+      angle.undefined = spread.undefined = "the surface has too few grains across";
+      return {angle, spread};
+    }
+    const auto count = static_cast<double>(angles.size());
+    angle.value = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
+    double squares = 0;
+    for (const double a : angles) squares += (a - angle.value) * (a - angle.value);
+    spread.value = std::sqrt(squares / (count - 1));
     return {angle, spread};
   }
-  const auto count = static_cast<double>(angles.size());
-  angle.value = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
-  double squares = 0;
-  for (const double a : angles) squares += (a - angle.value) * (a - angle.value);
-  spread.value = std::sqrt(squares / (count - 1));
-  return {angle, spread};
-}
+
+ private:
+  void Turn() {
+    const engine::MotionStep motion{.time = scene().time(),
+                                    .angular_velocity = {0, rig_case().rig.drum.speed, 0}};
+    for (int wall = 0; wall < 3; ++wall) scene().SetMotion(wall, {motion});
+  }
+};
+
+}  // namespace
+
+const RigEntry kDrumRig = EntryFor<DrumRig>(RigKind::kDrum);
 
 }  // namespace talus::rigs

@@ -1,11 +1,14 @@
-#include "experiments/rigs/funnel_heap/funnel_heap_rig.h"
-
+// The heap that powder makes when it runs out of a funnel at a fixed height onto a plate, with a
+// rim or without. The plate's top is z = 0.
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/filling/pouring.h"
 #include "experiments/rigs/phased/repose.h"
+#include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
 namespace {
@@ -14,89 +17,115 @@ constexpr double kThickness = 0.005;  // of the plate [m]
 
 bool IsOnPlate(const engine::Particle& p) { return p.position.z > 0; }
 
+struct FunnelHeapMemory {
+  double mass_fallen = 0;  // out of the scene [kg]
+
+  static constexpr base::FieldKey kKeys[] = {{"mass_fallen", "mass_fallen_kg"}};
+  TALUS_FIELDS(mass_fallen);
+};
+
+class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
+ public:
+  static constexpr RigObservable kMeasured[] = {{Observable::kMassOnPlate, true},
+                                                {Observable::kMassFallen},
+                                                {Observable::kHeight},
+                                                {Observable::kReposeAngle1},
+                                                {Observable::kReposeAngle2},
+                                                {Observable::kReposeAngle3},
+                                                {Observable::kReposeTriangle, true},
+                                                {Observable::kStaticCohesiveIndex}};
+
+  FunnelHeapRig(const Case& c, State state, engine::Simulation simulation)
+      : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
+        leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
+    SetPhases({Resting("coming to rest", c.rules.heap)}, 0);
+  }
+
+  static Vessel VesselOf(const Case& c) {
+    const FunnelHeapOptions& options = c.rig.funnel_heap;
+    const double diameter = options.plate_diameter;
+    engine::FillRegion region;
+    region.diameter = diameter;
+    return {.region = region,
+            .area = region.Area(),
+            .across = diameter,
+            .funnel = Funnel{.height = options.height, .outlet = options.outlet}};
+  }
+
+  static std::vector<engine::Wall> Walls(const Case& c, double) {
+    const FunnelHeapOptions& options = c.rig.funnel_heap;
+    const double radius = options.plate_diameter / 2;
+    std::vector<engine::Wall> walls{{.name = "plate",
+                                     .shape = engine::SolidCylinder{.base = {0, 0, -kThickness},
+                                                                    .radius = radius,
+                                                                    .length = kThickness},
+                                     .material = kFloor}};
+    if (options.rim_height > 0) {
+      walls.push_back(
+          {.name = "rim",
+           .shape = engine::OpenCylinder{.radius = radius, .length = options.rim_height},
+           .material = kWalls});
+    }
+    return walls;
+  }
+
+  static void Validate(const Case& c, base::Problems& problems) {
+    problems.Require(c.filling.kind == FillingKind::kPour, "filling.kind",
+                     "must be \"pour\": the heap is poured");
+    problems.Require(!c.filling.taps, "filling.taps", "are not of this rig: remove them");
+    problems.Require(!c.filling.drop_height, "filling.drop_height",
+                     "is not of this rig: rig.height is the funnel's");
+    problems.Require(!c.filling.mouth_diameter, "filling.mouth_diameter",
+                     "is not of this rig: rig.outlet is the funnel's");
+    problems.Require(c.rig.funnel_heap.outlet > 3 * LargestDiameter(c), "rig.outlet",
+                     c.rig.funnel_heap.outlet, "must be above three (scaled) grain diameters");
+  }
+
+  static double Width(const Case& c) { return c.rig.funnel_heap.plate_diameter; }
+
+  static double TestTime(const Case& c, double) { return MakePour(c, VesselOf(c)).Duration(); }
+
+  // what has not fallen off the plate
+  std::vector<engine::Particle> Grains() const override {
+    std::vector<engine::Particle> heap = simulation().Particles();
+    std::erase_if(heap, [](const engine::Particle& p) { return !IsOnPlate(p); });
+    return heap;
+  }
+
+ protected:
+  // From the first grain on some fall over the rim.
+  std::optional<PhaseEnd> Look() override {
+    const auto leaves = [&](const engine::Particle& p) {
+      return p.position.z + p.radius < leave_height_;
+    };
+    WeighOut(leaves, memory().mass_fallen);
+    return std::nullopt;
+  }
+
+  std::vector<Reading> Readings(GrainSpan heap) const override {
+    double falling = 0;
+    for (const engine::Particle& p : simulation().Particles()) {
+      if (!IsOnPlate(p)) falling += MassOf({&p, 1});
+    }
+    double height = 0;
+    for (const engine::Particle& p : heap) height = std::max(height, p.position.z + p.radius);
+    std::vector<Reading> all{{Observable::kMassOnPlate, MassOf(heap)},
+                             {Observable::kMassFallen, memory().mass_fallen + falling},
+                             {Observable::kHeight, height}};
+    for (Reading& angle :
+         ReposeReadings(heap, {.diameter = rig_case().rig.funnel_heap.plate_diameter,
+                              .grain_diameter = MeanDiameter()})) {
+      all.push_back(std::move(angle));
+    }
+    return all;
+  }
+
+ private:
+  double leave_height_ = 0;  // below which grains leave the scene [m]
+};
+
 }  // namespace
 
-FunnelHeapRig::FunnelHeapRig(const Case& c, State state, engine::Simulation simulation)
-    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
-      leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
-  SetPhases({Resting("coming to rest", c.rules.heap)}, 0);
-}
-
-Vessel FunnelHeapRig::VesselOf(const Case& c) {
-  const FunnelHeapOptions& options = c.rig.funnel_heap;
-  const double diameter = options.plate_diameter;
-  engine::FillRegion region;
-  region.diameter = diameter;
-  return {.region = region,
-          .area = region.Area(),
-          .across = diameter,
-          .funnel = Funnel{.height = options.height, .outlet = options.outlet}};
-}
-
-std::vector<engine::Wall> FunnelHeapRig::Walls(const Case& c, double) {
-  const FunnelHeapOptions& options = c.rig.funnel_heap;
-  const double radius = options.plate_diameter / 2;
-  std::vector<engine::Wall> walls{{.name = "plate",
-                                   .shape = engine::SolidCylinder{.base = {0, 0, -kThickness},
-                                                                  .radius = radius,
-                                                                  .length = kThickness},
-                                   .material = kFloor}};
-  if (options.rim_height > 0) {
-    walls.push_back({.name = "rim",
-                     .shape = engine::OpenCylinder{.radius = radius, .length = options.rim_height},
-                     .material = kWalls});
-  }
-  return walls;
-}
-
-void FunnelHeapRig::Validate(const Case& c, base::Problems& problems) {
-  problems.Require(c.filling.kind == FillingKind::kPour, "filling.kind",
-                   "must be \"pour\": the heap is poured");
-  problems.Require(!c.filling.taps, "filling.taps", "are not of this rig: remove them");
-  problems.Require(!c.filling.drop_height, "filling.drop_height",
-                   "is not of this rig: rig.height is the funnel's");
-  problems.Require(!c.filling.mouth_diameter, "filling.mouth_diameter",
-                   "is not of this rig: rig.outlet is the funnel's");
-  problems.Require(c.rig.funnel_heap.outlet > 3 * LargestDiameter(c), "rig.outlet",
-                   c.rig.funnel_heap.outlet, "must be above three (scaled) grain diameters");
-}
-
-double FunnelHeapRig::Width(const Case& c) { return c.rig.funnel_heap.plate_diameter; }
-
-double FunnelHeapRig::TestTime(const Case& c, double) {
-  return MakePour(c, VesselOf(c)).Duration();
-}
-
-std::vector<engine::Particle> FunnelHeapRig::Grains() const {
-  std::vector<engine::Particle> heap = simulation().Particles();
-  std::erase_if(heap, [](const engine::Particle& p) { return !IsOnPlate(p); });
-  return heap;
-}
-
-// From the first grain on some fall over the rim.
-std::optional<PhaseEnd> FunnelHeapRig::Look() {
-  const auto leaves = [&](const engine::Particle& p) {
-    return p.position.z + p.radius < leave_height_;
-  };
-  WeighOut(leaves, memory().mass_fallen);
-  return std::nullopt;
-}
-
-std::vector<Reading> FunnelHeapRig::Readings(GrainSpan heap) const {
-  double falling = 0;
-  for (const engine::Particle& p : simulation().Particles()) {
-    if (!IsOnPlate(p)) falling += MassOf({&p, 1});
-  }
-  double height = 0;
-  for (const engine::Particle& p : heap) height = std::max(height, p.position.z + p.radius);
-  std::vector<Reading> all{{Observable::kMassOnPlate, MassOf(heap)},
-                           {Observable::kMassFallen, memory().mass_fallen + falling},
-                           {Observable::kHeight, height}};
-  for (Reading& angle : ReposeReadings(heap, {.diameter = rig_case().rig.funnel_heap.plate_diameter,
-                                             .grain_diameter = MeanDiameter()})) {
-    all.push_back(std::move(angle));
-  }
-  return all;
-}
+const RigEntry kFunnelHeapRig = EntryFor<FunnelHeapRig>(RigKind::kFunnelHeap);
 
 }  // namespace talus::rigs

@@ -220,4 +220,6 @@ std::vector<std::string> LiftedTubeRig::Warnings(GrainSpan heap) const {
   return {"nothing is left on the plate"};
 }
 
+const RigEntry kLiftedTubeRig = EntryFor<LiftedTubeRig>(RigKind::kLiftedTube);
+
 }  // namespace talus::rigs

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/rigs/lifted_tube/connectivity.h"
-#include "experiments/rigs/phased/remembering_rig.h"
+#include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
 

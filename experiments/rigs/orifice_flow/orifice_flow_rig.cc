@@ -1,10 +1,15 @@
-#include "experiments/rigs/orifice_flow/orifice_flow_rig.h"
-
+// How fast a powder runs through a round orifice, and whether it does: a cylinder with a flat floor
+// or a cone. z = 0 is the orifice. It flows where more than a tenth of the powder runs out before
+// an arch stands; else the rate is 0.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/flow.h"
+#include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
 namespace {
@@ -26,84 +31,110 @@ engine::WallShape FloorOf(const OrificeFlowOptions& options) {
   return engine::Cone{.radius = inner, .top_radius = outer, .length = ConeHeight(options)};
 }
 
+struct OrificeFlowMemory {
+  std::vector<Passed> flow{};
+  double mass_gone = 0;  // out of the scene [kg]
+
+  static constexpr base::FieldKey kKeys[] = {{"mass_gone", "mass_gone_kg"}};
+  TALUS_FIELDS(flow, mass_gone);
+};
+
+class OrificeFlowRig : public RememberingRig<OrificeFlowMemory> {
+ public:
+  static constexpr RigObservable kMeasured[] = {{Observable::kDischargeRate, true},
+                                                {Observable::kDischargeTime},
+                                                {Observable::kFlows},
+                                                {Observable::kMassFallen},
+                                                {Observable::kMassLeft}};
+
+  // What has run out falls for some diameters before it leaves the scene.
+  OrificeFlowRig(const Case& c, State state, engine::Simulation simulation)
+      : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
+        leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
+    const double test_time = TestTime(c, FilledHeight(c, vessel()));
+    Phase discharging = Resting(kDischarging, c.rules.heap);
+    discharging.hold_time = c.rig.orifice_flow.arch_time;
+    discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
+    discharging.filmed = true;
+    discharging.begin = [this] { scene().RemoveWall(kGate); };
+    SetPhases({discharging}, test_time);
+  }
+
+  static Vessel VesselOf(const Case& c) {
+    engine::FillRegion region;
+    region.diameter = c.rig.orifice_flow.diameter;
+    region.base = {0, 0, ConeHeight(c.rig.orifice_flow)};
+    return {.region = region, .area = region.Area(), .across = c.rig.orifice_flow.diameter};
+  }
+
+  static std::vector<engine::Wall> Walls(const Case& c, double height) {
+    const OrificeFlowOptions& options = c.rig.orifice_flow;
+    const engine::OpenCylinder cylinder{.base = {0, 0, ConeHeight(options)},
+                                        .radius = options.diameter / 2,
+                                        .length = 1.2 * height};
+    return {
+        {.name = "gate", .shape = engine::Disc{.radius = options.orifice / 2}, .material = kFloor},
+        {.name = "floor", .shape = FloorOf(options), .material = kFloor},
+        {.name = "cylinder", .shape = cylinder, .material = kWalls}};
+  }
+
+  static void Validate(const Case& c, base::Problems& problems) {
+    problems.Require(c.rig.orifice_flow.orifice > LargestDiameter(c), "rig.orifice",
+                     c.rig.orifice_flow.orifice,
+                     "must be above one (scaled) grain diameter, or nothing can run through it");
+  }
+
+  static double Width(const Case& c) { return c.rig.orifice_flow.diameter; }
+
+  // As Beverloo's law has it, 0.58 ρ_b √g (D - 1.5 d)^2.5, for the larger part of it.
+  static double TestTime(const Case& c, double filled_height) {
+    const OrificeFlowOptions& options = c.rig.orifice_flow;
+    const double rate =
+        0.58 * std::sqrt(c.gravity) * std::pow(0.7 * options.orifice, 2.5);  // [m³/s]
+    return filled_height * VesselOf(c).area / rate + options.arch_time;
+  }
+
+ protected:
+  std::optional<PhaseEnd> Look() override {
+    if (phase_name() != kDischarging) return std::nullopt;
+    const auto leaves = [&](const engine::Particle& p) {
+      return p.position.z + p.radius < leave_height_;
+    };
+    WeighOut(leaves, memory().mass_gone);
+    memory().flow.push_back(
+        {.time = simulation().time() - phase_start(), .mass = MassBelow(view().particles)});
+    if (view().particles.empty()) return PhaseEnd::kEmpty;
+    return std::nullopt;
+  }
+
+  std::vector<Reading> Readings(GrainSpan grains) const override {
+    const double filled = FilledMass();
+    const double passed = MassBelow(grains);
+    const bool flows = passed > kFlowing * filled;
+    std::vector<Reading> all =
+        FlowReadings(memory().flow, flows ? passed : 0, "an arch stands above the orifice");
+    if (!flows) all[1] = {Observable::kDischargeRate, 0};
+    all.push_back({Observable::kFlows, flows ? 1.0 : 0.0});
+    all.push_back({Observable::kMassFallen, passed});
+    all.push_back({Observable::kMassLeft, std::max(0.0, filled - passed)});
+    return all;
+  }
+
+ private:
+  // the orifice, or gone [kg]
+  double MassBelow(GrainSpan grains) const {
+    double mass = memory().mass_gone;
+    for (const engine::Particle& p : grains) {
+      if (p.position.z < 0) mass += MassOf({&p, 1});
+    }
+    return mass;
+  }
+
+  double leave_height_ = 0;  // below which grains leave the scene [m]
+};
+
 }  // namespace
 
-// What has run out falls for some diameters before it leaves the scene.
-OrificeFlowRig::OrificeFlowRig(const Case& c, State state, engine::Simulation simulation)
-    : RememberingRig(c, VesselOf(c), std::move(state), std::move(simulation)),
-      leave_height_(-c.rules.leave_depth * LargestDiameter(c)) {
-  const double test_time = TestTime(c, FilledHeight(c, vessel()));
-  Phase discharging = Resting(kDischarging, c.rules.heap);
-  discharging.hold_time = c.rig.orifice_flow.arch_time;
-  discharging.cap = [longest = 5 * test_time + c.rules.heap.max_time] { return longest; };
-  discharging.filmed = true;
-  discharging.begin = [this] { scene().RemoveWall(kGate); };
-  SetPhases({discharging}, test_time);
-}
-
-Vessel OrificeFlowRig::VesselOf(const Case& c) {
-  engine::FillRegion region;
-  region.diameter = c.rig.orifice_flow.diameter;
-  region.base = {0, 0, ConeHeight(c.rig.orifice_flow)};
-  return {.region = region, .area = region.Area(), .across = c.rig.orifice_flow.diameter};
-}
-
-std::vector<engine::Wall> OrificeFlowRig::Walls(const Case& c, double height) {
-  const OrificeFlowOptions& options = c.rig.orifice_flow;
-  const engine::OpenCylinder cylinder{
-      .base = {0, 0, ConeHeight(options)}, .radius = options.diameter / 2, .length = 1.2 * height};
-  return {
-      {.name = "gate", .shape = engine::Disc{.radius = options.orifice / 2}, .material = kFloor},
-      {.name = "floor", .shape = FloorOf(options), .material = kFloor},
-      {.name = "cylinder", .shape = cylinder, .material = kWalls}};
-}
-
-void OrificeFlowRig::Validate(const Case& c, base::Problems& problems) {
-  problems.Require(c.rig.orifice_flow.orifice > LargestDiameter(c), "rig.orifice",
-                   c.rig.orifice_flow.orifice,
-                   "must be above one (scaled) grain diameter, or nothing can run through it");
-}
-
-double OrificeFlowRig::Width(const Case& c) { return c.rig.orifice_flow.diameter; }
-
-// As Beverloo's law has it, 0.58 ρ_b √g (D - 1.5 d)^2.5, for the larger part of it.
-double OrificeFlowRig::TestTime(const Case& c, double filled_height) {
-  const OrificeFlowOptions& options = c.rig.orifice_flow;
-  const double rate = 0.58 * std::sqrt(c.gravity) * std::pow(0.7 * options.orifice, 2.5);  // [m³/s]
-  return filled_height * VesselOf(c).area / rate + options.arch_time;
-}
-
-double OrificeFlowRig::MassBelow(GrainSpan grains) const {
-  double mass = memory().mass_gone;
-  for (const engine::Particle& p : grains) {
-    if (p.position.z < 0) mass += MassOf({&p, 1});
-  }
-  return mass;
-}
-
-std::optional<PhaseEnd> OrificeFlowRig::Look() {
-  if (phase_name() != kDischarging) return std::nullopt;
-  const auto leaves = [&](const engine::Particle& p) {
-    return p.position.z + p.radius < leave_height_;
-  };
-  WeighOut(leaves, memory().mass_gone);
-  memory().flow.push_back(
-      {.time = simulation().time() - phase_start(), .mass = MassBelow(view().particles)});
-  if (view().particles.empty()) return PhaseEnd::kEmpty;
-  return std::nullopt;
-}
-
-std::vector<Reading> OrificeFlowRig::Readings(GrainSpan grains) const {
-  const double filled = FilledMass();
-  const double passed = MassBelow(grains);
-  const bool flows = passed > kFlowing * filled;
-  std::vector<Reading> all =
-      FlowReadings(memory().flow, flows ? passed : 0, "an arch stands above the orifice");
-  if (!flows) all[1] = {Observable::kDischargeRate, 0};
-  all.push_back({Observable::kFlows, flows ? 1.0 : 0.0});
-  all.push_back({Observable::kMassFallen, passed});
-  all.push_back({Observable::kMassLeft, std::max(0.0, filled - passed)});
-  return all;
-}
+const RigEntry kOrificeFlowRig = EntryFor<OrificeFlowRig>(RigKind::kOrificeFlow);
 
 }  // namespace talus::rigs

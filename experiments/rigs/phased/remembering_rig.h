@@ -34,6 +34,9 @@ class RememberingRig : public Rig {
   }
   const Memory& memory() const { return memory_; }
 
+  // What the rig's own options cannot see by themselves: nothing.
+  static void Validate(const Case&, base::Problems&) {}
+
  protected:
   RememberingRig(const Case& rig_case, const Vessel& vessel, State state,
                  engine::Simulation simulation)

@@ -273,4 +273,6 @@ std::vector<std::string> ShearCellRig::Warnings(GrainSpan) const {
   return warnings;
 }
 
+const RigEntry kShearCellRig = EntryFor<ShearCellRig>(RigKind::kShearCell);
+
 }  // namespace talus::rigs

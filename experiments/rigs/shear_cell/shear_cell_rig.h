@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/rigs/phased/remembering_rig.h"
+#include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/shear_cell/yield_line.h"
 
 namespace talus::rigs {

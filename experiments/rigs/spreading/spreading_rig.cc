@@ -172,4 +172,6 @@ std::vector<std::string> SpreadingRig::Warnings(GrainSpan grains) const {
           "; take more"};
 }
 
+const RigEntry kSpreadingRig = EntryFor<SpreadingRig>(RigKind::kSpreading);
+
 }  // namespace talus::rigs

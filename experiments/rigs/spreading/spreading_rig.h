@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/rigs/phased/remembering_rig.h"
+#include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/spreading/layer.h"
 #include "experiments/rigs/spreading/spreading_walls.h"
 

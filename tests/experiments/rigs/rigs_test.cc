@@ -11,7 +11,6 @@
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
 #include "experiments/rigs/case/materials.h"
-#include "experiments/rigs/drum/drum_rig.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/rig_list.h"
@@ -189,7 +188,7 @@ TEST(Drum, CoversHaveAMaterialOfTheirOwn) {
   Case c = Filmed();
   const auto materials = [&] {
     std::vector<int> list;
-    for (const engine::Wall& wall : DrumRig::Walls(c, 0)) list.push_back(wall.material);
+    for (const engine::Wall& wall : EntryOf(c).walls(c, 0)) list.push_back(wall.material);
     return list;
   };
   EXPECT_EQ(materials(), (std::vector{kWalls, kWalls, kWalls}));
