@@ -18,9 +18,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "base/enumerators.h"
 #include "base/units.h"
@@ -108,6 +111,21 @@ constexpr std::string_view NameOf(Enum value) {
     if (named == value) return name;
   }
   return "?";
+}
+
+template <NamedEnum Enum>
+constexpr std::optional<Enum> EnumNamed(std::string_view name) {
+  for (const auto& [known, value] : Names<Enum>::kList) {
+    if (known == name) return value;
+  }
+  return std::nullopt;
+}
+
+template <NamedEnum Enum>
+std::vector<std::string> NamesOf() {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : Names<Enum>::kList) names.emplace_back(name);
+  return names;
 }
 
 // Passed to Visit to ask only whether it exists.

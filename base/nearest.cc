@@ -41,4 +41,9 @@ std::string Nearest(std::string_view name, std::span<const std::string> known) {
   return best;
 }
 
+std::string DidYouMean(std::string_view name, std::span<const std::string> known) {
+  const std::string near = Nearest(name, known);
+  return near.empty() ? "" : "; did you mean \"" + near + "\"?";
+}
+
 }  // namespace talus::base

@@ -11,4 +11,7 @@ namespace talus::base {
 // third of the letters wrong, two at least).
 std::string Nearest(std::string_view name, std::span<const std::string> known);
 
+// "; did you mean "NAME"?" of that name; "" if none is near.
+std::string DidYouMean(std::string_view name, std::span<const std::string> known);
+
 }  // namespace talus::base

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
+
+#include "base/field.h"
 
 namespace talus::optimizer {
 
@@ -16,19 +19,27 @@ struct PosteriorBranch {
 
 // A number of an experiment, as the model expects it at a point and the target scale factor.
 struct NumberStanding {
-  double predicted = 0;     // mean over seeds
+  double predicted = 0;     // mean over seeds, in the number's own unit
   double predicted_sd = 0;  // of that mean
+
+  TALUS_FIELDS(predicted, predicted_sd);
 };
 
 // How an experiment stands at a point.
 struct ExperimentStanding {
-  std::string name;
-  double predicted_objective = 0;  // of the mean image at the target scale factor; NaN without one
-  double predicted_sd = 0;
+  std::string name{};
+  // Objective of the mean image at the target scale factor; NaN without images.
+  double predicted = std::numeric_limits<double>::quiet_NaN();
+  double predicted_sd = std::numeric_limits<double>::quiet_NaN();
   double implausibility = 0;              // Posterior::Implausibility [standard deviations]
   double model_error = 1;                 // that the posterior counts with, in run-to-run sds [-]
-  double model_error_told = 0;            // ModelError::told [-]
+  double model_error_told = 0;            // ModelError::told [-], in [0, 1]; 0: stated
   std::vector<NumberStanding> numbers{};  // in the order of the target's
+
+  static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},
+                                             {"predicted_sd", "predicted_objective_sd"}};
+  TALUS_FIELDS(name, predicted, predicted_sd, implausibility, model_error, model_error_told,
+               numbers);
 };
 
 // Where a given set stands in the posterior.
@@ -40,7 +51,8 @@ struct Standing {
 // What knowing a nuisance would change.
 struct NuisanceWeight {
   Eigen::Index coordinate = 0;
-  double narrowing = 0;    // of the asked parameter's range that it would narrow most: narrowing.h
+  double narrowing =
+      0;  // of the asked parameter's range that it would narrow most: sample_statistics.h
   Eigen::Index other = 0;  // the coordinate of that parameter
 };
 

@@ -18,6 +18,7 @@
 #include "base/json/json_file.h"
 #include "base/nearest.h"
 #include "base/problems.h"
+#include "base/text/joined.h"
 #include "base/text/printable.h"
 #include "base/vec3.h"
 
@@ -52,10 +53,7 @@ class JsonReader {
       if (key.starts_with('$') || std::find(known_.begin(), known_.end(), key) != known_.end()) {
         continue;
       }
-      const std::string near = Nearest(key, known_);
-      context_.problems.Add(key, near.empty()
-                                     ? "is not known here"
-                                     : "is not known here; did you mean \"" + near + "\"?");
+      context_.problems.Add(key, "is not known here" + DidYouMean(key, known_));
     }
   }
 
@@ -120,15 +118,14 @@ class JsonReader {
   }
   template <NamedEnum T>
   void Read(const json& value, T& field, const FieldInfo&) {
-    std::string all;
-    for (const auto& [name, named] : Names<T>::kList) {
-      if (value.is_string() && value.get_ref<const std::string&>() == name) {
-        field = named;
+    if (value.is_string()) {
+      if (const auto named = EnumNamed<T>(value.get_ref<const std::string&>())) {
+        field = *named;
         return;
       }
-      all += (all.empty() ? "\"" : ", \"") + std::string(name) + "\"";
     }
-    context_.problems.Add("", RemedyOf<T>(value).value_or("must be one of " + all));
+    const std::string all = "must be one of \"" + Joined(NamesOf<T>(), "\", \"") + "\"";
+    context_.problems.Add("", RemedyOf<T>(value).value_or(all));
   }
   // What to write in place of a name that is no longer one.
   template <NamedEnum T>

@@ -29,6 +29,11 @@ Csv& Csv::Cells(const std::vector<double>& values) {
   return *this;
 }
 
+Csv& Csv::Heads(std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) Cell(name);
+  return *this;
+}
+
 void Csv::EndRow() {
   text_ += '\n';
   first_ = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,7 @@ class Csv {
   Csv& Cell(double value);           // exact; empty where it is not finite
   Csv& Cell(std::integral auto value) { return Cell(std::string_view(std::to_string(value))); }
   Csv& Cells(const std::vector<double>& values);
+  Csv& Heads(std::initializer_list<std::string_view> names);
   void EndRow();
   std::string Take() { return std::move(text_); }
 

@@ -30,4 +30,8 @@ std::string FileNumber(std::int64_t n) {
   return text;
 }
 
+std::string WithUnit(double x, const std::string& unit, int digits) {
+  return ShortNumber(x, digits) + (unit.empty() ? "" : " " + unit);
+}
+
 }  // namespace talus::base

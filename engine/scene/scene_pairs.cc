@@ -17,8 +17,7 @@ std::string UnknownMaterial(const SceneSpec& spec, const std::string& name) {
   }
   std::vector<std::string> known;
   for (const NamedMaterial& material : spec.materials) known.push_back(material.name);
-  const std::string near = base::Nearest(name, known);
-  return near.empty() ? text : text + "; did you mean \"" + near + "\"?";
+  return text + base::DidYouMean(name, known);
 }
 
 // Spheres touch one another and walls; walls touch no walls. What is in a file not read yet may be

@@ -64,13 +64,10 @@ void AddCardCommand(CLI::App& app) {
       "card", "The calibrated set as lines for another DEM code, its conventions converted");
   command->add_option("DIR", arguments->input, "folder of a finished campaign, or a case.json")
       ->required();
-  std::vector<std::string> formats;
-  for (const auto& [name, format] : base::Names<analysis::CardFormat>::kList)
-    formats.emplace_back(name);
   command
       ->add_option("--format", arguments->format,
                    "whose lines; default: table, and of draws every one")
-      ->check(CLI::IsMember(formats));
+      ->check(CLI::IsMember(base::NamesOf<analysis::CardFormat>()));
   command->add_option("--draws", arguments->draws,
                       "files with so many sets along the posterior, from 2 to 1000");
   command->add_option("--out", arguments->out, "folder for these; default: DIR/cards");

@@ -6,7 +6,6 @@
 #include <memory>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -21,10 +20,6 @@ const CLI::App* FindVerb(const CLI::App& app, std::string_view name) {
     if (verb->get_name() == name) return verb;
   }
   return nullptr;
-}
-
-std::string DidYouMean(const std::string& nearest) {
-  return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
 }
 
 }  // namespace
@@ -62,7 +57,7 @@ std::string Suggestion(const CLI::App& app, std::span<const char* const> argumen
   std::vector<std::string> known;
   if (verb == nullptr) {
     for (const CLI::App* other : app.get_subcommands({})) known.push_back(other->get_name());
-    return "no verb \"" + name + "\"" + DidYouMean(base::Nearest(name, known)) +
+    return "no verb \"" + name + "\"" + base::DidYouMean(name, known) +
            "\n`talus help` lists the verbs";
   }
   for (const CLI::Option* option : verb->get_options({})) {
@@ -72,7 +67,7 @@ std::string Suggestion(const CLI::App& app, std::span<const char* const> argumen
     if (argument == "--") break;
     const std::string flag(argument.substr(0, argument.find('=')));
     if (!flag.starts_with("--") || std::ranges::find(known, flag) != known.end()) continue;
-    return name + " has no flag \"" + flag + "\"" + DidYouMean(base::Nearest(flag, known)) +
+    return name + " has no flag \"" + flag + "\"" + base::DidYouMean(flag, known) +
            "\n`talus help " + name + "` lists its flags";
   }
   return {};
@@ -84,6 +79,20 @@ double FlagQuantity(const std::string& flag, const std::string& text, base::Dime
   } catch (const base::ConfigError& error) {
     throw base::ConfigError(flag + ": " + error.what());
   }
+}
+
+std::map<std::string, std::string> ReadSetArgument(const std::vector<std::string>& texts) {
+  std::map<std::string, std::string> set;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw base::ConfigError("\"" + text + "\": must be NAME=VALUE, as sliding_friction=0.45");
+    }
+    if (!set.emplace(text.substr(0, equals), text.substr(equals + 1)).second) {
+      throw base::ConfigError(text.substr(0, equals) + ": is given twice");
+    }
+  }
+  return set;
 }
 
 void AddHelpCommand(CLI::App& app) {

@@ -2,8 +2,10 @@
 // man pages and the shells' completions.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/units.h"
 
@@ -22,6 +24,10 @@ std::string Suggestion(const CLI::App& app, std::span<const char* const> argumen
 
 // What is typed after a flag, in SI; throws base::ConfigError that begins with the flag.
 double FlagQuantity(const std::string& flag, const std::string& text, base::Dimension dimension);
+
+// NAME=VALUE… as a parameter set. Throws base::ConfigError for another form, and for a name that is
+// given twice.
+std::map<std::string, std::string> ReadSetArgument(const std::vector<std::string>& texts);
 
 // Roff of section 1: of the program, or of one verb.
 std::string ManPage(const CLI::App& app);

@@ -13,9 +13,9 @@
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
 #include "experiments/app/go_on.h"
-#include "experiments/app/set_argument.h"
 
 namespace talus::app {
 namespace {
@@ -31,12 +31,10 @@ struct CompareArguments {
 };
 
 void SearchOn(const CompareArguments& arguments) {
-  for (const auto& [name, objective] : base::Names<journal::Objective>::kList) {
-    if (name != arguments.objective) continue;
-    GoOn(arguments.campaign, {.add_simulations = arguments.add_simulations, .objective = objective},
-         {});
-    return;
-  }
+  GoOn(arguments.campaign,
+       {.add_simulations = arguments.add_simulations,
+        .objective = base::EnumNamed<journal::Objective>(arguments.objective)},
+       {});
 }
 
 void WriteComparison(const analysis::ComparedCampaign& compared, const std::filesystem::path& out) {
@@ -110,14 +108,11 @@ void AddCompareCommand(CLI::App& app) {
   command->add_option("--matters", arguments->matters,
                       "of batches, NAME=VALUE: a difference of this parameter that would matter; "
                       "default: a tenth of its searched range");
-  std::vector<std::string> objectives;
-  for (const auto& [name, objective] : base::Names<journal::Objective>::kList)
-    objectives.emplace_back(name);
   CLI::Option* objective =
       command
           ->add_option("--objective", arguments->objective,
                        "first search on by this objective, from all the trials there are")
-          ->check(CLI::IsMember(objectives));
+          ->check(CLI::IsMember(base::NamesOf<journal::Objective>()));
   command
       ->add_option("--add-simulations", arguments->add_simulations,
                    "so many more for --objective; default: 20")

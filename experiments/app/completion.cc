@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/joined.h"
 #include "base/text/shell_text.h"
 #include "experiments/app/command_line.h"
 
@@ -67,11 +68,7 @@ std::vector<Verb> Describe(const CLI::App& app) {
   return verbs;
 }
 
-std::string Join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
+std::string Join(const std::vector<std::string>& words) { return base::Joined(words, " "); }
 
 std::string Bash(const std::vector<Verb>& verbs) {
   std::string cases;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
-#include "experiments/app/set_argument.h"
 #include "experiments/campaign/answer/hold_out.h"
 
 namespace talus::app {

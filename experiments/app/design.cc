@@ -29,10 +29,8 @@ void Design(const DesignArguments& arguments) {
                             : std::filesystem::path(arguments.out);
   std::filesystem::create_directories(folder);
   const campaign::JointView view = analysis::ViewOf(design, folder);
-  const campaign::CampaignParts parts{
-      .runner = campaign::MakeRunner(view.spec, campaign::NextFolder(folder)),
-      .engine = campaign::MakeEngine(view.spec)};
-  const analysis::DesignTable table = analysis::RankDesigns(view, design.candidates, parts);
+  const analysis::DesignTable table = analysis::RankDesigns(
+      view, design.candidates, campaign::MakeParts(view.spec, campaign::NextFolder(folder)));
   const std::string json = analysis::DesignJson(table);
   base::WriteFileAtomically(folder / "design.json", json);
   std::cout << (arguments.json ? json : analysis::DesignText(table, view, design.candidates))

@@ -38,9 +38,7 @@ std::unique_ptr<campaign::GoalJudge> GoalOf(const campaign::CampaignSpec& spec,
   if (!spec.goal) return nullptr;
   // A queue's own files stand beside the goal's runs, not among those of the campaign's trials.
   return std::make_unique<analysis::CampaignGoal>(
-      spec, folder,
-      campaign::CampaignParts{.runner = campaign::MakeRunner(spec, campaign::GoalFolder(folder)),
-                              .engine = campaign::MakeEngine(spec)});
+      spec, folder, campaign::MakeParts(spec, campaign::GoalFolder(folder)));
 }
 
 Ended RunCampaign(const std::filesystem::path& folder, const campaign::ResumeOptions& options,
@@ -48,9 +46,8 @@ Ended RunCampaign(const std::filesystem::path& folder, const campaign::ResumeOpt
   const base::InterruptGuard interrupt;
   campaign::Console console(campaign::CampaignFolder{folder}.log(), tell.output());
   campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, options, console);
-  campaign::CampaignParts parts{.runner = campaign::MakeRunner(opened.spec, opened.folder.root),
-                                .engine = campaign::MakeEngine(opened.spec),
-                                .goal = GoalOf(opened.spec, opened.folder.root)};
+  campaign::CampaignParts parts = campaign::MakeParts(opened.spec, opened.folder.root);
+  parts.goal = GoalOf(opened.spec, opened.folder.root);
   campaign::Campaign campaign(opened.folder, std::move(opened.lock), std::move(opened.journal),
                               opened.spec, std::move(parts), console);
   const campaign::CampaignEnd end = campaign.Run(interrupt);
@@ -104,9 +101,7 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
   const campaign::JointView view = campaign::ReadJointView(folder);
   analysis::SensitivityOptions options{
       .most_replicates = analysis::kFirstReplicates,
-      .parts = {
-          .runner = campaign::MakeRunner(view.spec, analysis::SensitivityFolder(view.folder.root)),
-          .engine = campaign::MakeEngine(view.spec)}};
+      .parts = campaign::MakeParts(view.spec, analysis::SensitivityFolder(view.folder.root))};
   const double takes = analysis::FirstCoreTime(view, options);
   const double allowed = share * campaign::CoreTime(view.spec).OfSearch(view.trials);
   if (takes > allowed) {

@@ -48,9 +48,7 @@ std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
   imaging::DrumPhotos options{
       .photos = {},
       .diameter = FlagQuantity("--diameter", flags.diameter, base::Dimension::kLength)};
-  for (const auto& [name, turning] : base::Names<imaging::Turning>::kList) {
-    if (name == flags.turning) options.turning = turning;
-  }
+  options.turning = base::EnumNamed<imaging::Turning>(flags.turning);
   return options;
 }
 
@@ -71,9 +69,7 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
     options.pixel_size = FlagQuantity("--pixel-size", flags.pixel_size, Dimension::kLength);
   }
   options.threshold = flags.threshold;
-  for (const auto& [name, look] : base::Names<imaging::PowderLook>::kList) {
-    if (name == flags.powder) options.powder = look;
-  }
+  options.powder = base::EnumNamed<imaging::PowderLook>(flags.powder).value_or(options.powder);
   options.allow_missing_views = flags.allow_missing_views;
   options.scale = flags.scale;
   if (options.plate_diameter == 0 && flags.like.empty() && flags.scale.empty() && !flags.drum) {
@@ -110,13 +106,6 @@ void Measure(const MeasureFlags& flags) {
   }
 }
 
-template <class Enum>
-std::vector<std::string> NamesOf() {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : base::Names<Enum>::kList) names.emplace_back(name);
-  return names;
-}
-
 void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_option("--plate-diameter", flags.plate_diameter,
                   "diameter of the plate with its unit, such as 10mm");
@@ -136,7 +125,7 @@ void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
                   "darker than this share of the background is powder, in (0, 1)");
   verb.add_option("--powder", flags.powder,
                   "before its background: dark (lit from behind), bright (lit from the front)")
-      ->check(CLI::IsMember(NamesOf<imaging::PowderLook>()))
+      ->check(CLI::IsMember(base::NamesOf<imaging::PowderLook>()))
       ->capture_default_str();
   verb.add_flag("--allow-missing-views", flags.allow_missing_views,
                 "go on without views that are missing or unusable, and say which");
@@ -148,7 +137,7 @@ void AddDrumFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_option("--diameter", flags.diameter, "with --drum: its inside, such as 84mm");
   verb.add_option("--turning", flags.turning,
                   "with --drum: as the camera sees it; default: read from the picture")
-      ->check(CLI::IsMember(NamesOf<imaging::Turning>()));
+      ->check(CLI::IsMember(base::NamesOf<imaging::Turning>()));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "experiments/analysis/predict/prediction_text.h"
+#include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
-#include "experiments/app/set_argument.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -35,9 +35,7 @@ void RunPredict(const PredictArguments& arguments) {
     options.set = ReadSetArgument(arguments.set);
     // A queue's own files stand beside the predictions, not among those of the campaign's trials.
     const analysis::Prediction prediction = analysis::Predict(
-        view, options,
-        {.runner = campaign::MakeRunner(view.spec, analysis::PredictFolder(view.folder.root)),
-         .engine = campaign::MakeEngine(view.spec)});
+        view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
     if (arguments.json) {
       list.push_back(base::ToJson(prediction));
     } else {

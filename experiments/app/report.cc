@@ -17,7 +17,6 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 
 namespace talus::app {
-
 namespace {
 
 constexpr int kWatchPeriod = 5;  // between two looks at the campaign [s]

@@ -46,9 +46,7 @@ void Sensitivity(const SensitivityArguments& arguments) {
       .moves = ReadMoves(arguments.moves),
       .scale_factor = arguments.scale_factor,
       .most_replicates = arguments.most_replicates,
-      .parts = {.runner =
-                    campaign::MakeRunner(view.spec, analysis::SensitivityFolder(view.folder.root)),
-                .engine = campaign::MakeEngine(view.spec)},
+      .parts = campaign::MakeParts(view.spec, analysis::SensitivityFolder(view.folder.root)),
       .tell = [](const std::string& line) { std::cerr << line << std::endl; }};
   const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
   analysis::WriteSensitivity(table, view.folder.root);

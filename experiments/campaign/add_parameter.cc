@@ -81,9 +81,8 @@ AddedParameter ParseAddedParameter(const std::string& text) {
   AddedParameter added{.name = text.substr(0, equals)};
   const std::vector<std::string> names = NamesOfAll();
   if (std::ranges::count(names, added.name) == 0) {
-    const std::string near = base::Nearest(added.name, names);
     throw base::ConfigError("--search: \"" + added.name + "\" is no parameter" +
-                            (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+                            base::DidYouMean(added.name, names));
   }
   try {
     added.low = ParseProperty(added.name, text.substr(equals + 1, dots - equals - 1));

@@ -38,4 +38,8 @@ std::unique_ptr<trials::TrialEngine> MakeEngine(const CampaignSpec& spec) {
   throw base::Error("unknown kind of engine");
 }
 
+CampaignParts MakeParts(const CampaignSpec& spec, const std::filesystem::path& folder) {
+  return {.runner = MakeRunner(spec, folder), .engine = MakeEngine(spec)};
+}
+
 }  // namespace talus::campaign

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "experiments/campaign/campaign.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/runners/runner.h"
 #include "experiments/trials/engines/trial_engine.h"
@@ -14,5 +15,8 @@ namespace talus::campaign {
 std::unique_ptr<runners::Runner> MakeRunner(const CampaignSpec& spec,
                                             const std::filesystem::path& folder);
 std::unique_ptr<trials::TrialEngine> MakeEngine(const CampaignSpec& spec);
+
+// Both. A queue's own files stand in `folder`.
+CampaignParts MakeParts(const CampaignSpec& spec, const std::filesystem::path& folder);
 
 }  // namespace talus::campaign

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/name.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/start.h"
@@ -19,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string NamesText(const std::vector<journal::ParameterRecord>& parameters) {
-  std::string text;
-  for (const journal::ParameterRecord& p : parameters) text += (text.empty() ? "" : ", ") + p.name;
-  return text;
+  return base::Joined(parameters, ", ", &journal::ParameterRecord::name);
 }
 
 NewExperiment ExperimentOf(const Reuser& reuser, std::size_t index) {

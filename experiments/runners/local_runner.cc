@@ -21,7 +21,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "experiments/runners/mpi_environment.h"
+#include "experiments/runners/runner.h"
 
 namespace talus::runners {
 namespace {

@@ -2,10 +2,12 @@
 // commands; what they compute it does not know.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/field.h"
@@ -74,6 +76,14 @@ class Runner {
 
   // Stops a job with everything it has started; Wait reports it as cancelled.
   virtual void Cancel(std::int64_t id) = 0;
+};
+
+// What Open MPI must be told where several trials share a machine: it would bind the ranks of each
+// to the machine's first cores, and the threads of a rank to one of them. Others bind nothing by
+// themselves.
+inline constexpr std::array kUnboundRanks{
+    std::pair{"OMPI_MCA_hwloc_base_binding_policy", "none"},     // up to version 4
+    std::pair{"PRTE_MCA_hwloc_default_binding_policy", "none"},  // from version 5 on
 };
 
 }  // namespace talus::runners

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/joined.h"
 #include "experiments/runners/tool.h"
 
 namespace talus::runners {
@@ -16,12 +17,6 @@ std::vector<std::string> Columns(const std::string& line) {
   std::istringstream cells(line);
   for (std::string cell; std::getline(cells, cell, '|');) columns.push_back(cell);
   return columns;
-}
-
-std::string Joined(const std::set<std::string>& jobs) {
-  std::string list;
-  for (const std::string& job : jobs) list += (list.empty() ? "" : ",") + job;
-  return list;
 }
 
 // "1234_7" → "1234"
@@ -105,7 +100,7 @@ std::optional<SlurmStates> SlurmQueue::States(const std::set<std::string>& jobs)
   if (forgotten.empty()) return states;
   const ToolResult accounting =
       RunTool({"sacct", "--noheader", "--parsable2", "--allocations", "--array",
-               "--format=JobID,State", "--jobs=" + Joined(forgotten)});
+               "--format=JobID,State", "--jobs=" + base::Joined(forgotten, ",")});
   // A cluster without accounting: what squeue has forgotten nobody knows.
   if (accounting.ok()) states.merge(ParseSacct(accounting.output));
   return states;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/parallel_for.h"
 #include "optimizer/outputs/output_noise.h"
@@ -48,6 +50,23 @@ surrogate::Evaluations RowsOf(const OutputData& data, const Levels& levels,
     evaluations.growth[i] = levels.growth(data.level[row]);
   }
   return evaluations;
+}
+
+std::vector<std::size_t> Choose(const OutputData& data, std::span<const double> values, int count) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (count <= kMostEvaluations) return order;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (data.level[a] != data.level[b]) return data.level[a] > data.level[b];
+    return values[a] < values[b];
+  });
+  constexpr std::size_t kHalf = kMostEvaluations / 2;
+  std::vector<std::size_t> chosen(order.begin(), order.begin() + kHalf);
+  std::vector<std::size_t> others(order.begin() + kHalf, order.end());
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0; i < kHalf; ++i) chosen.push_back(others[i * others.size() / kHalf]);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
 }
 
 }  // namespace
@@ -208,6 +227,17 @@ void OutputModel::AddFantasy(const Eigen::VectorXd& x, int level) {
   for (surrogate::GaussianProcess& process : processes_) {
     process.AddFantasy({.x = x, .growth = setup_.levels.growth(level), .level = level});
   }
+}
+
+OutputData Modelled(const OutputData& data, std::span<const double> values, int count) {
+  OutputData modelled;
+  for (const std::size_t i : Choose(data, values, count)) {
+    modelled.points.push_back(data.points[i]);
+    modelled.level.push_back(data.level[i]);
+    if (!data.vectors.empty()) modelled.vectors.push_back(data.vectors[i]);
+    modelled.scalars.push_back(data.scalars[i]);
+  }
+  return modelled;
 }
 
 }  // namespace talus::optimizer

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "optimizer/outputs/experiment_target.h"
@@ -106,5 +107,13 @@ class OutputModel {
 // it matters. Linear up to the target.
 double Compress(const ScalarTarget& target, double value);
 double CompressionScale(const ScalarTarget& target);  // Compress = asinh(value / scale)
+
+// A Gaussian process costs the cube of its evaluations: beyond these an answer takes minutes.
+constexpr int kMostEvaluations = 400;
+
+// The first `count` of `data`, or kMostEvaluations of these: one half are those that tell the
+// answer most, of the finest scale factor and then of the lowest objective, and the other half are
+// spread evenly over the rest, in their order. `values` are the objectives, one an evaluation.
+OutputData Modelled(const OutputData& data, std::span<const double> values, int count);
 
 }  // namespace talus::optimizer

@@ -9,7 +9,6 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 double CompressionSlope(const ScalarTarget& target) {
   const double scale = CompressionScale(target);
   return 1 / std::sqrt(scale * scale + target.value * target.value);
@@ -213,13 +212,11 @@ double ExperimentModel::ObjectiveNoise(const Eigen::VectorXd& x) const {
 
 ExperimentStanding ExperimentModel::StandingAt(const Eigen::VectorXd& x) const {
   ExperimentStanding standing{.name = setup_.target->name,
-                              .predicted_objective = kUndefined,
-                              .predicted_sd = kUndefined,
                               .model_error = model_error_.value,
                               .model_error_told = model_error_.told};
   if (has_image()) {
     const Moments moments = Objective(x.transpose());
-    standing.predicted_objective = moments.mean[0];
+    standing.predicted = moments.mean[0];
     standing.predicted_sd = moments.sd[0];
   }
   for (const Moments& number : Scalars(x.transpose())) {

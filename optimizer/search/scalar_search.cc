@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "optimizer/search/best_observed.h"
 #include "optimizer/search/describe_minimum.h"
+#include "optimizer/search/history.h"
 #include "optimizer/search/knowledge_gradient.h"
 #include "optimizer/search/local_step.h"
 #include "optimizer/search/model_step.h"

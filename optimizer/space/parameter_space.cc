@@ -31,10 +31,8 @@ void CheckConstraint(const LinearConstraint& constraint, const std::vector<Param
     const LinearConstraint::Term& term = constraint.terms[t];
     problems.Require(std::isfinite(term.factor), path + ".factor", term.factor, "must be finite");
     if (IndexOf(parameters, term.parameter) >= 0) continue;
-    const std::string near = base::Nearest(term.parameter, names);
-    problems.Add(path + ".parameter",
-                 "\"" + term.parameter + "\" is no parameter" +
-                     (near.empty() ? std::string() : "; did you mean \"" + near + "\"?"));
+    problems.Add(path + ".parameter", "\"" + term.parameter + "\" is no parameter" +
+                                          base::DidYouMean(term.parameter, names));
   }
 }
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 namespace talus::optimizer {
-
 namespace {
 
 // The candidates nearest to any of the points, each once, in the order of the list.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "optimizer/search/best_observed.h"
+#include "optimizer/search/history.h"
 
 namespace talus::optimizer {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "optimizer/designs/posterior_design.h"
-#include "optimizer/outputs/modelled.h"
+#include "optimizer/outputs/output_model.h"
 #include "optimizer/posterior/learn_model_errors.h"
 #include "optimizer/search/feasibility.h"
 #include "optimizer/search/history.h"

@@ -7,11 +7,10 @@
 #include "optimizer/posterior/branches.h"
 #include "optimizer/posterior/credible_ranges.h"
 #include "optimizer/posterior/measured_shift.h"
-#include "optimizer/posterior/narrowing.h"
-#include "optimizer/posterior/rank_correlation.h"
+#include "optimizer/posterior/sample_statistics.h"
 #include "optimizer/posterior/sobol_indices.h"
-#include "optimizer/search/best_observed.h"
 #include "optimizer/search/describe_minimum.h"
+#include "optimizer/search/history.h"
 #include "optimizer/space/point_rows.h"
 #include "optimizer/strategy/posterior_strategy.h"
 

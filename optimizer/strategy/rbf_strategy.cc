@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "optimizer/search/best_observed.h"
 #include "optimizer/search/describe_minimum.h"
+#include "optimizer/search/history.h"
 #include "optimizer/search/model_search.h"
 
 namespace talus::optimizer {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/random.h"
-#include "optimizer/search/best_observed.h"
+#include "optimizer/search/history.h"
 
 namespace talus::optimizer {
 namespace {

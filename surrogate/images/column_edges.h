@@ -15,7 +15,6 @@
 #include <span>
 #include <vector>
 
-#include "surrogate/images/field_size.h"
 #include "surrogate/images/vessel.h"
 
 namespace talus::surrogate {

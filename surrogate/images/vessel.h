@@ -7,9 +7,15 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "surrogate/images/field_size.h"
-
 namespace talus::surrogate {
+
+// The size of an image.
+struct FieldSize {
+  int width = 0;   // [px]
+  int height = 0;  // [px]
+
+  int num_pixels() const { return width * height; }
+};
 
 class Vessel {
  public:

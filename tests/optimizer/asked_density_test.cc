@@ -9,7 +9,7 @@
 
 #include "optimizer/designs/r_sequence.h"
 #include "optimizer/posterior/branches.h"
-#include "optimizer/posterior/narrowing.h"
+#include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
 namespace {

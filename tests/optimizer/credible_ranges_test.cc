@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "optimizer/posterior/rank_correlation.h"
+#include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
 namespace {

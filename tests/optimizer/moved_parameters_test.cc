@@ -1,8 +1,8 @@
-#include "optimizer/posterior/moved_parameters.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
 namespace {

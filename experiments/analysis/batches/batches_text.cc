@@ -76,12 +76,9 @@ std::string BatchesText(const BatchComparison& c) {
 
 std::string BatchesCsv(const BatchComparison& c) {
   base::Csv csv;
-  for (const char* head :
-       {"batch", "parameter", "unit", "median", "low_90", "high_90", "difference",
-        "difference_low_90", "difference_high_90", "matters", "probability_larger"}) {
-    csv.Cell(head);
-  }
-  csv.EndRow();
+  csv.Heads({"batch", "parameter", "unit", "median", "low_90", "high_90", "difference",
+             "difference_low_90", "difference_high_90", "matters", "probability_larger"})
+      .EndRow();
   for (std::size_t b = 0; b < c.batches.size(); ++b) {
     for (const BatchParameter& p : c.parameters) {
       const BatchRange& r = p.batches[b];

@@ -28,12 +28,7 @@ struct Batch {
 };
 
 std::vector<std::vector<double>> DrawsOf(const JointView& view, std::uint64_t stream) {
-  const auto strategy = campaign::StrategyOf(view, view.Answered());
-  if (!strategy->CanModel()) {
-    throw base::Error(view.folder.root.string() +
-                      ": has too few trials of each experiment for a posterior; go on with "
-                      "`talus resume`");
-  }
+  const auto strategy = campaign::AnsweringStrategy(view);
   const Eigen::MatrixXd points = strategy->Sample().Draws(kPairs, view.spec.seed);
   std::vector<std::vector<double>> draws;
   for (const auto& point : points.rowwise()) {

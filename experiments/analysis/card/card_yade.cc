@@ -12,7 +12,6 @@
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
-
 namespace {
 
 // makeCloud takes the share of the mass up to each diameter.

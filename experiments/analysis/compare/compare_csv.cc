@@ -12,8 +12,8 @@ void ParameterHeads(base::Csv& csv, const Evidence& evidence) {
 
 std::string ObjectivesCsv(const ComparedCampaign& compared) {
   base::Csv csv;
-  csv.Cell("objective").Cell("from").Cell("metric").Cell("quantity").Cell("reference");
-  csv.Cell("objective_value").Cell("noise_sd");
+  csv.Heads(
+      {"objective", "from", "metric", "quantity", "reference", "objective_value", "noise_sd"});
   ParameterHeads(csv, compared.evidence);
   csv.Cell("tied_sets").Cell("sets").Cell("tied_volume_fraction").EndRow();
   for (const ObjectiveFinding& f : compared.findings) {

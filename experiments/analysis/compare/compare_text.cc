@@ -2,14 +2,39 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
-#include "experiments/analysis/compare/aligned.h"
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/knowledge.h"
 
 namespace talus::analysis {
 namespace {
 
-using Row = TextRow;
+// Characters, not bytes: units and symbols are not ASCII.
+std::size_t WidthOf(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+using Row = std::vector<std::string>;
+
+// Columns as wide as they must be; the first one to the left, the others to the right.
+std::string Aligned(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], WidthOf(row[i]));
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string pad(widths[i] - WidthOf(row[i]), ' ');
+      line += " " + (i == 0 ? row[i] + pad : " " + pad + row[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
 
 // In the unit that people read it in.
 std::string Shown(const ObjectiveFinding& f, double value, int digits = 4) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/rigs/observables/observable.h"
@@ -97,7 +98,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
              .meets = fit.meets};
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (standing != nullptr && index < standing->numbers.size()) {
-    const campaign::ResultPredictedNumber& number = standing->numbers[index];
+    const optimizer::NumberStanding& number = standing->numbers[index];
     row.simulated = "predicted " + shown(rigs::Possible(measured.name, number.predicted)) + " ± " +
                     ShortText(unit.per_unit * number.predicted_sd, 2) + ending;
   }
@@ -114,14 +115,6 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
                     (is_confirmed ? "" : " and the prediction") + " away";
   }
   return row;
-}
-
-std::string Quoted(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  }
-  return text;
 }
 
 std::string NameOf(const FitRow& row) {
@@ -158,15 +151,15 @@ std::string FitSentence(const std::vector<FitRow>& rows) {
   }
   std::string text;
   if (!met.empty()) {
-    text = "With these values a simulation gives " + Quoted(met) +
+    text = "With these values a simulation gives " + base::Listed(met) +
            " as closely as the measurement itself is known.";
   }
   if (!missed.empty()) {
     text += (text.empty() ? "With these values a simulation misses " : " It misses ") +
-            Quoted(missed) + ".";
+            base::Listed(missed) + ".";
   }
   if (!open.empty()) {
-    text += (text.empty() ? "" : " ") + std::string("How well ") + Quoted(open) +
+    text += (text.empty() ? "" : " ") + std::string("How well ") + base::Listed(open) +
             (open.size() == 1 ? " is" : " are") + " met is not known.";
   }
   return text;

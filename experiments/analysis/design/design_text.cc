@@ -7,6 +7,7 @@
 
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/campaign/plan/core_time.h"
@@ -21,11 +22,8 @@ using base::ShortNumber;
 constexpr std::size_t kShown = 4;  // of one size
 
 std::string NamesOf(const DesignTable& table, const DesignChoice& choice) {
-  std::string names;
-  for (const std::size_t t : choice.tests) {
-    names += (names.empty() ? "" : " + ") + table.tests.candidates[t].name;
-  }
-  return names;
+  return base::Joined(choice.tests, " + ",
+                      [&](std::size_t t) { return table.tests.candidates[t].name; });
 }
 
 std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice>& choices) {

@@ -26,17 +26,12 @@ std::string TrialsCsv(const journal::CampaignRecord& campaign,
                       const std::vector<journal::TrialRecord>& trials) {
   const std::vector<std::string> metrics = MetricNames(trials);
   base::Csv csv;
-  for (const char* head :
-       {"trial", "kind", "origin", "status", "seed", "experiment", "scale_factor"}) {
-    csv.Cell(head);
-  }
+  csv.Heads({"trial", "kind", "origin", "status", "seed", "experiment", "scale_factor"});
   for (const journal::ParameterRecord& p : campaign.parameters) csv.Cell(journal::ColumnName(p));
   for (const std::string& metric : metrics) csv.Cell(metric);
-  for (const char* head : {"duration_s", "cpu_s", "num_steps", "num_particles", "attempts",
-                           "finish_order", "host", "reason"}) {
-    csv.Cell(head);
-  }
-  csv.EndRow();
+  csv.Heads({"duration_s", "cpu_s", "num_steps", "num_particles", "attempts", "finish_order",
+             "host", "reason"})
+      .EndRow();
   for (const journal::TrialRecord& t : trials) {
     csv.Cell(t.id).Cell(base::NameOf(t.kind)).Cell(t.origin).Cell(base::NameOf(t.status));
     csv.Cell(t.seed).Cell(campaign.experiments.at(static_cast<std::size_t>(t.experiment)).name);

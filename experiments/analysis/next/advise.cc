@@ -19,8 +19,7 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
   std::optional<Goal> goal;
   if (request.goal) {
     goal = SimulateGoal(view, *request.goal,
-                        {.runner = campaign::MakeRunner(view.spec, PredictFolder(view.folder.root)),
-                         .engine = campaign::MakeEngine(view.spec)});
+                        campaign::MakeParts(view.spec, PredictFolder(view.folder.root)));
   }
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
   const NextTable table = RankNext(
@@ -28,8 +27,7 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
              .simulate = request.simulate,
              .core_time = request.core_time.value_or(campaign::CoreTime(view.spec).Of(view.trials)),
              .say = request.say,
-             .parts = {.runner = campaign::MakeRunner(view.spec, folder),
-                       .engine = campaign::MakeEngine(view.spec)},
+             .parts = campaign::MakeParts(view.spec, folder),
              .goal = std::move(goal)});
   std::filesystem::create_directories(folder);
   base::WriteFileAtomically(folder / "next.json", NextJson(table));

@@ -239,12 +239,7 @@ void Sort(NextTable& table) {
 }  // namespace
 
 NextTable RankNext(const JointView& view, const NextOptions& options) {
-  const auto strategy = campaign::StrategyOf(view, view.Answered());
-  if (!strategy->CanModel()) {
-    throw base::Error(view.folder.root.string() +
-                      ": has too few trials of each experiment for a posterior; go on with "
-                      "`talus resume`");
-  }
+  const auto strategy = campaign::AnsweringStrategy(view);
   Ground ground{.view = view,
                 .temper = strategy->Model().temper(),
                 .draws = strategy->Sample().Draws(kDraws, view.spec.seed),

@@ -79,12 +79,7 @@ WeightedDraws ChooseDraws(const Eigen::MatrixXd& draws, int count, std::uint64_t
 
 WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
   constexpr int kDraws = 1000;
-  const auto strategy = campaign::StrategyOf(view, view.Answered());
-  if (!strategy->CanModel()) {
-    throw base::Error(view.folder.root.string() +
-                      ": has too few trials of each experiment for a posterior; go on with "
-                      "`talus resume`");
-  }
+  const auto strategy = campaign::AnsweringStrategy(view);
   return ChooseDraws(strategy->Sample().Draws(kDraws, view.spec.seed), count, view.spec.seed);
 }
 

@@ -6,7 +6,6 @@
 #include "experiments/analysis/report/page/summary.h"
 
 namespace talus::analysis {
-
 namespace {
 
 void WritePicture(const std::filesystem::path& folder, const Picture& picture) {

@@ -52,10 +52,6 @@ double ValueOf(const rigs::Case& c, const std::string& parameter) {
   return value;
 }
 
-std::string WithUnit(double value, const std::string& unit) {
-  return base::ShortNumber(value) + (unit.empty() ? "" : " " + unit);
-}
-
 // Whether it, or a wall's property whose place its pair would take, is searched.
 bool IsSearched(const campaign::JointView& view, const std::string& parameter) {
   const ParameterPlace place = campaign::PlaceOf(parameter);
@@ -76,8 +72,8 @@ void AddParameter(const campaign::JointView& view, const rigs::Case& c, const st
   if (IsSearched(view, name) || from == 0) return;
   const std::string unit = campaign::UnitOf(name);
   moves.push_back({.name = name,
-                   .from = WithUnit(from, unit),
-                   .to = WithUnit(change(from), unit),
+                   .from = base::WithUnit(from, unit),
+                   .to = base::WithUnit(change(from), unit),
                    .apply =
                        [name, change](rigs::Case& moved) {
                          campaign::SetParameter(moved, name, change(ValueOf(moved, name)));
@@ -218,9 +214,7 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
             const std::string& text) {
   const std::vector<std::string> known = ParameterNames();
   if (std::ranges::find(known, name) == known.end()) {
-    const std::string near = base::Nearest(name, known);
-    throw base::ConfigError(name + ": is no parameter" +
-                            (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    throw base::ConfigError(name + ": is no parameter" + base::DidYouMean(name, known));
   }
   if (IsSearched(view, name)) {
     throw base::ConfigError(name + ": is searched, and its value the answer; name something fixed");
@@ -237,8 +231,8 @@ Move MoveTo(const campaign::JointView& view, const rigs::Case& c, const std::str
   }
   const std::string unit = campaign::UnitOf(name);
   Move move{.name = name,
-            .from = WithUnit(from, unit),
-            .to = WithUnit(to, unit),
+            .from = base::WithUnit(from, unit),
+            .to = base::WithUnit(to, unit),
             .apply = [name, to](rigs::Case& moved) { campaign::SetParameter(moved, name, to); },
             .placeholders = {name}};
   if (const std::string why = WhyNotMoved(move, c); !why.empty()) throw base::ConfigError(why);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -86,7 +87,7 @@ class Study {
   Study(const JointView& view, const SensitivityOptions& options)
       : view_(view),
         options_(options),
-        strategy_(MakeStrategy(view)),
+        strategy_(campaign::AnsweringStrategy(view)),
         answer_(strategy_->Recommend()),
         setting_{.view = view,
                  .posterior = strategy_->Model(),
@@ -120,26 +121,16 @@ class Study {
  private:
   static constexpr int kDraws = 1000;
 
-  static std::unique_ptr<optimizer::PosteriorStrategy> MakeStrategy(const JointView& view) {
-    auto strategy = campaign::StrategyOf(view, view.Answered());
-    if (strategy->CanModel()) return strategy;
-    throw base::Error(view.folder.root.string() +
-                      ": has too few trials of each experiment for a posterior; go on with "
-                      "`talus resume`");
-  }
-
   static double FactorOf(const JointView& view, const SensitivityOptions& options) {
     const std::vector<double> levels = view.spec.coarse_graining.Levels();
     if (!options.scale_factor) return levels.front();
     if (std::ranges::find(levels, *options.scale_factor) != levels.end()) {
       return *options.scale_factor;
     }
-    std::string all;
-    for (const double level : levels) {
-      all += (all.empty() ? "" : ", ") + base::ShortNumber(level);
-    }
+    const auto text = [](double level) { return base::ShortNumber(level); };
     throw base::ConfigError("--scale-factor: the campaign has none of " +
-                            base::ShortNumber(*options.scale_factor) + ", but " + all);
+                            text(*options.scale_factor) + ", but " +
+                            base::Joined(levels, ", ", text));
   }
 
   static std::vector<Move> MovesOf(const JointView& view, const SensitivityOptions& options,

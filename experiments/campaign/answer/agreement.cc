@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimizer/posterior/moved_parameters.h"
+#include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::campaign {
 namespace {

@@ -6,8 +6,8 @@
 // S_e is an experiment's sum of squared residuals over the temper at a set, looked at over draws of
 // the joint posterior and of each alone, E the number of
 // experiments and d that of parameters which the data move
-// (optimizer/posterior/moved_parameters.h). Each test may fit well enough where it stands and still
-// pull elsewhere: two misfits that are no surprise by themselves can be one together.
+// (optimizer/posterior/sample_statistics.h). Each test may fit well enough where it stands and
+// still pull elsewhere: two misfits that are no surprise by themselves can be one together.
 #pragma once
 
 #include <string>

@@ -132,9 +132,7 @@ std::string AlarmText(const Alarm& a) {
 Alarm PhotographAlarm(const journal::PhotoWarningRecord& warning, const std::string& experiment) {
   Alarm alarm{.experiment = experiment, .value = warning.value, .reason = warning.text};
   if (!warning.photo.empty()) alarm.photo = warning.photo;
-  for (const auto& [name, kind] : base::Names<AlarmKind>::kList) {
-    if (name == warning.kind) alarm.kind = kind;
-  }
+  alarm.kind = base::EnumNamed<AlarmKind>(warning.kind).value_or(alarm.kind);
   return alarm;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/fit.h"
@@ -110,12 +111,13 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
 
 // "(sliding_friction 0.31, rolling_friction 0.12)"
 std::string SetText(const Answer& answer, const std::vector<double>& values) {
-  std::string text;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    text += (k == 0 ? "(" : ", ") + answer.parameters.at(k).name + " " +
-            base::ShortNumber(values[k], 3);
-  }
-  return text + ")";
+  return "(" +
+         base::JoinedUpTo(values.size(), ", ",
+                          [&](std::size_t k) {
+                            return answer.parameters.at(k).name + " " +
+                                   base::ShortNumber(values[k], 3);
+                          }) +
+         ")";
 }
 
 // Another set that was simulated again and comes clearly nearer.

@@ -17,6 +17,7 @@
 #include "experiments/campaign/answer/result_reused.h"
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/plan/stop.h"
+#include "experiments/journal/records.h"
 #include "optimizer/space/parameter_space.h"
 #include "optimizer/stop_reason.h"
 
@@ -51,13 +52,7 @@ struct ResultParameter {
 };
 
 // A number as it was measured, in its metric's unit.
-struct ResultNumber {
-  std::string name{};
-  double value = kNotKnown;
-  double standard_error = kNotKnown;
-
-  TALUS_FIELDS(name, value, standard_error);
-};
+using ResultNumber = journal::ScalarRecord;
 
 // What was measured, and how far simulations of it scatter.
 struct ResultExperiment {

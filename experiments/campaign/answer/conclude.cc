@@ -130,14 +130,11 @@ ResultExperiment ExperimentOf(const Planner& planner, const CampaignEvidence& ev
   ResultExperiment made{.name = record.name,
                         .has_image = reference.has_image(),
                         .num_heaps = record.num_heaps,
+                        .numbers = record.scalars,
                         .noise_floor = record.noise_mm2,
                         .replicates_sd = ReplicatesSd(planner, reference, index)};
   if (const auto frame = reference.frame()) {
     made.powder_area = record.nebp_px * std::pow(1e3 * frame->pixel_size, 2);
-  }
-  for (const journal::ScalarRecord& scalar : record.scalars) {
-    made.numbers.push_back(
-        {.name = scalar.name, .value = scalar.value, .standard_error = scalar.standard_error});
   }
   return made;
 }

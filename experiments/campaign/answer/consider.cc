@@ -9,6 +9,7 @@
 #include "base/json/json_writer.h"
 #include "base/nearest.h"
 #include "base/problems.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
@@ -39,12 +40,9 @@ std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& tr
 
 std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
                     const std::vector<double>& values) {
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + parameters[i].name + " " + base::ShortNumber(values[i]) +
-            (parameters[i].unit.empty() ? "" : " " + parameters[i].unit);
-  }
-  return text;
+  return base::JoinedUpTo(values.size(), ", ", [&](std::size_t i) {
+    return parameters[i].name + " " + base::WithUnit(values[i], parameters[i].unit);
+  });
 }
 
 std::vector<ConsideredParameter> KnownOf(const JointView& view, const optimizer::Answer& answer) {
@@ -144,7 +142,7 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
   }
   if (const auto standing = strategy->Consider(point)) {
     considered.credible_level = standing->credible_level;
-    considered.experiments = StandingsOf(standing->experiments);
+    considered.experiments = standing->experiments;
   }
   return considered;
 }

@@ -26,23 +26,6 @@ FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimize
   return {.low = FreeValues(space, low), .high = FreeValues(space, high)};
 }
 
-std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list) {
-  std::vector<ResultStanding> standings;
-  for (const optimizer::ExperimentStanding& s : list) {
-    standings.push_back({.name = s.name,
-                         .predicted = s.predicted_objective,
-                         .predicted_sd = s.predicted_sd,
-                         .implausibility = s.implausibility,
-                         .model_error = s.model_error,
-                         .model_error_told = s.model_error_told});
-    for (const optimizer::NumberStanding& n : s.numbers) {
-      standings.back().numbers.push_back(
-          {.predicted = n.predicted, .predicted_sd = n.predicted_sd});
-    }
-  }
-  return standings;
-}
-
 std::string ProvisionalText(double surrogate_narrowing) {
   return "provisional, since the surrogate leaves more open than the measurements do: more "
          "simulations may move it, and narrow a range by up to " +
@@ -61,7 +44,7 @@ ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                             .unlearnt_scale_factors = summary.unlearnt_scale_factors,
                             .fewest_at_finest = summary.fewest_at_finest,
                             .surrogate_narrowing = summary.surrogate_narrowing,
-                            .experiments = StandingsOf(summary.experiments)};
+                            .experiments = summary.experiments};
   for (const optimizer::PosteriorBranch& branch : summary.branches) {
     posterior.branches.push_back({.share = branch.share,
                                   .values = FreeValues(space, branch.point),
@@ -95,6 +78,21 @@ std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
     csv.Cells(FreeValues(space, summary.draws.row(i))).EndRow();
   }
   return csv.Take();
+}
+
+std::string FirstAnswerText(const optimizer::Answer& answer, const optimizer::ParameterSpace& space,
+                            const std::vector<journal::ParameterRecord>& parameters) {
+  const std::vector<double> values = FreeValues(space, answer.point);
+  const FreeRanges ranges = CredibleValues(space, answer);
+  std::string text = "first answer, by what was reused:";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& unit = parameters[i].unit;
+    text += (i == 0 ? " " : ", ") + parameters[i].name + " " + base::ShortNumber(values[i]) +
+            " (90 % in " + base::ShortNumber(ranges.low[i]) + " … " +
+            base::ShortNumber(ranges.high[i]) + ")" + (unit.empty() ? "" : " ") + unit;
+  }
+  return text + "; the joint 90 % region fills " +
+         base::ShortNumber(100 * answer.posterior->region_volume, 2) + " % of the searched ranges";
 }
 
 }  // namespace talus::campaign

@@ -25,8 +25,6 @@ struct FreeRanges {
 };
 FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimizer::Answer& answer);
 
-std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentStanding>& list);
-
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
                                   const optimizer::ParameterSpace& space);
 
@@ -39,5 +37,10 @@ std::optional<ResultPrior> PriorOf(const optimizer::PosteriorSummary& summary,
 std::string PosteriorCsv(const optimizer::PosteriorSummary& summary,
                          const optimizer::ParameterSpace& space,
                          const std::vector<journal::ParameterRecord>& parameters);
+
+// "first answer, by what was reused: sliding_friction 0.45 (90 % in 0.4 … 0.5), …". Wants a
+// posterior.
+std::string FirstAnswerText(const optimizer::Answer& answer, const optimizer::ParameterSpace& space,
+                            const std::vector<journal::ParameterRecord>& parameters);
 
 }  // namespace talus::campaign

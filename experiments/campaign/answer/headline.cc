@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/nuisances.h"
 
@@ -36,19 +37,10 @@ std::string RangeText(const Told& told, std::size_t i) {
 }
 
 std::string SetText(const Told& told, const std::vector<double>& values) {
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "(" : ", ") + told.names[i] + " " + Short(values[i]);
-  }
-  return text + ")";
-}
-
-std::string Listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  }
-  return text;
+  return "(" +
+         base::JoinedUpTo(values.size(), ", ",
+                          [&](std::size_t i) { return told.names[i] + " " + Short(values[i]); }) +
+         ")";
 }
 
 // The alarms that leave nothing to be said of ranges.
@@ -75,7 +67,7 @@ std::string OpenText(const Told& told) {
     if (IsOpen(told.answer, i)) open.push_back(told.names[i]);
   }
   if (open.empty()) return "";
-  return "The measurements do not determine " + Listed(open) +
+  return "The measurements do not determine " + base::Listed(open) +
          ": nearly every searched value fits.";
 }
 
@@ -87,7 +79,7 @@ std::string KnownText(const Told& told) {
     known.push_back(told.names[i] + " " + Short(p.value) + " (90 %: " + Short(p.credible_low) +
                     " to " + Short(p.credible_high) + ")");
   }
-  return known.empty() ? "" : "They determine " + Listed(known) + ".";
+  return known.empty() ? "" : "They determine " + base::Listed(known) + ".";
 }
 
 std::string SeparateText(const Told& told) {
@@ -119,7 +111,7 @@ std::string RegionText(const Told& told) {
     wide.push_back(RangeText(told, i) + " (" + Percent(std::min(1.0, told.at(i).Width())) +
                    " of its searched range)");
   }
-  return "They leave a region, not a point" + (wide.empty() ? "" : ": " + Listed(wide));
+  return "They leave a region, not a point" + (wide.empty() ? "" : ": " + base::Listed(wide));
 }
 
 // "Not asked for: restitution e: not determined, 0.62 … 0.93, does not matter."
@@ -186,11 +178,7 @@ std::vector<std::string> Headline(const Answer& all, const std::vector<std::stri
 std::string HeadlineText(const Answer& answer) {
   std::vector<std::string> names;
   for (const ResultParameter& p : answer.parameters) names.push_back(p.name);
-  std::string text;
-  for (const std::string& sentence : Headline(answer, names)) {
-    text += (text.empty() ? "" : " ") + sentence;
-  }
-  return text;
+  return base::Joined(Headline(answer, names), " ");
 }
 
 }  // namespace talus::campaign

@@ -5,19 +5,19 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/joined.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/record/stored.h"
 
 namespace talus::campaign {
 
 int JointView::IndexOf(std::string_view name) const {
-  std::string names;
-  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
-    if (record.experiments[e].name == name) return static_cast<int>(e);
-    names += (e == 0 ? "\"" : ", \"") + record.experiments[e].name + "\"";
-  }
+  const auto& all = record.experiments;
+  const auto found = std::ranges::find(all, name, &journal::ExperimentRecord::name);
+  if (found != all.end()) return static_cast<int>(found - all.begin());
   throw base::ConfigError("\"" + std::string(name) + "\": is no experiment of " +
-                          folder.root.string() + "; it has " + names);
+                          folder.root.string() + "; it has \"" +
+                          base::Joined(all, "\", \"", &journal::ExperimentRecord::name) + "\"");
 }
 
 std::vector<int> JointView::All() const {
@@ -73,6 +73,14 @@ std::unique_ptr<optimizer::PosteriorStrategy> StrategyOf(const JointView& view,
     strategy->Tell(observation);
   }
   return strategy;
+}
+
+std::unique_ptr<optimizer::PosteriorStrategy> AnsweringStrategy(const JointView& view) {
+  auto strategy = StrategyOf(view, view.Answered());
+  if (strategy->CanModel()) return strategy;
+  throw base::Error(view.folder.root.string() +
+                    ": has too few trials of each experiment for a posterior; go on with "
+                    "`talus resume`");
 }
 
 PartialAnswer AnswerOf(const JointView& view, optimizer::PosteriorStrategy& strategy,

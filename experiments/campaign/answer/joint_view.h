@@ -44,6 +44,9 @@ JointView ReadJointView(const std::filesystem::path& folder);
 std::unique_ptr<optimizer::PosteriorStrategy> StrategyOf(const JointView& view,
                                                          const std::vector<int>& experiments);
 
+// The one that answers. Throws base::Error where there are too few trials for a posterior.
+std::unique_ptr<optimizer::PosteriorStrategy> AnsweringStrategy(const JointView& view);
+
 // What some of the experiments answer by themselves.
 struct PartialAnswer {
   std::vector<std::string> experiments;  // by name

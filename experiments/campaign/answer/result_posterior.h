@@ -2,11 +2,11 @@
 // branches, how well it is calibrated, and how the recommended set stands with each experiment.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/field.h"
+#include "optimizer/posterior_summary.h"
 
 namespace talus::campaign {
 
@@ -20,29 +20,8 @@ struct ResultBranch {
   TALUS_FIELDS(share, values, low, high);
 };
 
-// A number of an experiment at a set, as the model expects it: in the order of the experiment's.
-struct ResultPredictedNumber {
-  double predicted = 0;     // mean over seeds, in the metric's unit
-  double predicted_sd = 0;  // of that mean
-
-  TALUS_FIELDS(predicted, predicted_sd);
-};
-
 // A set beside an experiment, at the target scale factor.
-struct ResultStanding {
-  std::string name{};
-  double predicted = std::numeric_limits<double>::quiet_NaN();     // objective; NaN without images
-  double predicted_sd = std::numeric_limits<double>::quiet_NaN();  // of that mean
-  double implausibility = 0;                                       // [standard deviations]
-  double model_error = 1;       // that the posterior counts with, in run-to-run sds [-]
-  double model_error_told = 0;  // share of its prior's sd that was learnt, in [0, 1]; 0: stated
-  std::vector<ResultPredictedNumber> numbers{};
-
-  static constexpr base::FieldKey kKeys[] = {{"predicted", "predicted_objective"},
-                                             {"predicted_sd", "predicted_objective_sd"}};
-  TALUS_FIELDS(name, predicted, predicted_sd, implausibility, model_error, model_error_told,
-               numbers);
-};
+using ResultStanding = optimizer::ExperimentStanding;
 
 // What one experiment answers by itself. Values in the order of the parameters, SI.
 struct ResultAlone {

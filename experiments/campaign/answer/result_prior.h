@@ -20,7 +20,8 @@ struct ResultPrior {
 
 // What a parameter that is not asked for does to those that are.
 struct ResultNuisance {
-  double narrowing = 0;    // the share by which a range would shrink if it were known: narrowing.h
+  double narrowing =
+      0;  // the share by which a range would shrink if it were known: sample_statistics.h
   std::string of_range{};  // the parameter of that range, the one that would shrink most
 
   TALUS_FIELDS(narrowing, of_range);

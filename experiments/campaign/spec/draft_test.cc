@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/rig_list.h"
@@ -63,11 +64,7 @@ bool IsAsked(rigs::RigKind kind, const rigs::RigObservable& measured) {
 }
 
 std::string Listed(const std::vector<TestQuestion>& questions) {
-  std::string text;
-  for (const TestQuestion& question : questions) {
-    text += (text.empty() ? "" : ", ") + question.key;
-  }
-  return text;
+  return base::Joined(questions, ", ", &TestQuestion::key);
 }
 
 // The standard error of a value: as given after ±, or the usual one of it.
@@ -132,26 +129,18 @@ std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
   return collector.questions;
 }
 
-std::string TestNames() {
-  std::string names;
-  for (const auto& [name, kind] : base::Names<rigs::RigKind>::kList) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  }
-  return names;
-}
+std::string TestNames() { return base::Joined(base::NamesOf<rigs::RigKind>(), ", "); }
 
 DraftTest ParseDraftTest(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
-  std::optional<DraftTest> test;
-  for (const auto& [known, kind] : base::Names<rigs::RigKind>::kList) {
-    if (known == name) test = DraftTest{.kind = kind};
-  }
-  if (!test) {
+  const auto kind = base::EnumNamed<rigs::RigKind>(name);
+  if (!kind) {
     throw base::ConfigError("--test: \"" + name + "\" is no test that can be added; write one of " +
                             TestNames());
   }
-  const std::vector<TestQuestion> questions = QuestionsOf(test->kind);
+  DraftTest test{.kind = *kind};
+  const std::vector<TestQuestion> questions = QuestionsOf(*kind);
   std::size_t at = colon;
   while (at != std::string::npos) {
     const std::size_t next = text.find(',', at + 1);
@@ -163,10 +152,10 @@ DraftTest ParseDraftTest(const std::string& text) {
       throw base::ConfigError("--test: \"" + part + "\" is no KEY=VALUE of " + name +
                               "; its keys are " + Listed(questions));
     }
-    test->answers.emplace_back(key, part.substr(equals + 1));
+    test.answers.emplace_back(key, part.substr(equals + 1));
     at = next;
   }
-  return *test;
+  return test;
 }
 
 void CheckAnswer(const TestQuestion& question, const std::string& answer) {

@@ -11,7 +11,7 @@
 #include "base/problems.h"
 #include "engine/scene/pair_spec.h"
 #include "experiments/campaign/spec/measured_numbers.h"
-#include "experiments/rigs/case/device.h"
+#include "experiments/rigs/case/case.h"
 #include "experiments/rigs/options/filling_rule.h"
 #include "experiments/rigs/options/rig_options.h"
 #include "experiments/rigs/options/rules.h"

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/text/joined.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/plausible.h"
@@ -44,17 +45,12 @@ void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Probl
   const rigs::Case rig = RigOf(e);
   const auto known = rigs::EntryOf(rig).observables;
   for (const ScalarSpec& scalar : ScalarsOf(e)) {
-    std::string all;
-    bool measured = false;
-    for (const rigs::RigObservable& o : known) {
-      const std::string name = rigs::MetricName(o.observable);
-      measured |= name == scalar.metric;
-      all += (all.empty() ? "" : ", ") + name;
-    }
-    if (measured) continue;
+    const auto name = [](const rigs::RigObservable& o) { return rigs::MetricName(o.observable); };
+    if (std::ranges::find(known, scalar.metric, name) != known.end()) continue;
     problems.Add(place + "." + scalar.key,
                  "is not measured by the rig " + std::string(base::NameOf(rig.rig.kind)) +
-                     ", which measures " + all + "; remove it, or name the rig of this test");
+                     ", which measures " + base::Joined(known, ", ", name) +
+                     "; remove it, or name the rig of this test");
   }
 }
 
@@ -170,9 +166,8 @@ void CheckHoldOut(const CampaignSpec& spec, base::Problems& problems) {
     return;
   }
   if (std::find(names.begin(), names.end(), *spec.hold_out) != names.end()) return;
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "\"" : ", \"") + name + "\"";
-  problems.Add("hold_out", "\"" + *spec.hold_out + "\" is no experiment; there are " + all);
+  problems.Add("hold_out", "\"" + *spec.hold_out + "\" is no experiment; there are \"" +
+                               base::Joined(names, "\", \"") + "\"");
 }
 
 }  // namespace

@@ -22,7 +22,12 @@ struct EngineOptions {
                   "hold"});
     trials::CommandOptions::Visit(self.command, visit);
   }
-  void Validate(base::Problems& problems) const;
+  void Validate(base::Problems& problems) const {
+    if (kind == EngineKind::kCommand) return command.Validate(problems);
+    problems.Require(command == trials::CommandOptions(), "kind",
+                     "is talus, for which the other keys say nothing; set it to command or leave "
+                     "them out");
+  }
 };
 
 enum class RunnerKind { kLocal, kSlurm };
@@ -40,7 +45,12 @@ struct RunnerOptions {
                 "hold"});
     runners::SlurmOptions::Visit(self.slurm, visit);
   }
-  void Validate(base::Problems& problems) const;
+  void Validate(base::Problems& problems) const {
+    if (kind == RunnerKind::kSlurm) return slurm.Validate(problems);
+    problems.Require(slurm == runners::SlurmOptions(), "kind",
+                     "is local, for which the other keys say nothing; set it to slurm or leave "
+                     "them out");
+  }
 };
 
 }  // namespace talus::campaign

@@ -14,15 +14,62 @@
 #include "base/problems.h"
 #include "engine/laws/material.h"
 #include "engine/scene/pair_spec.h"
-#include "experiments/rigs/case/device.h"
-#include "experiments/rigs/case/powder.h"
+#include "engine/scene/size_distribution.h"
 #include "experiments/rigs/options/filling_rule.h"
+#include "experiments/rigs/options/lifted_tube_options.h"
 #include "experiments/rigs/options/rig_options.h"
 #include "experiments/rigs/options/rules.h"
 #include "experiments/rigs/options/wall_material.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::rigs {
+
+// The key `device` of a case and of an experiment: the tube and the plate of the lifted tube, and
+// what the walls and the floor of any rig are made of.
+struct Device : LiftedTubeOptions {
+  std::optional<WallMaterial> tube_material{};   // the walls of other rigs
+  std::optional<WallMaterial> plate_material{};  // their floor
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    LiftedTubeOptions::Visit(self, visit);
+    visit("tube_material", self.tube_material, {.doc = "where it differs from the powder's"});
+    visit("plate_material", self.plate_material, {.doc = "where it differs from the powder's"});
+  }
+};
+
+// What is heaped: the material, the sizes and the mass of a powder.
+struct Powder {
+  engine::Material material;
+  engine::SizeDistribution sizes;  // of the real powder; the scale factor enlarges it
+  double mass = 0;                 // [kg], > 0; 0: not given, as a drum's fill stands for it
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("material", self.material, {.doc = "of a grain"});
+    visit("sizes", self.sizes, {.required = true, .doc = "diameters of the real powder"});
+    visit("mass", self.mass,
+          {.dimension = base::Dimension::kMass,
+           .doc = "filled, > 0; a drum may have its rig's fill instead"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+// Fewer, larger grains (docs/physics.md, C1).
+struct CoarseGraining {
+  double scale_factor = 1;             // f [-], >= 1: every diameter is multiplied by it
+  double surface_energy_exponent = 1;  // p [-], in [0, 3]: γ_used = f^p γ
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("scale_factor", self.scale_factor,
+          {.doc = "f: every diameter is multiplied by it, mass and device stay; >= 1"});
+    visit("surface_energy_exponent", self.surface_energy_exponent,
+          {.doc = "p in gamma_used = f^p gamma: 1 cohesive stress over weight, 2 particle Bond "
+                  "number, 0 none; in [0, 3]"});
+  }
+  void Validate(base::Problems& problems) const;
+};
 
 struct CaseOutputs {
   bool vtp = true;              // heap.vtp

@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "engine/run/resisted_spins.h"
-#include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
 
 namespace talus::rigs {
 namespace {

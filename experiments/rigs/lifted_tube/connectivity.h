@@ -8,6 +8,10 @@
 
 namespace talus::rigs {
 
+// The walls of the lifted tube's scene, by their indices.
+inline constexpr int kTube = 0;
+inline constexpr int kPlate = 1;
+
 struct Connectivity {
   std::vector<bool> on_plate;      // of each particle: a chain of contacts leads to the plate
   std::vector<bool> on_tube;       // not on_plate, and a chain leads to the tube

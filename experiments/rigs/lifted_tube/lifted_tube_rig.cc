@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
 #include "experiments/rigs/lifted_tube/landing.h"
-#include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
 #include "experiments/rigs/lifted_tube/masses.h"
 #include "experiments/rigs/phased/repose.h"
 #include "experiments/rigs/phased/rest.h"

@@ -1,6 +1,8 @@
 // Which bulk test a case is of, and what that test is made with.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -36,21 +38,9 @@ constexpr RigKind LastOf(RigKind) { return RigKind::kShearCell; }
 
 // Whether its powder moves when it is measured, so that a camera can take pictures of it.
 constexpr bool IsFilmed(RigKind kind) {
-  switch (kind) {
-    case RigKind::kColumnCollapse:
-    case RigKind::kTiltingBox:
-    case RigKind::kDrawDown:
-    case RigKind::kDrum:
-    case RigKind::kOrificeFlow:
-      return true;
-    case RigKind::kLiftedTube:
-    case RigKind::kTappedDensity:
-    case RigKind::kFunnelHeap:
-    case RigKind::kSpreading:
-    case RigKind::kShearCell:
-      return false;
-  }
-  return false;
+  constexpr RigKind kFilmed[] = {RigKind::kColumnCollapse, RigKind::kTiltingBox, RigKind::kDrawDown,
+                                 RigKind::kDrum, RigKind::kOrificeFlow};
+  return std::ranges::find(kFilmed, kind) != std::end(kFilmed);
 }
 
 // The keys of one kind only are there: those of `kind`. The lifted tube's stand under `device`.
@@ -85,7 +75,11 @@ struct RigOptions {
   }
 
   // One of each kind, for the schema.
-  static std::vector<RigOptions> Alternatives();
+  static std::vector<RigOptions> Alternatives() {
+    std::vector<RigOptions> all;
+    for (const auto& [name, kind] : base::Names<RigKind>::kList) all.emplace_back().kind = kind;
+    return all;
+  }
 
  private:
   // Calls `body` with the options of the kind, if it has any.

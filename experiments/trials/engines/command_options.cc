@@ -5,7 +5,6 @@
 #include <algorithm>
 
 namespace talus::trials {
-
 namespace {
 
 bool IsInside(const std::filesystem::path& path) {

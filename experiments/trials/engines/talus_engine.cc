@@ -19,7 +19,6 @@
 #include "imaging/spheres/projection.h"
 
 namespace talus::trials {
-
 namespace {
 
 std::vector<journal::MetricRecord> ScalarsOf(const nlohmann::json& result) {

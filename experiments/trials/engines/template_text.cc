@@ -118,9 +118,8 @@ void TextTemplate::Check(const TemplateValues& known, base::Problems& problems) 
       if (table) names.insert(names.end(), table->columns.begin(), table->columns.end());
     }
     if (part.kind == Kind::kText || IndexOf(names, part.text) < names.size()) continue;
-    const std::string near = base::Nearest(part.text, names);
     problems.Add("", Place(part) + "the placeholder \"" + part.text + "\" is not known" +
-                         (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+                         base::DidYouMean(part.text, names));
   }
 }
 

@@ -93,11 +93,9 @@ ordered_json MetricsJson(const std::vector<imaging::Metric>& metrics) {
 
 std::string MetricsCsv(const std::vector<imaging::Metric>& metrics) {
   base::Csv csv;
-  for (const char* head : {"metric", "unit", "value", "standard_error", "reference",
-                           "reference_standard_error", "not_defined"}) {
-    csv.Cell(head);
-  }
-  csv.EndRow();
+  csv.Heads({"metric", "unit", "value", "standard_error", "reference", "reference_standard_error",
+             "not_defined"})
+      .EndRow();
   for (const imaging::Metric& metric : metrics) {
     csv.Cell(metric.name).Cell(metric.unit).Cell(Number(metric.value.value));
     csv.Cell(Number(metric.value.standard_error)).Cell(Number(metric.reference.value));
@@ -141,10 +139,8 @@ ordered_json ExperimentJson(const imaging::Experiment& experiment) {
 
 std::string ViewsCsv(const imaging::Experiment& experiment) {
   base::Csv csv;
-  for (const char* head : {"run", "photo", "plate_width_px", "plate_center_x_px", "baseline_px",
-                           "tilt_deg", "nebp_px"}) {
-    csv.Cell(head);
-  }
+  csv.Heads({"run", "photo", "plate_width_px", "plate_center_x_px", "baseline_px", "tilt_deg",
+             "nebp_px"});
   const ordered_json names = AnglesJson({});
   for (const auto& [name, value] : names.items()) csv.Cell(name);
   csv.EndRow();

@@ -140,8 +140,7 @@ std::string StudyText(const imaging::MassStudy& study) {
 
 std::string RunsCsv(const std::vector<imaging::MassRun>& runs) {
   base::Csv csv;
-  for (const char* head : {"mass_kg", "day", "run", "nebp_mm2", "base_over_plate"}) csv.Cell(head);
-  csv.EndRow();
+  csv.Heads({"mass_kg", "day", "run", "nebp_mm2", "base_over_plate"}).EndRow();
   for (const imaging::MassRun& run : runs) {
     csv.Cell(base::ShortNumber(run.mass, 8)).Cell(run.day).Cell(run.run);
     csv.Cell(base::ShortNumber(run.nebp_mm2, 8))

@@ -16,8 +16,8 @@
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
+#include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/lifted_tube_rig.h"
-#include "experiments/rigs/lifted_tube/lifted_tube_walls.h"
 #include "experiments/rigs/load_case.h"
 
 namespace talus::rigs {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 
 namespace talus::analysis {
@@ -15,29 +16,15 @@ std::string Spaced(std::string name) {
   return name;
 }
 
-std::string WithUnit(double value, const std::string& unit) {
-  return base::ShortNumber(value, 3) + (unit.empty() ? "" : " " + unit);
-}
-
-// "a, b and c"
-std::string Listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += words[i];
-  }
-  return text;
-}
-
 std::string Searched(const Evidence& evidence) {
   std::vector<std::string> words;
   for (const ParameterInfo& p : evidence.parameters) {
     words.push_back(
         Spaced(p.range.name) + " " + p.symbol + " in [" + base::ShortNumber(p.range.low) + ", " +
-        WithUnit(p.range.high, p.unit) + "]" +
+        base::WithUnit(p.range.high, p.unit, 3) + "]" +
         (p.range.scale == optimizer::Scale::kLog ? " (searched on a logarithmic scale)" : ""));
   }
-  return Listed(words);
+  return base::Listed(words);
 }
 
 // As confirmed, of every experiment.
@@ -48,7 +35,7 @@ std::string Confirmed(const Evidence& evidence) {
     words.push_back(row.simulated + " (" + row.what + " of \"" + row.experiment + "\")");
   }
   if (words.empty() || evidence.answer->confirmed.empty()) return "";
-  return " Simulated again with fresh seeds, it gives " + Listed(words) + ".";
+  return " Simulated again with fresh seeds, it gives " + base::Listed(words) + ".";
 }
 
 std::string Answered(const Evidence& evidence) {
@@ -56,14 +43,14 @@ std::string Answered(const Evidence& evidence) {
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     const ParameterInfo& p = evidence.parameters[k];
     const campaign::ResultParameter& v = evidence.answer->parameters[k];
-    std::string word = p.symbol + " = " + WithUnit(v.value, p.unit);
+    std::string word = p.symbol + " = " + base::WithUnit(v.value, p.unit, 3);
     if (std::isfinite(v.credible_low)) {
       word += " (90 % credible range " + base::ShortNumber(v.credible_low, 3) + " to " +
               base::ShortNumber(v.credible_high, 3) + ")";
     }
     words.push_back(word);
   }
-  return " The recommended set is " + Listed(words) + "." + Confirmed(evidence);
+  return " The recommended set is " + base::Listed(words) + "." + Confirmed(evidence);
 }
 
 // The version and commit of the program that started the campaign.
@@ -79,7 +66,7 @@ std::string Measured(const ReportData& data) {
     words.push_back("the " + row.what + " of \"" + row.experiment + "\" (" + row.measured + ")");
   }
   if (words.empty()) return "";
-  return " Simulations were compared with " + Listed(words) +
+  return " Simulations were compared with " + base::Listed(words) +
          "; images after projection into the frame of the experiment's average profile, by the "
          "SAD.";
 }
@@ -119,7 +106,8 @@ std::string Simulated(const Evidence& e) {
             " of former campaigns of this powder that it was told first,";
   }
   if (!factors.empty()) {
-    text += (factors.size() == 1 ? " at scale factor " : " at scale factors ") + Listed(factors);
+    text +=
+        (factors.size() == 1 ? " at scale factor " : " at scale factors ") + base::Listed(factors);
   }
   return text + (counts.failed > 0 ? "; " + std::to_string(counts.failed) + " failed." : ".");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/joined.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/report/charts/colors.h"
@@ -235,10 +236,7 @@ double FontSize(const Evidence& evidence) {
 std::string SummaryPage(const ReportData& data) {
   const Evidence& evidence = data.evidence;
   if (!evidence.answer) return "";
-  std::string headline;
-  for (const std::string& sentence : HeadlineWords(evidence)) {
-    headline += (headline.empty() ? "" : " ") + sentence;
-  }
+  const std::string headline = base::Joined(HeadlineWords(evidence), " ");
   const std::string name = base::MarkupText(evidence.name);
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + name +
          " – summary</title><style>html { font-size: " + base::ShortNumber(FontSize(evidence), 3) +

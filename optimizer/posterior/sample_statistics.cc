@@ -1,0 +1,50 @@
+#include "optimizer/posterior/sample_statistics.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "optimizer/space/prior_spread.h"
+
+namespace talus::optimizer {
+
+Eigen::MatrixXd RankCorrelation(const Eigen::MatrixXd& sample) {
+  Eigen::MatrixXd ranks(sample.rows(), sample.cols());
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(sample.rows()));
+  for (Eigen::Index k = 0; k < sample.cols(); ++k) {
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return sample(a, k) < sample(b, k); });
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+      ranks(order[rank], k) = static_cast<double>(rank);
+    }
+  }
+  const Eigen::MatrixXd centred = ranks.rowwise() - ranks.colwise().mean();
+  const Eigen::MatrixXd covariance = centred.transpose() * centred;
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  return scale.asDiagonal() * covariance * scale.asDiagonal();
+}
+
+double Narrowing(const Eigen::MatrixXd& draws, Eigen::Index known, Eigen::Index other) {
+  const Eigen::VectorXd y = draws.col(other).array() - draws.col(other).mean();
+  const Eigen::VectorXd x = draws.col(known).array() - draws.col(known).mean();
+  Eigen::MatrixXd terms(draws.rows(), 3);
+  terms << Eigen::VectorXd::Ones(x.size()), x, x.cwiseAbs2();
+  const Eigen::VectorXd left = y - terms * terms.colPivHouseholderQr().solve(y);
+  const double all = y.squaredNorm();
+  return all > 0 ? 1 - std::sqrt(std::min(1.0, left.squaredNorm() / all)) : 0;
+}
+
+double MovedParameters(const Domain& domain, const Eigen::MatrixXd& draws) {
+  auto moved = static_cast<double>(domain.Asked().size());
+  for (const Eigen::Index k : domain.nuisances) {
+    const double sd = PriorSd(domain, k);
+    const double variance = (draws.col(k).array() - draws.col(k).mean()).square().mean();
+    moved += std::clamp(1 - variance / (sd * sd), 0.0, 1.0);
+  }
+  return moved;
+}
+
+}  // namespace talus::optimizer
