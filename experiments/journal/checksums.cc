@@ -22,19 +22,14 @@ constexpr std::array kOfTrials{
     Query{"SELECT id, * FROM trials", " WHERE id = ?1", " ORDER BY id"},
     Query{"SELECT trial, * FROM points", " WHERE trial = ?1", " ORDER BY trial, position"},
     Query{"SELECT trial, * FROM metrics", " WHERE trial = ?1", " ORDER BY trial, name"}};
-constexpr std::int64_t kFirstSchema = 4;
-struct CampaignQuery {
-  const char* rows;
-  std::int64_t since = kFirstSchema;  // the schema that has the table
-};
-constexpr std::array kOfCampaign{
-    CampaignQuery{"SELECT 0, * FROM campaign"},
-    CampaignQuery{"SELECT 0, * FROM parameters ORDER BY position"},
-    CampaignQuery{"SELECT 0, * FROM experiments ORDER BY position"},
-    CampaignQuery{"SELECT 0, * FROM experiment_runs ORDER BY experiment, position"},
-    CampaignQuery{"SELECT 0, * FROM experiment_scalars ORDER BY experiment, position"},
-    CampaignQuery{"SELECT 0, * FROM reference_metrics ORDER BY experiment, position"},
-    CampaignQuery{"SELECT 0, * FROM experiment_warnings ORDER BY experiment, position", 5}};
+constexpr const char* kOfCampaign[] = {
+    "SELECT 0, * FROM campaign",
+    "SELECT 0, * FROM parameters ORDER BY position",
+    "SELECT 0, * FROM experiments ORDER BY position",
+    "SELECT 0, * FROM experiment_runs ORDER BY experiment, position",
+    "SELECT 0, * FROM experiment_scalars ORDER BY experiment, position",
+    "SELECT 0, * FROM reference_metrics ORDER BY experiment, position",
+    "SELECT 0, * FROM experiment_warnings ORDER BY experiment, position"};
 
 using Contents = std::map<std::int64_t, std::string>;
 
@@ -46,17 +41,9 @@ void AddRows(Statement rows, Contents& contents) {
   for (auto& [id, content] : contents) content += ';';
 }
 
-std::int64_t SchemaOf(Database& database) {
-  Statement version = database.Prepare("PRAGMA user_version");
-  return version.Step() ? version.Integer(0) : 0;
-}
-
 std::string DigestOfCampaign(Database& database) {
-  const std::int64_t schema = SchemaOf(database);
   Contents contents;
-  for (const CampaignQuery& query : kOfCampaign) {
-    if (schema >= query.since) AddRows(database.Prepare(query.rows), contents);
-  }
+  for (const char* rows : kOfCampaign) AddRows(database.Prepare(rows), contents);
   return base::Hex(base::Checksum(contents[kCampaign]));
 }
 
@@ -99,7 +86,6 @@ void SealAll(Database& database) {
 }
 
 std::string BrokenSeal(Database& database) {
-  if (SchemaOf(database) < kFirstSchema) return "";
   Contents stored;
   Statement rows = database.Prepare("SELECT id, xxh3 FROM checksums");
   while (rows.Step()) stored[rows.Integer(0)] = rows.Text(1);

@@ -104,22 +104,23 @@ void Statement::Finish() {
   }
 }
 
-bool Statement::IsNull(int column) const {
-  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
-}
-
 std::int64_t Statement::Integer(int column) const {
   return sqlite3_column_int64(statement_, column);
 }
 
 double Statement::Real(int column) const {
-  if (IsNull(column)) return std::numeric_limits<double>::quiet_NaN();
-  return sqlite3_column_double(statement_, column);
+  std::optional<double> value;
+  ReadOne(column, value);
+  return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-std::string Statement::Text(int column) const { return Bytes(column); }
+void Statement::ReadOne(int column, std::optional<double>& value) const {
+  value.reset();
+  if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return;
+  value = sqlite3_column_double(statement_, column);
+}
 
-std::string Statement::Bytes(int column) const {
+std::string Statement::Text(int column) const {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(statement_, column));
   const int size = sqlite3_column_bytes(statement_, column);
   return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
@@ -132,7 +133,7 @@ std::string Statement::Raw(int column) const {
     const double value = sqlite3_column_double(statement_, column);
     bytes.assign(reinterpret_cast<const char*>(&value), sizeof value);
   } else if (type != SQLITE_NULL) {
-    bytes = Bytes(column);
+    bytes = Text(column);
   }
   return std::to_string(type) + '/' + std::to_string(bytes.size()) + ':' + bytes;
 }
@@ -176,6 +177,11 @@ void Database::Execute(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
     Fail(handle_, "the journal cannot be read or written");
   }
+}
+
+std::int64_t Database::Number(std::string_view sql) {
+  Statement row = Prepare(sql);
+  return row.Step() ? row.Integer(0) : 0;
 }
 
 std::string Database::Damage() {

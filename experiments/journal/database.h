@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "base/error.h"
+#include "base/field.h"
 #include "base/files/file.h"
 
 struct sqlite3;
@@ -35,11 +38,14 @@ class Statement {
   bool Step();
   void Finish();  // steps to the end
 
-  bool IsNull(int column) const;
+  // The values of this row's columns from `column` on.
+  template <class... Values>
+  void Read(int column, Values&... values) const {
+    (ReadOne(column++, values), ...);
+  }
   std::int64_t Integer(int column) const;
-  double Real(int column) const;  // NaN for NULL
-  std::string Text(int column) const;
-  std::string Bytes(int column) const;
+  double Real(int column) const;       // NaN for NULL
+  std::string Text(int column) const;  // or a blob
   // The type, the size and every bit of the value, whatever it is.
   std::string Raw(int column) const;
   int NumColumns() const;
@@ -49,9 +55,20 @@ class Statement {
   void BindOne(int index, int value) { BindOne(index, static_cast<std::int64_t>(value)); }
   void BindOne(int index, double value);
   void BindOne(int index, std::string_view value);
-  void BindOne(int index, const std::string& value) { BindOne(index, std::string_view(value)); }
-  void BindOne(int index, const char* value) { BindOne(index, std::string_view(value)); }
   void BindOne(int index, Blob value);
+  void ReadOne(int column, std::int64_t& value) const { value = Integer(column); }
+  void ReadOne(int column, int& value) const { value = static_cast<int>(Integer(column)); }
+  void ReadOne(int column, double& value) const { value = Real(column); }
+  void ReadOne(int column, std::optional<double>& value) const;  // nothing for NULL
+  void ReadOne(int column, std::string& value) const { value = Text(column); }
+  template <base::NamedEnum Enum>
+  void ReadOne(int column, Enum& value) const {
+    const auto named = base::EnumNamed<Enum>(Text(column));
+    if (!named) {
+      throw base::Error("the journal holds \"" + Text(column) + "\", which is not known here");
+    }
+    value = *named;
+  }
   void Check(int code) const;
 
   sqlite3* database_;
@@ -71,6 +88,7 @@ class Database {
 
   void Execute(const std::string& sql);  // one or more statements without values or rows
   Statement Prepare(std::string_view sql) { return Statement(handle_, sql); }
+  std::int64_t Number(std::string_view sql);  // the first value that it finds; 0 for none
 
   // Empty when the file is sound, else what is wrong with it.
   std::string Damage();

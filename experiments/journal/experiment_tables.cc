@@ -24,12 +24,8 @@ void ReadMetrics(Database& database, std::vector<ExperimentRecord>& experiments)
       "SELECT experiment, name, value, unit, undefined, standard_error FROM reference_metrics "
       "ORDER BY experiment, position");
   while (row.Step()) {
-    OwnerOf(row, experiments)
-        .reference.push_back({.name = row.Text(1),
-                              .value = row.Real(2),
-                              .unit = row.Text(3),
-                              .undefined = row.Text(4),
-                              .standard_error = row.Real(5)});
+    MetricRecord& m = OwnerOf(row, experiments).reference.emplace_back();
+    row.Read(1, m.name, m.value, m.unit, m.undefined, m.standard_error);
   }
 }
 
@@ -37,7 +33,8 @@ void ReadRuns(Database& database, std::vector<ExperimentRecord>& experiments) {
   Statement row = database.Prepare(
       "SELECT experiment, name, png FROM experiment_runs ORDER BY experiment, position");
   while (row.Step()) {
-    OwnerOf(row, experiments).runs.push_back({.name = row.Text(1), .png = row.Bytes(2)});
+    RunRecord& run = OwnerOf(row, experiments).runs.emplace_back();
+    row.Read(1, run.name, run.png);
   }
 }
 
@@ -46,9 +43,8 @@ void ReadScalars(Database& database, std::vector<ExperimentRecord>& experiments)
       "SELECT experiment, name, value, standard_error FROM experiment_scalars ORDER BY experiment, "
       "position");
   while (row.Step()) {
-    OwnerOf(row, experiments)
-        .scalars.push_back(
-            {.name = row.Text(1), .value = row.Real(2), .standard_error = row.Real(3)});
+    ScalarRecord& scalar = OwnerOf(row, experiments).scalars.emplace_back();
+    row.Read(1, scalar.name, scalar.value, scalar.standard_error);
   }
 }
 
@@ -100,15 +96,9 @@ std::vector<ExperimentRecord> ReadExperiments(Database& database) {
       "SELECT name, aehp_png, aehp_sd_png, frame_json, aehp_nebp_px, num_heaps, "
       "experimental_noise_floor_mm2 FROM experiments ORDER BY position");
   while (row.Step()) {
-    ExperimentRecord e;
-    e.name = row.Text(0);
-    e.aehp_png = row.Bytes(1);
-    e.aehp_sd_png = row.Bytes(2);
-    e.frame_json = row.Text(3);
-    e.nebp_px = row.Real(4);
-    e.num_heaps = static_cast<int>(row.Integer(5));
-    if (!row.IsNull(6)) e.noise_mm2 = row.Real(6);
-    experiments.push_back(std::move(e));
+    ExperimentRecord& e = experiments.emplace_back();
+    row.Read(0, e.name, e.aehp_png, e.aehp_sd_png, e.frame_json, e.nebp_px, e.num_heaps,
+             e.noise_mm2);
   }
   ReadMetrics(database, experiments);
   ReadRuns(database, experiments);

@@ -16,22 +16,9 @@
 namespace talus::journal {
 namespace {
 
-template <base::NamedEnum Enum>
-Enum ValueOf(std::string_view text) {
-  for (const auto& [name, value] : base::Names<Enum>::kList) {
-    if (name == text) return value;
-  }
-  throw base::Error("the journal holds \"" + std::string(text) + "\", which is not known here");
-}
-
-std::int64_t Pragma(Database& database, const std::string& name) {
-  Statement statement = database.Prepare("PRAGMA " + name);
-  return statement.Step() ? statement.Integer(0) : 0;
-}
-
 void CheckThatItIsAJournal(Database& database, const std::filesystem::path& path) {
-  const std::int64_t version = Pragma(database, "user_version");
-  if (Pragma(database, "application_id") != kJournalApplicationId) {
+  const std::int64_t version = database.Number("PRAGMA user_version");
+  if (database.Number("PRAGMA application_id") != kJournalApplicationId) {
     throw base::Error(path.string() + ": is not a journal of talus, or is damaged");
   }
   if (version != kSchemaVersion) {
@@ -72,29 +59,11 @@ constexpr std::string_view kTrialColumns =
     "num_particles, host, job, experiment";
 
 TrialRecord ReadTrial(const Statement& row) {
-  TrialRecord trial;
-  trial.id = row.Integer(0);
-  trial.kind = ValueOf<TrialKind>(row.Text(1));
-  trial.kind_index = row.Integer(2);
-  trial.set = row.Integer(3);
-  trial.origin = row.Text(4);
-  trial.objective = row.Text(5);
-  trial.seed = row.Integer(6);
-  trial.scale_factor = row.Real(7);
-  trial.status = ValueOf<TrialStatus>(row.Text(8));
-  trial.reason = row.Text(9);
-  trial.attempts = static_cast<int>(row.Integer(10));
-  trial.finish_order = row.Integer(11);
-  trial.started_utc = row.Text(12);
-  trial.finished_utc = row.Text(13);
-  trial.duration_s = row.Real(14);
-  trial.cpu_s = row.Real(15);
-  trial.num_steps = row.Integer(16);
-  trial.num_particles = row.Integer(17);
-  trial.host = row.Text(18);
-  trial.job = row.Text(19);
-  trial.experiment = static_cast<int>(row.Integer(20));
-  return trial;
+  TrialRecord t;
+  row.Read(0, t.id, t.kind, t.kind_index, t.set, t.origin, t.objective, t.seed, t.scale_factor,
+           t.status, t.reason, t.attempts, t.finish_order, t.started_utc, t.finished_utc,
+           t.duration_s, t.cpu_s, t.num_steps, t.num_particles, t.host, t.job, t.experiment);
+  return t;
 }
 
 }  // namespace
@@ -169,12 +138,6 @@ Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
   return Journal(std::move(database));
 }
 
-std::int64_t Journal::CountTrials() {
-  Statement row = database_.Prepare("SELECT count(*) FROM trials");
-  row.Step();
-  return row.Integer(0);
-}
-
 std::vector<TrialRecord> Journal::Trials() {
   std::vector<TrialRecord> trials;
   Statement row =
@@ -207,8 +170,8 @@ void Journal::ReadMetrics(std::vector<TrialRecord>& trials) {
     while (trial != trials.end() && trial->id < row.Integer(0)) ++trial;
     if (trial == trials.end()) break;
     if (trial->id != row.Integer(0)) continue;
-    trial->metrics.push_back(
-        {.name = row.Text(1), .value = row.Real(2), .unit = row.Text(3), .undefined = row.Text(4)});
+    MetricRecord& m = trial->metrics.emplace_back();
+    row.Read(1, m.name, m.value, m.unit, m.undefined);
   }
 }
 
@@ -259,9 +222,7 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
 
 void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
   Transaction transaction(database_);
-  Statement last = database_.Prepare("SELECT ifnull(max(finish_order), 0) FROM trials");
-  last.Step();
-  t.finish_order = last.Integer(0) + 1;
+  t.finish_order = database_.Number("SELECT ifnull(max(finish_order), 0) FROM trials") + 1;
   database_
       .Prepare(
           "UPDATE trials SET status = ?2, reason = ?3, attempts = ?4, finish_order = ?5, "
@@ -288,7 +249,7 @@ std::string Journal::ProfilePng(std::int64_t trial) {
   Statement row = database_.Prepare("SELECT png, checksum_xxh3 FROM profiles WHERE trial = ?1");
   row.Bind(trial);
   if (!row.Step()) return {};
-  std::string png = row.Bytes(0);
+  std::string png = row.Text(0);
   return base::Hex(base::Checksum(png)) == row.Text(1) ? png : std::string();
 }
 
@@ -302,8 +263,8 @@ std::vector<EventRecord> Journal::Events() {
   std::vector<EventRecord> events;
   Statement row = database_.Prepare("SELECT utc, kind, trial, text FROM events ORDER BY id");
   while (row.Step()) {
-    events.push_back(
-        {.utc = row.Text(0), .kind = row.Text(1), .trial = row.Integer(2), .text = row.Text(3)});
+    EventRecord& e = events.emplace_back();
+    row.Read(0, e.utc, e.kind, e.trial, e.text);
   }
   return events;
 }

@@ -46,7 +46,6 @@ class Journal {
 
   // By id, with their metrics, without their images.
   std::vector<TrialRecord> Trials();
-  std::int64_t CountTrials();
 
   // Inserts them as running, in one transaction, as each waits for the disk; not even that where a
   // power cut ends the trials too.

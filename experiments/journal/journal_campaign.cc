@@ -89,19 +89,13 @@ CampaignRecord Journal::Campaign() {
       "objective FROM campaign");
   if (!row.Step()) throw base::Error("the journal holds no campaign");
   CampaignRecord c;
-  int column = 0;
-  for (std::string* text : {&c.name, &c.spec_path, &c.spec_text, &c.spec_json, &c.spec_hash,
-                            &c.talus_version, &c.created_utc, &c.objective}) {
-    *text = row.Bytes(column++);
-  }
+  row.Read(0, c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
+           c.created_utc, c.objective);
   Statement list =
       database_.Prepare("SELECT name, low, high, scale, unit FROM parameters ORDER BY position");
   while (list.Step()) {
-    c.parameters.push_back({.name = list.Text(0),
-                            .low = list.Real(1),
-                            .high = list.Real(2),
-                            .scale = list.Text(3),
-                            .unit = list.Text(4)});
+    ParameterRecord& p = c.parameters.emplace_back();
+    list.Read(0, p.name, p.low, p.high, p.scale, p.unit);
   }
   c.experiments = ReadExperiments(database_);
   return c;
@@ -111,10 +105,9 @@ ProgressRecord Journal::Progress() {
   Statement row =
       database_.Prepare("SELECT state, stop_reason, elapsed_s, result_json FROM campaign");
   if (!row.Step()) throw base::Error("the journal holds no campaign");
-  return {.state = row.Text(0),
-          .stop_reason = row.Text(1),
-          .elapsed_s = row.Real(2),
-          .result_json = row.Text(3)};
+  ProgressRecord p;
+  row.Read(0, p.state, p.stop_reason, p.elapsed_s, p.result_json);
+  return p;
 }
 
 void Journal::SetProgress(const ProgressRecord& progress) {
@@ -138,9 +131,7 @@ void Journal::SetSpec(std::string_view spec_text, std::string_view spec_json) {
 
 void Journal::AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json) {
   Transaction transaction(database_);
-  Statement count = database_.Prepare("SELECT count(*) FROM experiments");
-  count.Step();
-  InsertExperiment(database_, count.Integer(0), experiment);
+  InsertExperiment(database_, database_.Number("SELECT count(*) FROM experiments"), experiment);
   database_.Prepare("UPDATE campaign SET spec_json = ?1").Bind(spec_json).Finish();
   SealCampaign(database_);
   transaction.Commit();

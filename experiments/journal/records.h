@@ -89,7 +89,7 @@ struct ExperimentRecord {
   double nebp_px = 0;               // of the AEHP, equivalent black pixels
   int num_heaps = 1;                // that the AEHP is the mean of: runs, not views
   std::optional<double> noise_mm2;  // experimental noise floor, leave-one-run-out SAD [mm²]
-  std::vector<RunRecord> runs;      // empty for a map, and in journals of schema 2
+  std::vector<RunRecord> runs;      // empty for a map
   std::vector<ScalarRecord> scalars;
   std::vector<PhotoWarningRecord> warnings{};
 

@@ -158,7 +158,7 @@ TEST_F(JournalTest, IsReadableWithSqliteWithUnitsInTheNamesOfTheColumns) {
   ASSERT_TRUE(row.Step());
   EXPECT_EQ(row.Real(1), 1e-5);
   EXPECT_EQ(row.Real(2), 1.5);
-  EXPECT_TRUE(row.IsNull(3));
+  EXPECT_TRUE(std::isnan(row.Real(3)));
 }
 
 TEST_F(JournalTest, FinishedTrialsKeepTheirOrder) {
