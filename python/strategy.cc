@@ -30,7 +30,7 @@ void RequireInside(const optimizer::Parameter& parameter, double native, double 
 
 constexpr double kLargestPixel = 1e12;  // in whatever unit of area the user has
 
-// Of an evaluation; NaN and infinity say that it has failed.
+// The value of an evaluation; NaN and infinity say that it has failed.
 double ValueOf(const py::handle& value) {
   constexpr double kLargest = 1e100;  // squares of it are summed up
   const double number = NumberOf(value, "value");

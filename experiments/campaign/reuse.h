@@ -31,7 +31,7 @@ struct ReusePlan {
     journal::TrialRecord record;  // here, not yet numbered
   };
   std::vector<Trial> trials{};
-  // What of each folder is taken, what is left out and why, for people.
+  // A line for people on each folder: what is taken, what is left out and why.
   std::vector<std::string> messages{};
 };
 

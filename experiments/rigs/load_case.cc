@@ -53,19 +53,18 @@ void ValidateTaps(const Case& c, const TapRule& taps, const char* path, base::Pr
 }
 
 // The mass of a bed of powder beside the vessel, over that of the powder itself.
-double BedShare(const Case& c) {
-  const auto bed = EntryOf(c).vessel(c).bed;
-  return bed ? bed->mass / c.powder.mass : 0;
+double BedShare(const Case& c, const Vessel& vessel) {
+  return vessel.bed ? vessel.bed->mass / c.powder.mass : 0;
 }
 
 void ValidateWithRig(const Case& c, base::Problems& problems) {
+  const RigEntry& entry = EntryOf(c);
+  const Vessel vessel = entry.vessel(c);
   const PowderSize size = EstimatePowder(c);
-  const std::string too_many = engine::TooManyGrains(size.grains * (1 + BedShare(c)));
+  const std::string too_many = engine::TooManyGrains(size.grains * (1 + BedShare(c, vessel)));
   problems.Require(too_many.empty(), "powder.mass", too_many);
   problems.Require(size.num_grains >= 1, "powder.mass", c.powder.mass,
                    "is less than one grain; the coarse graining may be too strong");
-  const RigEntry& entry = EntryOf(c);
-  const Vessel vessel = entry.vessel(c);
   problems.Require(3 * LargestDiameter(c) < vessel.across,
                    c.rig.kind == RigKind::kLiftedTube ? "device.tube_inner_diameter" : "rig",
                    vessel.across, "must be above three (scaled) grain diameters");
@@ -107,7 +106,7 @@ CaseSize EstimateCase(const Case& c) {
   const double time =
       size.simulated_time - pouring / 2 - leave * (0.15 * test_time + 0.9 * kRestTime);
   size.grain_time =
-      (time + BedShare(c) * size.simulated_time) * static_cast<double>(size.num_grains);
+      (time + BedShare(c, vessel) * size.simulated_time) * static_cast<double>(size.num_grains);
   return size;
 }
 

@@ -24,13 +24,13 @@ class AskedGain {
   // `draws` of the posterior, one a row, which gains are means over; all outlive it.
   AskedGain(const Posterior& posterior, const Domain& domain, const Eigen::MatrixXd& draws);
 
-  // By perfect knowledge at each draw (V' = 0): where something is left to learn.
+  // The gain by perfect knowledge at each draw (V' = 0): where something is left to learn.
   Eigen::VectorXd OfAll() const;
-  // By one more simulation of an experiment at a site (a row) and a level (a column).
+  // The gain by one more simulation of an experiment at a site (a row) and a level (a column).
   Eigen::MatrixXd OfOne(std::size_t experiment, const Eigen::MatrixXd& sites) const;
 
  private:
-  // Of each draw: I + UᵀC⁻¹U.
+  // I + UᵀC⁻¹U of each draw.
   using Information = std::vector<Eigen::MatrixXd>;
 
   Eigen::MatrixXd EffectOf(const ExperimentModel& model, Eigen::Index nuisance) const;

@@ -27,7 +27,7 @@ class CampaignGoal : public campaign::GoalJudge {
                                           const base::InterruptGuard& interrupt) override;
 
  private:
-  // Of this process, with the parameters that are searched now.
+  // Whether it is of this process, with the parameters that are searched now.
   bool IsOurs(const campaign::DesignRecord& design) const;
   campaign::DesignRecord DesignOf(const campaign::JointView& view, const Eigen::MatrixXd& draws,
                                   const campaign::DesignFolder& look, bool is_first) const;

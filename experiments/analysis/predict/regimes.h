@@ -27,8 +27,8 @@ std::optional<rigs::Regime> RegimeIn(const std::filesystem::path& trial);
 FlowRegime DescribeRegime(const std::string& name, const std::vector<rigs::Regime>& runs,
                           const rigs::Case& rig_case);
 
-// What of the process lies beyond all tests by a factor of 3 or more, for people; empty: nothing.
-// "drum shears at an inertial number of 0.1, your tests at most at 0.003: …".
+// A line for people on each regime of the process that lies beyond all tests by a factor of 3 or
+// more. "drum shears at an inertial number of 0.1, your tests at most at 0.003: …".
 std::vector<std::string> RegimeWarnings(const std::vector<FlowRegime>& regimes);
 
 }  // namespace talus::analysis

@@ -17,7 +17,6 @@ using rigs::Observable;
 constexpr double kSolidFraction = 0.6;              // of a filled tube, roughly [-]
 constexpr double kMostDiameters = 50;               // height of the filling / tube diameter
 constexpr double kFewestGrains = 20;                // that could make a heap
-constexpr double kFastest = 5;                      // part of a rig [m/s]
 constexpr double kSteepest = std::numbers::pi / 2;  // [rad]
 constexpr double kLargestAngleError = 0.5;          // [rad]
 constexpr double kLooseFill = 1.02;                 // of the mass filled: a balance is that good

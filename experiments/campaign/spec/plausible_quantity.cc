@@ -29,7 +29,7 @@ const Plausible& PlausibleOf(BenchQuantity quantity) {
   static constexpr Plausible kGrain{Dimension::kLength, 1e-6, 0.05, {{{1, "mm"}, {1e6, "mm"}}}};
   static constexpr Plausible kVessel{Dimension::kLength, 5e-4, 2, {{{1, "mm"}, {1e3, "mm"}}}};
   static constexpr Plausible kVelocity{
-      Dimension::kVelocity, 1e-4, 5, {{{1, "mm/s"}, {1e6, "mm/s"}}}};
+      Dimension::kVelocity, 1e-4, kFastest, {{{1, "mm/s"}, {1e6, "mm/s"}}}};
   static constexpr Plausible kFilling{Dimension::kMass, 1e-7, 200, {{{1, "g"}, {1e3, "g"}}}};
   // Softer than any gel, stiffer than diamond.
   static constexpr Plausible kModulus{Dimension::kPressure, 1e3, 2e12, {{{1, "MPa"}, {1, "GPa"}}}};

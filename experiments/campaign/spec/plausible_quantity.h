@@ -19,6 +19,8 @@ enum class BenchQuantity {
   kSurfaceEnergy
 };
 
+inline constexpr double kFastest = 5;  // part of a rig [m/s]
+
 base::Dimension DimensionOf(BenchQuantity quantity);
 
 // What is wrong with the value [SI], to stand after "is 4.386, ": "in kg/m^3, must be from 25 to

@@ -24,7 +24,7 @@ struct SpreadingOptions {
   double feed = 0.004;          // length of the platform that the heap stands on [m], > 0
   std::optional<double> bed{};  // depth of the powder in the plate's place [m], > 0
   std::optional<double> roller_diameter{};  // [m], > 0; default: kRollerDiameter
-  // Of the roller [rad/s]; > 0: its lowest line runs ahead of it. Default: it does not turn.
+  // The roller turns so fast [rad/s]; > 0: its lowest line runs ahead of it. Default: not at all.
   std::optional<double> turning{};
   std::optional<int> teeth{};            // of the comb [-], 1 to kMostTeeth; default: kTeeth
   std::optional<double> slot{};          // between two teeth [m], > 0; default: half of the pitch

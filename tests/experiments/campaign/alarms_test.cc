@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
-#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/journal/journal.h"
 #include "imaging/photos/photo_warning.h"
+#include "tests/experiments/campaign/confirmed_answer.h"
 
 namespace talus::campaign {
 namespace {
@@ -41,23 +41,6 @@ journal::TrialRecord TrialWith(std::int64_t id, double sad_mm2, double scale_fac
   trial.metrics = {{.name = "sad_mm2", .value = sad_mm2, .unit = "mm2", .undefined = {}}};
   return trial;
 }
-
-// Predicted 4 ± 0.1 where one simulation scatters by 0.3.
-Answer ConfirmedAt(double mean) {
-  Answer answer;
-  answer.objective = "sad_mm2";
-  answer.experiments = {{.name = "heap", .has_image = true, .noise_sd = 0.3}};
-  answer.posterior.emplace().experiments = {{.name = "heap", .predicted = 4, .predicted_sd = 0.1}};
-  answer.confirmed = {{.scale_factor = 1,
-                       .experiments = {{.name = "heap",
-                                        .num_trials = 3,
-                                        .mean = mean,
-                                        .standard_error = 0.2,
-                                        .sad_mm2 = mean}}}};
-  return answer;
-}
-
-ResultConfirmed& HeapOf(Answer& answer) { return answer.confirmed[0].experiments[0]; }
 
 TEST(Alarms, ConfirmedWorseThanPredictedIsSaid) {
   // Twice √(0.2² + 0.1²) is 0.45.
@@ -127,50 +110,6 @@ TEST(Alarms, ModelThatPredictsBadlyIsSaid) {
   ASSERT_THAT(alarms, SizeIs(1));
   EXPECT_EQ(alarms[0].kind, AlarmKind::kPoorModel);
   EXPECT_THAT(AlarmText(alarms[0]), HasSubstr("50 % lay within its 90 % regions"));
-}
-
-// A drum confirmed at 47.5° for 44 ± 0.7: 5 standard errors.
-TEST(Alarms, ANumberThatTheSetMissesIsSaid) {
-  Answer answer = ConfirmedAt(4);
-  answer.experiments[0].has_image = false;
-  answer.experiments[0].numbers = {{.name = "drum_angle_deg", .value = 44, .standard_error = 0.7}};
-  HeapOf(answer).scalars = {{.name = "drum_angle_deg", .mean = 45}};
-  EXPECT_THAT(MissAlarms(answer), IsEmpty());
-  HeapOf(answer).scalars[0].mean = 47.5;
-  const auto alarms = MissAlarms(answer);
-  ASSERT_THAT(alarms, SizeIs(1));
-  EXPECT_EQ(alarms[0].kind, AlarmKind::kMisses);
-  EXPECT_EQ(alarms[0].number, "drum_angle_deg");
-  EXPECT_DOUBLE_EQ(alarms[0].value.value(), 5);
-  EXPECT_THAT(AlarmText(alarms[0]),
-              HasSubstr("misses drum_angle_deg of \"heap\" by 5 standard errors"));
-  // Where no set fits, that is said instead.
-  answer.posterior->experiments[0].implausibility = 3.4;
-  EXPECT_THAT(MissAlarms(answer), IsEmpty());
-}
-
-// With runs their noise floor decides; with a map the share of the powder's area, unless simulated
-// pictures scatter as widely.
-TEST(Alarms, AnImageThatTheSetMissesIsSaid) {
-  Answer answer = ConfirmedAt(300);
-  answer.experiments[0].powder_area = 2770;
-  HeapOf(answer).profile_sad_mm2 = 294;
-  auto alarms = MissAlarms(answer);
-  ASSERT_THAT(alarms, SizeIs(1));
-  EXPECT_FALSE(alarms[0].value);
-  EXPECT_NEAR(alarms[0].share.value(), 294.0 / 2770, 1e-12);
-  EXPECT_THAT(AlarmText(alarms[0]), HasSubstr("misses the shape of \"heap\" by 11 % of"));
-  HeapOf(answer).profile_sad_mm2 = 180;  // of 300 for one picture: they scatter by 290
-  EXPECT_THAT(MissAlarms(answer), IsEmpty());
-  HeapOf(answer).profile_sad_mm2 = 100;  // 3.6 % of the area
-  HeapOf(answer).sad_mm2 = 105;
-  EXPECT_THAT(MissAlarms(answer), IsEmpty());
-  HeapOf(answer).over_floor = 2.6;
-  alarms = MissAlarms(answer);
-  ASSERT_THAT(alarms, SizeIs(1));
-  EXPECT_EQ(alarms[0].value, 2.6);
-  HeapOf(answer).over_floor = 1.4;
-  EXPECT_THAT(MissAlarms(answer), IsEmpty());
 }
 
 // Sliding friction from 0 to 1 and surface energy from 1 µJ/m² to 100 µJ/m², logarithmic.
@@ -378,81 +317,6 @@ TEST(Candidates, EndsOfAValleyAreConfirmedAfterRecommendedSetAndBranches) {
               SizeIs(1));  // a point
   EXPECT_EQ((ConfirmOptions{.candidates = 1, .replicates = 3}.MostTrials()), 9);
   EXPECT_EQ((ConfirmOptions{.candidates = 0, .replicates = 3}.MostTrials()), 0);
-}
-
-// A small search confirms 2.7 noise floors. Law and plate are blamed where nothing speaks against
-// the search alone.
-class MissedImage : public testing::Test {
- protected:
-  MissedImage() : answer_(ConfirmedAt(2.6)) {
-    answer_.parameters = {{.name = "friction"}, {.name = "rolling"}};
-    answer_.experiments[0].noise_floor = 0.9;
-    HeapOf(answer_).profile_sad_mm2 = 2.43;
-    HeapOf(answer_).over_floor = 2.7;
-  }
-  Alarm OnlyAlarm() const {
-    const auto alarms = MissAlarms(answer_);
-    EXPECT_THAT(alarms, SizeIs(1));
-    return alarms.empty() ? Alarm{} : alarms.front();
-  }
-  void AddEnd(double over_floor) {
-    answer_.confirmed.push_back({.role = CandidateRole::kEnd,
-                                 .values = {0.3, 0.1},
-                                 .experiments = {{.name = "heap",
-                                                  .num_trials = 3,
-                                                  .profile_sad_mm2 = 0.9 * over_floor,
-                                                  .over_floor = over_floor}}});
-  }
-  Answer answer_;
-};
-
-TEST_F(MissedImage, IsOfTheSetUpWhereNothingSpeaksAgainstTheSearch) {
-  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kMisses);
-  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("the contact law, the plate and the set-up"));
-  AddEnd(2.4);  // no nearer than chance
-  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kMisses);
-}
-
-TEST_F(MissedImage, IsOfTheSearchWhereAnotherSetFits) {
-  AddEnd(1.2);
-  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
-  EXPECT_THAT(AlarmText(OnlyAlarm()),
-              HasSubstr("(friction 0.3, rolling 0.1), simulated again, too, fits"));
-  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("--add-simulations 20"));
-  answer_.warnings = {OnlyAlarm()};
-  EXPECT_THAT(HeadlineText(answer_), testing::Not(HasSubstr("Sets are found")));
-}
-
-TEST_F(MissedImage, IsOfTheSearchWhereItsModelExpectedAFit) {
-  answer_.posterior->experiments[0].predicted = 1.0;  // below 1.5 noise floors
-  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
-  EXPECT_THAT(AlarmText(OnlyAlarm()), HasSubstr("its model expected this set to fit"));
-}
-
-TEST_F(MissedImage, IsOfTheSearchWhereTheRegionIsStillTheSurrogates) {
-  answer_.posterior->surrogate_narrowing = 0.5;
-  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
-}
-
-// What is shown as fitting equally is held to the same bounds as the recommended set.
-TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
-  Answer answer = ConfirmedAt(4);
-  answer.experiments[0].numbers = {
-      {.name = "mass_fallen_kg", .value = 5e-6, .standard_error = 1e-6}};
-  ResultCandidate end{.role = CandidateRole::kEnd,
-                      .experiments = {{.name = "heap",
-                                       .num_trials = 3,
-                                       .profile_sad_mm2 = 1.0,
-                                       .over_floor = 1.4,
-                                       .scalars = {{.name = "mass_fallen_kg", .mean = 6e-6}}}}};
-  EXPECT_FALSE(Misses(answer, end));
-  end.experiments[0].over_floor = 1.6;
-  EXPECT_TRUE(Misses(answer, end));
-  end.experiments[0].over_floor = 1.4;
-  end.experiments[0].scalars[0].mean = 7.5e-6;  // 2.5 standard errors
-  EXPECT_TRUE(Misses(answer, end));
-  answer.posterior->experiments.clear();  // held out: nothing is asked of it
-  EXPECT_FALSE(Misses(answer, end));
 }
 
 }  // namespace
