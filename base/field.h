@@ -69,11 +69,12 @@ constexpr bool HasItsKeys(std::string_view names) {
   return true;
 }
 
-#define TALUS_FIELDS(...)                                         \
+// The list alone, for a struct whose own Visit calls VisitFields and has more to say.
+#define TALUS_FIELD_LIST(...)                                     \
   auto Fields() { return std::tie(__VA_ARGS__); }                 \
   auto Fields() const { return std::tie(__VA_ARGS__); }           \
   template <class Self, class Visitor>                            \
-  static void Visit(Self& self, Visitor&& visit) {                \
+  static void VisitFields(Self& self, Visitor&& visit) {          \
     static_assert(::talus::base::HasItsKeys<Self>(#__VA_ARGS__)); \
     std::string_view names = #__VA_ARGS__;                        \
     const auto each = [&](auto&... fields) {                      \
@@ -81,6 +82,14 @@ constexpr bool HasItsKeys(std::string_view names) {
     };                                                            \
     std::apply(each, self.Fields());                              \
   }                                                               \
+  static_assert(true)
+
+#define TALUS_FIELDS(...)                          \
+  TALUS_FIELD_LIST(__VA_ARGS__);                   \
+  template <class Self, class Visitor>             \
+  static void Visit(Self& self, Visitor&& visit) { \
+    VisitFields(self, visit);                      \
+  }                                                \
   static_assert(true)
 
 // The names of an enum as they stand in JSON: those of its enumerators (base/enumerators.h) where

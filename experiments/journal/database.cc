@@ -8,8 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
-
 namespace talus::journal {
 namespace {
 

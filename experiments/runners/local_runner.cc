@@ -21,7 +21,6 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "experiments/runners/runner.h"
 
 namespace talus::runners {
 namespace {

@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "base/text/printable.h"
 #include "base/text/shell_text.h"
-#include "experiments/runners/runner.h"
 
 namespace talus::runners {
 namespace {

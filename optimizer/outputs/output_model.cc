@@ -6,7 +6,6 @@
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/parallel_for.h"
 #include "optimizer/outputs/output_noise.h"

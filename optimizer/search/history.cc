@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "optimizer/space/domain.h"
-
 namespace talus::optimizer {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/ground.h"

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "base/error.h"
 #include "base/random.h"
 
 namespace talus::analysis {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/files/file.h"
@@ -14,7 +13,6 @@
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
 #include "experiments/analysis/report/page/plain_page.h"
-#include "experiments/analysis/search/search_folder.h"
 
 namespace talus::analysis {
 namespace {

@@ -67,24 +67,13 @@ struct Alarm {
   std::optional<double> widened{};      // factor on the ranges
   std::optional<std::string> reason{};  // in the words of who found it: the rule, the photographs
 
+  static constexpr base::FieldKey kKeys[] = {{"noise_floor", "noise_floor_mm2"}};
+  TALUS_FIELD_LIST(kind, parameter, other_parameter, side, experiment, scale_factor, trial, photo,
+                   number, unit, value, share, shown, noise_floor, widened, reason);
+
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("kind", self.kind);
-    visit("parameter", self.parameter);
-    visit("other_parameter", self.other_parameter);
-    visit("side", self.side);
-    visit("experiment", self.experiment);
-    visit("scale_factor", self.scale_factor);
-    visit("trial", self.trial);
-    visit("photo", self.photo);
-    visit("number", self.number);
-    visit("unit", self.unit);
-    visit("value", self.value);
-    visit("share", self.share);
-    visit("shown", self.shown);
-    visit("noise_floor_mm2", self.noise_floor);
-    visit("widened", self.widened);
-    visit("reason", self.reason);
+    VisitFields(self, visit);
     std::string text = AlarmText(self);  // for people; made anew wherever it is read
     visit("text", text);
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
+#include "base/sample.h"
 #include "base/version.h"
 #include "experiments/campaign/answer/agreement.h"
 #include "experiments/campaign/answer/alarms.h"
@@ -19,25 +19,6 @@
 
 namespace talus::campaign {
 namespace {
-
-struct Sample {
-  int count = 0;
-  double mean = std::numeric_limits<double>::quiet_NaN();
-  double sd = std::numeric_limits<double>::quiet_NaN();  // of one, unbiased
-};
-
-Sample SampleOf(const std::vector<double>& values) {
-  Sample sample{.count = static_cast<int>(values.size())};
-  if (values.empty()) return sample;
-  double sum = 0;
-  for (const double v : values) sum += v;
-  sample.mean = sum / sample.count;
-  if (sample.count < 2) return sample;
-  double squares = 0;
-  for (const double v : values) squares += (v - sample.mean) * (v - sample.mean);
-  sample.sd = std::sqrt(squares / (sample.count - 1));
-  return sample;
-}
 
 std::vector<const journal::TrialRecord*> Confirming(const Planner& planner,
                                                     const Eigen::VectorXd& candidate,
@@ -61,7 +42,7 @@ std::optional<double> MeanMetric(const std::vector<const journal::TrialRecord*>&
     if (const auto value = trial->Metric(name)) values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
-  return SampleOf(values).mean;
+  return base::SampleOf(values).mean;
 }
 
 ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
@@ -76,12 +57,12 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     if (trial->status != journal::TrialStatus::kOk) continue;
     if (auto profile = evidence.profile(trial->id)) profiles.push_back(std::move(*profile));
   }
-  const Sample sample = SampleOf(objective);
+  const base::Sample sample = base::SampleOf(objective);
   confirmed.num_trials = static_cast<int>(std::count_if(
       trials.begin(), trials.end(),
       [&](const journal::TrialRecord* trial) { return reference.IsMeasured(*trial); }));
   confirmed.mean = sample.mean;
-  confirmed.standard_error = sample.sd / std::sqrt(sample.count);
+  confirmed.standard_error = sample.Sd() / std::sqrt(sample.count);
   confirmed.sad_mm2 = MeanMetric(trials, journal::InfoOf(journal::Objective::kSad).metric);
   if (!profiles.empty()) {
     journal::TrialRecord mean;
@@ -119,7 +100,7 @@ std::optional<double> ReplicatesSd(const Planner& planner, const Reference& refe
     if (const auto value = reference.Value(trial)) values.push_back(*value);
   }
   if (values.size() < 2) return std::nullopt;
-  return SampleOf(values).sd;
+  return base::SampleOf(values).Sd();
 }
 
 ResultExperiment ExperimentOf(const Planner& planner, const CampaignEvidence& evidence,

@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "experiments/rigs/case/case.h"
+
 namespace talus::campaign {
 
 std::vector<double> GrainSizes::Levels() const {
@@ -17,10 +19,7 @@ std::vector<double> GrainSizes::Levels() const {
 double GrainSizes::Target() const { return target.value_or(Levels().back()); }
 
 void GrainSizes::Validate(base::Problems& problems) const {
-  problems.Require(scale_factor >= 1 && std::isfinite(scale_factor), "scale_factor", scale_factor,
-                   "must be 1 or more");
-  problems.Require(surface_energy_exponent >= 0 && surface_energy_exponent <= 3,
-                   "surface_energy_exponent", surface_energy_exponent, "must be in [0, 3]");
+  rigs::CoarseGraining{scale_factor, surface_energy_exponent}.Validate(problems);
   if (scale_factors) {
     const std::vector<double>& list = *scale_factors;
     problems.Require(!list.empty(), "scale_factors", "is empty: give one or more, or leave it out");

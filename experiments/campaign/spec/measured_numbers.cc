@@ -1,6 +1,5 @@
 #include "experiments/campaign/spec/measured_numbers.h"
 
-#include <numeric>
 #include <string_view>
 
 namespace talus::campaign {
@@ -34,15 +33,6 @@ std::vector<ScalarSpec> Collect(const NumbersOf<Number>& numbers) {
 }
 
 }  // namespace
-
-MeanOfValues MeanOf(const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  MeanOfValues result{.mean = std::accumulate(values.begin(), values.end(), 0.0) / count};
-  double squares = 0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  if (values.size() > 1) result.standard_error = std::sqrt(squares / (count - 1) / count);
-  return result;
-}
 
 std::vector<ScalarSpec> ScalarsOf(const MeasuredNumbers& numbers) { return Collect(numbers); }
 

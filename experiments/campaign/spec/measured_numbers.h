@@ -10,16 +10,10 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "base/sample.h"
 #include "experiments/rigs/observables/observable.h"
 
 namespace talus::campaign {
-
-// The mean of repeated measurements and its standard error.
-struct MeanOfValues {
-  double mean = 0;
-  double standard_error = 0;
-};
-MeanOfValues MeanOf(const std::vector<double>& values);
 
 // A number with the error of what is given (of the mean, where it is a mean), or the values that
 // were measured, two or more. D is its dimension.
@@ -29,9 +23,9 @@ struct MeasuredNumber {
   std::optional<double> standard_error{};       // SI, > 0
   std::optional<std::vector<double>> values{};  // SI, >= 0, in place of the two
 
-  double Value() const { return values ? MeanOf(*values).mean : value.value_or(0); }
+  double Value() const { return values ? base::SampleOf(*values).mean : value.value_or(0); }
   double StandardError() const {
-    return values && values->size() > 1 ? MeanOf(*values).standard_error
+    return values && values->size() > 1 ? base::SampleOf(*values).StandardError()
                                         : standard_error.value_or(0);
   }
 
@@ -74,7 +68,7 @@ struct MeasuredNumber {
     }
     problems.Require(!standard_error, "sd",
                      "stands beside values, whose scatter gives it: give one of the two");
-    problems.Require(values->empty() || MeanOf(*values).standard_error > 0, "values",
+    problems.Require(values->empty() || base::SampleOf(*values).StandardError() > 0, "values",
                      "are all the same, which no error can be read from: give value and sd");
   }
 };

@@ -1,13 +1,12 @@
 // The dynamic angle of repose in a turning drum: the mean slope of the middle half of the surface,
 // over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
 // towards -x. Front and back are of the floor's material where there is one, else of the side's.
-#include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/sample.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/rig_entry.h"
@@ -117,12 +116,8 @@ class DrumRig : public RememberingRig<DrumMemory> {
       angle.undefined = spread.undefined = "the surface has too few grains across";
       return {angle, spread};
     }
-    const auto count = static_cast<double>(angles.size());
-    angle.value = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
-    double squares = 0;
-    for (const double a : angles) squares += (a - angle.value) * (a - angle.value);
-    spread.value = std::sqrt(squares / (count - 1));
-    return {angle, spread};
+    const base::Sample sample = base::SampleOf(angles);
+    return {{Observable::kAngle, sample.mean}, {Observable::kAngleSd, sample.Sd()}};
   }
 
  private:

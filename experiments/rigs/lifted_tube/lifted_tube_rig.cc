@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "experiments/rigs/case/materials.h"
-#include "experiments/rigs/lifted_tube/connectivity.h"
 #include "experiments/rigs/lifted_tube/expected_heap.h"
 #include "experiments/rigs/lifted_tube/fallen.h"
 #include "experiments/rigs/lifted_tube/landing.h"

@@ -1,10 +1,13 @@
 // How the powder gets into the tube.
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/rigs/options/require.h"
 
 namespace talus::rigs {
 
@@ -28,7 +31,12 @@ struct TapRule {
           {.dimension = Dimension::kTime,
            .doc = "from tap to tap; above three times the time of the fall"});
   }
-  void Validate(base::Problems& problems) const;
+  void Validate(base::Problems& problems) const {
+    RequirePositive(problems, "count", count);
+    RequirePositive(problems, "height", height);
+    problems.Require(interval > 3 * std::sqrt(2 * height / 9.81), "interval", interval,
+                     "must be above three times the time of the fall");
+  }
 };
 
 struct FillingRule {
@@ -58,7 +66,21 @@ struct FillingRule {
            .doc = "pour: largest velocity across the stream; default: 0"});
     visit("taps", self.taps, {.doc = "of the filled tube, before it is lifted; default: none"});
   }
-  void Validate(base::Problems& problems) const;
+  void Validate(base::Problems& problems) const {
+    const auto check = [&](const char* key, const std::optional<double>& value) {
+      if (!value) return;
+      problems.Require(kind == FillingKind::kPour, key, "belongs to the kind pour; remove it");
+      if (std::string_view(key) == "scatter") {
+        problems.Require(*value >= 0 && std::isfinite(*value), key, *value, "must not be negative");
+      } else {
+        RequirePositive(problems, key, *value);
+      }
+    };
+    check("drop_height", drop_height);
+    check("mouth_diameter", mouth_diameter);
+    check("rate", rate);
+    check("scatter", scatter);
+  }
 };
 
 }  // namespace talus::rigs

@@ -5,6 +5,7 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "experiments/rigs/options/require.h"
 
 namespace talus::rigs {
 
@@ -26,7 +27,14 @@ struct RestRule {
     visit("max_time", self.max_time,
           {.dimension = base::Dimension::kTime, .doc = "the phase ends here at the latest, > 0"});
   }
-  void Validate(base::Problems& problems) const;
+  void Validate(base::Problems& problems) const {
+    RequirePositive(problems, "energy_fraction", energy_fraction);
+    problems.Require(moving_share >= 0 && moving_share < 1, "moving_share", moving_share,
+                     "must be in [0, 1)");
+    RequirePositive(problems, "hold_time", hold_time);
+    RequirePositive(problems, "max_time", max_time);
+    problems.Require(!(hold_time > max_time), "hold_time", hold_time, "must not exceed max_time");
+  }
 };
 
 struct PhaseRules {
@@ -51,7 +59,12 @@ struct PhaseRules {
     visit("leave_depth", self.leave_depth,
           {.doc = "grains this many largest diameters below the plate leave the scene, > 0"});
   }
-  void Validate(base::Problems& problems) const;
+  void Validate(base::Problems& problems) const {
+    RequirePositive(problems, "fill_max_overlap", fill_max_overlap);
+    RequirePositive(problems, "fill_max_sweeps", fill_max_sweeps);
+    RequirePositive(problems, "leave_depth", leave_depth);
+    if (lift_max_time) RequirePositive(problems, "lift_max_time", *lift_max_time);
+  }
 };
 
 }  // namespace talus::rigs

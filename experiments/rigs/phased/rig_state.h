@@ -27,23 +27,13 @@ struct RigState {
   CameraMemory camera{};
   RegimeMemory regime{};  // of the rig's own phases
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("phase", self.phase);
-    visit("phases", self.phases);
-    visit("pour", self.pour);
-    visit("fill_overlap", self.fill_overlap);
-    visit("filled_height_m", self.filled_height);
-    visit("fill_sweeps", self.fill_sweeps);
-    visit("num_filled", self.num_filled);
-    visit("num_quiet_checks", self.num_quiet_checks);
-    visit("particle_steps", self.particle_steps);
-    visit("bed_height_m", self.bed.height);
-    visit("solid_fraction", self.bed.solid_fraction);
-    visit("coordination", self.bed.coordination);
-    visit("camera", self.camera);
-    visit("regime", self.regime);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"filled_height", "filled_height_m"},
+                                             {"bed.height", "bed_height_m"},
+                                             {"bed.solid_fraction", "solid_fraction"},
+                                             {"bed.coordination", "coordination"}};
+  TALUS_FIELDS(phase, phases, pour, fill_overlap, filled_height, fill_sweeps, num_filled,
+               num_quiet_checks, particle_steps, bed.height, bed.solid_fraction, bed.coordination,
+               camera, regime);
 };
 
 }  // namespace talus::rigs
