@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/text/joined.h"
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/repair.h"
@@ -39,15 +40,12 @@ std::string FailureText(const runners::FinishedJob& job, const std::filesystem::
 // it.
 void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
                     const std::vector<journal::MetricRecord>& left) {
-  std::string names;
-  for (const journal::MetricRecord& number : left) {
-    names += (names.empty() ? "\"" : ", \"") + number.name + "\"";
-  }
+  const std::string names = base::Joined(left, "\", \"", &journal::MetricRecord::name);
   for (const journal::ScalarRecord& measured : reference.scalars()) {
     if (std::ranges::any_of(left, [&](const auto& l) { return l.name == measured.name; })) continue;
     throw base::Error(
         "trial " + std::to_string(trial.id) + " leaves no \"" + measured.name +
-        "\", which was measured; it leaves " + (names.empty() ? "no number" : names) +
+        "\", which was measured; it leaves " + (names.empty() ? "no number" : "\"" + names + "\"") +
         ". Let the engine leave it under this name (docs/foreign_engines.md) and `talus resume`");
   }
 }

@@ -9,6 +9,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/folder/goal_folder.h"
 #include "experiments/campaign/plan/budget_use.h"
@@ -63,14 +64,8 @@ std::string BestLine(const std::vector<journal::TrialRecord>& trials,
     best_value = *value;
   }
   if (best == nullptr) return "no trial has succeeded yet\n";
-  std::string text = base::ShortNumber(best_value) + " " + std::string(reference.info().unit) +
-                     ", trial " + std::to_string(best->id) + ":";
-  for (std::size_t i = 0; i < best->native.size(); ++i) {
-    text += (i == 0 ? " " : ", ") + campaign.parameters[i].name + " " +
-            base::ShortNumber(best->native[i]) +
-            (campaign.parameters[i].unit.empty() ? "" : " " + campaign.parameters[i].unit);
-  }
-  return text + "\n";
+  return base::ShortNumber(best_value) + " " + std::string(reference.info().unit) + ", trial " +
+         std::to_string(best->id) + ": " + SetText(campaign.parameters, best->native) + "\n";
 }
 
 std::string BestLines(const std::vector<journal::TrialRecord>& trials,

@@ -1,6 +1,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/joined.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/batches/batches.h"
@@ -31,10 +32,10 @@ std::string Charts(const BatchComparison& c) {
     text += HtmlFigure(BatchesSvg(c, p), p.name + " of each batch with its 90 %.");
   }
   text += "</div>\n<p class=\"note\">Batches: ";
-  for (std::size_t b = 0; b < c.batches.size(); ++b) {
-    text += (b == 0 ? "" : ", ") + std::to_string(b + 1) + " " + base::MarkupText(c.batches[b]);
-  }
-  return text + ".</p>\n";
+  const auto numbered = [&](std::size_t b) {
+    return std::to_string(b + 1) + " " + base::MarkupText(c.batches[b]);
+  };
+  return text + base::JoinedUpTo(c.batches.size(), ", ", numbered) + ".</p>\n";
 }
 
 std::string DifferenceTable(const BatchComparison& c) {

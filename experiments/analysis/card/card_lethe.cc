@@ -2,6 +2,7 @@
 // mixes them by the same rules (P5, P6). Nothing is converted.
 #include <sstream>
 
+#include "base/text/joined.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
@@ -59,15 +60,12 @@ std::string LetheSizes(const Card& card) {
     return "    set size distribution type = uniform\n    set diameter = " +
            CardNumber(card.sizes.front().diameter) + "\n";
   }
-  std::string diameters;
-  std::string shares;
-  for (const CardSize& size : card.sizes) {
-    const char* comma = diameters.empty() ? "" : ", ";
-    diameters += comma + CardNumber(size.diameter);
-    shares += comma + CardNumber(size.volume_share);
-  }
-  return "    set size distribution type = custom\n    set custom diameters = " + diameters +
-         "\n    set custom volume fractions = " + shares + "\n";
+  const auto listed = [&](double CardSize::*part) {
+    return base::Joined(card.sizes, ", ", [&](const CardSize& s) { return CardNumber(s.*part); });
+  };
+  return "    set size distribution type = custom\n    set custom diameters = " +
+         listed(&CardSize::diameter) +
+         "\n    set custom volume fractions = " + listed(&CardSize::volume_share) + "\n";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "base/text/csv.h"
+#include "base/text/joined.h"
 #include "experiments/analysis/compare/compare_tables.h"
 
 namespace talus::analysis {
@@ -41,10 +42,9 @@ std::string TenBestCsv(const ComparedCampaign& compared) {
   for (const ObjectiveFinding& f : compared.findings) {
     double rank = 0;
     for (const ComparedSet& set : f.from_trials.best) {
-      std::string ids;
-      for (const int id : set.trials) ids += (ids.empty() ? "" : " ") + std::to_string(id);
+      const auto text = [](int id) { return std::to_string(id); };
       csv.Cell(f.info.key).Cell(++rank).Cell(set.quantity).Cell(set.objective);
-      csv.Cells(set.values).Cell(ids).EndRow();
+      csv.Cells(set.values).Cell(base::Joined(set.trials, " ", text)).EndRow();
     }
   }
   return csv.Take();

@@ -39,16 +39,13 @@ std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice
 }
 
 std::string NumbersText(const campaign::JointView& view, const TestCandidate& test) {
-  std::string text;
-  for (const ExpectedNumber& number : NumbersOf(view, test)) {
-    text += (text.empty() ? "" : ", ") + number.metric;
+  return base::Joined(NumbersOf(view, test), ", ", [](const ExpectedNumber& number) {
     if (number.relative_error > 0) {
-      text += " ± " + ShortNumber(100 * number.relative_error) + " %";
-    } else if (number.standard_error > 0) {
-      text += " ± " + ShortNumber(number.standard_error);
+      return number.metric + " ± " + ShortNumber(100 * number.relative_error) + " %";
     }
-  }
-  return text;
+    const bool is_stated = number.standard_error > 0;
+    return number.metric + (is_stated ? " ± " + ShortNumber(number.standard_error) : "");
+  });
 }
 
 // Seconds with their fractions where there are few.

@@ -4,6 +4,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -21,27 +22,20 @@ std::string MoveText(const FixedMove& move) {
 }
 
 std::string OutputsText(const FixedMove& move, bool many_experiments) {
-  std::string text;
-  for (const OutputShift& output : move.outputs) {
-    text += (text.empty() ? "" : ", ") + (many_experiments ? output.experiment + " " : "") +
-            output.output + " " + ShortNumber(output.shift, 2) + " (chance " +
-            ShortNumber(output.noise, 2) + ")";
-  }
-  return text.empty() ? "no output, as it acts on no experiment" : text;
+  if (move.outputs.empty()) return "no output, as it acts on no experiment";
+  return base::Joined(move.outputs, ", ", [&](const OutputShift& output) {
+    return (many_experiments ? output.experiment + " " : "") + output.output + " " +
+           ShortNumber(output.shift, 2) + " (chance " + ShortNumber(output.noise, 2) + ")";
+  });
 }
 
 std::string AnswerText(const FixedMove& move) {
-  std::string text;
-  for (const AnswerShift& shift : move.answer) {
-    text += (text.empty() ? "" : ", ") + shift.parameter + " " +
-            PlusMinus(shift.to, shift.standard_error);
-    if (shift.Exceeds()) {
-      text += " (!)";
-    } else if (!shift.IsTold()) {
-      text += " (?)";
-    }
-  }
-  return text;
+  return base::Joined(move.answer, ", ", [](const AnswerShift& shift) {
+    return shift.parameter + " " + PlusMinus(shift.to, shift.standard_error) +
+           (shift.Exceeds()  ? " (!)"
+            : shift.IsTold() ? ""
+                             : " (?)");
+  });
 }
 
 bool HasSeveralExperiments(const SensitivityTable& table) {
@@ -54,13 +48,11 @@ bool HasSeveralExperiments(const SensitivityTable& table) {
 }
 
 std::string HeadText(const SensitivityTable& table) {
-  std::string text = "  as it stands      ";
-  for (std::size_t i = 0; i < table.parameters.size(); ++i) {
-    const SensitivityParameter& p = table.parameters[i];
-    text += (i == 0 ? "" : ", ") + p.name + " " + ShortNumber(p.value, 3) +
-            (p.unit.empty() ? "" : " " + p.unit) + " (" + ShortNumber(p.low, 3) + " to " +
-            ShortNumber(p.high, 3) + ")";
-  }
+  const auto one = [](const SensitivityParameter& p) {
+    return p.name + " " + base::WithUnit(p.value, p.unit, 3) + " (" + ShortNumber(p.low, 3) +
+           " to " + ShortNumber(p.high, 3) + ")";
+  };
+  std::string text = "  as it stands      " + base::Joined(table.parameters, ", ", one);
   text += "\n  simulated         " + base::Counted(table.num_simulations, "simulation") +
           " at scale factor " + ShortNumber(table.scale_factor);
   if (table.core_time > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/hold_out.h"
@@ -152,13 +153,11 @@ std::string PosteriorLines(const Answer& result) {
             " standard deviations between the experiments\n";
   }
   for (const ResultAlone& a : p.alone) {
-    text += "  " + a.name + " alone:";
-    for (std::size_t i = 0; i < a.values.size(); ++i) {
-      text += (i == 0 ? " " : ", ") + result.parameters[i].name + " " +
-              base::ShortNumber(a.values[i]) + " (" + base::ShortNumber(a.low[i]) + " to " +
-              base::ShortNumber(a.high[i]) + ")";
-    }
-    text += "\n";
+    const auto one = [&](std::size_t i) {
+      return result.parameters[i].name + " " + base::ShortNumber(a.values[i]) + " (" +
+             base::ShortNumber(a.low[i]) + " to " + base::ShortNumber(a.high[i]) + ")";
+    };
+    text += "  " + a.name + " alone: " + base::JoinedUpTo(a.values.size(), ", ", one) + "\n";
   }
   return text + "  coverage          of 90 % regions, leave-one-out over " +
          std::to_string(p.num_left_out) + " trials: " + base::ShortNumber(100 * p.raw_coverage) +

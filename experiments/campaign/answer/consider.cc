@@ -38,13 +38,6 @@ std::vector<NearTrial> NearestTrials(const std::vector<journal::TrialRecord>& tr
   return near;
 }
 
-std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
-                    const std::vector<double>& values) {
-  return base::JoinedUpTo(values.size(), ", ", [&](std::size_t i) {
-    return parameters[i].name + " " + base::WithUnit(values[i], parameters[i].unit);
-  });
-}
-
 std::vector<ConsideredParameter> KnownOf(const JointView& view, const optimizer::Answer& answer) {
   std::vector<ConsideredParameter> known;
   const std::vector<int> free = view.space.Free();

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/text/csv.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "optimizer/posterior/credible_ranges.h"
 
@@ -14,6 +15,13 @@ std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
   const std::vector<double> all = space.ToNative(point);
   for (const int i : space.Free()) values.push_back(all[static_cast<std::size_t>(i)]);
   return values;
+}
+
+std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
+                    const std::vector<double>& values) {
+  return base::JoinedUpTo(values.size(), ", ", [&](std::size_t i) {
+    return parameters[i].name + " " + base::WithUnit(values[i], parameters[i].unit);
+  });
 }
 
 FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimizer::Answer& answer) {
@@ -84,14 +92,14 @@ std::string FirstAnswerText(const optimizer::Answer& answer, const optimizer::Pa
                             const std::vector<journal::ParameterRecord>& parameters) {
   const std::vector<double> values = FreeValues(space, answer.point);
   const FreeRanges ranges = CredibleValues(space, answer);
-  std::string text = "first answer, by what was reused:";
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  const auto one = [&](std::size_t i) {
     const std::string& unit = parameters[i].unit;
-    text += (i == 0 ? " " : ", ") + parameters[i].name + " " + base::ShortNumber(values[i]) +
-            " (90 % in " + base::ShortNumber(ranges.low[i]) + " … " +
-            base::ShortNumber(ranges.high[i]) + ")" + (unit.empty() ? "" : " ") + unit;
-  }
-  return text + "; the joint 90 % region fills " +
+    return parameters[i].name + " " + base::ShortNumber(values[i]) + " (90 % in " +
+           base::ShortNumber(ranges.low[i]) + " … " + base::ShortNumber(ranges.high[i]) + ")" +
+           (unit.empty() ? "" : " ") + unit;
+  };
+  return "first answer, by what was reused: " + base::JoinedUpTo(values.size(), ", ", one) +
+         "; the joint 90 % region fills " +
          base::ShortNumber(100 * answer.posterior->region_volume, 2) + " % of the searched ranges";
 }
 

@@ -19,6 +19,10 @@ namespace talus::campaign {
 std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
                                const Eigen::VectorXd& point);
 
+// "sliding_friction 0.3, surface_energy 2e-06 J/m^2": values in the order of the parameters.
+std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
+                    const std::vector<double>& values);
+
 // The joint 90 % ranges of the free parameters, SI.
 struct FreeRanges {
   std::vector<double> low, high;

@@ -8,6 +8,7 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/random.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -46,14 +47,14 @@ PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::M
 }
 
 std::string AnswerLine(const JointView& view, const PartialAnswer& answer) {
-  std::string line;
-  for (std::size_t i = 0; i < answer.values.size(); ++i) {
+  const auto one = [&](std::size_t i) {
     const journal::ParameterRecord& p = view.record.parameters[i];
-    line += (i == 0 ? "" : ", ") + p.name + " " + base::ShortNumber(answer.values[i]) + " (" +
-            base::ShortNumber(answer.low[i]) + " to " + base::ShortNumber(answer.high[i]) + ")" +
-            (p.unit.empty() ? "" : " " + p.unit);
-  }
-  return line + "; region " + base::ShortNumber(100 * answer.region_volume) + " % of the ranges";
+    return p.name + " " + base::ShortNumber(answer.values[i]) + " (" +
+           base::ShortNumber(answer.low[i]) + " to " + base::ShortNumber(answer.high[i]) + ")" +
+           (p.unit.empty() ? "" : " " + p.unit);
+  };
+  return base::JoinedUpTo(answer.values.size(), ", ", one) + "; region " +
+         base::ShortNumber(100 * answer.region_volume) + " % of the ranges";
 }
 
 nlohmann::ordered_json AnswerJson(const JointView& view, const PartialAnswer& answer) {
