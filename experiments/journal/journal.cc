@@ -259,14 +259,4 @@ void Journal::AddEvent(std::string_view kind, std::int64_t trial, std::string_vi
       .Finish();
 }
 
-std::vector<EventRecord> Journal::Events() {
-  std::vector<EventRecord> events;
-  Statement row = database_.Prepare("SELECT utc, kind, trial, text FROM events ORDER BY id");
-  while (row.Step()) {
-    EventRecord& e = events.emplace_back();
-    row.Read(0, e.utc, e.kind, e.trial, e.text);
-  }
-  return events;
-}
-
 }  // namespace talus::journal

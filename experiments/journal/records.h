@@ -161,11 +161,4 @@ struct TrialRecord {
   std::optional<double> Metric(std::string_view name) const;
 };
 
-struct EventRecord {
-  std::string utc;
-  std::string kind;        // start, resume, stop, retry, failure, warning …
-  std::int64_t trial = 0;  // 0 when it concerns the campaign
-  std::string text;
-};
-
 }  // namespace talus::journal

@@ -69,7 +69,6 @@ void ReadJournal(const std::filesystem::path& file) {
     journal.Campaign();
     journal.Progress();
     for (const journal::TrialRecord& trial : journal.Trials()) journal.ProfilePng(trial.id);
-    journal.Events();
   });
 }
 

@@ -262,10 +262,6 @@ void CheckSpec(const CampaignSpec& spec, base::Problems& problems) {
   if (problems.empty()) ValidateCases(spec, problems);
 }
 
-CampaignSpec LoadCampaignSpec(const std::filesystem::path& path) {
-  return ReadCampaignSpec(base::ReadJsonFile(path));
-}
-
 std::string SpecText(const CampaignSpec& spec) {
   return base::JsonText(base::ToJson(spec), 2) + "\n";
 }

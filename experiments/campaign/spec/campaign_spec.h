@@ -116,7 +116,6 @@ struct CampaignSpec {
 };
 
 // Reads, completes and validates a spec; throws one ConfigError with every problem.
-CampaignSpec LoadCampaignSpec(const std::filesystem::path& path);
 CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
 
 // A spec that was not read from one file: every problem of it.

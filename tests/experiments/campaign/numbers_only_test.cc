@@ -59,7 +59,7 @@ class NumbersOnly : public CampaignFixture {
   std::string ErrorOf(const std::string& experiments,
                       const std::string& parameters = kTwoParameters) const {
     try {
-      LoadCampaignSpec(WriteSpec("bad", experiments, parameters));
+      ReadCampaignSpec(base::ReadJsonFile(WriteSpec("bad", experiments, parameters)));
     } catch (const base::ConfigError& error) {
       return error.what();
     }

@@ -11,8 +11,8 @@
 #include "base/json/json_reader.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
-#include "experiments/rigs/shear_cell/shear_cell_rig.h"
 #include "experiments/rigs/shear_cell/squeeze.h"
+#include "experiments/rigs/shear_cell/yield_line.h"
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
