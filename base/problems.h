@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,6 +41,12 @@ class Problems {
   // a value that has a problem already: one that could not be read still has its default.
   void Require(bool ok, std::string_view path, double value, std::string_view rule);
   void Require(bool ok, std::string_view path, std::string_view message);
+
+  // A whole number from `low` to `high`, both included; nothing is asked of one that is not given.
+  void RequireFromTo(std::string_view path, std::optional<int> value, int low, int high) {
+    Require(!value || (*value >= low && *value <= high), path, value.value_or(0),
+            "must be from " + std::to_string(low) + " to " + std::to_string(high));
+  }
 
   // Runs `body` with `key` ("powder", "spheres[3]") put before every path it reports.
   template <class Body>

@@ -76,13 +76,10 @@ ReplayOptions SearchOf(StrategyKind kind) {
 }  // namespace
 
 void StrategyOptions::Validate(base::Problems& problems) const {
-  problems.Require(num_points >= 1 && num_points <= kMaxDesign, "num_points", num_points,
-                   "must be from 1 to 10000");
-  problems.Require(num_initial >= 0 && num_initial <= 100, "num_initial", num_initial,
-                   "must be from 0 to 100");
+  problems.RequireFromTo("num_points", num_points, 1, kMaxDesign);
+  problems.RequireFromTo("num_initial", num_initial, 0, 100);
   problems.Require(stop_multiple >= 0, "stop_multiple", stop_multiple, "must not be negative");
-  problems.Require(max_replicates >= 0 && max_replicates <= 1000, "max_replicates", max_replicates,
-                   "must be from 0 to 1000");
+  problems.RequireFromTo("max_replicates", max_replicates, 0, 1000);
   problems.Require(refine_best >= 0, "refine_best", refine_best, "must not be negative");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     problems.Require(levels[i] >= 1 && levels[i] <= kMaxDesign, "levels[" + std::to_string(i) + "]",

@@ -58,7 +58,7 @@ imaging::Frame UsualFrame(double plate, double grain) {
 
 void TestCandidate::Validate(base::Problems& problems) const {
   base::RequireName(problems, "name", name);
-  problems.Require(runs >= 1 && runs <= 1000, "runs", runs, "must be from 1 to 1000");
+  problems.RequireFromTo("runs", runs, 1, 1000);
 }
 
 void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems& problems) {

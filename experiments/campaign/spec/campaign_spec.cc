@@ -132,8 +132,7 @@ void BudgetOptions::Validate(base::Problems& problems) const {
       "simulations", simulations, "must be from 1 to 1000000");
   problems.Require(!core_time || *core_time > 0, "core_time", core_time.value_or(0),
                    "must be positive");
-  problems.Require(min_simulations >= 0 && min_simulations <= kMostSimulations, "min_simulations",
-                   min_simulations, "must be from 0 to 1000000");
+  problems.RequireFromTo("min_simulations", min_simulations, 0, kMostSimulations);
   problems.Require(sensitivity_share >= 0 && sensitivity_share <= 1, "sensitivity_share",
                    sensitivity_share, "must be in [0, 1]");
   problems.Require(!wall_clock || *wall_clock > 0, "wall_clock", wall_clock.value_or(0),
@@ -155,10 +154,8 @@ void PosteriorOptions::Validate(base::Problems& problems) const {
 }
 
 void ConfirmOptions::Validate(base::Problems& problems) const {
-  problems.Require(candidates >= 0 && candidates <= kMostReplicates, "candidates", candidates,
-                   "must be from 0 to 1000");
-  problems.Require(replicates >= 1 && replicates <= kMostReplicates, "replicates", replicates,
-                   "must be from 1 to 1000");
+  problems.RequireFromTo("candidates", candidates, 0, kMostReplicates);
+  problems.RequireFromTo("replicates", replicates, 1, kMostReplicates);
   problems.Require(!scale_factor || *scale_factor >= 1, "scale_factor", scale_factor.value_or(1),
                    "must be at least 1");
 }
@@ -172,14 +169,10 @@ void CampaignSpec::Validate(base::Problems& problems) const {
   problems.Require(gravity > 0, "gravity", gravity, "must be positive");
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
-  problems.Require(num_views >= 1 && num_views <= imaging::kMostViews, "num_views", num_views,
-                   "must be from 1 to 1000");
-  problems.Require(replicates >= 1 && replicates <= kMostReplicates, "replicates", replicates,
-                   "must be from 1 to 1000");
-  problems.Require(workers >= 0 && workers <= kMostWorkers, "workers", workers,
-                   "must be from 0 to 4096");
-  problems.Require(threads >= 1 && threads <= kMostWorkers, "threads", threads,
-                   "must be from 1 to 4096");
+  problems.RequireFromTo("num_views", num_views, 1, imaging::kMostViews);
+  problems.RequireFromTo("replicates", replicates, 1, kMostReplicates);
+  problems.RequireFromTo("workers", workers, 0, kMostWorkers);
+  problems.RequireFromTo("threads", threads, 1, kMostWorkers);
   problems.Require(trial_time_cap > 0 && trial_time_cap <= kLongest, "trial_time_cap",
                    trial_time_cap, "must be positive, and at most a year");
   problems.Require(budget.simulations == 0 || budget.simulations > noise.replicates,

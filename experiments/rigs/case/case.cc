@@ -38,8 +38,7 @@ void Case::Validate(base::Problems& problems) const {
   RequirePositive(problems, "gravity", gravity);
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
-  problems.Require(num_views >= 1 && num_views <= imaging::kMostViews, "num_views", num_views,
-                   "must be from 1 to 1000");
+  problems.RequireFromTo("num_views", num_views, 1, imaging::kMostViews);
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");
   problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
                    "checkpoint_interval", checkpoint_interval, "must not be negative");

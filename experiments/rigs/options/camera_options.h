@@ -31,8 +31,7 @@ struct CameraOptions {
            .doc = "of the first picture, after the phase that is measured has begun, >= 0"});
   }
   void Validate(base::Problems& problems) const {
-    problems.Require(frames >= 1 && frames <= kMostFrames, "frames", frames,
-                     "must be from 1 to 10000");
+    problems.RequireFromTo("frames", frames, 1, kMostFrames);
     problems.Require(interval > 0 && std::isfinite(interval), "interval", interval,
                      "must be positive: pictures at one time are one picture");
     problems.Require(start >= 0 && std::isfinite(start), "start", start, "must not be negative");

@@ -103,8 +103,7 @@ struct SpreadingOptions {
     RequireSpreader(problems, teeth.has_value(), "teeth", Spreader::kComb);
     RequireSpreader(problems, slot.has_value(), "slot", Spreader::kComb);
     RequireSpreader(problems, tooth_length.has_value(), "tooth_length", Spreader::kComb);
-    problems.Require(!teeth || (*teeth >= 1 && *teeth <= kMostTeeth), "teeth", teeth.value_or(0),
-                     "must be from 1 to 50");
+    problems.RequireFromTo("teeth", teeth, 1, kMostTeeth);
     if (slot) RequireLength(problems, "slot", *slot);
     if (tooth_length) RequireLength(problems, "tooth_length", *tooth_length);
     if (teeth && *teeth < 1) return;

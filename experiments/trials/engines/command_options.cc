@@ -29,8 +29,7 @@ void CommandOptions::Validate(base::Problems& problems) const {
                          "\"heap.*\"");
   }
   constexpr int kMostRanks = 10000;
-  problems.Require(!ranks || (*ranks >= 1 && *ranks <= kMostRanks), "ranks", ranks.value_or(0),
-                   "must be from 1 to 10000");
+  problems.RequireFromTo("ranks", ranks, 1, kMostRanks);
   problems.Require(!length_unit || *length_unit > 0, "length_unit", length_unit.value_or(0),
                    "must be positive");
 }

@@ -25,7 +25,7 @@ void OptimizeProblem::Validate(base::Problems& problems) const {
   problems.Within("strategy",
                   [&] { strategy.ValidateFor(static_cast<int>(space.Free().size()), problems); });
   problems.Require(evaluations >= 1, "evaluations", evaluations, "must be at least 1");
-  problems.Require(workers >= 1 && workers <= 8, "workers", workers, "must be from 1 to 8");
+  problems.RequireFromTo("workers", workers, 1, 8);
   problems.Require(time_cap > 0, "time_cap", time_cap, "must be positive");
 }
 
