@@ -64,7 +64,7 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultConfirme
   std::string text;
   for (std::size_t i = 0; i < experiment.numbers.size(); ++i) {
     const ResultNumber& n = experiment.numbers[i];
-    text += (text.empty() ? "" : "; ") + n.name;
+    text += (text.empty() ? "" : "; ") + rigs::SpokenName(n.name);
     if (confirmed != nullptr) {
       text += " " + rigs::ShownNumber(n.name, confirmed->scalars.at(i).mean) + ",";
     }

@@ -53,15 +53,13 @@ std::vector<const journal::TrialRecord*> Confirming(const Planner& planner,
   return trials;
 }
 
-// The mean of a metric over the trials that have it; nothing where none has.
-std::optional<double> MeanMetric(const std::vector<const journal::TrialRecord*>& trials,
-                                 std::string_view name) {
+// A metric over the trials that have it.
+Sample MetricSample(const std::vector<const journal::TrialRecord*>& trials, std::string_view name) {
   std::vector<double> values;
   for (const journal::TrialRecord* trial : trials) {
     if (const auto value = trial->Metric(name)) values.push_back(*value);
   }
-  if (values.empty()) return std::nullopt;
-  return SampleOf(values).mean;
+  return SampleOf(values);
 }
 
 ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
@@ -82,7 +80,8 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
       [&](const journal::TrialRecord* trial) { return reference.IsMeasured(*trial); }));
   confirmed.mean = sample.mean;
   confirmed.standard_error = sample.sd / std::sqrt(sample.count);
-  confirmed.sad_mm2 = MeanMetric(trials, journal::InfoOf(journal::Objective::kSad).metric);
+  const Sample sad = MetricSample(trials, journal::InfoOf(journal::Objective::kSad).metric);
+  if (sad.count > 0) confirmed.sad_mm2 = sad.mean;
   if (!profiles.empty()) {
     journal::TrialRecord mean;
     mean.metrics = reference.Measure(imaging::MeanImage(profiles));
@@ -92,8 +91,10 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
-    confirmed.scalars.push_back(
-        {.name = scalar.name, .mean = MeanMetric(trials, scalar.name).value_or(kNotKnown)});
+    const Sample number = MetricSample(trials, scalar.name);
+    confirmed.scalars.push_back({.name = scalar.name,
+                                 .mean = number.mean,
+                                 .standard_error = number.sd / std::sqrt(number.count)});
   }
   return confirmed;
 }

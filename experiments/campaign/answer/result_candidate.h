@@ -17,11 +17,13 @@ inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 struct ResultScalar {
   std::string name{};
   double mean = kNotKnown;
+  double standard_error = kNotKnown;  // of that mean; not known for one trial
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     visit("name", self.name);
     visit("mean", self.mean);
+    visit("standard_error", self.standard_error);
   }
 };
 

@@ -12,6 +12,18 @@
 
 namespace talus::campaign {
 
+// A number that a trial gave of what was measured.
+struct NumberProgress {
+  std::string name{};  // with its unit: "angle_deg"
+  double value = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("value", self.value);
+  }
+};
+
 struct TrialProgress {
   std::int64_t trial = 0;
   journal::TrialKind kind = journal::TrialKind::kSearch;
@@ -22,6 +34,7 @@ struct TrialProgress {
   std::string experiment{};               // its name, where the campaign has several
   std::optional<double> objective{};      // none where it is not defined
   std::string unit{};                     // of the objective, for people: "mm²"
+  std::vector<NumberProgress> numbers{};  // those of the experiment that it has
   bool best = false;                      // the lowest objective so far
   std::string reason{};                   // of a failure
   double duration = 0;                    // [s]
@@ -37,6 +50,7 @@ struct TrialProgress {
     visit("experiment", self.experiment);
     visit("objective", self.objective);
     visit("unit", self.unit);
+    visit("numbers", self.numbers);
     visit("best", self.best);
     visit("reason", self.reason);
     visit("duration_s", self.duration);
