@@ -52,12 +52,6 @@ double VolumeThen(const Answer& answer) {
   return volume;
 }
 
-bool AsksForSimulations(const Answer& answer) {
-  return campaign::HasAlarm(answer, {AlarmKind::kSearchMisses, AlarmKind::kWorseThanPredicted,
-                                     AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
-                                     AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
-}
-
 std::string UseWords(const Answer& answer) {
   if (campaign::HasAlarm(answer, {AlarmKind::kImplausible})) {
     return "No: no set fits every measurement. Check contact law, plate and set-up first.";
@@ -78,7 +72,7 @@ std::string UseWords(const Answer& answer) {
     return "For trial runs only: other sets fit as well. Do the first of the next steps before you "
            "rely on one.";
   }
-  if (AsksForSimulations(answer)) {
+  if (campaign::AsksForSimulations(answer)) {
     return "For trial runs: more simulations should confirm it first, as the warnings say.";
   }
   if (campaign::HasAlarm(answer, {AlarmKind::kBound})) {

@@ -21,9 +21,6 @@ std::string TradeOffWords(const Evidence& evidence);
 // for, over today's [-]; undefined where that is not known.
 double VolumeThen(const campaign::Answer& answer);
 
-// Whether an alarm asks for more simulations.
-bool AsksForSimulations(const campaign::Answer& answer);
-
 // Whether to use the recommended set now.
 std::string UseWords(const campaign::Answer& answer);
 
