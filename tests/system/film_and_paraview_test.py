@@ -2,6 +2,7 @@
 """film_and_paraview_test.py TALUS SCREENSHOTS: films of lifts, and a campaign's heap with plate and tube for ParaView,
 which opens it where it is installed and leaves a picture in the folder SCREENSHOTS."""
 import base64
+import contextlib
 import json
 import os
 import pathlib
@@ -129,18 +130,37 @@ json.dump(seen, open(found, "w"))
 '''
 
 
+@contextlib.contextmanager
+def a_screen():
+    """An environment with a display, a virtual one where there is no other. xvfb-run may take one that is just ending."""
+    if os.environ.get("DISPLAY"):
+        yield os.environ
+        return
+    number, told = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(told), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+                              pass_fds=[told], stderr=subprocess.DEVNULL)
+    os.close(told)
+    try:
+        with open(number) as display:
+            yield {**os.environ, "DISPLAY": ":" + display.readline().strip()}
+    finally:
+        server.terminate()
+        server.wait()
+
+
 def check_paraview(out, num_grains, shots):
     """The state opened by ParaView: every grain is there, on its plate, and coloured by its height."""
-    needs_screen = [] if os.environ.get("DISPLAY") else ["xvfb-run", "-a"]
-    missing = [program for program in [*needs_screen, "pvbatch"] if shutil.which(program) is None]
+    needed = ["pvbatch"] if os.environ.get("DISPLAY") else ["pvbatch", "Xvfb"]
+    missing = [program for program in needed if shutil.which(program) is None]
     if missing or subprocess.run(["/usr/bin/python3", "-c", "import paraview"], stderr=subprocess.DEVNULL).returncode:
         print("the state was not opened by ParaView: " + (", ".join(missing) or "its Python module") + " is not installed")
         return
     (out / "tried.py").write_text(IN_PARAVIEW)
     shots.mkdir(parents=True, exist_ok=True)
     picture = shots / "paraview.png"
-    ended = subprocess.run([*needs_screen, "pvbatch", out / "tried.py", out / "state.py", picture, out / "seen.json"],
-                           capture_output=True, text=True, timeout=600)
+    with a_screen() as environment:
+        ended = subprocess.run(["pvbatch", out / "tried.py", out / "state.py", picture, out / "seen.json"],
+                               env=environment, capture_output=True, text=True, timeout=600)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     seen = json.loads((out / "seen.json").read_text())
     assert seen["heap"]["points"] == num_grains, seen
