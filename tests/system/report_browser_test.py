@@ -14,6 +14,8 @@ import time
 import unittest
 import zlib
 
+from quick_campaign import tube_and_drum
+
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.options import Options
@@ -294,12 +296,17 @@ class ReportInABrowser(unittest.TestCase):
     # The sheet to print is one, with all that it is for.
     def test_summary_is_one_page(self):
         for name, parameters, coarse_design in (("three", 3, False), ("posterior", 2, True)):
-            self.open_report(name, 60, parameters, "finished", coarse_design=coarse_design)
+            self.open_report(name, 60, parameters, "finished", coarse_design=coarse_design, width=800)
             sheet = pathlib.Path(self.folder.name) / name / "report" / "summary.html"
             self.driver.get(sheet.as_uri())
             text = self.driver.find_element(By.TAG_NAME, "body").text
             for words in ("Calibrated parameters", "How well it fits", "It holds for", "lift velocity", "report.html"):
                 self.assertIn(words, text)
+            self.assertNotRegex(text, r"\de-?\d")  # powers as people write them
+            cut_off = self.driver.execute_script(
+                "return [...document.querySelectorAll('table, svg, li, p')].filter((e) => e.getBoundingClientRect().right >"
+                " e.parentElement.getBoundingClientRect().right + 1).map((e) => e.outerHTML.slice(0, 80))")
+            self.assertEqual(cut_off, [])
             self.assertEqual(len(self.driver.find_elements(By.TAG_NAME, "svg")), 1)
             self.assertGreaterEqual(len(self.driver.find_elements(By.TAG_NAME, "img")), 2)
             pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})
@@ -314,6 +321,30 @@ class ReportInABrowser(unittest.TestCase):
             "[...r.cells].map((c) => c.textContent))")
         self.assertEqual(rows[0][0], "whole heap (SAD, RMSE)")
         self.assertTrue(all("%" in row[1] and "refits" in row[2] for row in rows), rows)
+
+    # A lifted tube and a drum, simulated: what a page of them says, but for the spec and the tables of versions.
+    def test_words_are_those_of_the_bench(self):
+        folder = pathlib.Path(self.folder.name) / "words"
+        if not folder.exists():
+            tube_and_drum(self.talus, folder)
+            subprocess.run([self.talus, "report", folder / "run"], check=True, stdout=subprocess.DEVNULL)
+        self.driver.set_window_size(1400, 1000)
+        self.driver.get((folder / "run/report/report.html").as_uri())
+        self.check_charts()
+        text = self.driver.execute_script("const s = document.getElementById('spec'); if (s) s.remove();"
+                                          "return document.body.innerText")
+        self.assertNotRegex(text, r"\b[μm]u?_[trγ]\b")  # symbols, not their spelling
+        self.assertNotRegex(text, r"\d\.?\d*e[-+]\d")  # powers as print has them
+        self.assertNotRegex(text, r"[-−]\d[\d.]*\s?mg")  # no mass is negative
+        self.assertNotIn("--experiment", text)
+        self.assertIn("drum: diameter 16 mm, width 5 mm, speed 60 rpm", text)
+        self.assertNotRegex(text, r"drum: [^\n]*(lift velocity|plate diameter)")
+        first = self.driver.execute_script("return ['standing', 'answer'].map((id) => document.getElementById(id).innerText).join()")
+        self.assertLessEqual(len(re.findall("budget", first)), 2, first)  # that it is used, and what more would do
+        for section in ("convergence-section", "trials-section", "compare"):  # both experiments, side by side
+            titles = [h.text for h in self.driver.find_elements(By.CSS_SELECTOR, f"#{section} .experiments h3")]
+            self.assertLessEqual({"heap", "mixer"}, set(titles), section)
+        self.keep_screenshot("tube_and_drum")
 
     # The stated range, the region's shadow and the width across a curve are not the same.
     def test_the_ranges_of_a_parameter_stand_beside_each_other(self):

@@ -1,18 +1,14 @@
 #!/usr/bin/python3
 """summary_test.py TALUS MAKE_SYNTHETIC_CAMPAIGN SCREENSHOTS: the sheet of a campaign, printed as a user prints it, is one
 page of A4, also where everything that it says is long. The sheets stay in the folder SCREENSHOTS."""
-import json
 import pathlib
 import re
 import shutil
-import sqlite3
 import subprocess
 import sys
 import tempfile
 
 NEEDED = ("chromium", "pdfinfo")
-LONG = ("the shape of the heap on the wide plate of glass, photographed on a rainy Tuesday with the telephone of a "
-        "colleague, differs from that of the four others by more than they do among themselves; ") * 3
 
 
 def printed(page, pdf, root):
@@ -23,31 +19,15 @@ def printed(page, pdf, root):
     return dict(line.split(":", 1) for line in info.splitlines() if ":" in line)
 
 
-def lengthened(campaign):
-    """The same campaign with more alarms, experiments and sentences than any that was seen."""
-    database = sqlite3.connect(campaign / "journal.sqlite")
-    (text,) = database.execute("select result_json from campaign").fetchone()
-    result = json.loads(text)
-    result["warnings"] = [{**result["warnings"][0], "kind": "run_disagrees", "reason": LONG} for _ in range(9)]
-    result["conditions"]["devices"] = [{"experiment": f"test {i} of the second batch", "text":
-        "lifted tube: tube inner diameter 10 mm, plate diameter 30 mm, lift velocity 5 cm/s, plate of glass"}
-        for i in range(5)]
-    database.execute("update campaign set result_json = ?", (json.dumps(result),))
-    database.commit()
-    database.close()
-
-
 def main(talus, maker, shots, root):
     missing = [program for program in NEEDED if shutil.which(program) is None]
     if missing:
         print("nothing was printed: " + ", ".join(missing) + " is not installed")
         return 77
     shots.mkdir(parents=True, exist_ok=True)
-    for name, parameters, more in (("two", 2, ["coarse_design"]), ("three", 3, []), ("long", 3, [])):
+    for name, parameters, more in (("two", 2, ["coarse_design"]), ("three", 3, []), ("long", 3, ["much_to_say"])):
         campaign = root / name
         subprocess.run([maker, campaign, "60", str(parameters), "finished", *more], check=True)
-        if name == "long":
-            lengthened(campaign)
         subprocess.run([talus, "report", campaign], check=True, stdout=subprocess.DEVNULL)
         pdf = shots / f"summary_{name}.pdf"
         info = printed(campaign / "report/summary.html", pdf, root)

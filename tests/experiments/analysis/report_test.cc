@@ -13,6 +13,7 @@
 #include "experiments/analysis/report/data/tables.h"
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/page.h"
+#include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/answer/answer.h"
 #include "imaging/formats/images/image_file.h"
@@ -238,6 +239,12 @@ TEST(NextSteps, ADifferentTestComesFirstWhereACurveIsLeft) {
   EXPECT_EQ(steps.front().what, "Add a different kind of test");
   for (const NextStep& step : steps) EXPECT_THAT(step.what, Not(StartsWith("Measure")));
   EXPECT_TRUE(NextSteps(test::MakeSyntheticCampaign({.num_trials = 12}), {}).empty());  // no model
+}
+
+TEST(AnswerWords, PowersOfTenAreThoseOfPrint) {
+  EXPECT_EQ(WithPowers("γ 3e-05 (90 %: 2.35e-05 to 1e+12)."),
+            "γ 3 × 10⁻⁵ (90 %: 2.35 × 10⁻⁵ to 1 × 10¹²).");
+  EXPECT_EQ(WithPowers("the 2e grade, scale-5"), "the 2e grade, scale-5");
 }
 
 // What an alarm wants is the first step, whether `talus next` was run or not.
