@@ -79,6 +79,7 @@ class TubeAndDrum(unittest.TestCase):
     def test_a_campaign_that_leaves_a_curve_looks_into_further_tests(self):
         self.assertIn(self.result["verdict"]["kind"], ("curve", "region"))
         self.assertRegex(self.terminal, r"looks into further tests for at most \d+ s of core time \(the spec's next\.share\)")
+        self.assertIn(f"`talus next {self.run}` lists all", self.terminal)
         self.assertRegex(self.terminal, r"further tests +\S.*: expected to leave sliding_friction 0\.\d+, rolling_friction")
         table = json.loads((self.run / "next/next.json").read_text())
         tests = [c for c in table["candidates"] if c["kind"] == "test" and c["remaining"] is not None]

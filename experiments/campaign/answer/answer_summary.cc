@@ -91,7 +91,7 @@ std::string ExperimentLines(const Answer& answer) {
     const ResultConfirmed* confirmed = ConfirmedOf(answer, e.name);
     const std::string objective = ObjectiveText(answer, e, confirmed);
     const std::string numbers = NumbersText(e, confirmed);
-    text += "  " + Padded(e.name, 18) + objective +
+    text += "  " + Padded(e.name + "  ", 18) + objective +
             (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
     if (const ResultStanding* standing = StandingOf(answer, e.name)) {
       text += "; implausibility " + base::ShortNumber(standing->implausibility, 2) +

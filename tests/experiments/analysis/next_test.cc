@@ -99,6 +99,14 @@ std::vector<std::string> NamesOf(const NextTable& table) {
   return names;
 }
 
+// The entry that `talus next` leaves for a test is one that `talus add-experiment` takes.
+TEST_F(NextTest, EntriesOfTestsHaveNamesThatAnExperimentMayHave) {
+  const JointView view = Run();
+  for (const TestCandidate& test : UsualTests(view)) {
+    EXPECT_THAT(ExperimentText(view, test), testing::Not(HasSubstr("/"))) << test.name;
+  }
+}
+
 // Bits count what two outputs say twice; the ranges that are left do not.
 TEST(NextRanking, WhatLeavesTheSmallestRangesComesFirstAndWhatIsNotKnownLast) {
   NextTable table{.parameters = {},
