@@ -111,6 +111,23 @@ std::string Canonical(std::string_view unit) {
   throw ConfigError(message);
 }
 
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// "1,602 g" would be 1 with the unit ",602 g": the comma of a decimal, or of thousands.
+void RefuseComma(std::string_view text, std::string_view number, std::string_view rest) {
+  if (rest.size() < 2 || rest.front() != ',' || !IsDigit(rest[1])) return;
+  const std::string whole(number);
+  const std::string after(rest.substr(1));
+  const bool of_thousands = after.find_first_of(",.") != std::string::npos;
+  std::string digits = after;
+  std::erase(digits, ',');
+  const std::string without = "\"" + whole + digits + "\"";
+  throw ConfigError("\"" + std::string(text) + "\" has a comma in its number; write " +
+                    (of_thousands ? without + " without"
+                                  : "\"" + whole + "." + after + "\" with a point, or " + without +
+                                        " if the comma parts thousands"));
+}
+
 }  // namespace
 
 std::string_view SiUnit(Dimension dimension) {
@@ -125,8 +142,9 @@ double ParseQuantity(std::string_view text, Dimension dimension) {
   if (status != std::errc() || !std::isfinite(value)) {
     Refuse(text, dimension, "does not start with a number");
   }
-  const std::string_view name =
-      Trim(trimmed.substr(static_cast<std::size_t>(end - trimmed.data())));
+  const std::string_view rest = trimmed.substr(static_cast<std::size_t>(end - trimmed.data()));
+  RefuseComma(text, trimmed.substr(0, trimmed.size() - rest.size()), rest);
+  const std::string_view name = Trim(rest);
   if (name.empty()) return value;
   const std::string canonical = Canonical(name);
   for (const Unit& unit : UnitsOf(dimension)) {

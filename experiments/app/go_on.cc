@@ -18,6 +18,7 @@
 #include "experiments/analysis/sensitivity/sensitivity.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/campaign/answer/answer_summary.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -92,7 +93,8 @@ void PrintAdvice(const Ended& ended, const std::filesystem::path& folder, const 
   }
   const analysis::NextTable table = analysis::Advise(folder, request);
   if (tell.json) return PrintEvent("next", "next", analysis::NextJson(table));
-  if (!tell.quiet) std::cout << analysis::NextSummary(table) << std::flush;
+  if (tell.quiet) return;
+  std::cout << campaign::WithFolder(analysis::NextSummary(table), folder) << std::flush;
 }
 
 // What the spec allows of it at the end of a campaign.

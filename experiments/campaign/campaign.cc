@@ -381,19 +381,25 @@ void Campaign::Report(const journal::TrialRecord& trial) {
   for (const journal::ParameterRecord& parameter : record_.parameters) {
     names.push_back(parameter.name);
   }
-  console_.Trial(
-      {.trial = trial.id,
-       .kind = trial.kind,
-       .status = trial.status,
-       .parameters = std::move(names),
-       .values = trial.native,
-       .scale_factor = trial.scale_factor,
-       .experiment = record_.experiments[static_cast<std::size_t>(trial.experiment)].name,
-       .objective = ReferenceOf(trial).Value(trial),
-       .unit = std::string(journal::InfoOf(spec_.objective).unit),
-       .best = best_ && best_->second == trial.id,
-       .reason = trial.reason,
-       .duration = trial.duration_s});
+  const journal::ExperimentRecord& experiment =
+      record_.experiments[static_cast<std::size_t>(trial.experiment)];
+  std::vector<NumberProgress> numbers;
+  for (const journal::ScalarRecord& measured : experiment.scalars) {
+    if (const auto value = trial.Metric(measured.name)) numbers.push_back({measured.name, *value});
+  }
+  console_.Trial({.trial = trial.id,
+                  .kind = trial.kind,
+                  .status = trial.status,
+                  .parameters = std::move(names),
+                  .values = trial.native,
+                  .scale_factor = trial.scale_factor,
+                  .experiment = experiment.name,
+                  .objective = ReferenceOf(trial).Value(trial),
+                  .unit = std::string(journal::InfoOf(spec_.objective).unit),
+                  .numbers = std::move(numbers),
+                  .best = best_ && best_->second == trial.id,
+                  .reason = trial.reason,
+                  .duration = trial.duration_s});
 }
 
 void Campaign::ShowStatus() {

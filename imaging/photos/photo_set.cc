@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -38,12 +39,33 @@ struct ByNumber {
 
 using Views = std::map<std::string, std::filesystem::path, ByNumber>;
 
-bool IsImage(const std::filesystem::path& file) {
+bool EndsLike(const std::filesystem::path& file, std::span<const std::string_view> endings) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  constexpr std::string_view kEndings[] = {".png",  ".jpg", ".jpeg", ".tif",
-                                           ".tiff", ".bmp", ".pgm"};
-  return std::ranges::find(kEndings, ending) != std::end(kEndings);
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+bool IsImage(const std::filesystem::path& file) {
+  static constexpr std::string_view kEndings[] = {".png",  ".jpg", ".jpeg", ".tif",
+                                                  ".tiff", ".bmp", ".pgm"};
+  return EndsLike(file, kEndings);
+}
+
+// What telephones and cameras write that we cannot read.
+bool IsForeignImage(const std::filesystem::path& file) {
+  static constexpr std::string_view kEndings[] = {".heic", ".heif", ".avif", ".webp",
+                                                  ".dng",  ".cr2",  ".cr3",  ".nef",
+                                                  ".arw",  ".raf",  ".orf",  ".rw2"};
+  return EndsLike(file, kEndings);
+}
+
+constexpr const char* kForeign =
+    "; HEIC, WebP and raw files are not read: convert them to JPEG or PNG (a telephone takes JPEG "
+    "where its camera is set to the most compatible format)";
+
+// "._IMG_1.jpg" and the like are a system's notes on a file.
+bool IsHidden(const std::filesystem::path& file) {
+  return file.filename().string().starts_with('.');
 }
 
 // Files so many folders below, in order of name.
@@ -59,7 +81,7 @@ void AddFiles(const std::filesystem::path& folder, int num_folders,
   for (const auto& file : entry) {
     // Pipes and dangling links are no photographs; a pipe that was opened would be waited for.
     const bool wanted = num_folders > 0 ? file.is_directory(error) : file.is_regular_file(error);
-    if (wanted) here.push_back(file.path());
+    if (wanted && !IsHidden(file.path())) here.push_back(file.path());
   }
   std::sort(here.begin(), here.end());
   for (const std::filesystem::path& path : here) {
@@ -223,7 +245,8 @@ PhotoSet OfFolder(PhotoSet set, const std::filesystem::path& folder, const std::
     throw base::ConfigError(
         folder.string() + ": no file matches the pattern \"" + pattern +
         "\" of the photographs' names; " + Listed(folder) +
-        (other == pattern ? "" : "; a pattern that may fit is \"" + other + "\""));
+        (other == pattern ? "" : "; a pattern that may fit is \"" + other + "\"") +
+        (std::ranges::any_of(UnreadImages(folder, set), IsForeignImage) ? kForeign : ""));
   }
   for (std::string& missing : set.missing) missing = folder.string() + ": " + missing;
   return set;
@@ -283,7 +306,10 @@ std::vector<std::filesystem::path> UnreadImages(const std::filesystem::path& fol
   std::error_code none;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
     const std::filesystem::path path = entry.path().lexically_normal();
-    if (entry.is_regular_file(none) && IsImage(path) && !read.contains(path)) {
+    const bool is_hidden =
+        std::ranges::any_of(path.lexically_relative(folder.lexically_normal()), IsHidden);
+    const bool is_image = (IsImage(path) || IsForeignImage(path)) && !is_hidden;
+    if (entry.is_regular_file(none) && is_image && !read.contains(path)) {
       unread.push_back(path);
     }
   }
@@ -300,7 +326,8 @@ std::string UnreadText(const std::filesystem::path& folder, const PhotoSet& set)
     text += (i == 0 ? "" : ", ") +
             base::Printable(unread[i].lexically_relative(folder.lexically_normal()).string());
   }
-  return text + (unread.size() > kMostNames ? ", …" : "");
+  return text + (unread.size() > kMostNames ? ", …" : "") +
+         (std::ranges::any_of(unread, IsForeignImage) ? kForeign : "");
 }
 
 PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {

@@ -41,8 +41,27 @@ std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confiden
   return ranges;
 }
 
-Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample) {
-  const std::vector<Range> ranges = CredibleRanges(sample, 0.9);
+std::vector<Range> AskedRanges(const Eigen::MatrixXd& sample,
+                               const std::vector<Eigen::Index>& nuisances, double confidence) {
+  std::vector<Range> ranges(static_cast<std::size_t>(sample.cols()));
+  const auto set = [&](const std::vector<Eigen::Index>& columns) {
+    const std::vector<Range> some = CredibleRanges(sample(Eigen::all, columns), confidence);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      ranges[static_cast<std::size_t>(columns[k])] = some[k];
+    }
+  };
+  std::vector<Eigen::Index> asked;
+  for (Eigen::Index k = 0; k < sample.cols(); ++k) {
+    if (std::ranges::find(nuisances, k) == nuisances.end()) asked.push_back(k);
+  }
+  set(asked);
+  for (const Eigen::Index nuisance : nuisances) set({nuisance});
+  return ranges;
+}
+
+Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample,
+                                 const std::vector<Eigen::Index>& nuisances) {
+  const std::vector<Range> ranges = AskedRanges(sample, nuisances, 0.9);
   Eigen::VectorXd width(sample.cols());
   for (Eigen::Index i = 0; i < width.size(); ++i) {
     const Range& range = ranges[static_cast<std::size_t>(i)];

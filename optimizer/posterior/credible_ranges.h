@@ -13,7 +13,13 @@ namespace talus::optimizer {
 // above [besag1995]. With one column these are the usual quantiles.
 std::vector<Range> CredibleRanges(const Eigen::MatrixXd& sample, double confidence);
 
-// high - low of each joint 90 % range.
-Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample);
+// As an answer states them: the ranges of what is asked for hold all together, and that of each
+// nuisance, a column of these, by itself.
+std::vector<Range> AskedRanges(const Eigen::MatrixXd& sample,
+                               const std::vector<Eigen::Index>& nuisances, double confidence);
+
+// high - low of each 90 % range.
+Eigen::VectorXd CredibleWidths90(const Eigen::MatrixXd& sample,
+                                 const std::vector<Eigen::Index>& nuisances = {});
 
 }  // namespace talus::optimizer

@@ -62,10 +62,11 @@ double HalfWidth90(const Eigen::VectorXd& values) {
 }
 
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
-                       std::uint64_t seed, const Eigen::VectorXd& goal) {
+                       std::uint64_t seed, const LearningAim& aim) {
   constexpr Eigen::Index kTruths = 64;
+  const auto& [goal, nuisances] = aim;
   const bool has_goal = goal.size() > 0;
-  ExpectedLearning learning{.bits = 0, .width = CredibleWidths90(draws)};
+  ExpectedLearning learning{.bits = 0, .width = CredibleWidths90(draws, nuisances)};
   if (has_goal) learning.goal_half_width = HalfWidth90(goal);
   if (measurement.mean.cols() == 0) return learning;
   const Eigen::MatrixXd z = Standardised(measurement);
@@ -79,7 +80,8 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
     Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
     for (double& value : seen) value += random.Normal();
     const Eigen::VectorXd weights = Weights(z, seen);
-    learning.width += CredibleWidths90(Resampled(draws, weights)) / static_cast<double>(count);
+    learning.width +=
+        CredibleWidths90(Resampled(draws, weights), nuisances) / static_cast<double>(count);
     if (!has_goal) continue;
     learning.goal_half_width +=
         HalfWidth90(Resampled(goal, weights).col(0)) / static_cast<double>(count);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace talus::optimizer {
 
@@ -16,7 +17,7 @@ struct PredictedMeasurement {
 
 struct ExpectedLearning {
   double bits = 0;        // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
-  Eigen::VectorXd width;  // of each parameter's joint 90 % range afterwards, expected, unit cube
+  Eigen::VectorXd width;  // of each parameter's 90 % range (AskedRanges) afterwards, unit cube
   double goal_half_width =
       std::numeric_limits<double>::quiet_NaN();  // of the goal's 90 %, expected
   // Two draws that it separates most, rows.
@@ -24,11 +25,17 @@ struct ExpectedLearning {
   Eigen::Index second = 0;
 };
 
+// What is to be learnt.
+struct LearningAim {
+  Eigen::VectorXd goal{};                 // a number at each draw; empty: there is none
+  std::vector<Eigen::Index> nuisances{};  // columns of the draws that nobody asks for
+};
+
 // `draws`: equally likely, one a row, as many as the measurement's rows and two at least. Each of
 // some of them is taken for the truth in turn, its measurement drawn, and the others weighted by
-// it, with the posterior's own heavy tails. `goal`: a number at each draw; empty: there is none.
+// it, with the posterior's own heavy tails.
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
-                       std::uint64_t seed, const Eigen::VectorXd& goal = {});
+                       std::uint64_t seed, const LearningAim& aim = {});
 
 // Half of the range between the 5 and 95 % quantiles of equally likely values, one at least.
 double HalfWidth90(const Eigen::VectorXd& values);

@@ -224,7 +224,18 @@ Eigen::MatrixXd ParameterSpace::Inside(const EarlierDraws& draws) const {
   return inside.topRows(count);
 }
 
+std::vector<Eigen::Index> ParameterSpace::Nuisances() const {
+  std::vector<Eigen::Index> nuisances;
+  Eigen::Index coordinate = 0;
+  for (const int i : Free()) {
+    if (parameters[static_cast<std::size_t>(i)].is_nuisance) nuisances.push_back(coordinate);
+    ++coordinate;
+  }
+  return nuisances;
+}
+
 void ParameterSpace::AddBeliefs(Domain& domain) const {
+  domain.nuisances = Nuisances();
   const std::vector<int> free = Free();
   const auto coordinate_of = [&](const std::string& name) {
     return std::find(free.begin(), free.end(), IndexOf(parameters, name)) - free.begin();
@@ -233,7 +244,6 @@ void ParameterSpace::AddBeliefs(Domain& domain) const {
     const Parameter& p = parameters[static_cast<std::size_t>(i)];
     const Eigen::Index coordinate = coordinate_of(p.name);
     if (p.prior) domain.prior.Add(coordinate, p.range(), *p.prior);
-    if (p.is_nuisance) domain.nuisances.push_back(coordinate);
     if (p.added_at) domain.added.push_back({.coordinate = coordinate, .at = p.ToUnit(*p.added_at)});
   }
   for (const EarlierDraws& draws : earlier) {

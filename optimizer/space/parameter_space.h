@@ -101,6 +101,8 @@ struct ParameterSpace {
 
   // Indices into `parameters` of those that are searched; the i-th is coordinate i of the cube.
   std::vector<int> Free() const;
+  // Coordinates of those that are searched and not asked for, ascending.
+  std::vector<Eigen::Index> Nuisances() const;
 
   // One value a parameter, the fixed ones among them, in the order of `parameters`.
   std::vector<double> ToNative(const Eigen::VectorXd& unit) const;

@@ -109,7 +109,6 @@ class PosteriorStrategy : public Strategy {
   void Summarise(Answer& answer);
   std::vector<NuisanceWeight> NuisanceWeights(const Eigen::MatrixXd& draws) const;
   void AddPrior(PosteriorSummary& summary) const;
-  std::vector<Range> AskedRanges(const Eigen::MatrixXd& draws) const;
 
   PosteriorStrategyOptions options_;
   Domain domain_;

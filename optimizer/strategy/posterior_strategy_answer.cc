@@ -85,28 +85,13 @@ void PosteriorStrategy::Summarise(Answer& answer) {
   answer.posterior = std::move(summary);
 }
 
-// Those of the parameters asked for hold all together, and each nuisance's by itself.
-std::vector<Range> PosteriorStrategy::AskedRanges(const Eigen::MatrixXd& draws) const {
-  constexpr double kConfidence = 0.9;
-  std::vector<Range> ranges(static_cast<std::size_t>(draws.cols()));
-  const auto set = [&](const std::vector<Eigen::Index>& coordinates) {
-    const std::vector<Range> some = CredibleRanges(draws(Eigen::all, coordinates), kConfidence);
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      ranges[static_cast<std::size_t>(coordinates[k])] = some[k];
-    }
-  };
-  set(domain_.Asked());
-  for (const Eigen::Index nuisance : domain_.nuisances) set({nuisance});
-  return ranges;
-}
-
 Answer PosteriorStrategy::Recommend() {
   if (!CanModel()) return BestObserved(observations_, domain_, "the search over scale factors");
   constexpr int kMostTied = 200;
   Answer answer;
   Summarise(answer);
   const PosteriorSummary& summary = *answer.posterior;
-  answer.credible = AskedRanges(summary.draws);
+  answer.credible = AskedRanges(summary.draws, domain_.nuisances, 0.9);
   answer.correlation = RankCorrelation(summary.draws);
   for (int i = 0; i < kMostTied; ++i) {
     answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));

@@ -213,8 +213,8 @@ class Campaign:
         return program.ask("consider", self.folder, *(f"{name}={value}" for name, value in values.items()))
 
     def next(self, candidates=None, simulate=False, budget=None):
-        """What to do next, the most informative first [pandas.DataFrame]: expected bits, cost, and the
-        width of each joint range that it leaves (in shares of what is searched; now: attrs["width_90"]).
+        """What to do next, what leaves least first [pandas.DataFrame]: the share of the ranges' volume that
+        is expected to remain, bits, cost, and the width of each range that it leaves (in shares of what is searched; now: attrs["width_90"]).
         `simulate` runs the few simulations that tests need to be judged, in `budget` core seconds."""
         import pandas
         if budget is not None and not simulate:
@@ -222,7 +222,7 @@ class Campaign:
         table = program.ask("next", self.folder, *([] if candidates is None else [program.path(candidates)]),
                             *(["--simulate"] if simulate else []),
                             *([] if budget is None else ["--budget", f"{budget} s"]))
-        rows = [{**{key: row[key] for key in ("name", "kind", "what", "bits", "num_simulations", "core_time_s")},
+        rows = [{**{key: row[key] for key in ("name", "kind", "what", "remaining", "bits", "num_simulations", "core_time_s")},
                  **{f"width_{name}": (row["width_90"] or {}).get(name) for name in self.parameters}}
                 for row in table["candidates"]]
         frame = pandas.DataFrame(rows).set_index("name")

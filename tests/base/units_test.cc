@@ -41,6 +41,16 @@ TEST(Units, WrongOnesAreNamedWithThoseThatFit) {
   EXPECT_THAT(ErrorOf("about 3 g", Dimension::kMass), HasSubstr("does not start with a number"));
 }
 
+TEST(Units, ACommaInANumberIsNamedWithWhatToWrite) {
+  EXPECT_EQ(ErrorOf("1,602 g", Dimension::kMass),
+            "\"1,602 g\" has a comma in its number; write \"1.602 g\" with a point, or \"1602 g\" "
+            "if the comma parts thousands");
+  EXPECT_THAT(ErrorOf("0,35", Dimension::kNone), HasSubstr("write \"0.35\" with a point"));
+  EXPECT_THAT(ErrorOf("4,386.5 kg/m3", Dimension::kDensity),
+              HasSubstr("write \"4386.5 kg/m3\" without"));
+  EXPECT_THAT(ErrorOf("3, g", Dimension::kMass), HasSubstr("does not fit here"));
+}
+
 // As people type them: powers without ^, microns, either of Unicode's two letters mu.
 TEST(Units, ReadsWhatPeopleType) {
   EXPECT_DOUBLE_EQ(ParseQuantity("1500 kg/m3", Dimension::kDensity), 1500);

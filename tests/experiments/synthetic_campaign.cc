@@ -206,6 +206,27 @@ campaign::Answer MakeAnswer(const analysis::Evidence& evidence, const Eigen::Vec
   return answer;
 }
 
+// More than was ever seen.
+void SayMuch(campaign::Answer& answer) {
+  const std::string reason =
+      "the heap of this run, on the wide plate of glass, differs from those of the four others by "
+      "more than they do among themselves; look at its photographs, leave it out, or make it again "
+      "as the others were made, with the powder as dry, the tube as straight and the plate as "
+      "clean";
+  for (int i = 1; i <= 9; ++i) {
+    answer.warnings.push_back({.kind = campaign::AlarmKind::kRunDisagrees,
+                               .experiment = "heap",
+                               .value = 3,
+                               .reason = "run " + std::to_string(i) + ": " + reason});
+  }
+  for (int i = 2; i <= 6; ++i) {
+    answer.conditions.devices.push_back(
+        {.experiment = "test " + std::to_string(i) + " of the second batch",
+         .text = "lifted tube: tube inner diameter 10 mm, plate diameter 30 mm, lift velocity 5 "
+                 "cm/s, plate of glass"});
+  }
+}
+
 constexpr double kAlong = 0.18;   // sd along the valley, unit cube
 constexpr double kAcross = 0.02;  // … across it, of each parameter
 
@@ -338,6 +359,7 @@ analysis::Evidence MakeSyntheticCampaign(const SyntheticOptions& options) {
   }
   evidence.experiments = {"heap"};
   if (options.concluded) evidence.answer = MakeAnswer(evidence, truth);
+  if (options.much_to_say) SayMuch(evidence.answer.value());
   return evidence;
 }
 

@@ -12,6 +12,7 @@ struct SyntheticOptions {
   int every_failed = 13;       // each so-manieth trial fails
   bool concluded = true;       // else it is still running and there is no answer
   bool coarse_design = false;  // at scale factor 2, the rest at 1; else all at 1
+  bool much_to_say = false;    // more alarms and devices than a sheet of paper has room for
 };
 
 // The set that the reference heap is drawn with: μ_t, μ_r and γ, SI.

@@ -88,6 +88,29 @@ TEST(PhotoPattern, WhatIsNotReadIsNamed) {
   EXPECT_EQ(UnreadText(folder / "extra", FindPhotos(folder / "extra", "*")), "");
 }
 
+// As a telephone's folder comes: a system's notes beside the photographs, a film, and what is no
+// JPEG.
+TEST(PhotoPattern, HiddenFilesAreNoPhotographsAndOtherFormatsAreNamed) {
+  const fs::path folder = EmptyFolder("telephone");
+  for (const char* name :
+       {"heap 1/IMG_1.JPG", "heap 1/._IMG_1.JPG", "heap 1/IMG_2.JPG", "heap 2/IMG_3.JPG",
+        "heap 2/IMG_4.HEIC", "heap 2/VID_5.mp4", ".thumbnails/IMG_1.JPG"}) {
+    Touch(folder / name);
+  }
+  const PhotoSet set = FindPhotos(folder, RecognisePattern(folder));
+  EXPECT_EQ(ReadingText(set), "2 heaps (heap 1, heap 2), 3 photographs");
+  EXPECT_THAT(UnreadText(folder, set),
+              HasSubstr("1 image not read: heap 2/IMG_4.HEIC; HEIC, WebP and raw files"));
+  const fs::path only = EmptyFolder("heic");
+  Touch(only / "IMG_1.HEIC");
+  try {
+    FindPhotos(only, RecognisePattern(only));
+    FAIL() << "no error";
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("convert them to JPEG or PNG"));
+  }
+}
+
 TEST(PhotoPattern, ErrorSaysWhatIsThereAndWhatMayFit) {
   const fs::path folder = EmptyFolder("there");
   for (const char* name : {"one/a.jpg", "two/a.jpg"}) Touch(folder / name);

@@ -54,7 +54,7 @@ TEST(ExpectedLearning, AGoalIsNarrowedByWhatMeasuresItAlone) {
   const auto learn = [&](Eigen::Index parameter) {
     return Learn(draws,
                  {.mean = draws.col(parameter), .variance = Eigen::VectorXd::Constant(1, sd * sd)},
-                 1, goal);
+                 1, {.goal = goal});
   };
   EXPECT_NEAR(HalfWidth90(goal), 4.5, 0.1);
   EXPECT_NEAR(learn(0).goal_half_width, 4.5, 0.3);
@@ -62,6 +62,16 @@ TEST(ExpectedLearning, AGoalIsNarrowedByWhatMeasuresItAlone) {
   EXPECT_LT(learn(1).goal_half_width, 2.5 * 10 * sd);
   EXPECT_TRUE(std::isnan(
       Learn(draws, {.mean = draws, .variance = Eigen::Vector2d(1, 1)}, 1).goal_half_width));
+}
+
+// Joint ranges of two parameters hold 95 % of each; of one beside a nuisance, 90 % of each.
+TEST(ExpectedLearning, ANuisanceDoesNotWidenTheRangesOfWhatIsAskedFor) {
+  const PredictedMeasurement none{.mean = Eigen::MatrixXd(2000, 0), .variance = {}};
+  const Eigen::MatrixXd draws = Even(2000);
+  EXPECT_NEAR(Learn(draws, none, 1).width[0], 0.949, 0.02);
+  const ExpectedLearning learning = Learn(draws, none, 1, {.nuisances = {1}});
+  EXPECT_NEAR(learning.width[0], 0.9, 0.02);
+  EXPECT_NEAR(learning.width[1], 0.9, 0.02);
 }
 
 TEST(ExpectedLearning, BetterMeasurementsTeachMore) {

@@ -1,8 +1,13 @@
 #!/usr/bin/python3
-"""film_and_paraview_test.py TALUS: films of lifts, and a campaign's heap with plate and tube for ParaView."""
+"""film_and_paraview_test.py TALUS SCREENSHOTS: films of lifts, and a campaign's heap with plate and tube for ParaView,
+which opens it where it is installed and leaves a picture in the folder SCREENSHOTS."""
 import base64
+import contextlib
 import json
+import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -99,6 +104,77 @@ def open_state(state):
     return made
 
 
+# What ParaView itself makes of the state, and a picture of it.
+IN_PARAVIEW = '''
+import json, sys
+from paraview.simple import *
+state, picture, found = sys.argv[1:4]
+exec(compile(open(state).read(), state, "exec"), {})
+view = GetActiveView()
+seen = {}
+for (name, _), source in GetSources().items():
+    source.UpdatePipeline()
+    data = source.GetDataInformation()
+    seen[name] = {"points": data.GetNumberOfPoints(), "bounds": data.GetBounds(),
+                  "shown": bool(GetRepresentation(source, view).Visibility)}
+seen["heap"]["heights_mm"] = FindSource("height").PointData["Elevation"].GetRange()
+SaveScreenshot(picture, view, ImageResolution=[900, 600])
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
+reader = vtkPNGReader()
+reader.SetFileName(picture)
+reader.Update()
+pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+seen["coloured"] = int((pixels.max(axis=1) - pixels.min(axis=1) > 60).sum())
+json.dump(seen, open(found, "w"))
+'''
+
+
+@contextlib.contextmanager
+def a_screen():
+    """An environment with a display, a virtual one where there is no other. xvfb-run may take one that is just ending."""
+    if os.environ.get("DISPLAY"):
+        yield os.environ
+        return
+    number, told = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(told), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+                              pass_fds=[told], stderr=subprocess.DEVNULL)
+    os.close(told)
+    try:
+        with open(number) as display:
+            yield {**os.environ, "DISPLAY": ":" + display.readline().strip()}
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def check_paraview(out, num_grains, shots):
+    """The state opened by ParaView: every grain is there, on its plate, and coloured by its height."""
+    needed = ["pvbatch"] if os.environ.get("DISPLAY") else ["pvbatch", "Xvfb"]
+    missing = [program for program in needed if shutil.which(program) is None]
+    if missing or subprocess.run(["/usr/bin/python3", "-c", "import paraview"], stderr=subprocess.DEVNULL).returncode:
+        print("the state was not opened by ParaView: " + (", ".join(missing) or "its Python module") + " is not installed")
+        return
+    (out / "tried.py").write_text(IN_PARAVIEW)
+    shots.mkdir(parents=True, exist_ok=True)
+    picture = shots / "paraview.png"
+    with a_screen() as environment:
+        ended = subprocess.run(["pvbatch", out / "tried.py", out / "state.py", picture, out / "seen.json"],
+                               env=environment, capture_output=True, text=True, timeout=600)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    seen = json.loads((out / "seen.json").read_text())
+    assert seen["heap"]["points"] == num_grains, seen
+    assert all(seen[name]["shown"] for name in ("grains", "plate", "tube")), seen
+    grains, plate, tube = (seen[name]["bounds"] for name in ("grains", "plate", "tube"))
+    # Glyphs are some-sided balls of 1 mm: they end a little before the grains do, and stand on the plate.
+    assert -1e-4 < grains[4] < 2e-4 and grains[5] <= tube[4] + 1e-4, seen
+    assert abs(plate[5]) < 1e-12 and plate[0] - 1e-3 < grains[0] and grains[1] < plate[1] + 1e-3, seen
+    assert 0 < seen["heap"]["heights_mm"][0] < seen["heap"]["heights_mm"][1] <= 1e3 * grains[5] + 0.1, seen
+    # The heap is some 10 mm of the 12 mm that the picture shows, and a third as high.
+    assert seen["coloured"] > 0.03 * 900 * 600, seen
+    print(f"ParaView opened the state; its picture is {picture}")
+
+
 def read_with_vtk(file):
     """Points, polygons and bounds, where VTK is here; else nothing."""
     try:
@@ -112,7 +188,7 @@ def read_with_vtk(file):
     return data.GetNumberOfPoints(), data.GetNumberOfPolys(), data.GetBounds()
 
 
-def check_vtk(talus, root):
+def check_vtk(talus, root, shots):
     spec = {"experiment": {"map": str(root / "heap/profile.png"), "plate_diameter": "10 mm", "frame": FRAME},
             "powder": CASE["powder"], "device": CASE["device"],
             "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
@@ -139,6 +215,9 @@ def check_vtk(talus, root):
         points, polygons, bounds = plate
         assert points == 128 and polygons == 66  # two ends and 64 sides of the solid plate
         assert abs(bounds[1] - 5e-3) < 1e-5 and abs(bounds[5]) < 1e-12, bounds  # its top is z = 0
+    num_grains = int(re.search(rb'NumberOfPoints="(\d+)"', (out / "heap.vtp").read_bytes()).group(1))
+    assert num_grains > 100, num_grains
+    check_paraview(out, num_grains, shots)
     run(talus, "export", root / "run", "--vtk", "--trial", 2, "--out", root / "second")
     said = run(talus, "export", root / "run", "--vtk", "--trial", 99, "--out", root / "third", status=2)
     assert "--trial names another trial" in said, said
@@ -149,5 +228,5 @@ def check_vtk(talus, root):
 with tempfile.TemporaryDirectory(prefix="talus_film_") as scratch:
     check_film(sys.argv[1], pathlib.Path(scratch))
     check_poured_film(sys.argv[1], pathlib.Path(scratch))
-    check_vtk(sys.argv[1], pathlib.Path(scratch))
+    check_vtk(sys.argv[1], pathlib.Path(scratch), pathlib.Path(sys.argv[2]))
 print("the film plays and ParaView has its state")

@@ -1,5 +1,7 @@
-"""The spec of a campaign that ends in seconds: one run of powder A's photographs, one parameter, and a
-command in the folder `deck` for an engine."""
+"""Specs of campaigns that end in seconds: one run of powder A's photographs, one parameter, and a command in the folder
+`deck` for an engine; and two tests of one powder by our own engine."""
+import json
+import subprocess
 
 
 def quick_spec(source, name, command, **more):
@@ -18,3 +20,36 @@ def quick_spec(source, name, command, **more):
         "budget": {"simulations": 4}, "noise": {"replicates": 2},
         "confirm": {"candidates": 1, "replicates": 2}, "seed": 1, **more,
     }
+
+
+def tube_and_drum(talus, folder):
+    """Runs a campaign of two tests by our own engine, some hundred soft grains each, in `folder`/run: five heaps
+    with what fell beside them, and the angle of a drum. Returns what the terminal said."""
+    frame = {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70,
+             "plate_diameter": 0.01}
+    powder = {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"youngs_modulus": "1 MPa"}}
+    device = {"lift_velocity": "5 cm/s"}
+    truth = {**powder, "material": {**powder["material"], "sliding_friction": 0.4, "rolling_friction": 0.2}}
+    folder.mkdir(parents=True)
+    fallen, runs = [], []
+    for seed in range(1, 6):
+        name = f"heap{seed}"
+        case = {"powder": truth, "device": device, "frame": frame, "num_views": 1, "seed": seed}
+        (folder / f"{name}.json").write_text(json.dumps(case))
+        subprocess.run([talus, "simulate", folder / f"{name}.json", "--out", folder / name, "--quiet"], check=True)
+        fallen.append(json.loads((folder / name / "result.json").read_text())["observables"]["mass_fallen_kg"])
+        runs.append({"name": str(seed), "photos": [f"{name}/profile.png"]})
+    spec = {
+        "name": "tube and drum",
+        "experiments": [
+            {"name": "heap", "runs": runs, "plate_diameter": "10 mm", "frame": frame, "mass_fallen": {"values": fallen}},
+            {"name": "mixer", "rig": {"kind": "drum", "diameter": "16 mm", "width": "5 mm", "speed": "60 rpm",
+                                      "start_turns": 0.2, "turns": 0.25},
+             "mass": "0.6 g", "angle": {"value": "42 deg", "sd": "1.5 deg"}}],
+        "powder": powder, "device": device,
+        "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}, "rolling_friction": {"min": 0.02, "max": 0.6}},
+        "budget": {"simulations": 26}, "confirm": {"replicates": 2}, "seed": 3}
+    (folder / "spec.json").write_text(json.dumps(spec))
+    ended = subprocess.run([talus, "calibrate", folder / "spec.json", "--out", folder / "run"], capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    return ended.stderr + ended.stdout

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""report_browser_test.py TALUS MAKE_SYNTHETIC_CAMPAIGN: opens reports in headless Chromium and checks
+"""report_browser_test.py TALUS MAKE_SYNTHETIC_CAMPAIGN SCREENSHOTS: opens reports in headless Chromium and checks
 that they load nothing from elsewhere, that no script fails, that every chart draws its data, and that
-the table of trials sorts and filters. With a third argument, it keeps screenshots in that folder."""
+the table of trials sorts and filters. What was seen stays as pictures in the folder SCREENSHOTS."""
 import base64
 import json
 import pathlib
@@ -14,12 +14,19 @@ import time
 import unittest
 import zlib
 
-from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
-from selenium.webdriver.common.by import By
-from selenium.webdriver.support.ui import WebDriverWait
+from quick_campaign import tube_and_drum
 
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.ui import WebDriverWait
+except ImportError:
+    print("no report was opened: selenium is not installed for this Python (package python3-selenium)")
+    sys.exit(77)
+
+DRIVER = pathlib.Path("/usr/bin/chromedriver")
 MOST_SECONDS = 300  # until a page has drawn itself, on a busy machine; what hangs ends there
 
 # Pixels of a colour that is not grey: the axes and the text of a chart are grey, its data are not.
@@ -57,7 +64,7 @@ class ReportInABrowser(unittest.TestCase):
                      "--hide-scrollbars", "--user-data-dir=" + cls.folder.name + "/profile"):
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        cls.driver = webdriver.Chrome(service=Service(str(DRIVER)), options=options)
 
     @classmethod
     def tearDownClass(cls):
@@ -99,11 +106,12 @@ class ReportInABrowser(unittest.TestCase):
         return charts
 
     def keep_screenshot(self, name):
-        if self.shots is None:
-            return
         height = self.driver.execute_script("return document.documentElement.scrollHeight")
         self.driver.set_window_size(self.driver.get_window_size()["width"], height + 100)
         time.sleep(1)
+        self.driver.save_screenshot(str(pathlib.Path(self.shots) / (name + ".png")))
+
+    def keep_first_screen(self, name):
         self.driver.save_screenshot(str(pathlib.Path(self.shots) / (name + ".png")))
 
     def column(self, key):
@@ -230,7 +238,7 @@ class ReportInABrowser(unittest.TestCase):
         widths = table["width_90"]
         table["candidates"].insert(0, {
             "kind": "test", "name": "wide plate", "what": "carry it out in 3 runs", "num_simulations": 38,
-            "core_time_s": 150, "bits": 2.5, "width_90": {k: w / 4 for k, w in widths.items()},
+            "core_time_s": 150, "remaining": 1 / 16, "bits": 2.5, "width_90": {k: w / 4 for k, w in widths.items()},
             "told_apart": [[0.15, 0.5], [0.6, 0.15]], "picture": "wide-plate.png"})
         path.write_text(json.dumps(table))
         (campaign / "next" / "wide-plate.png").write_bytes(grey_png(320, 100))
@@ -244,7 +252,8 @@ class ReportInABrowser(unittest.TestCase):
             "return [...document.querySelectorAll('#next-table tbody tr')].map((r) => "
             "[...r.cells].map((c) => c.textContent))")
         self.assertEqual(len(rows), len(table["candidates"]))
-        self.assertEqual(rows[0][:2], ["wide plate: carry it out in 3 runs", "2.5"])
+        self.assertEqual((rows[0][0], rows[0][2]), ("wide plate: carry it out in 3 runs", "2.5"))
+        self.assertRegex(rows[0][1], r"^6\.3\s%$")  # of the ranges' volume
         self.assertEqual(rows[0][-1], "38 simulations, 2.50 min")
         self.assertEqual(rows[-1][1], "?")  # nothing of it has been simulated
         figure = self.driver.find_element(By.CSS_SELECTOR, "#told-apart figure")
@@ -282,16 +291,22 @@ class ReportInABrowser(unittest.TestCase):
         self.assertTrue(all(image.get_property("naturalWidth") > 50 for image in images))
         self.assertIn("Measured", pair.text)
         self.assertIn("Simulated", pair.text)
+        self.keep_first_screen("first_screen")
 
     # The sheet to print is one, with all that it is for.
     def test_summary_is_one_page(self):
         for name, parameters, coarse_design in (("three", 3, False), ("posterior", 2, True)):
-            self.open_report(name, 60, parameters, "finished", coarse_design=coarse_design)
+            self.open_report(name, 60, parameters, "finished", coarse_design=coarse_design, width=800)
             sheet = pathlib.Path(self.folder.name) / name / "report" / "summary.html"
             self.driver.get(sheet.as_uri())
             text = self.driver.find_element(By.TAG_NAME, "body").text
             for words in ("Calibrated parameters", "How well it fits", "It holds for", "lift velocity", "report.html"):
                 self.assertIn(words, text)
+            self.assertNotRegex(text, r"\de-?\d")  # powers as people write them
+            cut_off = self.driver.execute_script(
+                "return [...document.querySelectorAll('table, svg, li, p')].filter((e) => e.getBoundingClientRect().right >"
+                " e.parentElement.getBoundingClientRect().right + 1).map((e) => e.outerHTML.slice(0, 80))")
+            self.assertEqual(cut_off, [])
             self.assertEqual(len(self.driver.find_elements(By.TAG_NAME, "svg")), 1)
             self.assertGreaterEqual(len(self.driver.find_elements(By.TAG_NAME, "img")), 2)
             pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})
@@ -306,6 +321,42 @@ class ReportInABrowser(unittest.TestCase):
             "[...r.cells].map((c) => c.textContent))")
         self.assertEqual(rows[0][0], "whole heap (SAD, RMSE)")
         self.assertTrue(all("%" in row[1] and "refits" in row[2] for row in rows), rows)
+
+    # A lifted tube and a drum, simulated: what a page of them says, but for the spec and the tables of versions.
+    def test_words_are_those_of_the_bench(self):
+        folder = pathlib.Path(self.folder.name) / "words"
+        if not folder.exists():
+            tube_and_drum(self.talus, folder)
+            subprocess.run([self.talus, "report", folder / "run"], check=True, stdout=subprocess.DEVNULL)
+        self.driver.set_window_size(1400, 1000)
+        self.driver.get((folder / "run/report/report.html").as_uri())
+        self.check_charts()
+        text = self.driver.execute_script("const s = document.getElementById('spec'); if (s) s.remove();"
+                                          "return document.body.innerText")
+        self.assertNotRegex(text, r"\b[μm]u?_[trγ]\b")  # symbols, not their spelling
+        self.assertNotRegex(text, r"\d\.?\d*e[-+]\d")  # powers as print has them
+        self.assertNotRegex(text, r"[-−]\d[\d.]*\s?mg")  # no mass is negative
+        self.assertNotIn("--experiment", text)
+        self.assertIn("drum: diameter 16 mm, width 5 mm, speed 60 rpm", text)
+        self.assertNotRegex(text, r"drum: [^\n]*(lift velocity|plate diameter)")
+        first = self.driver.execute_script("return ['standing', 'answer'].map((id) => document.getElementById(id).innerText).join()")
+        self.assertLessEqual(len(re.findall("budget", first)), 2, first)  # that it is used, and what more would do
+        for section in ("convergence-section", "trials-section", "compare"):  # both experiments, side by side
+            titles = [h.text for h in self.driver.find_elements(By.CSS_SELECTOR, f"#{section} .experiments h3")]
+            self.assertLessEqual({"heap", "mixer"}, set(titles), section)
+        self.keep_screenshot("tube_and_drum")
+
+    # The stated range, the region's shadow and the width across a curve are not the same.
+    def test_the_ranges_of_a_parameter_stand_beside_each_other(self):
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
+        rows = self.driver.execute_script(
+            "return [...document.querySelectorAll('#widths tbody tr')].map((r) => "
+            "[...r.cells].map((c) => c.textContent))")
+        self.assertEqual([row[0].split("90")[0].split("from")[0] for row in rows],
+                         ["Stated range", "Shadow of the region", "Across the curve"])
+        tile = self.driver.find_element(By.CSS_SELECTOR, ".value .range").text
+        self.assertIn(rows[0][1], tile)
+        self.assertEqual(len({row[1] for row in rows}), 3, rows)
 
     def test_experiment_is_not_compared_with_itself(self):
         self.open_report("three", 60, 3, "finished")
@@ -419,17 +470,19 @@ class ReportInABrowser(unittest.TestCase):
                 "return [...document.querySelectorAll('canvas, img, figure, .card')]"
                 ".filter((e) => e.getBoundingClientRect().right > 689).map((e) => e.outerHTML.slice(0, 80))")
             self.assertEqual(too_wide, [])
-            if self.shots is not None:
-                pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {
-                    "paperWidth": 8.27, "paperHeight": 11.69, "printBackground": True,
-                    "preferCSSPageSize": True})
-                (pathlib.Path(self.shots) / "print.pdf").write_bytes(base64.b64decode(pdf["data"]))
+            pdf = self.driver.execute_cdp_cmd("Page.printToPDF", {
+                "paperWidth": 8.27, "paperHeight": 11.69, "printBackground": True, "preferCSSPageSize": True})
+            (pathlib.Path(self.shots) / "print.pdf").write_bytes(base64.b64decode(pdf["data"]))
         finally:
             self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
             self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
 if __name__ == "__main__":
-    ReportInABrowser.talus, ReportInABrowser.maker = sys.argv[1:3]
-    ReportInABrowser.shots = sys.argv[3] if len(sys.argv) > 3 else None
+    if not DRIVER.exists():
+        print(f"no report was opened: {DRIVER} is not there (package chromium-driver)")
+        sys.exit(77)
+    ReportInABrowser.talus, ReportInABrowser.maker, ReportInABrowser.shots = sys.argv[1:4]
+    pathlib.Path(ReportInABrowser.shots).mkdir(parents=True, exist_ok=True)
+    print("screenshots are kept in " + ReportInABrowser.shots)
     unittest.main(argv=sys.argv[:1])

@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/json/json_writer.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/card/card_formats.h"
+#include "experiments/analysis/card/card_walls.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -22,10 +22,6 @@
 
 namespace talus::analysis {
 namespace {
-
-bool Same(const engine::Material& a, const engine::Material& b) {
-  return base::ToJson(a) == base::ToJson(b);
-}
 
 // What a campaign has concluded, and what it was asked.
 struct Finished {
@@ -44,20 +40,64 @@ Finished ReadFinished(const std::filesystem::path& folder) {
           .spec = campaign::ParseSpecText(journal.Campaign().spec_json)};
 }
 
+// One class of equal grains, else five of equal volume at the middle of each.
+std::vector<CardSize> SizesOf(const rigs::Case& rig_case) {
+  constexpr int kClasses = 5;
+  const engine::SizeCurve curve(rig_case.powder.sizes);
+  const double f = rig_case.coarse_graining.scale_factor;
+  if (!(curve.largest() > 1.0001 * curve.smallest())) {
+    return {{.diameter = f * curve.VolumeQuantile(0.5), .volume_share = 1}};
+  }
+  std::vector<CardSize> sizes;
+  for (int i = 0; i < kClasses; ++i) {
+    sizes.push_back({.diameter = f * curve.VolumeQuantile((i + 0.5) / kClasses),
+                     .volume_share = 1.0 / kClasses});
+  }
+  return sizes;
+}
+
+// What two grains state themselves.
+std::vector<engine::MaterialPair> GrainPairs(const rigs::Case& rig_case) {
+  const engine::PairProperties stated =
+      engine::StatedOf(rigs::PairsOf(rig_case), rigs::kPowder, rigs::kPowder);
+  if (!stated.Any()) return {};
+  return {{.first = 0, .second = 0, .stated = stated}};
+}
+
+// What the grains are, without a test.
+Card PowderCard(const rigs::Case& rig_case) {
+  const rigs::PowderSize size = rigs::EstimatePowder(rig_case);
+  return {.title = "one case",
+          .materials = {{.name = "powder", .material = rigs::UsedMaterial(rig_case)}},
+          .pairs = GrainPairs(rig_case),
+          .models = rig_case.models,
+          .scale_factor = rig_case.coarse_graining.scale_factor,
+          .surface_energy_given = rig_case.powder.material.surface_energy,
+          .mean_diameter = size.mean_diameter,
+          .time_step = size.time_step,
+          .gravity = rig_case.gravity,
+          .sizes = SizesOf(rig_case)};
+}
+
 // A set (all of the space's parameters, in its order) with the campaign's conditions and alarms.
 Card CardWith(const Finished& finished, const std::vector<double>& values,
               const std::filesystem::path& folder) {
   const auto& [result, spec] = finished;
-  const rigs::Case rig_case = campaign::CaseOf(
-      spec, {.values = values, .scale_factor = result.conditions.scale_factor}, std::nullopt);
-  Card card = CardOf(rig_case);
-  card.title = result.name;
-  card.tests.clear();
+  Card card;
   for (const campaign::ExperimentSpec& experiment : campaign::ExperimentsOf(spec)) {
-    card.tests.push_back(
-        {.name = experiment.name, .rig = experiment.rig.value_or(rigs::RigOptions{})});
+    const rigs::Case rig_case =
+        campaign::CaseOf(spec,
+                         {.values = values,
+                          .scale_factor = result.conditions.scale_factor,
+                          .experiment = static_cast<int>(card.tests.size())},
+                         std::nullopt);
+    if (card.tests.empty()) card = PowderCard(rig_case);
+    AddTest(rig_case, experiment.name, card);
+    if (experiment.rig) card.tests.back().rig = *experiment.rig;  // a drum with its fill
     card.tests.back().rig.lifted_tube = *experiment.device;
   }
+  NameWalls(card);
+  card.title = result.name;
   for (const campaign::Alarm& warning : result.warnings) {
     card.notes.push_back(campaign::WithFolder(campaign::AlarmText(warning), folder));
   }
@@ -94,50 +134,11 @@ Card ReadCampaignCard(const std::filesystem::path& folder) {
   return card;
 }
 
-// One class of equal grains, else five of equal volume at the middle of each.
-std::vector<CardSize> SizesOf(const rigs::Case& rig_case) {
-  constexpr int kClasses = 5;
-  const engine::SizeCurve curve(rig_case.powder.sizes);
-  const double f = rig_case.coarse_graining.scale_factor;
-  if (!(curve.largest() > 1.0001 * curve.smallest())) {
-    return {{.diameter = f * curve.VolumeQuantile(0.5), .volume_share = 1}};
-  }
-  std::vector<CardSize> sizes;
-  for (int i = 0; i < kClasses; ++i) {
-    sizes.push_back({.diameter = f * curve.VolumeQuantile((i + 0.5) / kClasses),
-                     .volume_share = 1.0 / kClasses});
-  }
-  return sizes;
-}
-
 }  // namespace
 
 Card CardOf(const rigs::Case& rig_case) {
-  const rigs::PowderSize size = rigs::EstimatePowder(rig_case);
-  const engine::Material powder = rigs::UsedMaterial(rig_case);
-  Card card{.title = "one case",
-            .materials = {{.name = "powder", .material = powder}},
-            .pairs = {},
-            .models = rig_case.models,
-            .scale_factor = rig_case.coarse_graining.scale_factor,
-            .surface_energy_given = rig_case.powder.material.surface_energy,
-            .mean_diameter = size.mean_diameter,
-            .time_step = size.time_step,
-            .gravity = rig_case.gravity,
-            .sizes = SizesOf(rig_case),
-            .tests = {{.name = std::string(base::NameOf(rig_case.rig.kind)), .rig = rig_case.rig}}};
-  const std::vector<engine::Material> materials = rigs::MaterialsOf(rig_case);
-  const std::vector<engine::MaterialPair> pairs = rigs::PairsOf(rig_case);
-  for (const int body : {rigs::kPowder, rigs::kWalls, rigs::kFloor}) {
-    const engine::PairProperties stated = engine::StatedOf(pairs, rigs::kPowder, body);
-    const bool is_wall = body != rigs::kPowder;
-    if (is_wall && !stated.Any() && Same(materials[body], powder)) continue;
-    if (is_wall) {
-      card.materials.push_back({.name = rigs::kBodyNames[body], .material = materials[body]});
-    }
-    const int index = static_cast<int>(card.materials.size()) - 1;
-    if (stated.Any()) card.pairs.push_back({.first = 0, .second = index, .stated = stated});
-  }
+  Card card = PowderCard(rig_case);
+  AddTest(rig_case, std::string(base::NameOf(rig_case.rig.kind)), card);
   return card;
 }
 

@@ -17,8 +17,9 @@
 namespace talus::analysis {
 
 struct CardMaterial {
-  std::string name;           // "powder", "tube", "plate"
+  std::string name;           // "powder", "tube", "plate"; where tests differ "plate of drum"
   engine::Material material;  // surface energy as used, after the coarse graining (C1)
+  int body = 0;               // rigs::kPowder, kWalls or kFloor
 };
 
 // A calibrated parameter with its range, SI.
@@ -40,11 +41,15 @@ struct CardSize {
 struct CardTest {
   std::string name;
   rigs::RigOptions rig;  // the lifted tube's own keys among them
+  // What tube (or walls) and plate (or floor) are of, in the card's materials; 0: of the powder's.
+  std::size_t tube = 0;
+  std::size_t plate = 0;
 };
 
 struct Card {
   std::string title;
-  std::vector<CardMaterial> materials;  // the powder first; walls only where they differ from it
+  // The powder first; walls only where they differ from it, and from those of the tests before.
+  std::vector<CardMaterial> materials;
   std::vector<engine::MaterialPair> pairs;  // what pairs of these state themselves
   engine::ContactModels models;
   double scale_factor = 1;           // f [-]

@@ -22,6 +22,9 @@ std::string CardNumber(double value);
 // What the values hold for, one line each, behind `mark` ("# ", "// ").
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark);
 
+// "" of the first test, "2" of the second: what distinguishes the commands of one from the other's.
+std::string TestMark(const Card& card, const CardTest& test);
+
 // Which pairs with the material of this index or a later one state something themselves, for a code
 // that has no place for it; a line each behind `mark`.
 std::string PairsNotIncluded(const Card& card, int first_material, const std::string& mark);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/text/name.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
@@ -59,36 +60,43 @@ std::string PairModel(const Card& card, const engine::Material& a, const engine:
          " damping tsuji";
 }
 
-// Its place among the card's materials; that of the powder where it has none of its own.
-std::size_t IndexOf(const Card& card, const std::string& name) {
-  for (std::size_t i = 0; i < card.materials.size(); ++i) {
-    if (card.materials[i].name == name) return i;
-  }
-  return 0;
+// "fix plate2 all wall/gran/region granular … region plate2": of a body of this material.
+std::string WallLaw(const Card& card, const std::string& id, std::size_t wall) {
+  return "fix " + id + " all wall/gran/region granular " +
+         PairModel(card, ActingOn(card, 0, wall), ActingOn(card, wall, 0)) + " region " + id;
 }
 
-// Tube and plate of the lifted tube, ready to be uncommented; of other rigs the laws of their
-// walls.
+// Tube and plate of the lifted tube, ready to be uncommented.
+std::string TubeWalls(const Card& card, const CardTest& test) {
+  const std::string mark = TestMark(card, test);
+  const rigs::LiftedTubeOptions& device = test.rig.lifted_tube;
+  const std::string radius = CardNumber(device.tube_inner_diameter / 2);
+  const std::string height = CardNumber(20 * device.tube_inner_diameter);
+  const std::string moves = " move v_rest" + mark + " v_rest" + mark + " v_lift" + mark;
+  return "# Walls of " + (card.tests.size() == 1 ? "that test" : base::OneLine(test.name)) +
+         " (plate top at z = 0; the tube is lifted from time 0 on):\n# variable rest" + mark +
+         " equal 0\n# variable lift" + mark + " equal time*" + CardNumber(device.lift_velocity) +
+         "\n# region tube" + mark + " cylinder z 0 0 " + radius + " 0 " + height +
+         " side in open 1 open 2" + moves + "\n# region plate" + mark + " cylinder z 0 0 " +
+         CardNumber(device.plate_diameter / 2) + " -" + CardNumber(device.plate_height) +
+         " 0 side out\n# " + WallLaw(card, "tube" + mark, test.tube) + "\n# " +
+         WallLaw(card, "plate" + mark, test.plate) + "\n";
+}
+
+// Of rigs other than the lifted tube the laws of their walls.
 std::string LammpsWalls(const Card& card) {
-  const auto law = [&](const std::string& name) {
-    const std::size_t wall = IndexOf(card, name);
-    return "fix " + name + " all wall/gran/region granular " +
-           PairModel(card, ActingOn(card, 0, wall), ActingOn(card, wall, 0)) + " region " + name;
-  };
+  std::string text;
   for (const CardTest& test : card.tests) {
-    if (test.rig.kind != rigs::RigKind::kLiftedTube) continue;
-    const rigs::LiftedTubeOptions& device = test.rig.lifted_tube;
-    const std::string tube = CardNumber(device.tube_inner_diameter / 2);
-    const std::string height = CardNumber(20 * device.tube_inner_diameter);
-    return "# Walls of that test (plate top at z = 0; the tube is lifted from time 0 on):\n"
-           "# variable rest equal 0\n# variable lift equal time*" +
-           CardNumber(device.lift_velocity) + "\n# region tube cylinder z 0 0 " + tube + " 0 " +
-           height +
-           " side in open 1 open 2 move v_rest v_rest v_lift\n# region plate cylinder z 0 0 " +
-           CardNumber(device.plate_diameter / 2) + " -" + CardNumber(device.plate_height) +
-           " 0 side out\n# " + law("tube") + "\n# " + law("plate") + "\n";
+    if (test.rig.kind == rigs::RigKind::kLiftedTube) {
+      text += TubeWalls(card, test);
+      continue;
+    }
+    const std::string mark = TestMark(card, test);
+    text += "# walls of " + (card.tests.size() == 1 ? "the vessel" : base::OneLine(test.name)) +
+            ": " + WallLaw(card, "tube" + mark, test.tube) +
+            "\n# floor: " + WallLaw(card, "plate" + mark, test.plate) + "\n";
   }
-  return "# walls of the vessel: " + law("tube") + "\n# floor: " + law("plate") + "\n";
+  return text;
 }
 
 // `fix pour` counts grains: a class of volume share s has s/d³ of them, in proportion.

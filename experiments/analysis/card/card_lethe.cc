@@ -72,19 +72,24 @@ std::string LetheSizes(const Card& card) {
 
 std::string LetheCard(const Card& card) {
   const engine::Material& powder = card.materials.front().material;
-  const bool one_wall = card.materials.size() <= 2;
-  const engine::Material& wall = card.materials.back().material;
+  // The plate, or the tube where only that differs from the grains.
+  const CardTest& test = card.tests.front();
+  const std::size_t wall = test.plate > 0 ? test.plate : test.tube;
   const auto [particles, walls] = ContactNames(card.models.adhesion);
   std::ostringstream text;
   text << CardHead(card, "Lethe", "# ") << PairsNotIncluded(card, 0, "# ");
   if (card.models.rolling == engine::Rolling::kEpsd2) {
     text << "# NOT INCLUDED: the epsd2 rolling resistance, which Lethe has not.\n";
   }
-  if (!one_wall) text << "# Lethe has one wall material: the plate's; the tube had another.\n";
+  for (std::size_t i = 1; i < card.materials.size(); ++i) {
+    if (i == wall) continue;
+    text << "# NOT INCLUDED: " << card.materials[i].name
+         << ". Lethe has one wall material: " << card.materials[wall].name << ".\n";
+  }
   text << "subsection lagrangian physical properties\n  subsection particle type 0\n"
        << LetheSizes(card) << "    set density particles = " << CardNumber(powder.density) << "\n"
        << Lines(powder, "particles", "    ") << "  end\n"
-       << Lines(wall, "wall", "  ") << "end\n"
+       << Lines(card.materials[wall].material, "wall", "  ") << "end\n"
        << "subsection model parameters\n"
        << "  set particle particle contact force method = " << particles << "\n"
        << "  set particle wall contact force method = " << walls << "\n"

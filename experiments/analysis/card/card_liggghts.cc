@@ -3,6 +3,7 @@
 // state them or mixed here by (P5).
 #include <sstream>
 
+#include "base/text/name.h"
 #include "experiments/analysis/card/card_formats.h"
 
 namespace talus::analysis {
@@ -61,26 +62,30 @@ std::string LiggghtsRemarks(const Card& card) {
   return text;
 }
 
-int TypeOf(const Card& card, const std::string& name) {
-  for (std::size_t i = 0; i < card.materials.size(); ++i) {
-    if (card.materials[i].name == name) return static_cast<int>(i) + 1;
-  }
-  return 1;
-}
+std::string TypeText(std::size_t material) { return std::to_string(material + 1); }
 
 // A primitive wall has no end and does not move: plate and tube before the lift.
+std::string TubeWalls(const Card& card, const CardTest& test, const std::string& model) {
+  const std::string mark = TestMark(card, test);
+  const std::string wall = " all wall/gran " + model + " primitive type ";
+  return "# Walls of " + (card.tests.size() == 1 ? "that test" : base::OneLine(test.name)) +
+         " (a plate with a rim and a tube that is lifted need fix mesh/surface):\n# fix plate" +
+         mark + wall + TypeText(test.plate) + " zplane 0.0\n# fix tube" + mark + wall +
+         TypeText(test.tube) + " zcylinder " +
+         CardNumber(test.rig.lifted_tube.tube_inner_diameter / 2) + " 0.0 0.0\n";
+}
+
 std::string LiggghtsWalls(const Card& card, const std::string& model) {
+  std::string text;
   for (const CardTest& test : card.tests) {
-    if (test.rig.kind != rigs::RigKind::kLiftedTube) continue;
-    const rigs::LiftedTubeOptions& device = test.rig.lifted_tube;
-    const std::string wall = " all wall/gran " + model + " primitive type ";
-    return "# Walls of that test (a plate with a rim and a tube that is lifted need fix "
-           "mesh/surface):\n# fix plate" +
-           wall + std::to_string(TypeOf(card, "plate")) + " zplane 0.0\n# fix tube" + wall +
-           std::to_string(TypeOf(card, "tube")) + " zcylinder " +
-           CardNumber(device.tube_inner_diameter / 2) + " 0.0 0.0\n";
+    if (test.rig.kind == rigs::RigKind::kLiftedTube) {
+      text += TubeWalls(card, test, model);
+    } else if (test.tube > 0 || test.plate > 0) {
+      text += "# Walls of " + base::OneLine(test.name) + ": type " + TypeText(test.tube) +
+              ", its floor: type " + TypeText(test.plate) + "\n";
+    }
   }
-  return "";
+  return text;
 }
 
 // particledistribution/discrete weighs its templates by mass.

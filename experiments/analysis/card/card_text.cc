@@ -59,6 +59,11 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
   return text.str();
 }
 
+std::string TestMark(const Card& card, const CardTest& test) {
+  const auto index = &test - card.tests.data();
+  return index == 0 ? "" : std::to_string(index + 1);
+}
+
 namespace {
 
 // "powder and plate: sliding_friction = 0.25".
@@ -143,6 +148,8 @@ std::string JsonCard(const Card& card) {
     if (test.rig.kind == rigs::RigKind::kLiftedTube) {
       entry["device"] = base::ToJson(test.rig.lifted_tube);
     }
+    entry["tube_material"] = card.materials[test.tube].name;
+    entry["plate_material"] = card.materials[test.plate].name;
     json["tests"].push_back(std::move(entry));
   }
   json["warnings"] = card.notes;

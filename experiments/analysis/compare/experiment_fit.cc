@@ -86,7 +86,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
                  std::size_t index) {
   const campaign::ResultNumber& measured = experiment.numbers[index];
   const ShownUnit unit = ShownUnitOf(rigs::UnitOfObservable(measured.name));
-  const std::string ending = unit.text.empty() ? "" : " " + unit.text;
+  const std::string ending = (unit.text.empty() || unit.text == "°" ? "" : " ") + unit.text;
   const double error = unit.per_unit * measured.standard_error;
   const auto shown = [&](double value) { return ToError(unit.per_unit * value, error); };
   std::string what = MetricTitle(measured.name);
@@ -111,8 +111,12 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
                     (row.simulated.empty() ? "" : "; " + row.simulated);
   }
   if (std::isfinite(fit.off)) {
+    const bool has_error = is_confirmed && std::isfinite(confirmed->scalars[index].standard_error);
     row.judgement = ShortText(fit.off, 2) + " standard errors of the measurement" +
-                    (is_confirmed ? "" : " and the prediction") + " away";
+                    (has_error      ? " and the simulations"
+                     : is_confirmed ? ""
+                                    : " and the prediction") +
+                    " away";
   }
   return row;
 }

@@ -107,7 +107,7 @@ std::string DesignText(const DesignTable& table, const campaign::JointView& view
 
 std::string DesignJson(const DesignTable& table) {
   auto json = nlohmann::ordered_json::parse(NextJson(table.tests));
-  json.erase("after_trial");
+  for (const char* of_campaign : {"after_trial", "simulate_first"}) json.erase(of_campaign);
   json["scale_factor"] = table.scale_factor;
   json["choices"] = nlohmann::ordered_json::array();
   for (const std::vector<DesignChoice>& choices : table.choices) {

@@ -75,8 +75,9 @@ DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestC
                         const campaign::CampaignParts& parts) {
   const Ground ground{
       .view = view, .draws = PriorDraws(view), .model_error = view.spec.posterior.model_error};
-  DesignTable table{.tests = {.parameters = view.record.parameters},
-                    .scale_factor = view.spec.coarse_graining.Levels().front()};
+  DesignTable table{
+      .tests = {.parameters = view.record.parameters, .nuisances = view.space.Nuisances()},
+      .scale_factor = view.spec.coarse_graining.Levels().front()};
   for (const int i : view.space.Free()) {
     table.tests.scales.push_back(view.space.parameters[static_cast<std::size_t>(i)].scale);
   }
@@ -86,6 +87,7 @@ DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestC
     table.tests.candidates.push_back(TestOf(ground, tests[t], parts));
     if (table.tests.candidates.back().learning) judged.push_back(t);
   }
+  SetRemaining(table.tests);
   for (std::size_t size = 1; size <= std::min(kMostTests, judged.size()); ++size) {
     std::vector<DesignChoice>& choices = table.choices.emplace_back();
     std::vector<std::size_t> begun;

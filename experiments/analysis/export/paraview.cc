@@ -87,7 +87,13 @@ std::string StateText(const fs::path& folder, const std::vector<engine::Wall>& w
       "ColorBy(shown, (\"POINTS\", \"Elevation\"))\n"
       "colors = GetColorTransferFunction(\"Elevation\")\n"
       "colors.ApplyPreset(\"Viridis (matplotlib)\", True)\n"
-      "GetScalarBar(colors, view).Title = \"height [mm]\"\n"
+      "bar = GetScalarBar(colors, view)\n"
+      "bar.Title = \"height in mm\"\n"
+      "bar.ComponentTitle = \"\"\n"
+      "bar.TitleFontSize = bar.LabelFontSize = 10\n"
+      "bar.ScalarBarLength = 0.25\n"
+      "bar.AutomaticLabelFormat = 0\n"
+      "bar.LabelFormat = bar.RangeLabelFormat = \"%.1f\"\n"
       "shown.SetScalarBarVisibility(view, True)\n\n"
       "for name, color, opacity in (\n";
   for (const engine::Wall& wall : walls) {

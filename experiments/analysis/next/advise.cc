@@ -7,11 +7,25 @@
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/analysis/predict/predict.h"
+#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/journal/journal.h"
 
 namespace talus::analysis {
+namespace {
+
+// What a finished campaign's alarms ask for, as its report puts it first.
+int SimulateFirst(const std::filesystem::path& campaign) {
+  const std::string text =
+      journal::Journal::OpenReadOnly(journal::JournalPath(campaign)).Progress().result_json;
+  if (text.empty()) return 0;
+  const campaign::Answer answer = campaign::ParseAnswer(text);
+  return campaign::AsksForSimulations(answer) ? campaign::MoreSimulations(answer) : 0;
+}
+
+}  // namespace
 
 NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& request) {
   const campaign::JointView view = campaign::ReadJointView(campaign);
@@ -22,13 +36,14 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
                         campaign::MakeParts(view.spec, PredictFolder(view.folder.root)));
   }
   // A queue's own files stand beside the designs, not among those of the campaign's trials.
-  const NextTable table = RankNext(
+  NextTable table = RankNext(
       view, {.tests = request.candidates.empty() ? UsualTests(view) : LoadTests(request.candidates),
              .simulate = request.simulate,
              .core_time = request.core_time.value_or(campaign::CoreTime(view.spec).Of(view.trials)),
              .say = request.say,
              .parts = campaign::MakeParts(view.spec, folder),
              .goal = std::move(goal)});
+  table.simulate_first = SimulateFirst(view.folder.root);
   std::filesystem::create_directories(folder);
   base::WriteFileAtomically(folder / "next.json", NextJson(table));
   return table;

@@ -21,7 +21,7 @@ struct Ground {
   optimizer::ExpectedLearning Learn(const Eigen::MatrixXd& mean,
                                     const Eigen::VectorXd& variance) const {
     return optimizer::Learn(draws, {.mean = mean, .variance = temper * variance}, view.spec.seed,
-                            goal);
+                            {.goal = goal, .nuisances = view.space.Nuisances()});
   }
 };
 

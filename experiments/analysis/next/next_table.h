@@ -1,8 +1,9 @@
-// What could be done next, the most informative first.
+// What could be done next, and the one order that terminal, next.json and report list it in.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ enum class NextKind {
   kMoreSimulations,  // double the simulations at the smallest scale factor
   kFinerGrains,      // simulations at a smaller scale factor
   kNumber,           // weigh the powder on the plate; trials know it already
+  kDirect,           // measure a parameter by itself: powder on a wall, on a tilted plate
   kTest              // another test
 };
 
@@ -34,6 +36,9 @@ struct NextCandidate {
   std::string what{};  // in words
   // Not known where the test's design has not been simulated.
   std::optional<optimizer::ExpectedLearning> learning{};
+  // Share that it is expected to leave of the goal's width, else of the volume of the 90 % ranges
+  // of what is asked for [-]; NaN where that is not known.
+  double remaining = std::numeric_limits<double>::quiet_NaN();
   optimizer::PredictedMeasurement predicted{};  // of a test: what `learning` is of
   int num_simulations = 0;  // that it will take, about, with those that are made
   int num_made = 0;         // of these, for its design
@@ -58,11 +63,21 @@ struct NextGoal {
 
 struct NextTable {
   std::vector<journal::ParameterRecord> parameters;
-  std::vector<optimizer::Scale> scales{};   // of the parameters
-  std::int64_t last_trial = 0;              // the latest that had ended, by id; 0: none
-  Eigen::VectorXd width{};                  // of the joint 90 % ranges now, unit cube
-  std::optional<NextGoal> goal{};           // none: the parameters themselves
-  std::vector<NextCandidate> candidates{};  // the most informative first, unknown ones last
+  std::vector<optimizer::Scale> scales{};  // of the parameters
+  std::int64_t last_trial = 0;             // the latest that had ended, by id; 0: none
+  std::vector<Eigen::Index> nuisances{};   // which of them nobody asks for
+  Eigen::VectorXd width{};         // of the 90 % ranges now, as the answer states them, unit cube
+  std::optional<NextGoal> goal{};  // none: the parameters themselves
+  // More simulations that the campaign's alarms ask for before anything else; 0: none.
+  int simulate_first = 0;
+  std::vector<NextCandidate> candidates{};  // in the order of Rank
 };
+
+// Sets what each candidate leaves.
+void SetRemaining(NextTable& table);
+
+// The same, and puts first what leaves least; of equals what has more bits. What is not known
+// stands last.
+void Rank(NextTable& table);
 
 }  // namespace talus::analysis

@@ -35,9 +35,9 @@ std::string SetText(const std::vector<double>& values) {
 
 std::string ApartText(const NextCandidate& c) {
   std::string text =
-      "            tells apart best " + SetText(c.apart[0]) + " and " + SetText(c.apart[1]);
+      "         tells apart best " + SetText(c.apart[0]) + " and " + SetText(c.apart[1]);
   for (const ToldApart& number : c.numbers) {
-    text += "; " + rigs::ShownName(number.metric) + " " +
+    text += "; " + rigs::SpokenName(number.metric) + " " +
             rigs::ShownNumber(number.metric, number.first) + " and " +
             rigs::ShownNumber(number.metric, number.second);
   }
@@ -65,6 +65,8 @@ const char* KindName(NextKind kind) {
       return "finer_grains";
     case NextKind::kNumber:
       return "number";
+    case NextKind::kDirect:
+      return "direct";
     case NextKind::kTest:
       return "test";
   }
@@ -93,6 +95,28 @@ std::string GoalText(const NextGoal& goal) {
   return text;
 }
 
+// It cannot be simulated; `what` says why.
+bool IsImpossible(const NextCandidate& c) {
+  return c.kind == NextKind::kTest && c.num_simulations == 0;
+}
+
+// "   18 %", "   <1 %": as wide for every share.
+std::string ShareText(double share) {
+  const std::string percent = share < 0.01 ? "<1" : std::to_string(std::lround(100 * share));
+  return std::string(5 - percent.size(), ' ') + percent + " %";
+}
+
+std::string CandidateText(const NextTable& table, const NextCandidate& c) {
+  if (IsImpossible(c)) return "     -   " + c.name + " " + c.what + "\n";
+  const std::string step = "  " + c.name + ": " + c.what + "; " + CostText(c) + "\n";
+  if (!c.learning) return "     ? " + step;
+  return ShareText(c.remaining) + step + "         expected to leave " +
+         (table.goal ? GoalWidthText(*table.goal, c.learning->goal_half_width) + " of the goal, "
+                     : "") +
+         WidthsText(table, c.learning->width) + " (" + ShortNumber(c.learning->bits, 2) +
+         " bits)\n" + (c.apart.empty() ? "" : ApartText(c));
+}
+
 }  // namespace
 
 std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
@@ -107,26 +131,16 @@ std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
 std::string NextText(const NextTable& table) {
   std::string text = table.goal ? GoalText(*table.goal) : "";
   text += "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";
+  if (table.simulate_first > 0) {
+    text += "first: more simulations, as the campaign's warnings ask (`talus resume DIR " +
+            ("--add-simulations " + std::to_string(table.simulate_first)) + "`)\n";
+  }
+  text += std::string("what each step is expected to leave of ") +
+          (table.goal ? "the goal's width" : "their volume") + "\n";
   bool unknown = false;
   for (const NextCandidate& c : table.candidates) {
-    const bool impossible = c.kind == NextKind::kTest && c.num_simulations == 0;
-    unknown |= !c.learning && !impossible;
-    if (impossible) {
-      text += "   -        " + c.name + " " + c.what + "\n";
-      continue;
-    }
-    if (!c.learning) {
-      text += "   ?  bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n";
-      continue;
-    }
-    char bits[16];
-    std::snprintf(bits, sizeof bits, "%5.2f", c.learning->bits);
-    text += std::string(bits) + " bits  " + c.name + ": " + c.what + "; " + CostText(c) + "\n" +
-            "            expected to leave " +
-            (table.goal ? GoalWidthText(*table.goal, c.learning->goal_half_width) + " of the goal, "
-                        : "") +
-            WidthsText(table, c.learning->width) + "\n";
-    if (!c.apart.empty()) text += ApartText(c);
+    text += CandidateText(table, c);
+    unknown |= !c.learning && !IsImpossible(c);
   }
   if (unknown) {
     text +=
@@ -158,7 +172,9 @@ std::string NextJson(const NextTable& table) {
     }
     return json;
   };
-  nlohmann::ordered_json json{{"after_trial", table.last_trial}, {"width_90", widths(table.width)}};
+  nlohmann::ordered_json json{{"after_trial", table.last_trial},
+                              {"simulate_first", table.simulate_first},
+                              {"width_90", widths(table.width)}};
   if (table.goal) {
     json["goal"] = {
         {"process", table.goal->process},           {"observable", table.goal->number},
@@ -175,6 +191,7 @@ std::string NextJson(const NextTable& table) {
                                      {"core_time_s", c.core_time},
                                      {"num_made", c.num_made},
                                      {"core_time_made_s", c.core_time_made}};
+    candidate["remaining"] = c.learning ? nlohmann::ordered_json(c.remaining) : nullptr;
     candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
     candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;
     if (table.goal) {

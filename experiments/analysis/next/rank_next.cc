@@ -11,6 +11,7 @@
 #include "experiments/analysis/next/known.h"
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/trials/simulate/run_log.h"
 
@@ -128,6 +129,24 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
   }
 }
 
+// Each parameter that an instrument tells by itself.
+void AddDirect(const Ground& ground, std::vector<NextCandidate>& all) {
+  constexpr double kWidth = 0.05;           // of the searched range, that holds 90 %
+  constexpr double kNormal = 2 * 1.644854;  // … in standard deviations
+  const std::vector<journal::ParameterRecord>& parameters = ground.view.record.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (!campaign::CanBeMeasuredDirectly(parameters[k].name)) continue;
+    const double sd = kWidth / kNormal;  // a measurement has no temper
+    all.push_back(
+        {.kind = NextKind::kDirect,
+         .name = parameters[k].name + " by itself",
+         .what = "measure it on a tilted plate to ± " + base::ShortNumber(50 * kWidth) +
+                 " % of its searched range and set it in the spec",
+         .learning = ground.Learn(ground.draws.col(static_cast<Eigen::Index>(k)),
+                                  Eigen::VectorXd::Constant(1, sd * sd / ground.temper))});
+  }
+}
+
 // Grain steps of a test's simulation over those of the first experiment's.
 double RelativeCost(const JointView& view, const TestCandidate& test, double factor) {
   return campaign::GrainStepsOf(SpecOf(view, test), 0, factor) /
@@ -226,15 +245,6 @@ NextGoal GoalOf(const Goal& goal, const Eigen::VectorXd& at_draws) {
           .core_time = goal.core_time};
 }
 
-// What narrows the goal most first, or else what has the most bits; what is not known is last.
-void Sort(NextTable& table) {
-  const auto worth = [&](const NextCandidate& c) {
-    if (!c.learning) return -std::numeric_limits<double>::infinity();
-    return table.goal ? -c.learning->goal_half_width : c.learning->bits;
-  };
-  std::ranges::stable_sort(table.candidates, std::greater<>{}, worth);
-}
-
 }  // namespace
 
 NextTable RankNext(const JointView& view, const NextOptions& options) {
@@ -243,7 +253,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
                 .temper = strategy->Model().temper(),
                 .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
                 .model_error = view.spec.posterior.model_error};
-  NextTable table{.parameters = view.record.parameters};
+  NextTable table{.parameters = view.record.parameters, .nuisances = view.space.Nuisances()};
   if (options.goal) {
     ground.goal = options.goal->surrogate.At(ground.draws).mean;
     table.goal = GoalOf(*options.goal, ground.goal);
@@ -258,9 +268,10 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   Cost cost(view);
   AddMoreOfTheSame(ground, strategy->Model(), cost, table.candidates);
   AddNumbers(ground, table.candidates);
+  AddDirect(ground, table.candidates);
   const std::vector<NextCandidate> tests = JudgeTests(ground, options, cost);
   table.candidates.insert(table.candidates.end(), tests.begin(), tests.end());
-  Sort(table);
+  Rank(table);
   return table;
 }
 

@@ -149,7 +149,11 @@ std::vector<ExpectedNumber> NumbersOf(const campaign::JointView& view, const Tes
 
 std::string ExperimentText(const campaign::JointView& view, const TestCandidate& test) {
   const campaign::ExperimentSpec only = campaign::ExperimentsOf(SpecOf(view, test)).front();
-  nlohmann::ordered_json json{{"name", test.name}};
+  std::string name = test.name;  // files are named after an experiment, so that it has no slash
+  for (auto at = name.find('/'); at != std::string::npos; at = name.find('/')) {
+    name.replace(at, 1, " per ");
+  }
+  nlohmann::ordered_json json{{"name", name}};
   if (only.rig) json["rig"] = base::ToJson(*only.rig);
   json["device"] = base::ToJson(*only.device);
   if (!only.pairs->empty()) json["pairs"] = base::ToJson(*only.pairs);

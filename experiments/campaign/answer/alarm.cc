@@ -4,6 +4,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"
 
 namespace talus::campaign {
@@ -38,7 +39,7 @@ std::string WorseThanPredictedText(const Alarm& a) {
 std::string MissesText(const Alarm& a) {
   std::string text = "the recommended set misses ";
   if (a.number) {
-    text += *a.number + " of " + Quoted(a.experiment) + " by " +
+    text += rigs::SpokenName(*a.number) + " of " + Quoted(a.experiment) + " by " +
             base::ShortNumber(a.value.value_or(0), 2) + " standard errors";
   } else {
     text += "the shape of " + Quoted(a.experiment) + " by ";

@@ -42,4 +42,15 @@ bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds) {
   });
 }
 
+bool AsksForSimulations(const Answer& answer) {
+  return HasAlarm(answer, {AlarmKind::kSearchMisses, AlarmKind::kWorseThanPredicted,
+                           AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
+                           AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
+}
+
+int MoreSimulations(const Answer& answer) {
+  const int num_more = answer.unsettled ? answer.unsettled->num_more : 0;
+  return num_more > 0 ? num_more : kMoreSimulations;
+}
+
 }  // namespace talus::campaign

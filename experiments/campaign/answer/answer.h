@@ -165,4 +165,10 @@ double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed);
 
 bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds);
 
+// Whether an alarm wants more simulations before anything else is done.
+bool AsksForSimulations(const Answer& answer);
+
+// How many more there should be, where there should be some.
+int MoreSimulations(const Answer& answer);
+
 }  // namespace talus::campaign

@@ -65,7 +65,7 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultConfirme
   std::string text;
   for (std::size_t i = 0; i < experiment.numbers.size(); ++i) {
     const ResultNumber& n = experiment.numbers[i];
-    text += (text.empty() ? "" : "; ") + n.name;
+    text += (text.empty() ? "" : "; ") + rigs::SpokenName(n.name);
     if (confirmed != nullptr) {
       text += " " + rigs::ShownNumber(n.name, confirmed->scalars.at(i).mean) + ",";
     }
@@ -92,7 +92,7 @@ std::string ExperimentLines(const Answer& answer) {
     const ResultConfirmed* confirmed = ConfirmedOf(answer, e.name);
     const std::string objective = ObjectiveText(answer, e, confirmed);
     const std::string numbers = NumbersText(e, confirmed);
-    text += "  " + Padded(e.name, 18) + objective +
+    text += "  " + Padded(e.name + "  ", 18) + objective +
             (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
     if (const ResultStanding* standing = StandingOf(answer, e.name)) {
       text += "; implausibility " + base::ShortNumber(standing->implausibility, 2) +

@@ -34,15 +34,13 @@ std::vector<const journal::TrialRecord*> Confirming(const Planner& planner,
   return trials;
 }
 
-// The mean of a metric over the trials that have it; nothing where none has.
-std::optional<double> MeanMetric(const std::vector<const journal::TrialRecord*>& trials,
-                                 std::string_view name) {
+// A metric over the trials that have it.
+base::Sample MetricSample(const std::vector<const journal::TrialRecord*>& trials, std::string_view name) {
   std::vector<double> values;
   for (const journal::TrialRecord* trial : trials) {
     if (const auto value = trial->Metric(name)) values.push_back(*value);
   }
-  if (values.empty()) return std::nullopt;
-  return base::SampleOf(values).mean;
+  return base::SampleOf(values);
 }
 
 ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& trials,
@@ -62,8 +60,9 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
       trials.begin(), trials.end(),
       [&](const journal::TrialRecord* trial) { return reference.IsMeasured(*trial); }));
   confirmed.mean = sample.mean;
-  confirmed.standard_error = sample.Sd() / std::sqrt(sample.count);
-  confirmed.sad_mm2 = MeanMetric(trials, journal::InfoOf(journal::Objective::kSad).metric);
+  confirmed.standard_error = sample.StandardError();
+  const base::Sample sad = MetricSample(trials, journal::InfoOf(journal::Objective::kSad).metric);
+  if (sad.count > 0) confirmed.sad_mm2 = sad.mean;
   if (!profiles.empty()) {
     journal::TrialRecord mean;
     mean.metrics = reference.Measure(imaging::MeanImage(profiles));
@@ -73,8 +72,10 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
-    confirmed.scalars.push_back(
-        {.name = scalar.name, .mean = MeanMetric(trials, scalar.name).value_or(kNotKnown)});
+    const base::Sample number = MetricSample(trials, scalar.name);
+    confirmed.scalars.push_back({.name = scalar.name,
+                                 .mean = number.mean,
+                                 .standard_error = number.StandardError()});
   }
   return confirmed;
 }

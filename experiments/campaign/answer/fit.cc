@@ -29,8 +29,14 @@ Meets ImageMeets(const ResultExperiment& experiment, const ResultConfirmed& conf
   return misses ? Meets::kNo : Meets::kUnknown;
 }
 
-bool MissesNumber(const ResultNumber& measured, const ResultScalar& simulated) {
-  return std::abs(simulated.mean - measured.value) > kCloseNumber * measured.standard_error;
+// How far apart they are in standard errors; a few simulations have one, too.
+double OffBy(const ResultNumber& measured, double simulated, double simulated_error) {
+  const double error = std::isfinite(simulated_error) ? simulated_error : 0;
+  return std::abs(simulated - measured.value) / std::hypot(measured.standard_error, error);
+}
+
+double OffBy(const ResultNumber& measured, const ResultScalar& simulated) {
+  return OffBy(measured, simulated.mean, simulated.standard_error);
 }
 
 bool IsImplausible(const Answer& answer, const std::string& experiment) {
@@ -64,14 +70,15 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   double simulated = kNotKnown;
-  double uncertain = 0;  // of a number that is predicted only
+  double error = kNotKnown;
   if (confirmed != nullptr && std::isfinite(confirmed->scalars.at(number).mean)) {
     simulated = confirmed->scalars[number].mean;
+    error = confirmed->scalars[number].standard_error;
   } else if (standing != nullptr && number < standing->numbers.size()) {
     simulated = standing->numbers[number].predicted;
-    uncertain = standing->numbers[number].predicted_sd;
+    error = standing->numbers[number].predicted_sd;
   }
-  fit.off = std::abs(simulated - measured.value) / std::hypot(measured.standard_error, uncertain);
+  fit.off = OffBy(measured, simulated, error);
   if (std::isfinite(fit.off)) fit.meets = fit.off <= kCloseNumber ? Meets::kYes : Meets::kNo;
   if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
   return fit;
@@ -85,7 +92,7 @@ bool Misses(const Answer& answer, const ResultCandidate& candidate) {
     if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
     if (ImageMeets(*experiment, confirmed) == Meets::kNo) return true;
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
-      if (MissesNumber(experiment->numbers[i], confirmed.scalars.at(i))) return true;
+      if (OffBy(experiment->numbers[i], confirmed.scalars.at(i)) > kCloseNumber) return true;
     }
   }
   return false;
@@ -104,9 +111,7 @@ double FarthestMiss(const Answer& answer, const ResultCandidate& candidate) {
       add(SadWithoutScatter(confirmed) / (kMostShare * *experiment->powder_area));
     }
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
-      const ResultNumber& measured = experiment->numbers[i];
-      add(std::abs(confirmed.scalars.at(i).mean - measured.value) /
-          (kCloseNumber * measured.standard_error));
+      add(OffBy(experiment->numbers[i], confirmed.scalars.at(i)) / kCloseNumber);
     }
   }
   return farthest;

@@ -4,7 +4,8 @@
 // An image is met when the mean profile of the confirming trials is no more than 1.5 times as far
 // from the experiment's as its runs are from the mean of the others (the noise floor). Without runs
 // it is missed when the set itself, the scatter of its pictures taken off, is more than 5 % of the
-// powder's area and 1.5 times that scatter away. A number is met within two standard errors.
+// powder's area and 1.5 times that scatter away. A number is met within two standard errors, those
+// of the measurement and of the simulations together.
 #pragma once
 
 #include <string>

@@ -127,9 +127,9 @@ std::vector<std::string> HeldOutFacts(const ResultHeldOut& h, const std::string&
   }
   for (const PredictedNumber& n : h.numbers) {
     const auto shown = [&](double value) { return rigs::ShownNumber(n.name, value); };
-    facts.push_back(n.name + ": predicted " + shown(n.mean) + " ± " + shown(n.sd) + ", measured " +
-                    shown(n.measured) + " ± " + shown(n.measured_sd) + "; " +
-                    (n.IsInside() ? "inside " : "outside ") + shown(n.low) + " to " +
+    facts.push_back(rigs::SpokenName(n.name) + ": predicted " + shown(n.mean) + " ± " +
+                    shown(n.sd) + ", measured " + shown(n.measured) + " ± " + shown(n.measured_sd) +
+                    "; " + (n.IsInside() ? "inside " : "outside ") + shown(n.low) + " to " +
                     shown(n.high));
   }
   facts.push_back("implausibility " + base::ShortNumber(h.implausibility) + ", " +

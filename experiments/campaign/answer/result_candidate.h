@@ -17,8 +17,9 @@ inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 struct ResultScalar {
   std::string name{};
   double mean = kNotKnown;
+  double standard_error = kNotKnown;  // of that mean; not known for one trial
 
-  TALUS_FIELDS(name, mean);
+  TALUS_FIELDS(name, mean, standard_error);
 };
 
 // How the confirming trials of one experiment came out.

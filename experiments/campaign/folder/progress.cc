@@ -1,9 +1,27 @@
 #include "experiments/campaign/folder/progress.h"
 
 #include "base/text/number_text.h"
+#include "experiments/campaign/folder/console.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::campaign {
+
+namespace {
+
+// "1.2 mm², mass fallen 23 mg, the best so far"; of a test without images its numbers alone.
+std::string OutcomeText(const TrialProgress& trial) {
+  std::string text;
+  if (trial.objective) text = base::ShortNumber(*trial.objective) + " " + trial.unit;
+  for (const NumberProgress& number : trial.numbers) {
+    text += (text.empty() ? "" : ", ") + rigs::SpokenName(number.name) + " " +
+            rigs::ShownNumber(number.name, number.value);
+  }
+  if (text.empty()) return "what was measured is not defined of it";
+  return text + (trial.best ? ", the best so far" : "");
+}
+
+}  // namespace
 
 std::string ProgressText(const TrialProgress& trial) {
   std::string text =
@@ -16,11 +34,8 @@ std::string ProgressText(const TrialProgress& trial) {
   if (trial.scale_factor) text += " at scale factor " + base::ShortNumber(*trial.scale_factor);
   if (trial.status == journal::TrialStatus::kFailed) {
     text += " failed: " + trial.reason;
-  } else if (trial.objective) {
-    text += ": " + base::ShortNumber(*trial.objective) + " " + trial.unit;
-    if (trial.best) text += ", the best so far";
   } else {
-    text += ": the objective is not defined";
+    text += ": " + OutcomeText(trial);
   }
   return text + ", " + trials::DurationText(trial.duration);
 }

@@ -12,6 +12,18 @@
 
 namespace talus::campaign {
 
+// A number that a trial gave of what was measured.
+struct NumberProgress {
+  std::string name{};  // with its unit: "angle_deg"
+  double value = 0;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("name", self.name);
+    visit("value", self.value);
+  }
+};
+
 struct TrialProgress {
   std::int64_t trial = 0;
   journal::TrialKind kind = journal::TrialKind::kSearch;
@@ -22,13 +34,14 @@ struct TrialProgress {
   std::string experiment{};               // its name, where the campaign has several
   std::optional<double> objective{};      // none where it is not defined
   std::string unit{};                     // of the objective, for people: "mm²"
+  std::vector<NumberProgress> numbers{};  // those of the experiment that it has
   bool best = false;                      // the lowest objective so far
   std::string reason{};                   // of a failure
   double duration = 0;                    // [s]
 
   static constexpr base::FieldKey kKeys[] = {{"duration", "duration_s"}};
   TALUS_FIELDS(trial, kind, status, parameters, values, scale_factor, experiment, objective, unit,
-               best, reason, duration);
+               numbers, best, reason, duration);
 };
 
 struct CampaignProgress {

@@ -191,6 +191,11 @@ double ParseProperty(const std::string& parameter, const std::string& text) {
   return base::ParseQuantity(text, DimensionOf(PlaceOf(parameter).property));
 }
 
+bool CanBeMeasuredDirectly(const std::string& parameter) {
+  const ParameterPlace place = PlaceOf(parameter);
+  return place.body != rigs::kPowder && place.property == "sliding_friction";
+}
+
 bool IsOfBulk(const std::string& parameter) { return BulkOf(parameter) != nullptr; }
 
 std::map<std::string, std::string> PriorTexts(const ParameterRanges& ranges) {

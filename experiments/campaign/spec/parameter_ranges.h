@@ -150,6 +150,9 @@ void SetParameter(rigs::Case& rig_case, const std::string& parameter, double val
 // wall without a property of its own has the powder's.
 std::optional<double> ParameterOf(const rigs::Case& rig_case, const std::string& parameter);
 
+// A tilted plate tells the friction between powder and a wall; nothing tells that of two grains.
+bool CanBeMeasuredDirectly(const std::string& parameter);
+
 // Whether it is one of the bulk, which decides whether the powder fits into its vessel.
 bool IsOfBulk(const std::string& parameter);
 

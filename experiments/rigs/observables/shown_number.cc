@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 #include "base/text/number_text.h"
@@ -44,6 +45,14 @@ std::string ShownName(const std::string& metric) {
   static constexpr std::array kEndings{Entry{"_kg", "_mg"}, Entry{"_m", "_mm"},
                                        Entry{"_kg_per_s", "_g_per_s"}};
   return info->key + Translated(kEndings, MetricUnitOf(info->dimension).ending);
+}
+
+std::string SpokenName(const std::string& metric) {
+  const ObservableInfo* info = FindObservable(metric);
+  if (info == nullptr) return metric;
+  std::string name = info->title;
+  name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
+  return name;
 }
 
 double Possible(std::string_view metric, double value) {

@@ -18,6 +18,9 @@ ShownUnit ShownUnitOf(std::string_view unit);
 // "mass_fallen_kg" → "mass_fallen_mg", which is read in milligrams.
 std::string ShownName(const std::string& metric);
 
+// "mass fallen" of "mass_fallen_kg": in a sentence, with a number that has its unit.
+std::string SpokenName(const std::string& metric);
+
 // A metric's value as it can be: a model's mass below zero is none.
 double Possible(std::string_view metric, double value);
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "experiments/analysis/card/card.h"
+#include "experiments/analysis/card/card_walls.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -45,6 +46,70 @@ TEST_F(CardDrawsTest, AreFilesInEveryFormatWithTheirSetsAndWeights) {
     ++files;
   }
   EXPECT_EQ(files, 5 * 7 + 2);  // draws.csv, and whose folder it is
+}
+
+// A heap on a plate of its own, and powder tapped in a cylinder of another material that states its
+// friction with the grains: the card has the walls of both, and each code gets them by their test.
+TEST_F(CardDrawsTest, EveryTestOfACampaignHasItsOwnWalls) {
+  const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / "in", R"(, "workers": 1,
+      "budget": {"simulations": 24}, "confirm": {"candidates": 0})");
+  std::string text = base::ReadFile(spec);
+  const std::string map =
+      text.substr(text.find("\"map\""), text.find("\"powder\"") - text.find("\"map\""));
+  text.replace(text.find("\"experiment\""), text.find("\"powder\"") - text.find("\"experiment\""),
+               R"("experiments": [{"name": "heap", "device": {"plate_material":
+                    {"sliding_friction": 0.8}}, )" +
+                   map.substr(0, map.rfind(',')) + R"(,
+      {"name": "taps", "rig": {"kind": "tapped_density", "diameter": "12 mm"},
+       "filling": {"kind": "pour"}, "tapped_density": {"value": "1480 kg/m^3", "sd": "3 kg/m^3"},
+       "device": {"tube_material": {"restitution": 0.4}},
+       "pairs": [{"between": ["powder", "tube"], "sliding_friction": 0.25}]}], )");
+  base::WriteFileAtomically(spec, text);
+  const fs::path folder = scratch_.path() / "run";
+  campaign::BeginCampaign(spec, folder);
+  campaign::RunFake(folder, {});
+  const Card card = ReadCard(folder);
+  ASSERT_EQ(card.materials.size(), 3u);
+  EXPECT_EQ(card.materials[1].name, "plate of heap");
+  EXPECT_EQ(card.materials[1].material.sliding_friction, 0.8);
+  EXPECT_EQ(card.materials[2].name, "tube of taps");
+  EXPECT_EQ(card.materials[2].material.restitution, 0.4);
+  EXPECT_EQ(ActingOn(card, 0, 2).sliding_friction, 0.25);
+  EXPECT_EQ(ActingOn(card, 0, 1).sliding_friction, card.ranges[0].value);
+  ASSERT_EQ(card.tests.size(), 2u);
+  EXPECT_EQ(card.tests[0].tube, 0u);
+  EXPECT_EQ(card.tests[0].plate, 1u);
+  EXPECT_EQ(card.tests[1].tube, 2u);
+  EXPECT_EQ(card.tests[1].plate, 0u);
+  const std::string liggghts = CardText(card, CardFormat::kLiggghts);
+  EXPECT_THAT(liggghts, HasSubstr("1 powder, 2 plate of heap, 3 tube of taps;"));
+  EXPECT_THAT(liggghts, HasSubstr("# Walls of heap (a plate"));
+  EXPECT_THAT(liggghts, HasSubstr("primitive type 2 zplane 0.0"));
+  EXPECT_THAT(liggghts, HasSubstr("# Walls of taps: type 3, its floor: type 1\n"));
+  const std::string lammps = CardText(card, CardFormat::kLammps);
+  EXPECT_THAT(lammps, HasSubstr("# fix plate all wall/gran/region granular hertz/material"));
+  EXPECT_THAT(lammps, HasSubstr("# walls of taps: fix tube2 all wall/gran/region granular"));
+  EXPECT_THAT(
+      CardText(card, CardFormat::kLethe),
+      HasSubstr("# NOT INCLUDED: tube of taps. Lethe has one wall material: plate of heap."));
+  EXPECT_THAT(CardText(card, CardFormat::kYade),
+              HasSubstr("powder and tube of taps: sliding_friction = 0.25"));
+  const auto json = nlohmann::json::parse(CardText(card, CardFormat::kJson));
+  EXPECT_EQ(json["tests"][1]["tube_material"], "tube of taps");
+}
+
+// Tests that share a plate have one, under its plain name.
+TEST(CardTests, SharedWallsAreGivenOnce) {
+  rigs::Case rig_case;
+  rig_case.powder.mass = 1e-3;
+  rig_case.powder.sizes = {.kind = engine::SizeKind::kMono, .diameter = 1e-3};
+  rig_case.materials.floor = rigs::WallMaterial{.sliding_friction = 0.8};
+  Card card = CardOf(rig_case);
+  AddTest(rig_case, "again", card);
+  NameWalls(card);
+  ASSERT_EQ(card.materials.size(), 2u);
+  EXPECT_EQ(card.materials[1].name, "plate");
+  EXPECT_EQ(card.tests[1].plate, 1u);
 }
 
 TEST(CardTests, NameTheRigThatTheSetComesFrom) {

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 
 #include "base/error.h"
+#include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/analysis/next/goal.h"
 #include "experiments/analysis/next/next_text.h"
@@ -13,7 +15,9 @@
 #include "experiments/analysis/next/test_design.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/analysis/predict/predict.h"
+#include "experiments/analysis/report/data/report_data.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -83,6 +87,88 @@ TEST_F(NextTest, RanksWhatTrialsAlreadyTellAndAsksForTheOthers) {
   EXPECT_GT(Find(table, "wide plate, 5 cm/s").core_time, 0);
   EXPECT_THAT(NextText(table), HasSubstr("--simulate"));
   EXPECT_FALSE(fs::exists(folder_ / "next")) << "looking must not write";
+}
+
+NextCandidate Leaving(const std::string& name, const Eigen::Vector2d& width, double bits) {
+  return {.name = name, .learning = optimizer::ExpectedLearning{.bits = bits, .width = width}};
+}
+
+std::vector<std::string> NamesOf(const NextTable& table) {
+  std::vector<std::string> names;
+  for (const NextCandidate& c : table.candidates) names.push_back(c.name);
+  return names;
+}
+
+// The entry that `talus next` leaves for a test is one that `talus add-experiment` takes.
+TEST_F(NextTest, EntriesOfTestsHaveNamesThatAnExperimentMayHave) {
+  const JointView view = Run();
+  for (const TestCandidate& test : UsualTests(view)) {
+    EXPECT_THAT(ExperimentText(view, test), testing::Not(HasSubstr("/"))) << test.name;
+  }
+}
+
+// Bits count what two outputs say twice; the ranges that are left do not.
+TEST(NextRanking, WhatLeavesTheSmallestRangesComesFirstAndWhatIsNotKnownLast) {
+  NextTable table{.parameters = {},
+                  .width = Eigen::Vector2d(0.4, 0.2),
+                  .candidates = {{.name = "unknown"},
+                                 Leaving("half", {0.4, 0.1}, 3),
+                                 Leaving("nothing", {0.44, 0.2}, 0.1),
+                                 Leaving("also half", {0.2, 0.2}, 4),
+                                 Leaving("quarter", {0.2, 0.1}, 2)}};
+  Rank(table);
+  EXPECT_EQ(NamesOf(table),
+            (std::vector<std::string>{"quarter", "also half", "half", "nothing", "unknown"}));
+  EXPECT_DOUBLE_EQ(table.candidates[0].remaining, 0.25);
+  EXPECT_EQ(table.candidates[3].remaining, 1);  // wider by chance is no loss
+  table.nuisances = {1};                        // nobody asks how well the second is known
+  Rank(table);
+  EXPECT_EQ(table.candidates[0].name, "also half");
+  EXPECT_DOUBLE_EQ(table.candidates[0].remaining, 0.5);
+}
+
+// A page of a campaign in whose folder the table stands, and the terminal's text of the table.
+TEST_F(NextTest, PageAndTerminalHaveTheSameStepsInTheSameOrder) {
+  const JointView view = Run();
+  const NextTable table = Rank(view, {{.name = "again"}}, true);
+  base::WriteFileAtomically(folder_ / "next" / "next.json", NextJson(table));
+  Evidence evidence = GatherEvidence(folder_);
+  AddModel(folder_, evidence);
+  const std::vector<NextStep> steps = MakeReportData(std::move(evidence)).next_steps;
+  const std::string text = NextText(table);
+  std::size_t at = 0;
+  int num_shown = 0;
+  for (const NextStep& step : steps) {
+    if (step.what.starts_with("Simulate more: talus")) continue;  // an alarm's, before all
+    const std::size_t found = text.find(
+        "  " + std::string(1, static_cast<char>(std::tolower(step.what[0]))) + step.what.substr(1));
+    ASSERT_NE(found, std::string::npos) << step.what << "\n" << text;
+    EXPECT_GT(found, at) << step.what << "\n" << text;
+    at = found;
+    ++num_shown;
+  }
+  EXPECT_GE(num_shown, 1);
+  EXPECT_THAT(text, HasSubstr("expected to leave of their volume"));
+}
+
+// The drawn heaps say nothing of the plate, so its range stays; an instrument leaves a twentieth.
+TEST_F(NextTest, FrictionOfAWallMayBeMeasuredByItself) {
+  const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / "in",
+                                                R"(, "coarse_graining": {"scale_factors": [2, 1]},
+      "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)");
+  std::string text = base::ReadFile(spec);
+  text.insert(text.find("\"rolling_friction\""),
+              "\"plate_sliding_friction\": {\"min\": 0.1, \"max\": 0.8}, ");
+  base::WriteFileAtomically(spec, text);
+  folder_ = scratch_.path() / "run";
+  campaign::BeginCampaign(spec, folder_);
+  campaign::RunFake(folder_, kSharp);
+  const NextTable table = Rank(campaign::ReadJointView(folder_), {}, false);
+  const NextCandidate& direct = table.candidates.front();
+  EXPECT_EQ(direct.name, "plate_sliding_friction by itself");
+  EXPECT_LT(direct.remaining, 0.2);
+  EXPECT_FALSE(campaign::CanBeMeasuredDirectly("sliding_friction"));  // of two grains
+  EXPECT_FALSE(campaign::CanBeMeasuredDirectly("plate_rolling_friction"));
 }
 
 TEST_F(NextTest, ADesignIsSimulatedOnceAndShowsTheSetsThatItTellsApart) {

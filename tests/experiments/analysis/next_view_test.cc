@@ -28,11 +28,11 @@ constexpr const char* kNextJson = R"({"after_trial": 60,
   "width_90": {"sliding_friction": 0.5, "rolling_friction": 0.4},
   "candidates": [
     {"kind": "test", "name": "wide plate", "what": "carry it out in 3 runs", "num_simulations": 38,
-     "core_time_s": 150.0, "bits": 1.91,
+     "core_time_s": 150.0, "remaining": 0.125, "bits": 1.91,
      "width_90": {"sliding_friction": 0.25, "rolling_friction": 0.1},
      "told_apart": [[0.1, 0.6], [0.6, 0.1]], "picture": "/elsewhere/next/wide-plate.png"},
     {"kind": "test", "name": "rough plate", "what": "carry it out in 3 runs", "num_simulations": 38,
-     "core_time_s": 150.0, "bits": null, "width_90": null}]})";
+     "core_time_s": 150.0, "remaining": null, "bits": null, "width_90": null}]})";
 
 // The folder of a synthetic campaign with what `talus next` leaves there.
 Evidence WithNext(const std::string& name, const std::string& text) {
@@ -51,15 +51,16 @@ TEST(NextTable, OfTheCampaignIsShownWithItsPicturesAndAmongTheSteps) {
   const ReportData data = MakeReportData(WithNext("whole", kNextJson));
   ASSERT_TRUE(data.next_table.has_value());
   EXPECT_FALSE(data.next_table->is_outdated);
-  // Half of one range and a quarter of the other; searched from 0.001 to 0.7.
+  // Half of a range that is searched from 0.001 to 0.7.
   const auto step = std::find_if(data.next_steps.begin(), data.next_steps.end(),
-                                 [](const NextStep& s) { return s.remaining == 0.5 * 0.25; });
+                                 [](const NextStep& s) { return s.remaining == 0.125; });
   ASSERT_NE(step, data.next_steps.end());
   EXPECT_EQ(step->what, "Wide plate: carry it out in 3 runs");
   EXPECT_THAT(step->leaves, HasSubstr("μₜ known within 0.17 (now 0.35)"));
   for (const NextStep& s : data.next_steps) EXPECT_THAT(s.what, Not(HasSubstr("rough plate")));
   const json next = json::parse(PageJson(data))["next"];
   EXPECT_EQ(next["candidates"][0]["bits"], 1.91);
+  EXPECT_EQ(next["candidates"][0]["remaining"], 0.125);
   EXPECT_EQ(next["candidates"][0]["picture_width"], 4);
   EXPECT_THAT(next["candidates"][0]["uri"].get<std::string>(), StartsWith("data:image/png"));
   EXPECT_TRUE(next["candidates"][1]["bits"].is_null());

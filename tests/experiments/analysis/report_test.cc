@@ -13,6 +13,7 @@
 #include "experiments/analysis/report/data/tables.h"
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/page.h"
+#include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/answer/answer.h"
 #include "imaging/formats/images/image_file.h"
@@ -240,6 +241,34 @@ TEST(NextSteps, ADifferentTestComesFirstWhereACurveIsLeft) {
   EXPECT_TRUE(NextSteps(test::MakeSyntheticCampaign({.num_trials = 12}), {}).empty());  // no model
 }
 
+TEST(AnswerWords, PowersOfTenAreThoseOfPrint) {
+  EXPECT_EQ(WithPowers("γ 3e-05 (90 %: 2.35e-05 to 1e+12)."),
+            "γ 3 × 10⁻⁵ (90 %: 2.35 × 10⁻⁵ to 1 × 10¹²).");
+  EXPECT_EQ(WithPowers("the 2e grade, scale-5"), "the 2e grade, scale-5");
+}
+
+// What an alarm wants is the first step, whether `talus next` was run or not.
+TEST(NextSteps, SimulationsThatAnAlarmAsksForComeFirst) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.answer->warnings.push_back(
+      {.kind = campaign::AlarmKind::kPoorModel, .value = 0.5, .widened = 2});
+  const CandidateView wide{.kind = "test",
+                           .name = "wide plate",
+                           .what = "carry it out",
+                           .bits = 3,
+                           .width = {0.01, 0.01},
+                           .remaining = 1e-4,
+                           .apart = {},
+                           .apart_by = {},
+                           .picture = {}};
+  const NextTableView table{.width = {0.5, 0.4}, .candidates = {wide}};
+  for (const std::optional<NextTableView>& known : {std::optional<NextTableView>(), {table}}) {
+    const std::vector<NextStep> steps = NextSteps(evidence, known);
+    ASSERT_GT(steps.size(), 1u);
+    EXPECT_THAT(steps[0].what, StartsWith("Simulate more: talus resume"));
+  }
+}
+
 // Given the first parameter, the bent valley of the synthetic posterior leaves little of the
 // second.
 TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {
@@ -257,6 +286,32 @@ TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {
   EXPECT_THAT(measured->leaves,
               HasSubstr("(now " + base::ShortNumber(shown.credible_low, 3) + " to " +
                         base::ShortNumber(shown.credible_high, 3) + ")"));
+}
+
+// The synthetic valley is a normal of 0.18 along and 0.02 across: in two dimensions its joint 90 %
+// region reaches to 2.15 standard deviations, a range for both at once to some 1.8, and across it
+// 3.3 · 0.02 · 1.3 holds 90 %, more where the valley bends. Each is 0.699 wide in the unit cube.
+TEST(WidthViews, SeveralRangesOfAParameterStandBesideEachOtherAndSayWhatTheyAre) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.answer->posterior->alone = {
+      {.name = "heap", .values = {0.3, 0.2}, .low = {0.1, 0.05}, .high = {0.6, 0.4}}};
+  const std::vector<WidthView> views = WidthViews(evidence);
+  ASSERT_EQ(views.size(), 4u);
+  const auto width = [&](std::size_t view) {
+    return evidence.parameters[0].range.ToUnit(views[view].high[0]) -
+           evidence.parameters[0].range.ToUnit(views[view].low[0]);
+  };
+  EXPECT_EQ(views[0].low[0], evidence.answer->parameters[0].credible_low);
+  EXPECT_GT(width(1), 1.05 * width(0));
+  EXPECT_LT(width(1), 1.4 * width(0));
+  EXPECT_LT(width(2), 0.35 * width(0));
+  EXPECT_GT(width(2), 3 * 0.02);
+  EXPECT_EQ(views[3].title, "heap alone");
+  EXPECT_EQ(views[3].high[1], 0.4);
+  for (const WidthView& view : views) EXPECT_GT(view.means.size(), 30u) << view.title;
+  const json page = json::parse(PageJson(MakeReportData(evidence)))["headline"]["widths"];
+  EXPECT_EQ(page.size(), 4u);
+  EXPECT_TRUE(WidthViews(test::MakeSyntheticCampaign({.num_trials = 12})).empty());  // no model
 }
 
 TEST(RegionHistory, HasOnePointForEachNumberOfTrials) {

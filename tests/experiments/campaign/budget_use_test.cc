@@ -113,6 +113,22 @@ TEST(Progress, TrialLinesNameTheirParameters) {
             "trial 7 (search) at sliding_friction 0.3, rolling_friction 0.1: 1.2 mm², 12 s");
 }
 
+// A drum without images has an angle, and no area by which it differs.
+TEST(Progress, TrialLinesHaveTheNumbersOfTheirTestInTheUnitsThatPeopleRead) {
+  TrialProgress trial{.trial = 7,
+                      .parameters = {"sliding_friction"},
+                      .values = {0.3},
+                      .experiment = "mixer",
+                      .numbers = {{"angle_deg", 43.5}, {"mass_fallen_kg", 23e-6}},
+                      .duration = 2};
+  EXPECT_EQ(ProgressText(trial),
+            "trial 7 (search) at sliding_friction 0.3, mixer: angle 43.5°, mass fallen 23 mg, 2 s");
+  trial.numbers.clear();
+  EXPECT_EQ(ProgressText(trial),
+            "trial 7 (search) at sliding_friction 0.3, mixer: "
+            "what was measured is not defined of it, 2 s");
+}
+
 TEST(Progress, SaysWhatIsUsedAndWhatIsLeft) {
   EXPECT_EQ(ProgressText(CampaignProgress{.used = "7 of 60 simulations",
                                           .num_running = 2,

@@ -32,7 +32,7 @@ TEST_F(TwoExperiments, TheOthersPredictOneThatIsHeldOut) {
       << fast.predicted.numbers[0].low << " " << fast.predicted.numbers[0].high;
   EXPECT_LT(fast.predicted.least_implausibility, 2);
   EXPECT_LE(fast.predicted.least_implausibility, fast.predicted.implausibility);
-  EXPECT_THAT(HeldOutText(view, fast), HasSubstr("mass_fallen_kg"));
+  EXPECT_THAT(HeldOutText(view, fast), HasSubstr("mass fallen"));
   EXPECT_THAT(HeldOutJson(view, fast), HasSubstr("\"least_implausibility\""));
 }
 

@@ -29,6 +29,10 @@ TEST(Misses, ANumberThatTheSetMissesIsSaid) {
   EXPECT_DOUBLE_EQ(alarms[0].value.value(), 5);
   EXPECT_THAT(AlarmText(alarms[0]),
               HasSubstr("misses drum_angle_deg of \"heap\" by 5 standard errors"));
+  // A few simulations that scatter do not tell: 3.5 of √(0.7² + 2.4²) is 1.4.
+  HeapOf(answer).scalars[0].standard_error = 2.4;
+  EXPECT_THAT(MissAlarms(answer), IsEmpty());
+  HeapOf(answer).scalars[0].standard_error = kNotKnown;
   // Where no set fits, that is said instead.
   answer.posterior->experiments[0].implausibility = 3.4;
   EXPECT_THAT(MissAlarms(answer), IsEmpty());

@@ -48,6 +48,7 @@ ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others) {
   data.next_table = ReadNextTable(data.evidence);
   data.predictions = ReadPredictions(data.evidence);
   data.sensitivity = ReadSensitivity(data.evidence);
+  data.widths = WidthViews(data.evidence);
   data.next_steps = NextSteps(data.evidence, data.next_table);
   return data;
 }

@@ -16,6 +16,7 @@
 #include "experiments/analysis/report/views/next_table_view.h"
 #include "experiments/analysis/report/views/predictions_view.h"
 #include "experiments/analysis/report/views/sensitivity_view.h"
+#include "experiments/analysis/report/views/width_views.h"
 
 namespace talus::analysis {
 
@@ -47,6 +48,7 @@ struct ReportData {
   std::vector<Marginal> marginals;  // of the posterior; none without one
   std::vector<PairMap> pairs;
   std::vector<RepresentativeView> representative;  // of the recommended set and its equals
+  std::vector<WidthView> widths;
   std::vector<NextStep> next_steps;
   std::optional<NextTableView> next_table;     // none where `talus next` has not been run
   std::vector<PredictionView> predictions;     // of `talus predict`

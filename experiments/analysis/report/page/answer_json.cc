@@ -51,6 +51,13 @@ PageValue BranchJson(const campaign::ResultBranch& branch) {
           {"high", NumbersJson(branch.high)}};
 }
 
+PageValue WidthJson(const WidthView& view) {
+  return {{"title", view.title},
+          {"means", view.means},
+          {"low", NumbersJson(view.low)},
+          {"high", NumbersJson(view.high)}};
+}
+
 // What the campaign minimised, whatever experiment is shown.
 PageValue ObjectiveOf(const Evidence& evidence) {
   for (const journal::ObjectiveInfo& info : journal::kObjectives) {
@@ -90,6 +97,7 @@ PageValue NextTableJson(const NextTableView& table) {
   const auto candidate = [&](const CandidateView& c) {
     return PageValue{{"name", c.name},
                      {"what", c.what},
+                     {"remaining", NumberJson(c.remaining)},
                      {"bits", NumberJson(c.bits)},
                      {"goal", NumberJson(unit.per_unit * c.goal)},
                      {"width", NumbersJson(c.width)},
@@ -200,6 +208,7 @@ PageValue HeadlineJson(const ReportData& data) {
       {"representatives",
        ListJson(data.representative,
                 [&](const RepresentativeView& view) { return RepresentativeJson(data, view); })},
+      {"widths", ListJson(data.widths, WidthJson)},
       {"next", ListJson(data.next_steps, StepJson)},
       {"fit", ListJson(e.fit, FitJson)},
       {"fit_sentence", FitSentence(e.fit)},

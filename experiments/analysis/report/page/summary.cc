@@ -32,7 +32,7 @@ p { margin: 1mm 0; } ul { margin: 0; padding-left: 4.5mm; }
 .heaps img { width: 100%; height: 30mm; object-fit: contain; border: .3mm solid #dfe4e8; }
 figcaption { font-size: .85em; color: #55626d; }
 .two { display: flex; gap: 6mm; } .two > div { flex: 1; min-width: 0; } .two > div:first-child { flex: 1.25; }
-.two td + td { white-space: nowrap; } .two svg { width: 100%; height: auto; max-height: 62mm; }
+td { overflow-wrap: anywhere; } .two svg { width: 100%; height: auto; max-height: 62mm; }
 table { border-collapse: collapse; width: 100%; } th, td { padding: .6mm 2mm .6mm 0; text-align: left; border-bottom: .2mm solid #dfe4e8; }
 .alarms { border: .3mm solid #efcf94; background: #fff4de; padding: 1.5mm 3mm; margin: 2mm 0; }
 footer { margin: 3mm 0 0; font-size: .8em; color: #55626d; }
@@ -93,8 +93,9 @@ std::string AllHeaps(const ReportData& data) {
   return heaps.empty() ? "" : Element("div", heaps, "class=\"heaps\"");
 }
 
+// "0.123", "3 × 10⁻⁵"; nothing known: "–".
 std::string Number(double value) {
-  return std::isfinite(value) ? base::ShortNumber(value, 3) : "–";
+  return std::isfinite(value) ? WithPowers(base::ShortNumber(value, 3)) : "–";
 }
 
 std::string ParameterTable(const Evidence& evidence) {
@@ -242,11 +243,9 @@ std::string SummaryPage(const ReportData& data) {
          " – summary</title><style>html { font-size: " + base::ShortNumber(FontSize(evidence), 3) +
          "pt; }" + kStyle + "</style></head><body>\n<h1>" + name + "</h1>\n" +
          Text("p", headline, "style=\"font-weight:600\"") + Text("p", UseWords(*evidence.answer)) +
-         AllHeaps(data) + Alarms(evidence) +
-         Element("div",
-                 Element("div", Text("h2", "Calibrated parameters") + ParameterTable(evidence) +
-                                    Conditions(*evidence.answer)) +
-                     Element("div", Region(data)),
+         AllHeaps(data) + Alarms(evidence) + Text("h2", "Calibrated parameters") +
+         ParameterTable(evidence) +
+         Element("div", Element("div", Conditions(*evidence.answer)) + Element("div", Region(data)),
                  "class=\"two\"") +
          Fits(evidence) + Foot(data) + "</body></html>\n";
 }

@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/views/answer_words.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/headline.h"
@@ -27,7 +28,32 @@ std::string LongName(const ParameterInfo& parameter) {
 std::vector<std::string> HeadlineWords(const Evidence& evidence) {
   std::vector<std::string> names;
   for (const ParameterInfo& parameter : evidence.parameters) names.push_back(LongName(parameter));
-  return campaign::Headline(*evidence.answer, names);
+  std::vector<std::string> sentences = campaign::Headline(*evidence.answer, names);
+  for (std::string& sentence : sentences) sentence = WithPowers(sentence);
+  return sentences;
+}
+
+std::string WithPowers(const std::string& text) {
+  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]));
+  };
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool has_sign = i + 1 < text.size() && (text[i + 1] == '-' || text[i + 1] == '+');
+    if (text[i] != 'e' || i == 0 || !is_digit(i - 1) || !has_sign || !is_digit(i + 2)) {
+      shown += text[i];
+      continue;
+    }
+    shown += std::string(" × 10") + (text[i + 1] == '-' ? "⁻" : "");
+    bool begun = false;
+    for (i += 2; is_digit(i); ++i) {
+      begun |= text[i] != '0';
+      if (begun) shown += kDigits[text[i] - '0'];
+    }
+    --i;
+  }
+  return shown;
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const Answer& answer) {
@@ -51,12 +77,6 @@ double VolumeThen(const Answer& answer) {
   return volume;
 }
 
-bool AsksForSimulations(const Answer& answer) {
-  return campaign::HasAlarm(answer, {AlarmKind::kSearchMisses, AlarmKind::kWorseThanPredicted,
-                                     AlarmKind::kWorseThanObserved, AlarmKind::kPoorModel,
-                                     AlarmKind::kExtrapolated, AlarmKind::kUnlearntScaleFactor});
-}
-
 std::string UseWords(const Answer& answer) {
   if (campaign::HasAlarm(answer, {AlarmKind::kImplausible})) {
     return "No: no set fits every measurement. Check contact law, plate and set-up first.";
@@ -77,7 +97,7 @@ std::string UseWords(const Answer& answer) {
     return "For trial runs only: other sets fit as well. Do the first of the next steps before you "
            "rely on one.";
   }
-  if (AsksForSimulations(answer)) {
+  if (campaign::AsksForSimulations(answer)) {
     return "For trial runs: more simulations should confirm it first, as the warnings say.";
   }
   if (campaign::HasAlarm(answer, {AlarmKind::kBound})) {

@@ -13,6 +13,9 @@ namespace talus::analysis {
 // campaign::Headline with symbols beside the names: "sliding friction μₜ".
 std::vector<std::string> HeadlineWords(const Evidence& evidence);
 
+// "3 × 10⁻⁵" in place of each "3e-05" of a text.
+std::string WithPowers(const std::string& text);
+
 // The two parameters that change together most, where they do so clearly, and how.
 std::optional<std::pair<std::size_t, std::size_t>> TradedPair(const campaign::Answer& answer);
 std::string TradeOffWords(const Evidence& evidence);
@@ -20,9 +23,6 @@ std::string TradeOffWords(const Evidence& evidence);
 // The volume of the ranges after the simulations that a search whose budget ended it still asks
 // for, over today's [-]; undefined where that is not known.
 double VolumeThen(const campaign::Answer& answer);
-
-// Whether an alarm asks for more simulations.
-bool AsksForSimulations(const campaign::Answer& answer);
 
 // Whether to use the recommended set now.
 std::string UseWords(const campaign::Answer& answer);

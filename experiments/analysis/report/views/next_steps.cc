@@ -8,18 +8,18 @@
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/report/views/answer_words.h"
+#include "experiments/analysis/report/views/width_views.h"
 #include "experiments/campaign/spec/parameter_ranges.h"
-#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 #include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::analysis {
 namespace {
 
-constexpr double kMeasured = 0.05;        // of a searched range: what a direct measurement leaves
-constexpr Eigen::Index kFewestNear = 30;  // draws that a conditional range is made of
-constexpr double kWorthAWord = 0.7;       // of the ranges' volume
-constexpr double kNoNarrower = 0.95;      // of a range's width: less is not told from chance
+constexpr double kWorthAWord = 0.7;   // of the ranges' volume
+constexpr double kBeforeAll = -1;     // what an alarm asks for comes first
+constexpr double kNoNarrower = 0.95;  // of a range's width: less is not told from chance
 
 // Three digits: none of these ranges is known better.
 std::string Number(double value) { return base::ShortNumber(value, 3); }
@@ -34,20 +34,11 @@ double WidthOf(const campaign::ResultParameter& v) { return std::max(v.Width(), 
 
 // The draws near a value of one parameter, with the other parameters only.
 Eigen::MatrixXd OthersNear(const Eigen::MatrixXd& draws, Eigen::Index column, double value) {
-  std::vector<Eigen::Index> rows, others;
-  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
-    if (std::abs(draws(i, column) - value) <= kMeasured / 2) rows.push_back(i);
-  }
+  std::vector<Eigen::Index> others;
   for (Eigen::Index j = 0; j < draws.cols(); ++j) {
     if (j != column) others.push_back(j);
   }
-  return draws(rows, others);
-}
-
-// A tilted plate tells the friction between powder and wall; nothing tells that of two grains.
-bool CanBeMeasured(const std::string& parameter) {
-  const campaign::ParameterPlace place = campaign::PlaceOf(parameter);
-  return place.body != rigs::kPowder && place.property == "sliding_friction";
+  return draws(DrawsNear(draws, column, value), others);
 }
 
 // Another test tells this parameter: where do the others lie, given it? As the ranges that the page
@@ -137,13 +128,12 @@ std::string NarrowingText(const campaign::ResultUnsettled& unsettled) {
 // First where an alarm asks for it.
 void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const campaign::Answer& answer = *evidence.answer;
-  const bool asked = AsksForSimulations(answer);
+  const bool asked = campaign::AsksForSimulations(answer);
   // The search's rule ended it, or the budget when half as many again would hardly tell more.
   const bool is_settled = answer.posterior && !answer.unsettled;
   if (!asked && (is_settled || answer.stop.kind == campaign::StopKind::kRule)) return;
-  const int num_more = answer.unsettled ? answer.unsettled->num_more : 0;
-  const double count = num_more > 0 ? num_more : campaign::kMoreSimulations;
-  const std::string more = std::to_string(std::llround(count));
+  const int count = campaign::MoreSimulations(answer);
+  const std::string more = std::to_string(count);
   NextStep step{.what = "Simulate more: talus resume " + base::ShellWord(evidence.folder.string()) +
                         " --add-simulations " + more,
                 .cost = more + " simulations, up to " +
@@ -156,7 +146,7 @@ void AddSimulating(const Evidence& evidence, std::vector<NextStep>& steps) {
   }
   if (asked) {
     step.leaves = "an answer that the warnings above do not hang on";
-    step.remaining = 0;
+    step.remaining = kBeforeAll;
   }
   steps.push_back(step);
 }
@@ -175,6 +165,13 @@ std::string WithinText(const ParameterInfo& parameter, double width) {
   return "a factor of " + two_digits(std::pow(range.high / range.low, width));
 }
 
+// "angle of drum known within ± 0.78° (now ± 3.8°)"
+std::string GoalWithinText(const NextGoalView& goal, double half_width) {
+  const auto shown = [&](double x) { return "± " + rigs::ShownNumber(goal.metric, x, 2); };
+  return rigs::SpokenName(goal.metric) + " of " + goal.process + " known within " +
+         shown(half_width) + " (now " + shown(goal.half_width) + ")";
+}
+
 NextStep StepOf(const Evidence& evidence, const NextTableView& table,
                 const CandidateView& candidate) {
   NextStep step{.what = candidate.name + ": " + candidate.what,
@@ -182,13 +179,14 @@ NextStep StepOf(const Evidence& evidence, const NextTableView& table,
                             ? "no simulation"
                             : base::Counted(candidate.num_simulations, "simulation") + ", " +
                                   trials::DurationText(candidate.core_time) + " of core time",
-                .leaves = {}};
+                .leaves = {},
+                .remaining = candidate.remaining};
   step.what.front() =
       static_cast<char>(std::toupper(static_cast<unsigned char>(step.what.front())));
+  if (table.goal) step.leaves = GoalWithinText(*table.goal, candidate.goal);
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     const ParameterInfo& parameter = evidence.parameters[k];
-    step.remaining *= std::min(1.0, candidate.width[k] / std::max(table.width[k], 1e-6));
-    step.leaves += (k == 0 ? "" : ", ") + parameter.symbol + " known within " +
+    step.leaves += (step.leaves.empty() ? "" : ", ") + parameter.symbol + " known within " +
                    WithinText(parameter, candidate.width[k]) + " (now " +
                    WithinText(parameter, table.width[k]) + ")";
   }
@@ -198,7 +196,7 @@ NextStep StepOf(const Evidence& evidence, const NextTableView& table,
 void AddCandidates(const Evidence& evidence, const NextTableView& table,
                    std::vector<NextStep>& steps) {
   constexpr int kMost = 3;
-  constexpr double kWorth = 0.9;  // of the ranges' volume
+  constexpr double kWorth = 0.9;  // of what there is to narrow
   int taken = 0;
   for (const CandidateView& candidate : table.candidates) {
     if (std::isnan(candidate.bits) || taken == kMost) continue;
@@ -215,17 +213,18 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
                                 const std::optional<NextTableView>& table) {
   std::vector<NextStep> steps;
   const bool has_draws = evidence.answer && evidence.model;
-  if (has_draws) {
-    for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
-      if (CanBeMeasured(evidence.parameters[k].range.name)) AddMeasuring(evidence, k, steps);
-    }
-  }
   if (table) {
     AddCandidates(evidence, *table, steps);
-    if (has_draws && AsksForSimulations(*evidence.answer)) AddSimulating(evidence, steps);
   } else if (has_draws) {
+    for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
+      const std::string& name = evidence.parameters[k].range.name;
+      if (campaign::CanBeMeasuredDirectly(name)) AddMeasuring(evidence, k, steps);
+    }
     AddSecondTest(evidence, steps);
     AddPhotographing(evidence, steps);
+  }
+  // The table has more simulations among its candidates.
+  if (has_draws && (!table || campaign::AsksForSimulations(*evidence.answer))) {
     AddSimulating(evidence, steps);
   }
   std::stable_sort(steps.begin(), steps.end(),

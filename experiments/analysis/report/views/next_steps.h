@@ -14,8 +14,10 @@ namespace talus::analysis {
 struct NextStep {
   std::string what;
   std::string cost;
-  std::string leaves;    // what it is expected to leave, in words
-  double remaining = 1;  // volume of the ranges after it / before; what the list is sorted by
+  std::string leaves;  // what it is expected to leave, in words
+  // Volume of the ranges after it / before, or of the goal's width; what the list is sorted by.
+  // Below 0: before all others.
+  double remaining = 1;
 };
 
 // The most useful first; nothing where there is neither a posterior nor a table. With a table its

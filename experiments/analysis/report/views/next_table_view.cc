@@ -35,6 +35,7 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::
                           .picture = {}};
   if (!json.at("bits").is_null()) {
     candidate.bits = json["bits"].get<double>();
+    candidate.remaining = json.at("remaining").get<double>();
     candidate.width = WidthsOf(json.at("width_90"), evidence);
     if (json.contains("goal_half_width_90")) {
       candidate.goal = json["goal_half_width_90"].get<double>();

@@ -26,6 +26,16 @@ function fact(name, value, note) {
 
 const setText = (values) => D.parameters.map((p, k) => p.symbol + " " + formatUnit(values[k], p.unit)).join(", ");
 
+// One parameter has several ranges, by what is asked of the others: side by side, each with what it is for.
+function widths(h) {
+  if (!h.widths.length) return null;
+  const range = (w, k) => w.low[k] === null ? "–" : format(w.low[k]) + " to " + format(w.high[k]);
+  return element("div", {class: "card", id: "widths"}, element("h3", {}, "How widely each parameter is known"),
+    table("Ranges of each parameter", [{title: "", text: true, wide: true}, ...D.parameters.map((p) => ({title: p.symbol, unit: p.unit}))],
+      h.widths.map((w) => [element("span", {}, element("strong", {}, w.title), element("br"), element("small", {}, w.means)),
+        ...D.parameters.map((_, k) => range(w, k))])));
+}
+
 // The pair of parameters that says most: the one that the answer says to change together, or the
 // one whose region is smallest.
 function closestPair() {
@@ -119,7 +129,7 @@ function facts(h) {
   }
   if (h.region_volume !== null) {
     list.push(fact("Joint 90\u00a0% region", percent(h.region_volume),
-      "of the searched volume; the ranges are the box round it"));
+      "of the searched volume"));
   }
   if (!list.length && !h.model) return null;
   return element("div", {class: "card"}, element("h3", {}, "Of the model"), element("dl", {class: "facts first"}, list),
@@ -152,12 +162,12 @@ function nextTable() {
     table("Next steps", [{title: "Candidate", text: true, wide: true},
         ...(goal ? [{title: goal.title + " of " + goal.process + " known within ±",
                      unit: "now " + formatUnit(goal.half_width, goal.unit, 2)}] : []),
-        {title: "Expected", unit: "bits"},
+        {title: "Leaves", unit: goal ? "of the goal's width" : "of the ranges' volume"}, {title: "Expected", unit: "bits"},
         ...D.parameters.map((p, k) => ({title: p.symbol + " known within", unit: "now " + widthText(p, D.next.width[k])})),
         {title: "Costs", text: true}],
       D.next.candidates.map((c) => [c.name + ": " + c.what,
         ...(goal ? [c.goal === null ? "?" : formatUnit(c.goal, goal.unit, 2)] : []),
-        c.bits === null ? "?" : format(c.bits, 2),
+        c.remaining === null ? "?" : percent(c.remaining), c.bits === null ? "?" : format(c.bits, 2),
         ...D.parameters.map((p, k) => c.bits === null ? "?" : widthText(p, c.width[k])), cost(c)])),
     element("p", {class: "note"}, "Made by talus next, before any of it is done. One bit halves the volume of what is " +
       "possible." + (D.next.candidates.some((c) => c.bits === null)
@@ -213,7 +223,7 @@ function answerSection() {
   const said = verdict(h), seen = heapPairs();
   return [said && seen ? element("div", {class: "grid first-screen"}, said, seen) : said || seen, alarms(),
     predictionLines(),
-    element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), oneHeap ? heaps : null),
+    element("div", {class: "grid two"}, element("div", {}, values, region || fitList(h), widths(h), oneHeap ? heaps : null),
       element("div", {}, next, region ? fitList(h) : null)),
     branches(h), ...(oneHeap ? [] : heaps), ...nextTable(), sensitivity(), facts(h),
     D.held_out.length ? element("div", {class: "card", id: "held-out"}, element("h3", {}, "Held out"),

@@ -1,0 +1,35 @@
+#include "experiments/analysis/next/next_table.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace talus::analysis {
+namespace {
+
+double RemainingOf(const NextTable& table, const optimizer::ExpectedLearning& learning) {
+  if (table.goal) return std::min(1.0, learning.goal_half_width / table.goal->half_width);
+  double volume = 1;
+  for (Eigen::Index k = 0; k < table.width.size(); ++k) {
+    if (std::ranges::find(table.nuisances, k) != table.nuisances.end()) continue;
+    volume *= std::min(1.0, learning.width[k] / std::max(table.width[k], 1e-6));
+  }
+  return volume;
+}
+
+}  // namespace
+
+void SetRemaining(NextTable& table) {
+  for (NextCandidate& candidate : table.candidates) {
+    if (candidate.learning) candidate.remaining = RemainingOf(table, *candidate.learning);
+  }
+}
+
+void Rank(NextTable& table) {
+  SetRemaining(table);
+  const auto key = [](const NextCandidate& c) {
+    return c.learning ? std::tuple(0, c.remaining, -c.learning->bits) : std::tuple(1, 1.0, 0.0);
+  };
+  std::ranges::stable_sort(table.candidates, {}, key);
+}
+
+}  // namespace talus::analysis

@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""newcomer_test.py TALUS SOURCE_DIR: what somebody reads who sees the program for the first time. A miss is said wherever an
+answer is; a campaign that leaves more than a point looks into further tests by itself; words and units are those of the bench."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from quick_campaign import quick_spec, tube_and_drum
+
+TALUS = sys.argv[1]
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+
+# An engine that takes no time and gives a tower, whatever its friction: no photographed heap is one.
+TOWER = """#!/bin/sh
+awk 'BEGIN {
+  print "x_m,y_m,z_m,diameter_m"
+  for (i = -2; i <= 2; ++i) for (j = -2; j <= 2; ++j)
+    for (k = 0; k < 4 + 8 * {{ sliding_friction }}; ++k)
+      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
+}' > heap.csv
+"""
+
+
+def run(*arguments):
+    ended = subprocess.run([TALUS, *map(str, arguments)], capture_output=True, text=True)
+    assert ended.returncode == 0, (arguments, ended.stdout, ended.stderr)
+    return ended.stdout
+
+
+class Miss(unittest.TestCase):
+    # One run has no noise floor: its share of the powder's area decides.
+    def test_a_miss_is_said_on_terminal_result_card_and_page(self):
+        with tempfile.TemporaryDirectory(prefix="talus_miss_") as scratch:
+            folder = pathlib.Path(scratch)
+            (folder / "deck").mkdir()
+            (folder / "deck/run.sh").write_text(TOWER)
+            (folder / "deck/run.sh").chmod(0o755)
+            spec = quick_spec(SOURCE, "tower", ["./run.sh"], budget={"simulations": 14})
+            (folder / "tower.json").write_text(json.dumps(spec))
+            terminal = run("calibrate", folder / "tower.json", "--out", folder / "run")
+            self.assertRegex(terminal, r"verdict +The recommended set misses a measurement")
+            self.assertRegex(terminal, r'warning: the recommended set misses the shape of "heap" by \d+ % of the powder\'s area')
+            warnings = json.loads((folder / "run/result.json").read_text())["warnings"]
+            self.assertEqual(warnings[0]["kind"], "misses")
+            self.assertGreater(warnings[0]["share"], 0.3)
+            self.assertIn('Warning: the recommended set misses the shape of "heap"', run("card", folder / "run"))
+            run("report", folder / "run")
+            page = (folder / "run/report/report.html").read_text()
+            data = json.loads(page.split('id="data">')[1].split("</script>")[0])
+            self.assertIn('misses the shape of "heap"', data["warnings"][0])
+            self.assertFalse(data["headline"]["fits"])
+            self.assertIn("misses the shape", (folder / "run/report/summary.html").read_text())
+
+
+class TubeAndDrum(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="talus_newcomer_")
+        folder = pathlib.Path(cls.temporary.name)
+        cls.terminal = tube_and_drum(TALUS, folder / "campaign")
+        cls.run = folder / "campaign/run"
+        cls.result = json.loads((cls.run / "result.json").read_text())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_trial_lines_name_parameters_and_what_the_test_gives(self):
+        self.assertRegex(self.terminal, r"trial \d+ \(design\) at sliding_friction [\d.]+, rolling_friction [\d.]+, mixer at "
+                                        r"scale factor 1: angle [\d.]+°, ")
+        self.assertRegex(self.terminal, r"heap at scale factor 1: [\d.]+ mm², mass fallen [\d.]+ mg, ")
+        self.assertNotIn("not defined", self.terminal)
+
+    # Issued without being asked, for a fifth of the core time; a line for each and none of what would not help.
+    def test_a_campaign_that_leaves_a_curve_looks_into_further_tests(self):
+        self.assertIn(self.result["verdict"]["kind"], ("curve", "region"))
+        self.assertRegex(self.terminal, r"looks into further tests for at most \d+ s of core time \(the spec's next\.share\)")
+        self.assertIn(f"`talus next {self.run}` lists all", self.terminal)
+        self.assertRegex(self.terminal, r"further tests +\S.*: expected to leave sliding_friction 0\.\d+, rolling_friction")
+        table = json.loads((self.run / "next/next.json").read_text())
+        tests = [c for c in table["candidates"] if c["kind"] == "test" and c["remaining"] is not None]
+        self.assertTrue(tests)
+        told = re.findall(r"(?:further tests)? {5,}(\S.*): expected to leave", self.terminal)
+        self.assertEqual(told, [c["name"] for c in tests[:3]])
+
+    def test_words_and_numbers_are_those_of_the_bench(self):
+        for text in (self.terminal, run("status", self.run), run("next", self.run), run("card", self.run)):
+            self.assertNotRegex(text, r"\dmg|_kg [-\d]|[-−]\d[\d.]* ?mg|\de-\d\d ?(kg|m)\b")
+        answer = self.terminal[self.terminal.index("recommended set"):]
+        self.assertRegex(answer, r"mixer, drum: diameter 16 mm, width 5 mm, speed 60 rpm")
+        self.assertNotRegex(answer, r"mixer, [^\n]*(lift|plate)")
+        self.assertLessEqual(len(re.findall(r"the budget of \d+ simulations", answer)), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
