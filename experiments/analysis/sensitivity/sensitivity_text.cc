@@ -7,6 +7,7 @@
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -26,8 +27,8 @@ std::string OutputsText(const FixedMove& move, bool many_experiments) {
   std::string text;
   for (const OutputShift& output : move.outputs) {
     text += (text.empty() ? "" : ", ") + (many_experiments ? output.experiment + " " : "") +
-            output.output + " " + ShortNumber(output.shift, 2) + " (chance " +
-            ShortNumber(output.noise, 2) + ")";
+            output.output + " " + PlainNumber(output.shift, 2) + " (chance " +
+            PlainNumber(output.noise, 2) + ")";
   }
   return text.empty() ? "no output, as it acts on no experiment" : text;
 }

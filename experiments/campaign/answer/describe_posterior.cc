@@ -4,7 +4,7 @@
 #include <map>
 
 #include "base/text/csv.h"
-#include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::campaign {
@@ -47,7 +47,7 @@ std::vector<ResultStanding> StandingsOf(const std::vector<optimizer::ExperimentS
 std::string ProvisionalText(double surrogate_narrowing) {
   return "provisional, since the surrogate leaves more open than the measurements do: more "
          "simulations may move it, and narrow a range by up to " +
-         base::ShortNumber(100 * surrogate_narrowing, 2) + " %";
+         base::InPercent(surrogate_narrowing) + " %";
 }
 
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,

@@ -1,6 +1,7 @@
 #include "experiments/campaign/answer/first_answer.h"
 
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 
 namespace talus::campaign {
@@ -17,7 +18,7 @@ std::string FirstAnswerText(const optimizer::Answer& answer, const optimizer::Pa
             base::ShortNumber(ranges.high[i]) + ")" + (unit.empty() ? "" : " ") + unit;
   }
   return text + "; the joint 90 % region fills " +
-         base::ShortNumber(100 * answer.posterior->region_volume, 2) + " % of the searched ranges";
+         base::InPercent(answer.posterior->region_volume) + " % of the searched ranges";
 }
 
 }  // namespace talus::campaign
