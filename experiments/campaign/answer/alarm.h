@@ -42,7 +42,8 @@ enum class AlarmKind {
   kTouchesFrame,
   kBesidePlate,
   kViewDisagrees,
-  kOverexposed
+  kOverexposed,
+  kOtherLight
 };
 
 struct Alarm;
@@ -127,5 +128,6 @@ struct talus::base::Names<talus::campaign::AlarmKind> {
       std::pair{"beside_plate", K::kBesidePlate},
       std::pair{"view_disagrees", K::kViewDisagrees},
       std::pair{"overexposed", K::kOverexposed},
+      std::pair{"other_light", K::kOtherLight},
   };
 };
