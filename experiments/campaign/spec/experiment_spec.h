@@ -11,6 +11,7 @@
 #include "base/problems.h"
 #include "engine/scene/pair_spec.h"
 #include "experiments/campaign/spec/measured_numbers.h"
+#include "experiments/rigs/case/case.h"
 #include "experiments/rigs/case/device.h"
 #include "experiments/rigs/options/filling_rule.h"
 #include "experiments/rigs/options/rig_options.h"
@@ -54,6 +55,9 @@ struct ExperimentSpec {
   }
   void Validate(base::Problems& problems) const;
 };
+
+// A case with its rig and device, and nothing else.
+rigs::Case RigOf(const ExperimentSpec& experiment);
 
 inline std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment) {
   return ScalarsOf(experiment.numbers);
