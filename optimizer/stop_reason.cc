@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "optimizer/words.h"
 
 namespace talus::optimizer {
 namespace {
 
-std::string PercentText(double x) {
-  return (x < 1 ? base::ShortNumber(100 * x, 2) : std::to_string(std::llround(100 * x))) + " %";
-}
+std::string PercentText(double x) { return base::InPercent(x) + " %"; }
 
 std::string Count(double x) { return std::to_string(std::llround(x)); }
 

@@ -10,6 +10,7 @@
 #include "base/json/json_writer.h"
 #include "base/problems.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/journal/journal.h"
 #include "optimizer/space/candidate_table.h"
@@ -96,7 +97,7 @@ void RequireInside(const CampaignSpec& spec, const optimizer::EarlierDraws& draw
   const auto all = static_cast<double>(draws.values.size());
   if (inside >= kLeastInside * all && inside >= optimizer::DrawsDensity::kFewest) return;
   throw base::ConfigError("lies outside the ranges here for the most part: " +
-                          base::ShortNumber(100 * inside / std::max(1.0, all), 2) +
+                          base::InPercent(inside / std::max(1.0, all)) +
                           " % of it is inside; widen them");
 }
 

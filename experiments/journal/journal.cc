@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "experiments/journal/checksums.h"
+#include "experiments/journal/damaged_tables.h"
 #include "experiments/journal/objective.h"
 #include "experiments/journal/schema.h"
 
@@ -51,6 +52,11 @@ void RefuseForeignFile(const std::filesystem::path& path) {
   throw base::ConfigError(path.string() +
                           ": is a database of another program; name the folder of "
                           "a campaign");
+}
+
+std::string WhatIsBroken(Database& database) {
+  const std::string damage = DamagedTables(database);
+  return damage.empty() ? BrokenSeal(database) : damage;
 }
 
 constexpr std::string_view kTrialColumns =
@@ -115,7 +121,7 @@ Journal Journal::Open(const std::filesystem::path& path) {
   if (const std::string damage = database.Damage(); !damage.empty()) {
     throw base::Error(path.string() + ": is damaged: " + damage);
   }
-  if (const std::string broken = BrokenSeal(database); !broken.empty()) {
+  if (const std::string broken = WhatIsBroken(database); !broken.empty()) {
     throw base::Error(path.string() + ": is damaged: " + broken);
   }
   return Journal(std::move(database));
@@ -130,7 +136,7 @@ Journal Journal::OpenReadOnly(const std::filesystem::path& path) {
   Database database(path, Database::Mode::kReadOnly);
   CheckThatItIsAJournal(database, path);
   database.Execute("BEGIN");  // another process may be writing
-  const std::string broken = BrokenSeal(database);
+  const std::string broken = WhatIsBroken(database);
   database.Execute("COMMIT");
   if (!broken.empty()) {
     throw base::Error(path.string() + ": is damaged: " + broken + "; `talus resume` repairs it");

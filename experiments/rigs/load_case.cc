@@ -40,8 +40,13 @@ void ValidatePour(const Case& c, const Vessel& vessel, base::Problems& problems)
                    base::ShortNumber(ratio) + " times, lower drop_height, or fill with kind dense");
 }
 
-// A bed that falls comes down on its floor as its lowest grains do, or harder.
-void ValidateTaps(const Case& c, const TapRule& taps, const char* path, base::Problems& problems) {
+// A bed that falls comes down on its floor as its lowest grains do, or harder. From much higher
+// than any tapping device lets it fall it leaps out of its vessel, and a heap of nothing came out.
+void ValidateTaps(const Case& c, const TapRule& taps, const std::string& place,
+                  base::Problems& problems) {
+  constexpr double kHighest = 0.05;  // [m]
+  constexpr double kLongest = 1000;  // [s]
+  const std::string path = place + ".height";
   const double share = BlowShare(c, 2 * c.gravity * taps.height);
   const double ratio = std::pow(share / kMaxImpactShare, 2.5);
   problems.Require(
@@ -50,6 +55,11 @@ void ValidateTaps(const Case& c, const TapRule& taps, const char* path, base::Pr
           " of their radius into the floor, above the " + base::ShortNumber(kMaxImpactShare) +
           " that holds; tap from " + base::ShortNumber(1e3 * taps.height / ratio) +
           " mm at most, or raise youngs_modulus " + base::ShortNumber(ratio) + " times");
+  problems.Require(taps.height <= kHighest, path, taps.height,
+                   "m, must be at most 0.05: tapping devices let it fall by 3 to 14 mm, and "
+                   "from higher the powder leaps out of its vessel");
+  problems.Require(taps.count * taps.interval <= kLongest, place + ".count", taps.count,
+                   "of " + base::ShortNumber(taps.interval) + " s each, must take 1000 s at most");
 }
 
 // The mass of a bed of powder beside the vessel, over that of the powder itself.
@@ -69,9 +79,9 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
                    c.rig.kind == RigKind::kLiftedTube ? "device.tube_inner_diameter" : "rig",
                    vessel.across, "must be above three (scaled) grain diameters");
   entry.validate(c, problems);
-  if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps.height", problems);
+  if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps", problems);
   if (c.rig.kind == RigKind::kTappedDensity) {
-    ValidateTaps(c, c.rig.tapped_density.taps, "rig.taps.height", problems);
+    ValidateTaps(c, c.rig.tapped_density.taps, "rig.taps", problems);
   }
   if (problems.empty() && c.filling.kind == FillingKind::kPour) ValidatePour(c, vessel, problems);
 }

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "imaging/formats/images/image_file.h"
+#include "base/text/plain_number.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "imaging/light/backlight.h"
 #include "imaging/spheres/projection.h"
 
@@ -81,15 +82,48 @@ DrumMap MapOf(const GrayImage& photo, const DrumCircle& circle, const std::strin
   return map;
 }
 
+// Whether one is light where the other is dark.
+bool AreInverse(const GrayImage& a, const GrayImage& b) {
+  const auto mean = [](const GrayImage& image) {
+    double sum = 0;
+    for (const std::uint8_t level : image.pixels) sum += level;
+    return sum / static_cast<double>(image.pixels.size());
+  };
+  const double mean_a = mean(a), mean_b = mean(b);
+  double covariance = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    covariance += (a.pixels[i] - mean_a) * (b.pixels[i] - mean_b);
+  }
+  return covariance < 0;
+}
+
 struct Photographs {
   std::vector<GrayImage> images;
   std::vector<DrumCircle> circles;
 };
 
+// The average of a series would be of neither kind of light.
+void RequireSameLight(const Photographs& photos, const std::string& name) {
+  constexpr double kMuch = 1.4;  // times as dark or as bright as the first [-]
+  const GrayImage& first = photos.images.front();
+  const GrayImage& last = photos.images.back();
+  const double light = Levels(last, photos.circles.back(), name).light;
+  const double usual = Levels(first, photos.circles.front(), name).light;
+  std::string how;
+  if (AreInverse(first, last)) {
+    how = "light where the first photograph is dark";
+  } else if (std::max(light, usual) > kMuch * std::min(light, usual)) {
+    how = base::PlainNumber(light / usual, 2) + " times as bright as the first photograph";
+  }
+  if (how.empty()) return;
+  throw base::ConfigError(name + ": is lit otherwise than its series, " + how +
+                          "; take it again, or leave it out");
+}
+
 Photographs Read(const std::vector<std::filesystem::path>& files) {
   Photographs photos;
   for (const std::filesystem::path& file : files) {
-    photos.images.push_back(ReadGrayImage(file));
+    photos.images.push_back(ReadPhotograph(file).image);
     const GrayImage& image = photos.images.back();
     photos.circles.push_back(FindDrumCircle(image, file.string()));
     const DrumCircle& first = photos.circles.front();
@@ -105,6 +139,7 @@ Photographs Read(const std::vector<std::filesystem::path>& files) {
           ": its drum is not where that of the first photograph is; a series is "
           "taken by one camera that stands still");
     }
+    RequireSameLight(photos, file.string());
   }
   return photos;
 }

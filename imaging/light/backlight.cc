@@ -210,6 +210,18 @@ GrayImage UpperRows(const GrayImage& photo, int num_rows) {
   return upper;
 }
 
+// `seen` is the photograph, or its negative.
+double LevelOfLight(const GrayImage& seen, const BacklitPhoto& flat, double middle) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+    const bool is_lit = (flat.image.pixels[i] < middle) == flat.negative;
+    if (!is_lit) continue;
+    sum += flat.negative ? 255 - seen.pixels[i] : seen.pixels[i];
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 BacklitPhoto FlattenBackground(const GrayImage& photo, const LightOptions& light,
                                const std::string& name) {
   const auto brightest = *std::max_element(photo.pixels.begin(), photo.pixels.end());
@@ -231,6 +243,7 @@ BacklitPhoto FlattenBackground(const GrayImage& photo, const LightOptions& light
                             "and plate are in the picture, with the light behind them");
   }
   flat.threshold = light.threshold.value_or(classes.middle());
+  flat.light = LevelOfLight(seen, flat, classes.middle());
   return flat;
 }
 

@@ -51,6 +51,7 @@ struct BacklitPhoto {
   double threshold = 0;    // darker is powder or plate [-]
   bool negative = false;   // it was front-lit
   double overexposed = 0;  // share of the background at full white [-]; 0 if it is front-lit
+  double light = 0;        // mean of what is lit, background or front-lit powder [grey levels]
 };
 
 // `threshold` fixes the threshold; else it is half-way between the means of the two classes that

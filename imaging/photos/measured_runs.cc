@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
-#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "imaging/photos/silhouette.h"
 #include "imaging/spheres/projection.h"
 
@@ -16,7 +16,7 @@ namespace {
 // The photograph made independent of its light: as it was kept, else read again.
 BacklitPhoto TakeFlat(const ExperimentOptions& options, Photo& photo) {
   if (!photo.flat.image.pixels.empty()) return std::exchange(photo.flat, {});
-  return FlattenPhoto(ReadGrayImage(photo.path), options.light(), photo.path.string());
+  return FlattenPhoto(ReadPhotograph(photo.path).image, options.light(), photo.path.string());
 }
 
 struct MeasuredPhoto {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "imaging/drawing/canvas.h"
-#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "imaging/light/backlight.h"
 #include "imaging/photos/silhouette.h"
 
@@ -82,14 +82,14 @@ ColorImage DrawOverlay(const GrayImage& photo, const PlatePose& plate, const Gra
 }
 
 ColorImage FaultOf(const UnusablePhoto& unusable, const ExperimentOptions& options) {
-  const GrayImage photo = ReadGrayImage(unusable.photo);
+  const GrayImage photo = ReadPhotograph(unusable.photo).image;
   const BacklitPhoto flat = FlattenPhoto(photo, options.light(), unusable.photo.string());
   return DrawFault(photo, flat, unusable.edges);
 }
 
 ColorImage OverlayOf(const MeasuredView& view, const Frame& frame, const ExperimentOptions& options,
                      double photo_pixel) {
-  const GrayImage photo = ReadGrayImage(view.photo);
+  const GrayImage photo = ReadPhotograph(view.photo).image;
   const BacklitPhoto flat = FlattenPhoto(photo, options.light(), view.photo.string());
   return DrawOverlay(photo, view.plate, MakeSilhouette(flat, view.plate, photo_pixel, frame),
                      frame);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/median.h"
 
 namespace talus::imaging {
 namespace {
@@ -20,6 +21,7 @@ void CheckSize(PhotoCollection& collection, Photo& photo) {
   if (collection.width == 0) {
     collection.width = photo.width;
     collection.height = photo.height;
+    collection.block = photo.block;
   }
   if (photo.width == collection.width && photo.height == collection.height) return;
   photo.fault = photo.path.string() + ": has " + PixelSizeText(photo.width, photo.height) +
@@ -83,6 +85,26 @@ void WarnOfLight(PhotoCollection& collection) {
   collection.warnings.push_back(warning);
 }
 
+// Exposures of one series hardly differ. One at full white is warned of by itself, and so are two
+// kinds of light.
+void WarnOfBrightness(PhotoCollection& collection) {
+  constexpr double kMuch = 1.4;  // times as dark or as bright as most [-]
+  const auto front_lit = std::ranges::count(collection.photos, true, &Photo::front_lit);
+  if (front_lit > 0 && front_lit < std::ssize(collection.photos)) return;
+  std::vector<double> levels;
+  for (const Photo& photo : collection.photos) levels.push_back(photo.light);
+  if (levels.size() < 3) return;  // of two nothing tells which is the odd one
+  const double most = base::Median(levels);
+  for (const Photo& photo : collection.photos) {
+    const double factor = std::max(photo.light, most) / std::min(photo.light, most);
+    if (!(factor > kMuch) || photo.overexposed > kMuchOverexposed) continue;
+    collection.warnings.push_back({.doubt = PhotoDoubt::kOtherLight,
+                                   .photo = photo.path,
+                                   .value = factor,
+                                   .reason = photo.light < most ? "darker" : "brighter"});
+  }
+}
+
 }  // namespace
 
 std::string PixelSizeText(int width, int height) {
@@ -108,6 +130,7 @@ PhotoCollection CollectPhotos(const ExperimentOptions& options, const PhotoSet& 
   }
   SettleFaults(options.allow_missing_views, faults, collection);
   if (options.powder == PowderLook::kAuto) WarnOfLight(collection);
+  WarnOfBrightness(collection);
   return collection;
 }
 

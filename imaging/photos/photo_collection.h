@@ -13,8 +13,9 @@ namespace talus::imaging {
 struct PhotoCollection {
   std::vector<std::string> runs;  // names
   std::vector<Photo> photos;      // usable ones, run by run
-  int width = 0;                  // of every photograph [px]
+  int width = 0;                  // of every photograph's file [px]
   int height = 0;                 // [px]
+  int block = 1;                  // as in Photograph
   std::vector<UnusablePhoto> left_out;
   std::vector<PhotoWarning> warnings;
 };

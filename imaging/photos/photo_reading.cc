@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel_for.h"
-#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/photograph_file.h"
 
 namespace talus::imaging {
 namespace {
@@ -29,12 +29,14 @@ std::vector<Photo> Unread(const PhotoSet& set) {
 void Read(const ExperimentOptions& options, std::size_t num_photos, Photo& photo) {
   const std::string name = photo.path.string();
   try {
-    const GrayImage image = ReadGrayImage(photo.path);
-    photo.width = image.width;
-    photo.height = image.height;
-    BacklitPhoto flat = FlattenPhoto(image, options.light(), name);
+    const Photograph read = ReadPhotograph(photo.path);
+    photo.width = read.width;
+    photo.height = read.height;
+    photo.block = read.block;
+    BacklitPhoto flat = FlattenPhoto(read.image, options.light(), name);
     photo.front_lit = flat.negative;
     photo.overexposed = flat.overexposed;
+    photo.light = flat.light;
     if (!options.scale.empty()) {
       photo.table = FindTable(flat, name);
     } else if (!options.frame) {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "base/median.h"
-#include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 
 namespace talus::imaging {
 namespace {
@@ -14,13 +14,7 @@ constexpr double kRimMargin = 0.05;      // beyond the rim / plate radius [-]
 constexpr double kLeastDeviation = 0.2;  // of a view's NEBP from the median [-]
 constexpr double kManyUsual = 4;         // and so many standard deviations of the views
 
-std::string Percent(double share) {
-  constexpr double kWhole = 10;  // from here on
-  const double percent = 100 * share;
-  return base::ShortNumber(percent < kWhole ? percent : std::round(percent),
-                           percent < kWhole ? 2 : 6) +
-         " %";
-}
+std::string Percent(double share) { return base::InPercent(share) + " %"; }
 
 std::string Times(double factor) {
   std::ostringstream text;
@@ -61,13 +55,17 @@ std::string Reason(const PhotoWarning& warning) {
     case PhotoDoubt::kOverexposed:
       return Percent(warning.value) +
              " of the background is at full white: light eats into the outline; expose less";
+    case PhotoDoubt::kOtherLight:
+      return "lit otherwise than the others: " + Times(warning.value) + " " + warning.reason +
+             " than most; lamp or exposure have changed: look at its outline, or take it again";
   }
   return {};
 }
 
 bool IsOfSetUp(PhotoDoubt doubt) {
   return doubt == PhotoDoubt::kNoPowder || doubt == PhotoDoubt::kTouchesFrame ||
-         doubt == PhotoDoubt::kBesidePlate || doubt == PhotoDoubt::kOverexposed;
+         doubt == PhotoDoubt::kBesidePlate || doubt == PhotoDoubt::kOverexposed ||
+         doubt == PhotoDoubt::kOtherLight;
 }
 
 }  // namespace

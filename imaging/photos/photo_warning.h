@@ -23,13 +23,14 @@ enum class PhotoDoubt {
   kBesidePlate,    // value: share of the powder farther out than the plate's rim [-]
   kViewDisagrees,  // value: NEBP / median NEBP of all views [-]
   kOverexposed,    // value: share of the background at full white [-]
+  kOtherLight,     // `reason` ("darker") than most by the factor `value` [-]
 };
 
 struct PhotoWarning {
   PhotoDoubt doubt = PhotoDoubt::kLeftOut;
   std::filesystem::path photo{};  // empty where it is of all
   double value = 0;               // as the doubt says
-  std::string reason{};           // of kLeftOut and kRunDisagrees
+  std::string reason{};           // of kLeftOut, kRunDisagrees and kOtherLight
   int num_photos = 1;             // that share the doubt; `photo` and `value` are of the worst
 };
 
@@ -82,5 +83,6 @@ struct talus::base::Names<talus::imaging::PhotoDoubt> {
                                     std::pair{"touches_frame", kTouchesFrame},
                                     std::pair{"beside_plate", kBesidePlate},
                                     std::pair{"view_disagrees", kViewDisagrees},
-                                    std::pair{"overexposed", kOverexposed}};
+                                    std::pair{"overexposed", kOverexposed},
+                                    std::pair{"other_light", kOtherLight}};
 };

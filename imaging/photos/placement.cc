@@ -22,8 +22,10 @@ Frame FrameFor(const ExperimentOptions& options, const PhotoCollection& collecti
                const Placement& placement) {
   const double pixel = options.pixel_size.value_or(placement.photo_pixel);
   const double scale = pixel / placement.photo_pixel;
-  return {.width = std::max(1, static_cast<int>(std::lround(collection.width / scale))),
-          .height = std::max(1, static_cast<int>(std::lround(collection.height / scale))),
+  const int width = collection.width / collection.block;
+  const int height = collection.height / collection.block;
+  return {.width = std::max(1, static_cast<int>(std::lround(width / scale))),
+          .height = std::max(1, static_cast<int>(std::lround(height / scale))),
           .pixel_size = pixel,
           .center_x = std::round(MeanOver(placement.poses, &PlatePose::center_x) / scale),
           .baseline = std::round(MeanOver(placement.poses, &PlatePose::baseline) / scale),
@@ -38,13 +40,14 @@ Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& 
                             PixelSizeText(collection.width, collection.height) +
                             "; give width_px and height_px of the photographs");
   }
-  Placement placement{.frame = given, .photo_pixel = given.pixel_size, .poses = {}};
+  const int block = collection.block;
+  Placement placement{.frame = given, .photo_pixel = given.pixel_size * block, .poses = {}};
   placement.poses.assign(collection.photos.size(),
-                         {.width = given.plate_diameter / given.pixel_size,
-                          .center_x = given.center_x,
-                          .baseline = given.baseline,
+                         {.width = given.plate_diameter / placement.photo_pixel,
+                          .center_x = given.center_x / block,
+                          .baseline = given.baseline / block,
                           .tilt = options.tilt});
-  if (options.pixel_size) placement.frame = FrameFor(options, collection, placement);
+  if (options.pixel_size || block > 1) placement.frame = FrameFor(options, collection, placement);
   return placement;
 }
 
@@ -88,7 +91,8 @@ Placement PlaceByPlate(const ExperimentOptions& options, const PhotoCollection& 
 Placement Place(const ExperimentOptions& options, const PhotoCollection& collection) {
   if (options.frame) return PlaceByFrame(options, collection);
   if (options.scale.empty()) return PlaceByPlate(options, collection);
-  return PlaceByScale(options, collection, ParseScale(options.scale).pixel_size());
+  return PlaceByScale(options, collection,
+                      ParseScale(options.scale).pixel_size() * collection.block);
 }
 
 }  // namespace talus::imaging

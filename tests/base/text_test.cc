@@ -7,6 +7,7 @@
 #include "base/text/csv.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 
 namespace talus::base {
 namespace {
@@ -19,6 +20,19 @@ TEST(NumberText, ShortRoundsAndExactReadsBack) {
     EXPECT_EQ(std::strtod(ExactNumber(x).c_str(), nullptr), x) << x;
   }
   EXPECT_EQ(ExactNumber(0.1F), "0.1");
+}
+
+// A region of all that is searched was one of "1e+02 %", and a small one "about 0 %".
+TEST(NumberText, WhatPeopleReadHasNoPowersOfTen) {
+  EXPECT_EQ(PlainNumber(0.126, 2), "0.13");
+  EXPECT_EQ(PlainNumber(99.4, 2), "99");
+  EXPECT_EQ(PlainNumber(99.6, 2), "100");
+  EXPECT_EQ(PlainNumber(-1234.4, 2), "-1234");
+  EXPECT_EQ(InPercent(1), "100");
+  EXPECT_EQ(InPercent(0.996), "100");
+  EXPECT_EQ(InPercent(0.0034), "0.34");
+  EXPECT_EQ(InPercent(3e-7), "less than 0.01");
+  EXPECT_EQ(InPercent(0), "0");
 }
 
 TEST(NumberText, FileNumbersSortUpToTenThousand) {

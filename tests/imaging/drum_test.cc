@@ -16,6 +16,7 @@ namespace talus::imaging {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -150,6 +151,20 @@ TEST(Drum, ErrorsSayWhatToDo) {
   std::rotate(moved.pixels.begin(), moved.pixels.begin() + 5, moved.pixels.end());
   EXPECT_THAT(ErrorOf({.photos = {good, Write("moved", moved)}, .diameter = 0.084}),
               HasSubstr("stands still"));
+}
+
+// Their average would be of neither light, and it was taken.
+TEST(Drum, APhotographLitOtherwiseThanItsSeriesIsNamed) {
+  const GrayImage photo = Draw({.angle = 33 * kDegree});
+  GrayImage inverse = photo;
+  for (std::uint8_t& level : inverse.pixels) level = static_cast<std::uint8_t>(255 - level);
+  GrayImage darker = photo;
+  for (std::uint8_t& level : darker.pixels) level = static_cast<std::uint8_t>(level / 2);
+  const fs::path good = Write("usual", photo);
+  EXPECT_THAT(ErrorOf({.photos = {good, Write("inverse", inverse)}, .diameter = 0.084}),
+              AllOf(HasSubstr("drum_inverse.png"), HasSubstr("lit otherwise than its series")));
+  EXPECT_THAT(ErrorOf({.photos = {good, good, Write("darker", darker)}, .diameter = 0.084}),
+              AllOf(HasSubstr("drum_darker.png"), HasSubstr("0.5 times as bright")));
 }
 
 }  // namespace

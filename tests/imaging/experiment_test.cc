@@ -243,6 +243,41 @@ TEST(Experiment, PixelSizeCanBeChosen) {
   EXPECT_NEAR(4 * Nebp(coarse.aehp.image) / Nebp(fine.aehp.image), 1, 0.02);
 }
 
+GrayImage Enlarged(const GrayImage& image, int factor) {
+  GrayImage large{.width = image.width * factor, .height = image.height * factor, .pixels = {}};
+  for (int y = 0; y < large.height; ++y) {
+    for (int x = 0; x < large.width; ++x) large.pixels.push_back(image.at(x / factor, y / factor));
+  }
+  return large;
+}
+
+// 27 Mpx are read as means of 2 × 2: the heap is as large as on the small photograph whether the
+// plate is found or its place is given in pixels of the file. The enlarged pixels' steps move the
+// outline by up to half a small pixel of 75.
+TEST(Experiment, APhotographOfManyPixelsIsMeasuredByMeansOfThem) {
+  constexpr int kFactor = 17;
+  const fs::path small = EmptyFolder("small");
+  const fs::path large = EmptyFolder("large");
+  const GrayImage photo = Triangle(SmallScene());
+  WritePng(small / Name(1, 0), photo);
+  WritePng(large / Name(1, 0), Enlarged(photo, kFactor));
+  const auto area = [](const Experiment& e) {
+    return Nebp(e.aehp.image) * e.aehp.frame.pixel_size * e.aehp.frame.pixel_size;
+  };
+  const double usual = area(MeasureExperiment(Options(small)));
+  const Experiment found = MeasureExperiment(Options(large));
+  EXPECT_EQ(found.aehp.frame.width, 420 * kFactor / 2);
+  EXPECT_NEAR(area(found) / usual, 1, 0.02);
+  ExperimentOptions options = Options(large);
+  options.frame = Frame{.width = 420 * kFactor,
+                        .height = 220 * kFactor,
+                        .pixel_size = kPlate / 300 / kFactor,
+                        .center_x = 210 * kFactor,
+                        .baseline = 165 * kFactor,
+                        .plate_diameter = kPlate};
+  EXPECT_NEAR(area(MeasureExperiment(options)) / usual, 1, 0.02);
+}
+
 // A speck that floats and one beside the plate go, a hole fills, a grain on the plate stays.
 TEST(Experiment, KeepsWhatStandsOnThePlateAndFillsHoles) {
   const Scene scene = SmallScene();

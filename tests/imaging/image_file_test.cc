@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "tests/imaging/stored_images.h"
 
 namespace talus::imaging {
@@ -169,6 +170,13 @@ TEST(ImageFile, SixteenBitsTakeNoMoreMemoryThanEight) {
   EXPECT_EQ(image.pixels.size(), 16'000'000u);
   EXPECT_EQ(image.pixels[7'654'321], 255);
   EXPECT_LT(PeakMegabytes() - before, 60);
+}
+
+TEST(ImageFile, SquaresOfPixelsBecomeTheirMean) {
+  const GrayImage image{.width = 5, .height = 2, .pixels = {0, 10, 20, 20, 99, 30, 41, 20, 21, 99}};
+  const GrayImage small = Reduced(image, 2);
+  EXPECT_EQ(small.width, 2);  // the fifth column is left over
+  EXPECT_EQ(small.pixels, (std::vector<std::uint8_t>{20, 20}));
 }
 
 // 33 bytes of header took 1.5 GB.

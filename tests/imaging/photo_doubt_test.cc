@@ -197,6 +197,20 @@ TEST(PhotoDoubt, PhotographsOfTwoKindsOfLightAreWarnedOf) {
   EXPECT_THAT(WarningText(warnings[0]), HasSubstr("lit otherwise than most: 1 photographs"));
 }
 
+// Its outline came out the same, and nothing was said of it.
+TEST(PhotoDoubt, APhotographUnderLessLightIsNamed) {
+  const fs::path folder = GoodFolder("darker");
+  GrayImage darker = Triangle(SmallScene());
+  for (std::uint8_t& level : darker.pixels) level = static_cast<std::uint8_t>(level / 2);
+  WritePng(folder / Name(2, 1), darker);
+  const std::vector<PhotoWarning> warnings = MeasureExperiment(Options(folder)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].doubt, PhotoDoubt::kOtherLight);
+  EXPECT_EQ(warnings[0].photo.filename(), Name(2, 1));
+  EXPECT_NEAR(warnings[0].value, 2, 0.05);  // half a grey level of some 100 is cut off
+  EXPECT_THAT(WarningText(warnings[0]), HasSubstr("2 times darker than most"));
+}
+
 // Grains that hang over the rim on both sides: no corner of the plate is seen.
 TEST(PhotoDoubt, APlateWhoseTopNoPhotographShowsIsWarnedOf) {
   const fs::path folder = EmptyFolder("hidden_top");

@@ -151,4 +151,5 @@ def main():
     print(f"{kills} kills, {trials} trials, none lost, nothing left running")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -126,6 +126,21 @@ std::string TenBest(const ComparedCampaign& compared, const ObjectiveFinding& f)
   return Aligned(rows) + "\n";
 }
 
+// Seeds may change nothing, in another engine's command or for grains on a lattice.
+std::string TiesText(const std::vector<ObjectiveFinding>& findings) {
+  std::string text;
+  bool any_scatter = false;
+  for (const ObjectiveFinding& f : findings) {
+    if (!f.absent.empty()) continue;
+    any_scatter |= f.noise_sd != 0;
+    text += (text.empty() ? "" : "; ") + f.info.title + " " + Shown(f, f.noise_sd, 2) + " " +
+            f.info.unit;
+  }
+  if (text.empty()) return "";
+  if (!any_scatter) return "  Simulations of one set came out alike: only equal sets tie.\n";
+  return "  Sets tie when they differ by at most the scatter of one simulation: " + text + ".\n";
+}
+
 }  // namespace
 
 std::string ComparisonText(const ComparedCampaign& compared) {
@@ -137,13 +152,7 @@ std::string ComparisonText(const ComparedCampaign& compared) {
   for (const ObjectiveFinding& f : compared.findings) {
     if (!f.absent.empty()) text += "  " + f.info.title + ": " + f.absent + "\n";
   }
-  text += "  Sets tie when they differ by at most the scatter of one simulation:";
-  for (const ObjectiveFinding& f : compared.findings) {
-    if (!f.absent.empty()) continue;
-    text += " " + f.info.title + " " + Shown(f, f.noise_sd, 2) + " " + f.info.unit + ";";
-  }
-  text.back() = '.';
-  return text + "\n";
+  return text + TiesText(compared.findings);
 }
 
 }  // namespace talus::analysis

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/journal/objective.h"
@@ -135,8 +135,6 @@ ObjectiveKnowledge KnowledgeOfOne(const campaign::JointView& view, const Sole& s
   return knowledge;
 }
 
-std::string InPercent(double share) { return base::ShortNumber(100 * share, 2); }
-
 }  // namespace
 
 std::vector<ObjectiveKnowledge> KnowledgeOf(const campaign::JointView& view, int experiment,
@@ -150,10 +148,10 @@ std::vector<ObjectiveKnowledge> KnowledgeOf(const campaign::JointView& view, int
 
 std::string RegionText(const ObjectiveKnowledge& knowledge) {
   if (!knowledge.absent.empty()) return "-";
-  std::string text = InPercent(knowledge.region) + " %";
+  std::string text = base::InPercent(knowledge.region) + " %";
   if (std::isnan(knowledge.region_low)) return text;
-  return text + " (" + InPercent(knowledge.region_low) + " to " + InPercent(knowledge.region_high) +
-         " %)";
+  return text + " (" + base::InPercent(knowledge.region_low) + " to " +
+         base::InPercent(knowledge.region_high) + " %)";
 }
 
 std::string KnowledgeSentence(const std::vector<ObjectiveKnowledge>& all) {
@@ -171,7 +169,7 @@ std::string KnowledgeSentence(const std::vector<ObjectiveKnowledge>& all) {
     return "From the same trials " + least.title + " and " + most.title +
            " leave regions whose sizes do not differ by more than their uncertainty.";
   }
-  return "From the same trials " + most.title + " leaves a region " + base::ShortNumber(ratio, 2) +
+  return "From the same trials " + most.title + " leaves a region " + base::PlainNumber(ratio, 2) +
          " times as large as " + least.title + ": by itself it lets that many more sets pass.";
 }
 

@@ -6,6 +6,7 @@
 #include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -25,7 +26,7 @@ std::string OutputsText(const FixedMove& move, bool many_experiments) {
   if (move.outputs.empty()) return "no output, as it acts on no experiment";
   return base::Joined(move.outputs, ", ", [&](const OutputShift& output) {
     return (many_experiments ? output.experiment + " " : "") + output.output + " " +
-           ShortNumber(output.shift, 2) + " (chance " + ShortNumber(output.noise, 2) + ")";
+           PlainNumber(output.shift, 2) + " (chance " + PlainNumber(output.noise, 2) + ")";
   });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "optimizer/search/describe_minimum.h"
@@ -28,9 +29,9 @@ std::string WorseThanPredictedText(const Alarm& a) {
   const std::string unit = a.unit.value_or("").empty() ? "" : " " + *a.unit;
   std::string text =
       "simulated again with fresh seeds, the mean heap of the recommended set misses " +
-      Quoted(a.experiment) + " by " + base::ShortNumber(a.shown.value_or(0), 2) + unit;
-  if (a.noise_floor) text += " (noise floor " + base::ShortNumber(*a.noise_floor, 2) + ")";
-  return text + ", " + base::ShortNumber(a.value.value_or(0), 2) + unit +
+      Quoted(a.experiment) + " by " + base::PlainNumber(a.shown.value_or(0), 2) + unit;
+  if (a.noise_floor) text += " (noise floor " + base::PlainNumber(*a.noise_floor, 2) + ")";
+  return text + ", " + base::PlainNumber(a.value.value_or(0), 2) + unit +
          " more than the model predicted; more simulations round this set would settle it (" +
          ResumeCommand(kMoreSimulations) + ")";
 }
@@ -40,13 +41,12 @@ std::string MissesText(const Alarm& a) {
   std::string text = "the recommended set misses ";
   if (a.number) {
     text += rigs::SpokenName(*a.number) + " of " + Quoted(a.experiment) + " by " +
-            base::ShortNumber(a.value.value_or(0), 2) + " standard errors";
+            base::PlainNumber(a.value.value_or(0), 2) + " standard errors";
   } else {
     text += "the shape of " + Quoted(a.experiment) + " by ";
-    if (a.value) text += base::ShortNumber(*a.value, 2) + " times the noise floor";
+    if (a.value) text += base::PlainNumber(*a.value, 2) + " times the noise floor";
     if (a.share) {
-      text +=
-          (a.value ? ", " : "") + base::ShortNumber(100 * *a.share, 2) + " % of the powder's area";
+      text += (a.value ? ", " : "") + base::InPercent(*a.share) + " % of the powder's area";
     }
   }
   if (a.kind == AlarmKind::kSearchMisses) {
@@ -65,7 +65,7 @@ std::string MissesText(const Alarm& a) {
 std::string AlarmText(const Alarm& a) {
   const std::string factor = "scale factor " + base::ShortNumber(a.scale_factor.value_or(1));
   const std::string experiment = Quoted(a.experiment);
-  const std::string value = base::ShortNumber(a.value.value_or(0), 2);
+  const std::string value = base::PlainNumber(a.value.value_or(0), 2);
   switch (a.kind) {
     case AlarmKind::kBound:
       return optimizer::BoundText(a.parameter.value_or(""), a.side == "upper");
@@ -85,7 +85,7 @@ std::string AlarmText(const Alarm& a) {
     case AlarmKind::kContradictsPrior:
       return "the measurements contradict the prior of " + a.parameter.value_or("") + " (" +
              a.reason.value_or("") + "): the posterior lies " +
-             base::ShortNumber(std::abs(a.value.value_or(0)), 2) + " of its standard deviations " +
+             base::PlainNumber(std::abs(a.value.value_or(0)), 2) + " of its standard deviations " +
              (a.value.value_or(0) > 0 ? "above" : "below") +
              "; the prior, the contact law or the set-up is wrong";
     case AlarmKind::kExtrapolated:
@@ -123,7 +123,7 @@ std::string AlarmText(const Alarm& a) {
              "one, " +
              base::ShortNumber(std::round(100 * a.value.value_or(0))) +
              " % lay within its 90 % regions; the ranges are widened by " +
-             base::ShortNumber(a.widened.value_or(1), 2) +
+             base::PlainNumber(a.widened.value_or(1), 2) +
              " for it; more simulations would sharpen it (" + ResumeCommand(kMoreSimulations) + ")";
     default:  // a photograph's, in the words of its measurement
       return a.reason.value_or("");

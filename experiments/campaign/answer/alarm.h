@@ -40,9 +40,10 @@ enum class AlarmKind {
   kTouchesFrame,
   kBesidePlate,
   kViewDisagrees,
-  kOverexposed
+  kOverexposed,
+  kOtherLight
 };
-constexpr AlarmKind LastOf(AlarmKind) { return AlarmKind::kOverexposed; }
+constexpr AlarmKind LastOf(AlarmKind) { return AlarmKind::kOtherLight; }
 
 struct Alarm;
 

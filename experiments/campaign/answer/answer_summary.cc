@@ -5,6 +5,7 @@
 
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
@@ -49,14 +50,14 @@ std::string ObjectiveText(const Answer& answer, const ResultExperiment& experime
   std::string text;
   if (standing != nullptr && std::isfinite(standing->predicted)) {
     text = "predicted " + base::ShortNumber(standing->predicted) + unit + " ± " +
-           base::ShortNumber(standing->predicted_sd, 2);
+           base::PlainNumber(standing->predicted_sd, 2);
   }
   if (confirmed == nullptr || !std::isfinite(confirmed->mean)) return text;
   text += (text.empty() ? "" : ", ") + std::string("confirmed ") +
           base::ShortNumber(ComparableOf(answer, *confirmed)) + unit;
   if (confirmed->over_floor) {
-    text += " (" + base::ShortNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
-            base::ShortNumber(*experiment.noise_floor, 2) + ")";
+    text += " (" + base::PlainNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
+            base::PlainNumber(*experiment.noise_floor, 2) + ")";
   }
   return text;
 }
@@ -79,7 +80,7 @@ std::string NumbersText(const ResultExperiment& experiment, const ResultConfirme
 std::string ModelErrorText(const ResultStanding& standing) {
   constexpr double kTold = 0.3;  // less of the prior's sd taken away: the prior decides
   if (standing.model_error_told == 0) return "";
-  return "; model error " + base::ShortNumber(standing.model_error, 2) +
+  return "; model error " + base::PlainNumber(standing.model_error, 2) +
          " times the run-to-run scatter" +
          (standing.model_error_told < kTold ? ", as its prior says: this test alone cannot tell"
                                             : ", learnt");
@@ -95,7 +96,7 @@ std::string ExperimentLines(const Answer& answer) {
     text += "  " + Padded(e.name + "  ", 18) + objective +
             (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
     if (const ResultStanding* standing = StandingOf(answer, e.name)) {
-      text += "; implausibility " + base::ShortNumber(standing->implausibility, 2) +
+      text += "; implausibility " + base::PlainNumber(standing->implausibility, 2) +
               ModelErrorText(*standing);
     }
     text += "\n";
@@ -149,7 +150,7 @@ std::string PosteriorLines(const Answer& result) {
     for (const ResultBranch& branch : p.branches) text += BranchLine(branch);
   }
   if (p.experiments.size() > 1) {
-    text += "  tension           " + base::ShortNumber(p.tension, 2) +
+    text += "  tension           " + base::PlainNumber(p.tension, 2) +
             " standard deviations between the experiments\n";
   }
   for (const ResultAlone& a : p.alone) {

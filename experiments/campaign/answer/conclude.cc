@@ -35,7 +35,8 @@ std::vector<const journal::TrialRecord*> Confirming(const Planner& planner,
 }
 
 // A metric over the trials that have it.
-base::Sample MetricSample(const std::vector<const journal::TrialRecord*>& trials, std::string_view name) {
+base::Sample MetricSample(const std::vector<const journal::TrialRecord*>& trials,
+                          std::string_view name) {
   std::vector<double> values;
   for (const journal::TrialRecord* trial : trials) {
     if (const auto value = trial->Metric(name)) values.push_back(*value);
@@ -73,9 +74,8 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
     const base::Sample number = MetricSample(trials, scalar.name);
-    confirmed.scalars.push_back({.name = scalar.name,
-                                 .mean = number.mean,
-                                 .standard_error = number.StandardError()});
+    confirmed.scalars.push_back(
+        {.name = scalar.name, .mean = number.mean, .standard_error = number.StandardError()});
   }
   return confirmed;
 }

@@ -11,6 +11,7 @@
 #include "base/problems.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
 #include "experiments/journal/objective.h"
@@ -64,7 +65,7 @@ std::string KnownText(const ConsideredParameter& p) {
   }
   text += "posterior " + range(p.low, p.high);
   if (p.prior)
-    text += ", its mean " + base::ShortNumber(p.prior->offset, 2) + " sd off the prior's";
+    text += ", its mean " + base::PlainNumber(p.prior->offset, 2) + " sd off the prior's";
   return text + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include "base/text/csv.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "optimizer/posterior/credible_ranges.h"
 
 namespace talus::campaign {
@@ -37,7 +38,7 @@ FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimize
 std::string ProvisionalText(double surrogate_narrowing) {
   return "provisional, since the surrogate leaves more open than the measurements do: more "
          "simulations may move it, and narrow a range by up to " +
-         base::ShortNumber(100 * surrogate_narrowing, 2) + " %";
+         base::InPercent(surrogate_narrowing) + " %";
 }
 
 ResultPosterior DescribePosterior(const optimizer::PosteriorSummary& summary,
@@ -99,8 +100,8 @@ std::string FirstAnswerText(const optimizer::Answer& answer, const optimizer::Pa
            (unit.empty() ? "" : " ") + unit;
   };
   return "first answer, by what was reused: " + base::JoinedUpTo(values.size(), ", ", one) +
-         "; the joint 90 % region fills " +
-         base::ShortNumber(100 * answer.posterior->region_volume, 2) + " % of the searched ranges";
+         "; the joint 90 % region fills " + base::InPercent(answer.posterior->region_volume) +
+         " % of the searched ranges";
 }
 
 }  // namespace talus::campaign

@@ -4,6 +4,7 @@
 
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/campaign/answer/nuisances.h"
 
 namespace talus::campaign {
@@ -22,7 +23,7 @@ struct Told {
 // Three digits: a headline is no table.
 std::string Short(double value) { return base::ShortNumber(value, 3); }
 
-std::string Percent(double share) { return base::ShortNumber(100 * share, 2) + " %"; }
+std::string Percent(double share) { return base::InPercent(share) + " %"; }
 
 // Wide, and no other parameter tells it.
 bool IsOpen(const Answer& answer, std::size_t i) {
@@ -164,8 +165,10 @@ std::vector<std::string> Headline(const Answer& all, const std::vector<std::stri
       KnownText(told)};
   // Sets that miss have no kind of fit.
   if (miss.empty()) {
-    sentences.push_back(KindText(told, *kind) + "; the joint 90 % region fills about " +
-                        Percent(answer.posterior->region_volume) + " of the searched ranges.");
+    const std::string volume = Percent(answer.posterior->region_volume);
+    sentences.push_back(KindText(told, *kind) + "; the joint 90 % region fills " +
+                        (volume.starts_with("less") ? "" : "about ") + volume +
+                        " of the searched ranges.");
   }
   sentences.push_back(NuisancesText(all, all_names));
   if (const double share = answer.posterior->surrogate_narrowing; IsProvisional(share)) {

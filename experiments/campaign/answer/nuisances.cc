@@ -1,6 +1,7 @@
 #include "experiments/campaign/answer/nuisances.h"
 
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -26,7 +27,7 @@ std::string NuisanceText(const ResultParameter& p, const std::string& name) {
                      base::ShortNumber(p.credible_high, 3) + unit + ", ";
   if (!Matters(p)) return text + "does not matter";
   return text + "matters: measure it (the range of " + p.nuisance->of_range + " would be " +
-         base::ShortNumber(100 * p.nuisance->narrowing, 2) + " % narrower)";
+         base::InPercent(p.nuisance->narrowing) + " % narrower)";
 }
 
 std::vector<std::size_t> AskedParameters(const Answer& answer) {

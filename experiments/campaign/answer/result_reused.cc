@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/text/counted.h"
-#include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/campaign/plan/core_time.h"
 
 namespace talus::campaign {
@@ -26,7 +26,7 @@ std::vector<ResultReused> ReusedBy(std::span<const journal::TrialRecord> trials,
 
 std::string ReusedText(const ResultReused& reused) {
   return base::Counted(reused.num_trials, "simulation") + " of " + reused.from + " (" +
-         base::ShortNumber(reused.core_hours, 2) + " core hours there)";
+         base::PlainNumber(reused.core_hours, 2) + " core hours there)";
 }
 
 std::string ReusedLines(const std::vector<ResultReused>& list) {

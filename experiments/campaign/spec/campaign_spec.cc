@@ -103,7 +103,8 @@ std::vector<Eigen::VectorXd> CheckedPoints(const CampaignSpec& spec) {
   return points;
 }
 
-// What shows only when it is put together, such as a tube that cannot hold the mass.
+}  // namespace
+
 void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
@@ -123,8 +124,6 @@ void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
     }
   }
 }
-
-}  // namespace
 
 void BudgetOptions::Validate(base::Problems& problems) const {
   problems.Require(

@@ -121,6 +121,10 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file);
 // A spec that was not read from one file: every problem of it.
 void CheckSpec(const CampaignSpec& spec, base::Problems& problems);
 
+// What shows only when the cases of a spec are put together, such as a tube that cannot hold the
+// mass.
+void ValidateCases(const CampaignSpec& spec, base::Problems& problems);
+
 // Whether another engine's templates use every parameter that is searched, and only what there is.
 void CheckTemplates(const CampaignSpec& spec, base::Problems& problems);
 

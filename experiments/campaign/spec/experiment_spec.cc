@@ -25,4 +25,11 @@ void ExperimentSpec::Validate(base::Problems& problems) const {
   complete.Validate(problems);
 }
 
+rigs::Case RigOf(const ExperimentSpec& experiment) {
+  rigs::Case rig_case;
+  rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
+  rig_case.SetDevice(*experiment.device);
+  return rig_case;
+}
+
 }  // namespace talus::campaign

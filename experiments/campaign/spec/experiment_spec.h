@@ -55,6 +55,9 @@ struct ExperimentSpec {
   void Validate(base::Problems& problems) const;
 };
 
+// A case with its rig and device, and nothing else.
+rigs::Case RigOf(const ExperimentSpec& experiment);
+
 inline std::vector<ScalarSpec> ScalarsOf(const ExperimentSpec& experiment) {
   return ScalarsOf(experiment.numbers);
 }

@@ -12,17 +12,11 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/spec/plausible.h"
+#include "experiments/campaign/spec/validate_numbers.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::campaign {
 namespace {
-
-rigs::Case RigOf(const ExperimentSpec& experiment) {
-  rigs::Case rig_case;
-  rig_case.rig = experiment.rig.value_or(rigs::RigOptions{});
-  rig_case.SetDevice(*experiment.device);
-  return rig_case;
-}
 
 // Images are scaled by the width of plate, drum or box: another one shows another test.
 void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
@@ -40,20 +34,6 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
                  " mm: the images are of another test, or the experiment needs a rig of its own");
 }
 
-// Another engine's command may measure what it likes.
-void CheckNumbers(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
-  const rigs::Case rig = RigOf(e);
-  const auto known = rigs::EntryOf(rig).observables;
-  for (const ScalarSpec& scalar : ScalarsOf(e)) {
-    const auto name = [](const rigs::RigObservable& o) { return rigs::MetricName(o.observable); };
-    if (std::ranges::find(known, scalar.metric, name) != known.end()) continue;
-    problems.Add(place + "." + scalar.key,
-                 "is not measured by the rig " + std::string(base::NameOf(rig.rig.kind)) +
-                     ", which measures " + base::Joined(known, ", ", name) +
-                     "; remove it, or name the rig of this test");
-  }
-}
-
 // What it is filled with; a drum's photographs show how full it is.
 void CheckMass(const CampaignSpec& spec, const ExperimentSpec& e, const std::string& place,
                base::Problems& problems) {
@@ -64,34 +44,6 @@ void CheckMass(const CampaignSpec& spec, const ExperimentSpec& e, const std::str
                    "is missing or 0, must be positive: give it, or " +
                        (place.empty() ? "" : place + ".mass, or ") +
                        "the photographs or rig.fill of a drum");
-}
-
-// It is read off the pictures of a camera.
-void CheckCohesiveIndex(const ExperimentSpec& e, const std::string& place,
-                        base::Problems& problems) {
-  const bool filmed = e.rig && e.rig->camera;
-  problems.Require(!e.numbers.Of<rigs::Observable::kCohesiveIndex>() || filmed,
-                   place + (place.empty() ? "" : ".") + "cohesive_index",
-                   "needs a camera: give the rig \"camera\": {\"frames\": 20, \"interval\": "
-                   "\"10 ms\"}, as the test's own");
-}
-
-// A line takes two stresses of a shear cell, and each shear stress its own.
-void CheckShearStresses(const ExperimentSpec& e, const std::string& place,
-                        base::Problems& problems) {
-  if (!e.rig || e.rig->kind != rigs::RigKind::kShearCell) return;
-  using O = rigs::Observable;
-  const auto require = [&](std::size_t least, O observable, bool measured) {
-    const std::size_t given = e.rig->shear_cell.stresses.size();
-    problems.Require(!measured || given >= least,
-                     place + (place.empty() ? "" : ".") + rigs::InfoOf(observable).key,
-                     "needs " + std::to_string(least) + " normal stresses, and rig.stresses has " +
-                         std::to_string(given) + ": give all that it was measured at");
-  };
-  require(2, O::kFrictionAngle, e.numbers.Of<O::kFrictionAngle>().has_value());
-  require(2, O::kCohesion, e.numbers.Of<O::kCohesion>().has_value());
-  require(2, O::kShearStress2, e.numbers.Of<O::kShearStress2>().has_value());
-  require(3, O::kShearStress3, e.numbers.Of<O::kShearStress3>().has_value());
 }
 
 // What the wall's material gives itself, by the names of the properties.
@@ -183,8 +135,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
     const std::string place = spec.experiments ? "experiments[" + std::to_string(i) + "]" : "";
     CheckMass(spec, all[i], place, problems);
     ValidateDrumImages(all[i], place, problems);
-    CheckCohesiveIndex(all[i], place, problems);
-    CheckShearStresses(all[i], place, problems);
+    ValidateNeeds(all[i], ScalarsOf(all[i]), place, problems);
   }
   const bool has_drum =
       std::any_of(all.begin(), all.end(), [](const ExperimentSpec& e) { return IsDrum(e.rig); });
@@ -201,7 +152,8 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
         names.insert(all[i].name).second, place + ".name",
         "\"" + all[i].name + "\" stands there twice: results could not tell them apart");
     CheckWidth(all[i], place, problems);
-    if (spec.engine.kind == EngineKind::kTalus) CheckNumbers(all[i], place, problems);
+    if (spec.engine.kind != EngineKind::kTalus) continue;  // a command may measure what it likes
+    ValidateMeasured(all[i], ScalarsOf(all[i]), place, problems);
   }
   if (spec.parameters) CheckWalls(spec, all, problems);
 }

@@ -15,6 +15,7 @@
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/drums/drum_overlay.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/photos/photo_set.h"
 
@@ -58,8 +59,9 @@ void WriteFiles(const MeasureRequest& request, const imaging::MeasuredDrum& drum
   const fs::path& out = request.out;
   base::ClaimOutputFolder(out, "measure", request.drum->photos);
   imaging::WriteProfile(out / "drum.png", imaging::DrumProfile(drum));
-  imaging::WritePng(out / "overlay.png",
-                    imaging::DrawDrum(imaging::ReadGrayImage(request.drum->photos.front()), drum));
+  imaging::WritePng(
+      out / "overlay.png",
+      imaging::DrawDrum(imaging::ReadPhotograph(request.drum->photos.front()).image, drum));
   base::WriteFileAtomically(out / "surface.csv", SurfaceCsv(drum));
   base::WriteFileAtomically(out / "measure.json",
                             base::JsonText(DrumJson(drum, request.drum->photos.size()), 2) + "\n");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/campaign/record/reference.h"
 #include "tests/experiments/synthetic_campaign.h"
 
@@ -68,6 +69,16 @@ TEST(CompareObjectives, ScatterIsThatOfTheRepeats) {
   const auto finding =
       Find(OneParameter("sad_mm2", {{0.2, 1.0}, {0.2, 2.0}, {0.6, 5.0}, {0.6, 7.0}}), "sad");
   EXPECT_DOUBLE_EQ(finding.noise_sd, std::sqrt(2.5 / 2));
+}
+
+// "Sets tie when they differ by at most the scatter of one simulation: SAD 0 mm²."
+TEST(CompareObjectives, SeedsThatChangeNothingAreSaidToDoSo) {
+  const auto text = [](double second) {
+    const Evidence evidence = OneParameter("sad_mm2", {{0.2, 1.0}, {0.2, second}, {0.6, 5.0}});
+    return ComparisonText({evidence, CompareObjectives(evidence)});
+  };
+  EXPECT_THAT(text(1.0), HasSubstr("came out alike: only equal sets tie"));
+  EXPECT_THAT(text(2.0), HasSubstr("scatter of one simulation: SAD 0.71 mm²."));
 }
 
 TEST(CompareObjectives, RanksAnAngleByItsDistanceFromTheExperiments) {

@@ -372,6 +372,25 @@ TEST_F(NextTest, WhatCannotBeSimulatedIsSaidAndNotTried) {
   EXPECT_FALSE(fs::exists(folder_ / "next"));
 }
 
+// Each was simulated and ranked, and refused when it had been made.
+TEST_F(NextTest, WhatAddExperimentWouldRefuseIsNotRanked) {
+  const JointView view = Run();
+  TestCandidate fast{.name = "fast"};
+  fast.device = view.spec.device;
+  fast.device->lift_velocity = 50;  // mm/s, it was meant
+  TestCandidate unfilmed{.name = "unfilmed"};
+  unfilmed.rig.emplace().kind = rigs::RigKind::kDrum;
+  unfilmed.numbers.Of<rigs::Observable::kCohesiveIndex>() = {.standard_error = 0.1};
+  TestCandidate odd{.name = "odd"};
+  odd.numbers.Of<rigs::Observable::kTappedDensity>() = {.standard_error = 4};
+  const NextTable table = Rank(view, {fast, unfilmed, odd}, true);
+  EXPECT_THAT(Find(table, "fast").what,
+              HasSubstr("cannot be simulated: fast: device.lift_velocity"));
+  EXPECT_THAT(Find(table, "unfilmed").what, HasSubstr("cohesive_index: needs a camera"));
+  EXPECT_THAT(Find(table, "odd").what, HasSubstr("tapped_density: is not measured by the rig"));
+  EXPECT_FALSE(fs::exists(folder_ / "next"));
+}
+
 TEST_F(NextTest, CandidatesComeFromAFile) {
   const fs::path file = scratch_.path() / "tests.json";
   std::ofstream(file) << R"({"candidates": [{"name": "fast", "device": {"lift_velocity": "20 cm/s"},

@@ -260,6 +260,14 @@ TEST(Headline, SaysWhatIsNotDeterminedBeforeWhatIs) {
   EXPECT_THAT(sentences[3], HasSubstr("a region, not a point"));
 }
 
+TEST(Headline, SharesOfAllAndOfNearlyNothingAreReadable) {
+  Answer answer = ResultWithRanges(0.95, 9e-5);
+  answer.posterior->region_volume = 3e-7;
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("region fills less than 0.01 % of the searched"));
+  answer.posterior->region_volume = 0.998;
+  EXPECT_THAT(HeadlineText(answer), HasSubstr("region fills about 100 % of the searched"));
+}
+
 // A valley over the whole range determines one given the other.
 TEST(Headline, OneOfATiedPairIsNotCalledOpen) {
   Answer answer = ResultWithRanges(0.95, 9e-5);

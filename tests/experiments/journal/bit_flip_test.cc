@@ -1,4 +1,5 @@
 // Bits turned over in what a campaign keeps: each is harmless, or noticed.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -119,6 +120,28 @@ TEST_F(BitFlips, OfTheJournalAreHarmlessOrNoticed) {
     }
   }
   EXPECT_GT(noticed, 100);  // the others hit free space
+}
+
+// The journal's own text of a table: rows and checksums stay whole, and a column has another name.
+// It was said that there is "no such column: undefined".
+TEST_F(BitFlips, OfTheTextOfATableAreNamedAsDamage) {
+  const fs::path path = journal::JournalPath(folder_);
+  { journal::Journal::Create(path, Campaign()); }
+  std::string bytes = base::ReadFile(path);
+  const std::size_t at =
+      bytes.find("undefined TEXT NOT NULL,        -- why it is not defined\n  PRIMARY");
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] ^= 1;
+  base::WriteFileAtomically(path, bytes, base::Outlives::kProgram);
+  for (const auto open : {&journal::Journal::Open, &journal::Journal::OpenReadOnly}) {
+    try {
+      open(path);
+      ADD_FAILURE() << "it was opened";
+    } catch (const base::Error& error) {
+      EXPECT_THAT(error.what(),
+                  testing::HasSubstr("is damaged: the table metrics is not as it was made"));
+    }
+  }
 }
 
 // SQLite takes a frame that does not match its checksum for the end of the log: the journal is then

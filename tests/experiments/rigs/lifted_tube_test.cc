@@ -288,6 +288,23 @@ TEST(LiftedTube, AFunnelThatWouldPourForHoursIsRefused) {
   EXPECT_THAT(problems.list().front().message, ::testing::HasSubstr("raise it to"));
 }
 
+// Of hard grains, which the floor does not stop. The bed leapt out of its tube, and a heap of
+// nothing was called done; thousands of taps went on for hours.
+TEST(LiftedTube, TapsThatNoDeviceMakesAreRefused) {
+  Case c = Poured(0.5, 0.2);
+  c.filling = {};
+  c.powder.material.youngs_modulus = 1e9;
+  const auto path_with = [&](const TapRule& taps) {
+    c.filling.taps = taps;
+    base::Problems problems;
+    ValidateCase(c, problems);
+    return problems.empty() ? "" : problems.list().front().path;
+  };
+  EXPECT_EQ(path_with({.count = 2, .height = 14e-3, .interval = 0.3}), "");
+  EXPECT_EQ(path_with({.count = 2, .height = 1, .interval = 1.5}), "filling.taps.height");
+  EXPECT_EQ(path_with({.count = 100000, .height = 3e-3, .interval = 0.1}), "filling.taps.count");
+}
+
 TEST(PouredHeap, TapsMakeTheBedDenser) {
   Case c = Poured(0.5, 0.2);
   c.filling.taps = TapRule{.count = 5, .height = 1e-3, .interval = 0.08};

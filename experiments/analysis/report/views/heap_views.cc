@@ -7,7 +7,7 @@
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
-#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/photograph_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/photos/overlay.h"
 #include "imaging/photos/photo_set.h"
@@ -120,8 +120,8 @@ void AddPhotographs(const Evidence& evidence, const Box& box, PhotoOverlay& over
   const imaging::Experiment measured = imaging::MeasureExperiment(options);
   for (const imaging::MeasuredView& view : SomeViews(measured.runs.front().views)) {
     const imaging::GrayImage photo =
-        imaging::PhotoInFrame(imaging::ReadGrayImage(view.photo), view.plate, measured.photo_pixel,
-                              evidence.reference.aehp.frame);
+        imaging::PhotoInFrame(imaging::ReadPhotograph(view.photo).image, view.plate,
+                              measured.photo_pixel, evidence.reference.aehp.frame);
     overlay.photographs.push_back(
         MakePicture("photograph_" + std::to_string(overlay.photographs.size() + 1),
                     view.photo.filename().string(), Cropped(photo, box)));

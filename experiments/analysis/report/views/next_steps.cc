@@ -6,6 +6,7 @@
 
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/views/width_views.h"
@@ -119,8 +120,7 @@ double TimeOfOne(const Evidence& evidence) {
 std::string NarrowingText(const campaign::ResultUnsettled& unsettled) {
   std::string text;
   for (const campaign::ResultNarrowing& one : unsettled.narrowing) {
-    text += (text.empty() ? "" : ", ") + base::ShortNumber(100 * one.share, 2) + " % of " +
-            one.parameter;
+    text += (text.empty() ? "" : ", ") + base::InPercent(one.share) + " % of " + one.parameter;
   }
   return text;
 }

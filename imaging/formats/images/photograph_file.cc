@@ -1,0 +1,49 @@
+#include "imaging/formats/images/photograph_file.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "imaging/formats/images/image_file.h"
+
+namespace talus::imaging {
+namespace {
+
+constexpr double kMostPixels = 25e6;
+
+int BlockFor(const GrayImage& image) {
+  return static_cast<int>(std::ceil(std::sqrt(image.pixels.size() / kMostPixels)));
+}
+
+}  // namespace
+
+GrayImage Reduced(const GrayImage& image, int block) {
+  GrayImage small{.width = image.width / block, .height = image.height / block, .pixels = {}};
+  small.pixels.reserve(static_cast<std::size_t>(small.width) *
+                       static_cast<std::size_t>(small.height));
+  const int area = block * block;
+  for (int y = 0; y < small.height; ++y) {
+    std::vector<int> sums(static_cast<std::size_t>(small.width));
+    for (int row = y * block; row < (y + 1) * block; ++row) {
+      for (int x = 0; x < small.width * block; ++x) {
+        sums[static_cast<std::size_t>(x / block)] += image.at(x, row);
+      }
+    }
+    for (const int sum : sums) {
+      small.pixels.push_back(static_cast<std::uint8_t>((sum + area / 2) / area));
+    }
+  }
+  return small;
+}
+
+Photograph ReadPhotograph(const std::filesystem::path& path) {
+  Photograph photo{.image = ReadGrayImage(path)};
+  photo.width = photo.image.width;
+  photo.height = photo.image.height;
+  photo.block = BlockFor(photo.image);
+  if (photo.block > 1) photo.image = Reduced(photo.image, photo.block);
+  return photo;
+}
+
+}  // namespace talus::imaging

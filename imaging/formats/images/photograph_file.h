@@ -1,0 +1,27 @@
+// Photographs that are to be measured, in files.
+//
+// Measuring takes some 13 bytes a pixel and thread. Where a camera gives more than 25 million
+// pixels, each pixel is the mean of a square of the file's: no heap is known better by more of
+// them.
+#pragma once
+
+#include <filesystem>
+
+#include "imaging/gray_image.h"
+
+namespace talus::imaging {
+
+struct Photograph {
+  GrayImage image;
+  int width = 0;   // of the file, upright [px]
+  int height = 0;  // [px]
+  int block = 1;   // side of the squares [px of the file]
+};
+
+// Throws ConfigError as ReadGrayImage does.
+Photograph ReadPhotograph(const std::filesystem::path& path);
+
+// Means of squares; what is left over at the right and lower edge is not shown.
+GrayImage Reduced(const GrayImage& image, int block);
+
+}  // namespace talus::imaging
