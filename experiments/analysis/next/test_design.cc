@@ -36,11 +36,6 @@ std::vector<std::vector<double>> PointsOf(const DesignPlace& place) {
   return points;
 }
 
-Eigen::VectorXd PointOf(const campaign::DesignRecord& record, std::size_t index) {
-  const std::vector<double>& point = record.points[index];
-  return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
-}
-
 Eigen::VectorXd MiddleOf(const campaign::DesignRecord& record) {
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(PointOf(record, 0).size());
   for (std::size_t i = 0; i < record.points.size(); ++i) mean += PointOf(record, i);
