@@ -1,5 +1,8 @@
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 
+#include <algorithm>
+
+#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
@@ -7,11 +10,13 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "experiments/journal/record_json.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
 namespace {
 
+using base::PlainNumber;
 using base::ShortNumber;
 
 std::string PlusMinus(double value, double error) {
@@ -102,6 +107,17 @@ std::string SensitivityText(const SensitivityTable& table) {
 
 std::filesystem::path SensitivityFile(const std::filesystem::path& campaign) {
   return campaign / "sensitivity.json";
+}
+
+std::optional<SensitivityTable> LoadSensitivity(const std::filesystem::path& campaign) {
+  const std::filesystem::path path = SensitivityFile(campaign);
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    return journal::ParseRecord<SensitivityTable>(base::ReadFile(path), path.string());
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(std::string(error.what()) +
+                            "\nrun `talus sensitivity` again, or remove the file");
+  }
 }
 
 void WriteSensitivity(const SensitivityTable& table, const std::filesystem::path& campaign) {

@@ -3,6 +3,7 @@
 // them over once the test is made.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -24,6 +25,9 @@ struct DesignRecord {
 
   TALUS_FIELDS(test, scale_factor, seed, parameters, points);
 };
+
+// Where a simulation lies, unit cube.
+Eigen::VectorXd PointOf(const DesignRecord& record, std::size_t index);
 
 struct DesignFolder {
   std::filesystem::path root;
