@@ -28,9 +28,8 @@ import pathlib
 import random
 
 import numpy
-from PIL import Image
 
-from twin import credible_level, device, frame, run
+from twin import credible_level, device, mean_heap, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
@@ -44,24 +43,10 @@ MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
 
 def measure(options, folder, truth, plate_mm, seed, plate=None):
     """The mean image of so many heaps, and the mass that falls with its standard error [kg]."""
-    images, masses = [], []
-    for i in range(options.runs):
-        case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "device": device(plate_mm),
-                "models": MODELS, "frame": frame(plate_mm), "seed": seed + i}
-        if plate:
-            case["device"]["plate_material"] = plate
-        place = folder / f"plate{plate_mm}_run{i + 1}"
-        place.mkdir(parents=True, exist_ok=True)
-        (folder / f"{place.name}.json").write_text(json.dumps(case))
-        run(options.talus, "simulate", folder / f"{place.name}.json", "--out", place)
-        images.append(numpy.asarray(Image.open(place / "profile.png"), dtype=float))
-        masses.append(json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"])
-    name = f"plate{plate_mm}.png"
-    Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
-    grain = MATERIAL["density"] * numpy.pi / 6 * (1e-3 * options.diameter) ** 3
-    error = max(numpy.std(masses, ddof=1), grain) / options.runs**0.5
-    entry = {"map": name, "map_heaps": options.runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
-    return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
+    case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "models": MODELS}
+    if plate:
+        case["device"] = {**device(plate_mm), "plate_material": plate}
+    return mean_heap(options.talus, folder, case, plate_mm, seed, options.runs)
 
 
 def calibrate(options, folder, name, experiments, seed, truth):
