@@ -31,10 +31,9 @@ import pathlib
 import random
 
 import numpy
-from PIL import Image
 
 from drawn_heap import draw
-from twin import credible_level, device, drawn_engine, frame, run
+from twin import credible_level, device, drawn_engine, mean_heap, run, simulated
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
@@ -46,41 +45,23 @@ POWDER = {"material": MATERIAL, "sizes": {"kind": "mono"}}
 MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
 
 
-def simulated(options, case, place):
-    """The image of one heap, and the mass that falls [kg]."""
-    run(options.talus, "simulate", place.with_suffix(".json"), "--out", place)
-    return place / "profile.png", json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"]
-
-
-def drawn(options, case, place):
+def drawn(_, case, place):
+    """As `simulated`, of a heap that is drawn."""
     material = case["powder"]["material"]
     plate = case["device"].get("plate_material", {}).get("sliding_friction", material["sliding_friction"])
+    mass = float(case["powder"]["mass"].removesuffix(" g"))
     draw({"surface_energy": 0, **{k: v for k, v in material.items() if not isinstance(v, str)}, "plate_friction": plate,
-          "plate_diameter": case["frame"]["width_px"] * 1e-4 / 1.2, "mass": 1e-3 * options.mass, "scale_factor": 1,
+          "plate_diameter": case["frame"]["width_px"] * 1e-4 / 1.2, "mass": 1e-3 * mass, "scale_factor": 1,
           "seed": case["seed"]}, place)
     return place / "heap.png", json.loads((place / "scalars.json").read_text())["mass_fallen_kg"]
 
 
 def measure(options, folder, truth, plate_mm, seed, plate=None):
     """The mean image of so many heaps, and the mass that falls with its standard error [kg]."""
-    images, masses = [], []
-    for i in range(options.runs):
-        case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "device": device(plate_mm),
-                "models": MODELS, "frame": frame(plate_mm), "seed": seed + i}
-        if plate:
-            case["device"]["plate_material"] = plate
-        place = folder / f"plate{plate_mm}_run{i + 1}"
-        place.mkdir(parents=True, exist_ok=True)
-        (folder / f"{place.name}.json").write_text(json.dumps(case))
-        image, mass = (drawn if options.drawn else simulated)(options, case, place)
-        images.append(numpy.asarray(Image.open(image), dtype=float))
-        masses.append(mass)
-    name = f"plate{plate_mm}.png"
-    Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
-    grain = MATERIAL["density"] * numpy.pi / 6 * (1e-3 * options.diameter) ** 3
-    error = max(numpy.std(masses, ddof=1), grain) / options.runs**0.5
-    entry = {"map": name, "map_heaps": options.runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
-    return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
+    case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "models": MODELS}
+    if plate:
+        case["device"] = {**device(plate_mm), "plate_material": plate}
+    return mean_heap(options.talus, folder, case, plate_mm, seed, options.runs, drawn if options.drawn else simulated)
 
 
 def calibrate(options, folder, name, experiments, seed, truth):

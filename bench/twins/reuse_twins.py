@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""reuse_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--runs N] [--shift D]: the next batch of a
+"""reuse_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--runs N] [--shift D] [--workers N]: the next batch of a
 virtual powder, told what was simulated for the first one.
 
 Each powder has sliding and rolling friction drawn at random. Of the first batch --runs heaps on a plate of 10 mm and as
@@ -81,7 +81,7 @@ def measure(options, folder, truth, name, seed):
 def calibrate(options, folder, experiments, seed, budget, *more):
     """The result, and the seconds to what the first line says of an answer."""
     spec = {"experiments": experiments, "powder": POWDER, "device": device(10), "models": MODELS,
-            "coarse_graining": {"scale_factors": [1.4, 1]}, "seed": seed, "workers": 2, "budget": budget,
+            "coarse_graining": {"scale_factors": [1.4, 1]}, "seed": seed, "workers": options.workers, "budget": budget,
             "parameters": {k: {"min": a, "max": b} for k, (a, b) in SEARCHED.items()},
             "confirm": {"candidates": 0}, "next": {"share": 0}}
     folder.with_suffix(".json").write_text(json.dumps(spec))
@@ -109,6 +109,7 @@ def main():
     parser.add_argument("--core-time", type=float, default=120)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--shift", type=float, default=0.1)
+    parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args()
     said = {True: [], False: []}  # by whether there is a difference
     for twin in range(options.first, options.last + 1):

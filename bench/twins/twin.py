@@ -1,8 +1,12 @@
 """What the benches on virtual powders have in common: the device of their heaps, the frame of their images, the program."""
 import json
+import math
 import pathlib
 import subprocess
 import sys
+
+import numpy
+from PIL import Image
 
 
 def device(plate_mm):
@@ -35,3 +39,30 @@ def credible_level(talus, campaign, truth):
     """Of the smallest joint region that holds the truth: 0.9 or less is inside the 90 % region."""
     told = run(talus, "consider", campaign, "--json", *(f"{k}={v}" for k, v in truth.items()))
     return json.loads(told)["credible_level"]
+
+
+def simulated(talus, case, place):
+    """The image of one heap, and the mass that falls [kg]."""
+    place.with_suffix(".json").write_text(json.dumps(case))
+    run(talus, "simulate", place.with_suffix(".json"), "--out", place)
+    return place / "profile.png", json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"]
+
+
+def mean_heap(talus, folder, case, plate_mm, seed, runs, heap=simulated):
+    """A heap's entry of `experiments`, its mean image, and the mass that falls with its standard error [kg]. `case`
+    has powder and contact models; one grain is the least error of a mass. `heap` makes one (`simulated`)."""
+    images, masses = [], []
+    for i in range(runs):
+        place = folder / f"plate{plate_mm}_run{i + 1}"
+        place.mkdir(parents=True, exist_ok=True)
+        image, mass = heap(
+            talus, {"device": device(plate_mm), **case, "frame": frame(plate_mm), "seed": seed + i}, place)
+        images.append(numpy.asarray(Image.open(image), dtype=float))
+        masses.append(mass)
+    name = f"plate{plate_mm}.png"
+    Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
+    diameter = float(case["powder"]["sizes"]["diameter"].removesuffix(" mm")) * 1e-3
+    grain = case["powder"]["material"]["density"] * math.pi / 6 * diameter**3
+    error = max(numpy.std(masses, ddof=1), grain) / runs**0.5
+    entry = {"map": name, "map_heaps": runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
+    return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}
