@@ -17,7 +17,7 @@ struct Names<Color> {
   static constexpr std::array kList{std::pair{"red", Color::kRed}, std::pair{"blue", Color::kBlue}};
 };
 
-namespace {
+namespace json_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -228,5 +228,5 @@ TEST(Json, SchemaHasTypesDefaultsUnitsAndRequiredKeys) {
   EXPECT_EQ(schema["properties"]["list"]["items"]["type"], "object");
 }
 
-}  // namespace
+}  // namespace json_test
 }  // namespace talus::base

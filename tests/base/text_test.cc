@@ -9,7 +9,7 @@
 #include "base/text/number_text.h"
 
 namespace talus::base {
-namespace {
+namespace text_test {
 
 TEST(NumberText, ShortRoundsAndExactReadsBack) {
   EXPECT_EQ(ShortNumber(0.123456), "0.1235");
@@ -45,5 +45,5 @@ TEST(Markup, TextsOfOthersStayTexts) {
   EXPECT_EQ(MarkupText("</script>\x1b[2J"), "&lt;/script&gt;\\x1b[2J");
 }
 
-}  // namespace
+}  // namespace text_test
 }  // namespace talus::base

@@ -13,7 +13,7 @@
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
-namespace {
+namespace drum_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -152,5 +152,5 @@ TEST(Drum, ErrorsSayWhatToDo) {
               HasSubstr("stands still"));
 }
 
-}  // namespace
+}  // namespace drum_test
 }  // namespace talus::imaging

@@ -14,7 +14,7 @@
 #include "tests/imaging/stored_images.h"
 
 namespace talus::imaging {
-namespace {
+namespace image_file_test {
 
 TEST(ImageFile, PngComesBackUnchanged) {
   WritePng(TempFile("ramp.png"), Ramp());
@@ -249,5 +249,5 @@ TEST(ImageFile, DamagedFilesAreImagesOrErrors) {
   }
 }
 
-}  // namespace
+}  // namespace image_file_test
 }  // namespace talus::imaging

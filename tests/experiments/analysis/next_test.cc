@@ -17,7 +17,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace next_test {
 
 using campaign::FakeEngine;
 using campaign::JointView;
@@ -315,5 +315,5 @@ TEST_F(NextTest, TooFewTrialsForAPosteriorAreSaid) {
   EXPECT_THROW(Rank(campaign::ReadJointView(folder), {}, false), base::Error);
 }
 
-}  // namespace
+}  // namespace next_test
 }  // namespace talus::analysis

@@ -14,7 +14,7 @@
 #include "imaging/photos/photo_warning.h"
 
 namespace talus::campaign {
-namespace {
+namespace alarms_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -455,5 +455,5 @@ TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
   EXPECT_FALSE(Misses(answer, end));
 }
 
-}  // namespace
+}  // namespace alarms_test
 }  // namespace talus::campaign
