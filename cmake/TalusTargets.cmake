@@ -1,4 +1,4 @@
-# How every target of the project is made: one library a folder, one program a test file.
+# How every target of the project is made: one library a folder, one program of tests a folder.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -85,29 +85,56 @@ target_compile_definitions(talus_test_options INTERFACE TALUS_SOURCE_DIR="${PROJ
 target_compile_options(talus_test_options INTERFACE $<IF:$<BOOL:${TALUS_SANITIZE}>,-O0,-O1;-g0>
   -Wno-array-bounds -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
 
-# talus_add_test(folder/name_test libraries... [LABELS slow] [TIMEOUT seconds])
-# One program from one file; every test case of it is a CTest test. Label "slow" keeps it out of the
-# quick part of the suite, label "threads" puts it into what the thread sanitizer's preset builds and runs.
+# The suites of a test's file as a filter of GoogleTest, parameterised ones included. A file without is an error:
+# a filter that fits nothing would pass.
+function(talus_suites_of file filter)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(STRINGS ${file} cases REGEX "^TEST(_F|_P)?[(]")
+  list(TRANSFORM cases REPLACE "^TEST[_FP]*[(]([A-Za-z0-9]+).*" "\\1")
+  list(REMOVE_DUPLICATES cases)
+  if(NOT cases)
+    message(FATAL_ERROR "${file} has no TEST, TEST_F or TEST_P at the start of a line")
+  endif()
+  list(TRANSFORM cases REPLACE "(.+)" "\\1.*:*/\\1.*")
+  list(JOIN cases ":" joined)
+  set(${filter} ${joined} PARENT_SCOPE)
+endfunction()
+
+# talus_add_test(folder/name_test libraries... [ALONE] [LABELS slow] [TIMEOUT seconds] [DEPENDS target])
+# One CTest test from one file. Where CMAKE_UNITY_BUILD is on, the files of a folder are one program, since reading
+# the headers is most of what a test costs to compile: so each file has a namespace and suites of its own. ALONE: a
+# program of its own all the same. Label "slow" keeps it out of the quick part of the suite, label "threads" puts it
+# into what the thread sanitizer's preset builds and runs.
 function(talus_add_test path)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;ARGUMENTS" ${ARGN})
-  string(REPLACE "/" "_" target ${path})
-  add_executable(${target} ${PROJECT_SOURCE_DIR}/tests/${path}.cc)
-  target_precompile_headers(${target} REUSE_FROM talus_test_headers)
-  if(TALUS_SANITIZE AND "slow" IN_LIST ARG_LABELS)
-    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "LABELS;DEPENDS" ${ARGN})
+  set(source ${PROJECT_SOURCE_DIR}/tests/${path}.cc)
+  set(program ${path})
+  if(CMAKE_UNITY_BUILD AND NOT ARG_ALONE)
+    get_filename_component(program ${path} DIRECTORY)
+    string(APPEND program _tests)
+  endif()
+  string(REPLACE "/" "_" target ${program})
+  if(NOT TARGET ${target})
+    add_executable(${target})
+    target_precompile_headers(${target} REUSE_FROM talus_test_headers)
+    target_link_libraries(${target} PRIVATE GTest::gmock GTest::gtest_main talus_test_options)
+  endif()
+  target_sources(${target} PRIVATE ${source})
+  target_link_libraries(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS})
+  if(ARG_DEPENDS)
+    add_dependencies(${target} ${ARG_DEPENDS})
   endif()
   if(TALUS_THREAD_SANITIZER AND "threads" IN_LIST ARG_LABELS)
     add_dependencies(tests_with_threads ${target})
   endif()
-  target_link_libraries(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main
-    talus_test_options)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
   if(TALUS_SANITIZE OR TALUS_THREAD_SANITIZER)
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
-  add_test(NAME ${path} COMMAND ${target})
+  talus_suites_of(${source} filter)
+  add_test(NAME ${path} COMMAND ${target} --gtest_filter=${filter})
   set_tests_properties(${path} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
     ENVIRONMENT OMP_WAIT_POLICY=passive)  # as the program sets it (experiments/app/main.cc)
 endfunction()

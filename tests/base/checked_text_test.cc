@@ -8,7 +8,7 @@
 #include "base/error.h"
 
 namespace talus::base {
-namespace {
+namespace checked_text_test {
 
 using ::testing::HasSubstr;
 
@@ -50,5 +50,5 @@ TEST(CheckedText, NamesWhatIsDamaged) {
   }
 }
 
-}  // namespace
+}  // namespace checked_text_test
 }  // namespace talus::base

@@ -9,7 +9,7 @@
 #include "base/error.h"
 
 namespace talus::base {
-namespace {
+namespace file_test {
 
 namespace fs = std::filesystem;
 
@@ -78,5 +78,5 @@ TEST_F(FileTest, TheTailOfAHugeFileTakesNoMemory) {
 // The reference value is XXH3's published one for no bytes at all with seed 0.
 TEST(Checksum, IsXxh3) { EXPECT_EQ(Hex(Checksum("")), "2d06800538d394c2"); }
 
-}  // namespace
+}  // namespace file_test
 }  // namespace talus::base

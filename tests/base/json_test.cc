@@ -20,7 +20,7 @@ struct Names<Color> {
 enum class Ending { kDone, kTimeCap, kLostGrains };
 constexpr Ending LastOf(Ending) { return Ending::kLostGrains; }
 
-namespace {
+namespace json_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -256,5 +256,5 @@ TEST(Json, SchemaHasTypesDefaultsUnitsAndRequiredKeys) {
   EXPECT_EQ(schema["properties"]["list"]["items"]["type"], "object");
 }
 
-}  // namespace
+}  // namespace json_test
 }  // namespace talus::base

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace talus::base {
-namespace {
+namespace name_test {
 
 bool IsRefused(const std::string& name) {
   Problems problems;
@@ -31,5 +31,5 @@ TEST(Name, FromOutsideBecomesOneLine) {
   EXPECT_EQ(OneLine(""), "");
 }
 
-}  // namespace
+}  // namespace name_test
 }  // namespace talus::base

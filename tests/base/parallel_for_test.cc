@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace talus::base {
-namespace {
+namespace parallel_for_test {
 
 constexpr double kMuchWork = 1e9;
 
@@ -69,5 +69,5 @@ TEST(ParallelForOnTwoThreads, RunsTwoItemsAtOnce) {
   EXPECT_EQ(arrived, 2);
 }
 
-}  // namespace
+}  // namespace parallel_for_test
 }  // namespace talus::base

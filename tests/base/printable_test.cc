@@ -5,7 +5,7 @@
 #include <sstream>
 
 namespace talus::base {
-namespace {
+namespace printable_test {
 
 TEST(Printable, KeepsTextsAsTheyAre) {
   for (const char* text : {"", "trial 3: 4.1 mm²", "a\tb\nc", "Größe 粉体 😀"}) {
@@ -53,5 +53,5 @@ TEST(Printable, ControlsAreFound) {
   for (const char* text : {"\n", "a\tb", "\x1b", "\x7f"}) EXPECT_TRUE(HasControl(text));
 }
 
-}  // namespace
+}  // namespace printable_test
 }  // namespace talus::base

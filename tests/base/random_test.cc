@@ -5,7 +5,7 @@
 #include <set>
 
 namespace talus::base {
-namespace {
+namespace random_test {
 
 TEST(Random, SameKeySameNumbersOtherKeyOthers) {
   Random a(1, 2, 3);
@@ -48,5 +48,5 @@ TEST(Random, BelowIsInRangeAndReachesEveryValue) {
   EXPECT_EQ(seen, (std::set<std::uint64_t>{0, 1, 2, 3, 4}));
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace talus::base

@@ -10,7 +10,7 @@
 #include "base/text/plain_number.h"
 
 namespace talus::base {
-namespace {
+namespace text_test {
 
 TEST(NumberText, ShortRoundsAndExactReadsBack) {
   EXPECT_EQ(ShortNumber(0.123456), "0.1235");
@@ -59,5 +59,5 @@ TEST(Markup, TextsOfOthersStayTexts) {
   EXPECT_EQ(MarkupText("</script>\x1b[2J"), "&lt;/script&gt;\\x1b[2J");
 }
 
-}  // namespace
+}  // namespace text_test
 }  // namespace talus::base

@@ -6,7 +6,7 @@
 #include "base/error.h"
 
 namespace talus::base {
-namespace {
+namespace units_test {
 
 using ::testing::HasSubstr;
 
@@ -65,5 +65,5 @@ TEST(Units, ReadsWhatPeopleType) {
   EXPECT_THROW(ParseQuantity("1 m2", Dimension::kLength), ConfigError);
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace talus::base

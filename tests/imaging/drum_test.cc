@@ -13,7 +13,7 @@
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
-namespace {
+namespace drum_test {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -167,5 +167,5 @@ TEST(Drum, APhotographLitOtherwiseThanItsSeriesIsNamed) {
               AllOf(HasSubstr("drum_darker.png"), HasSubstr("0.5 times as bright")));
 }
 
-}  // namespace
+}  // namespace drum_test
 }  // namespace talus::imaging

@@ -17,7 +17,7 @@
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
-namespace {
+namespace experiment_test {
 
 using testing::HasSubstr;
 
@@ -304,5 +304,5 @@ TEST(Experiment, KeepsWhatStandsOnThePlateAndFillsHoles) {
   EXPECT_FALSE(dark(180, 10));
 }
 
-}  // namespace
+}  // namespace experiment_test
 }  // namespace talus::imaging

@@ -9,7 +9,7 @@
 #include "base/random.h"
 
 namespace talus::imaging {
-namespace {
+namespace gif_file_test {
 
 std::uint8_t At(const std::string& bytes, std::size_t i) {
   return static_cast<std::uint8_t>(bytes.at(i));
@@ -143,5 +143,5 @@ TEST(Gif, MoreColoursThanAPaletteBecomeTheNearest) {
   }
 }
 
-}  // namespace
+}  // namespace gif_file_test
 }  // namespace talus::imaging

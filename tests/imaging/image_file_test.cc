@@ -15,7 +15,7 @@
 #include "tests/imaging/stored_images.h"
 
 namespace talus::imaging {
-namespace {
+namespace image_file_test {
 
 TEST(ImageFile, PngComesBackUnchanged) {
   WritePng(TempFile("ramp.png"), Ramp());
@@ -257,5 +257,5 @@ TEST(ImageFile, DamagedFilesAreImagesOrErrors) {
   }
 }
 
-}  // namespace
+}  // namespace image_file_test
 }  // namespace talus::imaging

@@ -7,7 +7,7 @@
 #include "tests/imaging/stored_images.h"
 
 namespace talus::imaging {
-namespace {
+namespace image_orientation_test {
 
 // Where the stored row 0 and column 0 are in the upright image, as the EXIF standard lists them.
 struct Orientation {
@@ -122,5 +122,5 @@ TEST(ImageOrientation, TiffIsTurnedUprightAsItsTagSays) {
   }
 }
 
-}  // namespace
+}  // namespace image_orientation_test
 }  // namespace talus::imaging

@@ -11,7 +11,7 @@
 #include "imaging/photos/experiment.h"
 
 namespace talus::imaging {
-namespace {
+namespace map_file_test {
 
 std::filesystem::path TempFile(const std::string& name) {
   return std::filesystem::path(testing::TempDir()) / name;
@@ -82,5 +82,5 @@ TEST(Map, WetSand) {
   EXPECT_THAT(angle.not_defined, testing::HasSubstr("overhangs"));
 }
 
-}  // namespace
+}  // namespace map_file_test
 }  // namespace talus::imaging

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 namespace talus::imaging {
-namespace {
+namespace mass_study_test {
 
 using testing::HasSubstr;
 
@@ -61,5 +61,5 @@ TEST(MassStudy, PlotShowsTheRuns) {
   EXPECT_GT(coloured, 100);
 }
 
-}  // namespace
+}  // namespace mass_study_test
 }  // namespace talus::imaging

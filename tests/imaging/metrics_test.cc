@@ -11,7 +11,7 @@
 #include "imaging/heap/difference_map.h"
 
 namespace talus::imaging {
-namespace {
+namespace metrics_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -139,5 +139,5 @@ TEST(DifferenceMap, BlueWhereTheSimulationHasTooLittle) {
   EXPECT_GT(drawn.width, 500);  // enlarged, with its axes
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace talus::imaging

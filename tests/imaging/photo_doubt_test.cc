@@ -9,7 +9,7 @@
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
-namespace {
+namespace photo_doubt_test {
 
 using testing::HasSubstr;
 
@@ -236,5 +236,5 @@ TEST(PhotoDoubt, ARunUnlikeTheOthersIsWarnedOf) {
   EXPECT_EQ(warnings[0].reason, "3");
 }
 
-}  // namespace
+}  // namespace photo_doubt_test
 }  // namespace talus::imaging

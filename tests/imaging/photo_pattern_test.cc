@@ -9,7 +9,7 @@
 #include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
-namespace {
+namespace photo_pattern_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -123,5 +123,5 @@ TEST(PhotoPattern, ErrorSaysWhatIsThereAndWhatMayFit) {
   }
 }
 
-}  // namespace
+}  // namespace photo_pattern_test
 }  // namespace talus::imaging

@@ -6,7 +6,7 @@
 #include "base/error.h"
 
 namespace talus::imaging {
-namespace {
+namespace photo_set_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -60,5 +60,5 @@ TEST(PhotoSet, TwoFilesForOneViewAreAnError) {
                base::ConfigError);
 }
 
-}  // namespace
+}  // namespace photo_set_test
 }  // namespace talus::imaging

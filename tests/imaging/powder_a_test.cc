@@ -9,7 +9,7 @@
 #include "imaging/spheres/projection.h"
 
 namespace talus::imaging {
-namespace {
+namespace powder_a_test {
 
 const Experiment& PowderA() {
   static const Experiment experiment = [] {
@@ -66,5 +66,5 @@ TEST(PowderA, HalvesOfTheRunsDifferByNoMoreThanTheNoiseFloor) {
   EXPECT_GT(floor.mean_sad_px, 0);
 }
 
-}  // namespace
+}  // namespace powder_a_test
 }  // namespace talus::imaging

@@ -10,7 +10,7 @@
 #include "base/random.h"
 
 namespace talus::imaging {
-namespace {
+namespace projection_test {
 
 using base::Sphere;
 
@@ -149,5 +149,5 @@ TEST(GrainsOnPlate, KeepsWhatHangsTogetherDownToThePlate) {
 
 TEST(GrainsOnPlate, EmptyHeapIsEmpty) { EXPECT_TRUE(GrainsOnPlate({}, 8e-3).empty()); }
 
-}  // namespace
+}  // namespace projection_test
 }  // namespace talus::imaging

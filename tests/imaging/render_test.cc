@@ -6,7 +6,7 @@
 #include <numbers>
 
 namespace talus::imaging {
-namespace {
+namespace render_test {
 
 const Color kWhite{255, 255, 255};
 
@@ -60,5 +60,5 @@ TEST(WholeHeap, NothingOfPlateAndHeapIsCutOff) {
   }
 }
 
-}  // namespace
+}  // namespace render_test
 }  // namespace talus::imaging

@@ -13,7 +13,7 @@
 #include "tests/imaging/synthetic_photo.h"
 
 namespace talus::imaging {
-namespace {
+namespace repose_angle_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kBase = 300;  // [px]
@@ -230,5 +230,5 @@ TEST(StandardError, IsTheScatterOfThePartsOverRootN) {
   EXPECT_TRUE(std::isnan(MeasureRepose(profile, {})[1].mean.standard_error));
 }
 
-}  // namespace
+}  // namespace repose_angle_test
 }  // namespace talus::imaging

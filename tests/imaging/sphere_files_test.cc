@@ -13,7 +13,7 @@
 #include "base/random.h"
 
 namespace talus::imaging {
-namespace {
+namespace sphere_files_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -323,5 +323,5 @@ TEST_F(SphereFilesTest, FilesOfVtkItselfAreReadBack) {
   EXPECT_EQ(num_files, 20);
 }
 
-}  // namespace
+}  // namespace sphere_files_test
 }  // namespace talus::imaging

@@ -6,7 +6,7 @@
 #include <functional>
 
 namespace talus::optimizer {
-namespace {
+namespace acquisition_test {
 
 using Score = std::function<Acquisition(double mean, double sd)>;
 
@@ -66,5 +66,5 @@ TEST(Acquisition, NoiseTakesTheWorthOutOfWellKnownPlaces) {
             LogExpectedImprovement(0, 1, 0).value);
 }
 
-}  // namespace
+}  // namespace acquisition_test
 }  // namespace talus::optimizer

@@ -8,7 +8,7 @@
 #include "optimizer/search/scalar_model.h"
 
 namespace talus::optimizer {
-namespace {
+namespace answer_test {
 
 // f = |x - m|² with an uncertainty of the minimiser that is known: draws are |x - m - e|² with
 // e ~ N(0, sd²) in each coordinate.
@@ -127,5 +127,5 @@ TEST(ObjectiveModel, DifferencesAgreeWithTheAnalyticGradient) {
   EXPECT_LT((analytic.sd_slope - differences.sd_slope).norm(), 1e-5);
 }
 
-}  // namespace
+}  // namespace answer_test
 }  // namespace talus::optimizer

@@ -12,7 +12,7 @@
 #include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
-namespace {
+namespace asked_density_test {
 
 // A normal density in the unit cube, far enough from its faces.
 struct Normal {
@@ -147,5 +147,5 @@ TEST(Narrowing, IsWhatARegressionExplains) {
   EXPECT_NEAR(Narrowing(draws, 0, 2), 1, 1e-6);  // a bent valley ties as a straight one does
 }
 
-}  // namespace
+}  // namespace asked_density_test
 }  // namespace talus::optimizer

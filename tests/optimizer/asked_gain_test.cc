@@ -9,7 +9,7 @@
 #include "optimizer/posterior/posterior.h"
 
 namespace talus::optimizer {
-namespace {
+namespace asked_gain_test {
 
 const Levels kLevels({1}, 1);
 
@@ -72,5 +72,5 @@ TEST(AskedGain, WhatANuisanceHidesAnywayIsNotWorthASimulation) {
   EXPECT_LT(one, model.Gains(kDraws, kDraws)(0, 0));
 }
 
-}  // namespace
+}  // namespace asked_gain_test
 }  // namespace talus::optimizer

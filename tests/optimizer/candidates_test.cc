@@ -16,7 +16,7 @@
 #include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace candidates_test {
 
 using ::testing::HasSubstr;
 
@@ -233,5 +233,5 @@ TEST(Candidates, ASearchOverContinuousParametersIsRefused) {
                base::ConfigError);
 }
 
-}  // namespace
+}  // namespace candidates_test
 }  // namespace talus::optimizer

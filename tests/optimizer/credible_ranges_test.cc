@@ -6,7 +6,7 @@
 #include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
-namespace {
+namespace credible_ranges_test {
 
 Eigen::MatrixXd Normals(Eigen::Index num_draws, Eigen::Index dimension) {
   base::Random random(1, base::Stream("normals"));
@@ -73,5 +73,5 @@ TEST(RankCorrelation, IsOneAlongAnyRisingCurve) {
   EXPECT_NEAR(correlation(1, 1), 1, 1e-12);
 }
 
-}  // namespace
+}  // namespace credible_ranges_test
 }  // namespace talus::optimizer

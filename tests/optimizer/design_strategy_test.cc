@@ -5,7 +5,7 @@
 #include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace design_strategy_test {
 
 using ::testing::HasSubstr;
 
@@ -123,5 +123,5 @@ TEST(MakeStrategy, RefusesOptionsThatCannotBe) {
   EXPECT_THAT(error_of({.num_points = 0}), HasSubstr("num_points: is 0"));
 }
 
-}  // namespace
+}  // namespace design_strategy_test
 }  // namespace talus::optimizer

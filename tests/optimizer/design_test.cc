@@ -9,7 +9,7 @@
 #include "base/random.h"
 
 namespace talus::optimizer {
-namespace {
+namespace design_test {
 
 double SmallestDistance(const Points& points) {
   double smallest = 1e300;
@@ -146,5 +146,5 @@ TEST(Sobol, IsSpreadMoreEvenlyThanChance) {
   }
 }
 
-}  // namespace
+}  // namespace design_test
 }  // namespace talus::optimizer

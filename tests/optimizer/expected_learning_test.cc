@@ -8,7 +8,7 @@
 #include "base/random.h"
 
 namespace talus::optimizer {
-namespace {
+namespace expected_learning_test {
 
 Eigen::MatrixXd Even(Eigen::Index count) {
   base::Random random(5, base::Stream("even draws"));
@@ -93,5 +93,5 @@ TEST(ExpectedLearning, NamesTheTwoDrawsThatItTellsApartBest) {
   EXPECT_EQ(learning.second, 42);
 }
 
-}  // namespace
+}  // namespace expected_learning_test
 }  // namespace talus::optimizer

@@ -8,7 +8,7 @@
 #include "base/random.h"
 
 namespace talus::optimizer {
-namespace {
+namespace expected_narrowing_test {
 
 const Levels kLevels({1}, 1);
 
@@ -59,5 +59,5 @@ TEST(ExpectedNarrowing, ASurrogateThatLearnsNothingNarrowsNothing) {
   EXPECT_LT(ExpectedNarrowing(posterior, draws, {0, 1}, same, 1).maxCoeff(), 1e-12);
 }
 
-}  // namespace
+}  // namespace expected_narrowing_test
 }  // namespace talus::optimizer

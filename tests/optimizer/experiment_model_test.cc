@@ -10,7 +10,7 @@
 #include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
-namespace {
+namespace experiment_model_test {
 
 constexpr double kRough = 0.25;  // [px], of the strongest wave on a heap's surface
 
@@ -73,5 +73,5 @@ TEST(ExperimentModel, KnowsTheNoiseOfEveryMode) {
   for (const double mode : log_ratio) EXPECT_NEAR(mode, 0, 0.35);
 }
 
-}  // namespace
+}  // namespace experiment_model_test
 }  // namespace talus::optimizer

@@ -11,7 +11,7 @@
 #include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
-namespace {
+namespace image_knowledge_test {
 
 constexpr int kTold = 60;  // evaluations
 constexpr double kRough = 0.1;
@@ -108,5 +108,5 @@ TEST_F(NoisyHeaps, GainIsTheMeanDropOfTheLowestPosteriorMean) {
   }
 }
 
-}  // namespace
+}  // namespace image_knowledge_test
 }  // namespace talus::optimizer

@@ -13,7 +13,7 @@
 #include "tests/optimizer/heap_image.h"
 
 namespace talus::optimizer {
-namespace {
+namespace image_strategy_test {
 
 using ::testing::HasSubstr;
 
@@ -225,5 +225,5 @@ TEST(ImageStrategy, FailedEvaluationsAreNotProposedAgain) {
   EXPECT_GT(strategy->Recommend().point[0], 0.3);
 }
 
-}  // namespace
+}  // namespace image_strategy_test
 }  // namespace talus::optimizer

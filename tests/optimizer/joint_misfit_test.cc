@@ -10,7 +10,7 @@
 #include "optimizer/posterior/residual_correlation.h"
 
 namespace talus::optimizer {
-namespace {
+namespace joint_misfit_test {
 
 Eigen::MatrixXd Normals(int rows, int columns, std::uint64_t seed) {
   base::Random random(seed, base::Stream("residuals"));
@@ -80,5 +80,5 @@ TEST(JointMisfit, ADozenSharedEvaluationsMakeNoSmallResidualImpossible) {
   EXPECT_LT(worst, 4);
 }
 
-}  // namespace
+}  // namespace joint_misfit_test
 }  // namespace talus::optimizer

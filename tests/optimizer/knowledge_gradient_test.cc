@@ -11,7 +11,7 @@
 #include "optimizer/search/scalar_model.h"
 
 namespace talus::optimizer {
-namespace {
+namespace knowledge_gradient_test {
 
 // The trapezium rule over ±9 standard deviations is off by its kinks alone, < 1e-7 at this step.
 double ByQuadrature(const Eigen::VectorXd& mean, const Eigen::VectorXd& slope) {
@@ -106,5 +106,5 @@ TEST_F(NoisyBowl, NoOtherPointTeachesMore) {
   }
 }
 
-}  // namespace
+}  // namespace knowledge_gradient_test
 }  // namespace talus::optimizer

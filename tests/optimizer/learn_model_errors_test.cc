@@ -11,7 +11,7 @@
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace learn_model_errors_test {
 
 constexpr double kNoise = 0.02;  // sd of one simulation
 constexpr int kNumbers = 8;      // of the test: more than parameters, so that no set need fit
@@ -107,5 +107,5 @@ TEST(LearnModelErrors, SameEvaluationsMakeTheSameBits) {
   EXPECT_EQ(Campaign{.off = 2}.Learnt().value, Campaign{.off = 2}.Learnt().value);
 }
 
-}  // namespace
+}  // namespace learn_model_errors_test
 }  // namespace talus::optimizer

@@ -8,7 +8,7 @@
 #include "optimizer/search/neighbours.h"
 
 namespace talus::optimizer {
-namespace {
+namespace local_step_test {
 
 const Eigen::Vector3d kBottom(0.42, 0.5, 0.61);
 const Domain kCube{.num_parameters = 3};
@@ -101,5 +101,5 @@ TEST(Neighbours, AreTheNearestInOrderWithoutRepeatsOfTheBest) {
   EXPECT_DOUBLE_EQ(near.DistanceOf(7), 0.4);
 }
 
-}  // namespace
+}  // namespace local_step_test
 }  // namespace talus::optimizer

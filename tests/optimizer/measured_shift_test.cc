@@ -8,7 +8,7 @@
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace measured_shift_test {
 
 // One number, y = 10 + 5 x with a scatter of 0.05, measured as 12.5: x = 0.5. So x moves by 1/5 of
 // what y moves.
@@ -62,5 +62,5 @@ TEST_F(MeasuredShift, OutputsOfASimulationAreTheCompressedNumbers) {
   EXPECT_NEAR(std::sqrt(model.NoiseAt(1)[0]) / Move(0.05)[0], 1, 0.5);
 }
 
-}  // namespace
+}  // namespace measured_shift_test
 }  // namespace talus::optimizer

@@ -5,7 +5,7 @@
 #include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::optimizer {
-namespace {
+namespace moved_parameters_test {
 
 // Even draws of a coordinate between two values: sd (high - low)/√12.
 Eigen::VectorXd Even(double low, double high) {
@@ -29,5 +29,5 @@ TEST(MovedParameters, ANuisanceCountsByTheShareOfItsPriorsVarianceThatTheDataTak
   EXPECT_EQ(MovedParameters(known, draws), 1);  // wider than its prior: not moved
 }
 
-}  // namespace
+}  // namespace moved_parameters_test
 }  // namespace talus::optimizer

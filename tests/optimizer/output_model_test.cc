@@ -7,7 +7,7 @@
 #include "base/random.h"
 
 namespace talus::optimizer {
-namespace {
+namespace output_model_test {
 
 constexpr int kPoints = 25;
 constexpr int kElements = 30;
@@ -105,5 +105,5 @@ TEST(OutputModel, SkipsUndefinedNumbers) {
   EXPECT_TRUE(std::isnan(model.LeaveOneOut()(5, number)));
 }
 
-}  // namespace
+}  // namespace output_model_test
 }  // namespace talus::optimizer

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace talus::optimizer {
-namespace {
+namespace output_noise_test {
 
 const Levels kLevels({2, 1}, 0);
 
@@ -39,5 +39,5 @@ TEST(OutputNoise, IsVagueWhereNothingWasLeftOut) {
   }
 }
 
-}  // namespace
+}  // namespace output_noise_test
 }  // namespace talus::optimizer

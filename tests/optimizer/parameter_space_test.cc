@@ -6,7 +6,7 @@
 #include "base/json/json_reader.h"
 
 namespace talus::optimizer {
-namespace {
+namespace parameter_space_test {
 
 using ::testing::HasSubstr;
 
@@ -76,5 +76,5 @@ TEST(ParameterSpace, WantsOneToSixFreeParameters) {
   EXPECT_THAT(ErrorOf("{\"parameters\": [" + list + "]}"), HasSubstr("7 are free"));
 }
 
-}  // namespace
+}  // namespace parameter_space_test
 }  // namespace talus::optimizer

@@ -11,7 +11,7 @@
 #include "optimizer/posterior/branches.h"
 
 namespace talus::optimizer {
-namespace {
+namespace posterior_strategy_test {
 
 using testing::ElementsAre;
 
@@ -256,5 +256,5 @@ TEST(PosteriorStrategy, TwoExperimentsAreEachSimulatedAndDecideTogether) {
   EXPECT_THAT(answer.posterior->experiments, testing::SizeIs(2));
 }
 
-}  // namespace
+}  // namespace posterior_strategy_test
 }  // namespace talus::optimizer

@@ -11,7 +11,7 @@
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
-namespace {
+namespace prior_test {
 
 // The integral of the density over [0, 1], by the midpoint rule.
 double Mass(const Prior& prior) {
@@ -147,5 +147,5 @@ TEST(PosteriorDesign, LooksForNuisancesWhereTheirPriorIs) {
   EXPECT_LT(low, 0.1);  // all over the range of what is asked for
 }
 
-}  // namespace
+}  // namespace prior_test
 }  // namespace talus::optimizer

@@ -6,7 +6,7 @@
 #include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace rbf_strategy_test {
 
 double Bowl(const Eigen::VectorXd& u) { return (u - Eigen::Vector2d(0.3, 0.6)).squaredNorm(); }
 
@@ -43,5 +43,5 @@ TEST(RbfStrategy, ToldTheSameProposesTheSameAndBatchesDiffer) {
   }
 }
 
-}  // namespace
+}  // namespace rbf_strategy_test
 }  // namespace talus::optimizer

@@ -6,7 +6,7 @@
 #include "optimizer/strategy/make_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace replayed_search_test {
 
 using ::testing::HasSubstr;
 
@@ -118,5 +118,5 @@ TEST(ReplayedSearch, NeverAsksForAForbiddenPoint) {
   }
 }
 
-}  // namespace
+}  // namespace replayed_search_test
 }  // namespace talus::optimizer

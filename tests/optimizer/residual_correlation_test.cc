@@ -9,7 +9,7 @@
 #include "base/random.h"
 
 namespace talus::optimizer {
-namespace {
+namespace residual_correlation_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -58,5 +58,5 @@ TEST(ResidualCorrelation, IsPositiveDefiniteWhereOutputsAreTheSame) {
   EXPECT_EQ(correlation.diagonal(), Eigen::VectorXd::Ones(6));
 }
 
-}  // namespace
+}  // namespace residual_correlation_test
 }  // namespace talus::optimizer

@@ -8,7 +8,7 @@
 #include "optimizer/strategy/scalar_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace restart_test {
 
 constexpr int kNumBefore = 20;
 const Eigen::Vector2d kDeep(0.2, 0.2);
@@ -83,5 +83,5 @@ TEST(Restart, FindsTheDeeperValleyOfAFunctionWithoutNoise) {
   EXPECT_LT(lowest, 0.1);
 }
 
-}  // namespace
+}  // namespace restart_test
 }  // namespace talus::optimizer

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace talus::optimizer {
-namespace {
+namespace robust_misfit_test {
 
 double Rho(double squared, Eigen::Index k) {
   return RobustMisfit(Eigen::ArrayXd::Constant(1, squared), k)[0];
@@ -33,5 +33,5 @@ TEST(RobustMisfit, QuantilesAreThoseOfAHeavyTail) {
   EXPECT_LT(RobustQuantile(10, 0.5), RobustQuantile(10, 0.9));
 }
 
-}  // namespace
+}  // namespace robust_misfit_test
 }  // namespace talus::optimizer

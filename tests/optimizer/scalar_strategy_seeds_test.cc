@@ -11,7 +11,7 @@
 #include "optimizer/strategy/scalar_strategy.h"
 
 namespace talus::optimizer {
-namespace {
+namespace scalar_strategy_seeds_test {
 
 constexpr int kSeeds = 20;
 constexpr int kBudget = 40;
@@ -62,5 +62,5 @@ TEST(ScalarStrategySeeds, WorstOfTwentyBeatsTheMedianOfRandomSearch) {
   EXPECT_LT(worst, random[kSeeds / 2]);
 }
 
-}  // namespace
+}  // namespace scalar_strategy_seeds_test
 }  // namespace talus::optimizer

@@ -10,7 +10,7 @@
 #include "optimizer/designs/r_sequence.h"
 
 namespace talus::optimizer {
-namespace {
+namespace scalar_strategy_test {
 
 using Points = std::vector<Eigen::VectorXd>;
 
@@ -262,5 +262,5 @@ TEST(ScalarStrategy, StaysWithinAConstraintAndTriesGuessesFirst) {
   EXPECT_LE(best[0] + best[1], 0.8);  // the bottom itself lies outside, at 0.9
 }
 
-}  // namespace
+}  // namespace scalar_strategy_test
 }  // namespace talus::optimizer

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace talus::optimizer {
-namespace {
+namespace step_choice_test {
 
 // Takes `num_steps` steps more, of which only `lucky` ones improve; says how many of them were.
 int NumLucky(Step lucky, int num_steps, std::vector<double>& values) {
@@ -50,5 +50,5 @@ TEST(NextStep, TakesPolishingForNoImprovement) {
   EXPECT_EQ(NextStep(Eigen::Map<Eigen::Vector4d>(values.data()), 3, 0), Step::kGlobal);
 }
 
-}  // namespace
+}  // namespace step_choice_test
 }  // namespace talus::optimizer

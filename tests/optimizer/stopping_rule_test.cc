@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace talus::optimizer {
-namespace {
+namespace stopping_rule_test {
 
 using ::testing::HasSubstr;
 
@@ -59,5 +59,5 @@ TEST(StoppingRule, WhatHalfAsManyTrialsAgainWouldNarrowIsSaidFromTheShareOn) {
   EXPECT_THAT(TextOf(*unsure, names), testing::StartsWith("trials left out are missed by 2 times"));
 }
 
-}  // namespace
+}  // namespace stopping_rule_test
 }  // namespace talus::optimizer

@@ -5,7 +5,7 @@
 #include "optimizer/designs/r_sequence.h"
 
 namespace talus::optimizer {
-namespace {
+namespace trust_region_test {
 
 double Quadratic(const Eigen::VectorXd& x) {
   const Eigen::VectorXd away = x - Eigen::Vector3d(0.42, 0.5, 0.61);
@@ -44,5 +44,5 @@ TEST(TrustRegion, SaysNothingFromTooFewPoints) {
   EXPECT_FALSE(TrustRegionStep(Sampled(4, 0.5), {.num_parameters = 3}));
 }
 
-}  // namespace
+}  // namespace trust_region_test
 }  // namespace talus::optimizer

@@ -8,7 +8,7 @@
 #include "surrogate/images/normal_table.h"
 
 namespace talus::surrogate {
-namespace {
+namespace field_code_test {
 
 constexpr FieldSize kSize{.width = 40, .height = 24};
 const Vessel kPlate(kSize);  // along the bottom of the image
@@ -208,5 +208,5 @@ TEST(PixelCode, LargeImagesAreAveragedInBlocksThatKeepTheSum) {
   EXPECT_NEAR(code.Sad(vector), 0, 1e-9);
 }
 
-}  // namespace
+}  // namespace field_code_test
 }  // namespace talus::surrogate

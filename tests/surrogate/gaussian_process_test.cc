@@ -10,7 +10,7 @@
 #include "surrogate/process/warp.h"
 
 namespace talus::surrogate {
-namespace {
+namespace gaussian_process_test {
 
 Eigen::MatrixXd RandomPoints(int rows, int cols, std::uint64_t seed) {
   base::Random random(seed, base::Stream("gaussian process test"));
@@ -244,5 +244,5 @@ TEST(GaussianProcess, RefusesWhatItCannotFit) {
                base::Error);
 }
 
-}  // namespace
+}  // namespace gaussian_process_test
 }  // namespace talus::surrogate

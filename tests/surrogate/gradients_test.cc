@@ -15,7 +15,7 @@
 #include "surrogate/process/warp.h"
 
 namespace talus::surrogate {
-namespace {
+namespace gradients_test {
 
 constexpr double kStep = 1e-5;
 
@@ -160,5 +160,5 @@ TEST(Warp, SlopesAreThoseOfTheMapAndItsEndsStay) {
   }
 }
 
-}  // namespace
+}  // namespace gradients_test
 }  // namespace talus::surrogate

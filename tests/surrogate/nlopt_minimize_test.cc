@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace talus::surrogate {
-namespace {
+namespace nlopt_minimize_test {
 
 double Bowl(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
   const Eigen::Vector2d away = x - Eigen::Vector2d(0.3, 0.6);
@@ -52,5 +52,5 @@ TEST(NloptMinimize, NanIsAvoidedNotReturned) {
   EXPECT_LT(found.value, 1e-3);
 }
 
-}  // namespace
+}  // namespace nlopt_minimize_test
 }  // namespace talus::surrogate

@@ -7,7 +7,7 @@
 #include "base/random.h"
 
 namespace talus::surrogate {
-namespace {
+namespace principal_modes_test {
 
 constexpr int kPoints = 25;
 constexpr int kElements = 30;
@@ -79,5 +79,5 @@ TEST(PrincipalModes, OfEqualVectorsAreNone) {
   EXPECT_EQ(modes.mean, Eigen::VectorXd::Constant(4, 2.5));
 }
 
-}  // namespace
+}  // namespace principal_modes_test
 }  // namespace talus::surrogate

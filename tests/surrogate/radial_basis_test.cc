@@ -7,7 +7,7 @@
 #include "base/random.h"
 
 namespace talus::surrogate {
-namespace {
+namespace radial_basis_test {
 
 double Surface(const Eigen::VectorXd& x) { return std::sin(3 * x[0]) + x[0] * x[1] * x[1]; }
 
@@ -89,5 +89,5 @@ TEST_P(BothFunctions, StandsDuplicatesAndTooFewPoints) {
 INSTANTIATE_TEST_SUITE_P(All, BothFunctions,
                          testing::Values(RadialFunction::kCubic, RadialFunction::kThinPlate));
 
-}  // namespace
+}  // namespace radial_basis_test
 }  // namespace talus::surrogate

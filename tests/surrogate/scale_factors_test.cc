@@ -6,7 +6,7 @@
 #include "surrogate/process/gaussian_process.h"
 
 namespace talus::surrogate {
-namespace {
+namespace scale_factors_test {
 
 constexpr double kNoise = 0.02;
 
@@ -136,5 +136,5 @@ TEST(ScaleFactors, ReplicatesArePooledAtTheirOwnScaleFactor) {
   EXPECT_NEAR(data.sum_of_squares[0], std::pow(told.values[0] - told.values[1], 2) / 2, 1e-15);
 }
 
-}  // namespace
+}  // namespace scale_factors_test
 }  // namespace talus::surrogate

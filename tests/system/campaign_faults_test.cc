@@ -14,7 +14,7 @@
 #include "tests/system/session.h"
 
 namespace talus::campaign {
-namespace {
+namespace campaign_faults_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -299,5 +299,5 @@ TEST_F(CampaignFaults, TruncatedImagesOfFinishedTrialsDoNotMatter) {
   ExpectCalm(folder, calm);
 }
 
-}  // namespace
+}  // namespace campaign_faults_test
 }  // namespace talus::campaign

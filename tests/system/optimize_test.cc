@@ -16,7 +16,7 @@
 #include "base/files/file.h"
 
 namespace talus {
-namespace {
+namespace optimize_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -255,5 +255,5 @@ TEST_F(Optimize, AFolderOfAnotherProblemIsLeftAlone) {
   EXPECT_EQ(base::ReadFile(folder_ / "search/evaluations.jsonl"), before);
 }
 
-}  // namespace
+}  // namespace optimize_test
 }  // namespace talus

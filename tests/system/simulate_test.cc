@@ -13,7 +13,7 @@
 #include "base/files/file.h"
 
 namespace talus {
-namespace {
+namespace simulate_test {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
@@ -229,5 +229,5 @@ TEST_F(Simulate, ARunThatGoesWrongSaysWhyWhenAndWhere) {
   EXPECT_THAT(Result("out")["reason"].get<std::string>(), HasSubstr("sphere 0"));
 }
 
-}  // namespace
+}  // namespace simulate_test
 }  // namespace talus

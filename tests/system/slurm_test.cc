@@ -13,7 +13,7 @@
 #include "experiments/runners/tool.h"
 
 namespace talus::runners {
-namespace {
+namespace slurm_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -206,5 +206,5 @@ TEST_F(SlurmTest, NodeFailureIsFollowedByAnotherRun) {
   EXPECT_EQ(Read(second.folder / "runs"), "run\nrun\n");
 }
 
-}  // namespace
+}  // namespace slurm_test
 }  // namespace talus::runners

@@ -15,7 +15,7 @@
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::campaign {
-namespace {
+namespace twin_calibration_test {
 
 namespace fs = std::filesystem;
 
@@ -117,5 +117,5 @@ TEST(TwinCalibration, KnownParametersLieInsideTheStatedRanges) {
   std::printf("recovered in %d of %d\n", recovered, num_seeds);
 }
 
-}  // namespace
+}  // namespace twin_calibration_test
 }  // namespace talus::campaign

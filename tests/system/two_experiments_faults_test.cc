@@ -11,7 +11,7 @@
 #include "tests/system/session.h"
 
 namespace talus::campaign {
-namespace {
+namespace two_experiments_faults_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -87,5 +87,5 @@ TEST_F(TwoExperimentsFaults, KilledWorkersOfBothAreRunAgain) {
   EXPECT_EQ(Recommended(folder), Recommended(calm));
 }
 
-}  // namespace
+}  // namespace two_experiments_faults_test
 }  // namespace talus::campaign

@@ -7,7 +7,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace adhesion_test {
 
 constexpr double kRadius = 50e-6;
 constexpr double kPullOff = 1.256637e-7;  // 2π γ* R*, γ* = 4e-4 J/m² [N]
@@ -101,5 +101,5 @@ TEST(JkrContact, RestsAtTheZeroForceContact) {
   testing::Verify({"overlap", contacts[0].overlap, (a * a - std::sqrt(b * a)) / kRadius, 1e-5});
 }
 
-}  // namespace
+}  // namespace adhesion_test
 }  // namespace talus::engine

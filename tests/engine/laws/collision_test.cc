@@ -4,7 +4,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace collision_test {
 
 using ::testing::Combine;
 using ::testing::Values;
@@ -92,5 +92,5 @@ TEST(Collision, UndampedImpactLastsHertzTime) {
   EXPECT_NEAR(deepest / impact.MaxOverlap(), 1, 1e-3);
 }
 
-}  // namespace
+}  // namespace collision_test
 }  // namespace talus::engine

@@ -6,7 +6,7 @@
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
-namespace {
+namespace conservation_test {
 
 struct Momenta {
   Vec3 linear, angular;
@@ -119,5 +119,5 @@ TEST(Conservation, LosslessSpheresKeepTheirEnergy) {
   }
 }
 
-}  // namespace
+}  // namespace conservation_test
 }  // namespace talus::engine

@@ -8,7 +8,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace energy_test {
 
 constexpr double kRadius = 1e-3;
 
@@ -115,5 +115,5 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(JkrSlidingSpring::kKept, JkrSlidingSpring::kShortened),
                        ::testing::Values(0.005, 0.05)));
 
-}  // namespace
+}  // namespace energy_test
 }  // namespace talus::engine

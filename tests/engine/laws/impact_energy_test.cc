@@ -7,7 +7,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace impact_energy_test {
 
 using ::testing::Combine;
 using ::testing::Values;
@@ -257,5 +257,5 @@ TEST(JkrImpact, TheKeptSpringAddsEnergyToUndampedImpactsOnly) {
   EXPECT_LE(OutcomeOf(setting).gain, 0);
 }
 
-}  // namespace
+}  // namespace impact_energy_test
 }  // namespace talus::engine

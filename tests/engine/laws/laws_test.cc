@@ -7,7 +7,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace laws_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -155,5 +155,5 @@ TEST(Jkr, KeptSpringsGrowWhileTheySlide) {
   }
 }
 
-}  // namespace
+}  // namespace laws_test
 }  // namespace talus::engine

@@ -7,7 +7,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace oblique_impact_test {
 
 constexpr double kRadius = 1e-3;
 constexpr double kSpeed = 0.5;
@@ -137,5 +137,5 @@ TEST(ObliqueImpact, DampedImpactsAgreeWithASeparateIntegrationAtTheSameStep) {
   ExpectAgreement(material, {{5, 20, 35, 50, 70}, 1, 1e-4});
 }
 
-}  // namespace
+}  // namespace oblique_impact_test
 }  // namespace talus::engine

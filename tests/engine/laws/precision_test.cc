@@ -6,7 +6,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace precision_test {
 
 using Law = Response<double> (*)(const PairConstants&, const Contact<double>&, const double&,
                                  History<double>&);
@@ -189,5 +189,5 @@ TEST(Precision, AForceIsRightToSixDigitsHoweverSmallTheOverlap) {
   }
 }
 
-}  // namespace
+}  // namespace precision_test
 }  // namespace talus::engine

@@ -11,7 +11,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace published_test {
 
 using testing::Formula;
 using testing::Verify;
@@ -408,5 +408,5 @@ TEST(TwoBodies, AStackedPairKeepsItsEnergy) {
   Verify({"most energy", most, 2 * mass * kGravity * radius, 1e-3});
 }
 
-}  // namespace
+}  // namespace published_test
 }  // namespace talus::engine

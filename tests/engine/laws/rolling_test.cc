@@ -5,7 +5,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace rolling_test {
 
 constexpr double kRadius = 1e-3;
 constexpr double kGravity = 9.81;
@@ -154,5 +154,5 @@ INSTANTIATE_TEST_SUITE_P(All, AnyRolling,
                          ::testing::Values(Rolling::kNone, Rolling::kConstant, Rolling::kViscous,
                                            Rolling::kEpsd, Rolling::kEpsd2));
 
-}  // namespace
+}  // namespace rolling_test
 }  // namespace talus::engine

@@ -6,7 +6,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace size_ratio_test {
 
 constexpr double kSmall = 0.5e-3;  // radius [m]
 constexpr double kGravity = 9.81;
@@ -62,5 +62,5 @@ INSTANTIATE_TEST_SUITE_P(RatiosAndSteps, SizeRatio,
                          ::testing::Combine(::testing::Values(3.4, 5.0, 10.0),
                                             ::testing::Values(0.15, 0.30)));
 
-}  // namespace
+}  // namespace size_ratio_test
 }  // namespace talus::engine

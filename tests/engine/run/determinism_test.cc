@@ -9,7 +9,7 @@
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
-namespace {
+namespace determinism_test {
 
 using ::testing::HasSubstr;
 
@@ -205,5 +205,5 @@ TEST_F(Kernels, AnUnknownInstructionSetIsAnErrorThatNamesTheKnownOnes) {
   EXPECT_THROW(Simulation simulation(Busy(1)), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace determinism_test
 }  // namespace talus::engine

@@ -5,7 +5,7 @@
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
-namespace {
+namespace many_chunks_test {
 
 // 358 000 spheres collide: 32 chunks, shared by one thread and by seven.
 TEST(ManyChunks, ThreadsDoNotChangeTheBits) {
@@ -25,5 +25,5 @@ TEST(ManyChunks, ThreadsDoNotChangeTheBits) {
   }
 }
 
-}  // namespace
+}  // namespace many_chunks_test
 }  // namespace talus::engine

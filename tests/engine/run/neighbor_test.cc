@@ -11,7 +11,7 @@
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
-namespace {
+namespace neighbor_test {
 
 using Pairs = std::set<std::pair<std::int64_t, std::int64_t>>;
 
@@ -230,5 +230,5 @@ TEST(ContactList, FindsSmallSpheresAmongLargeOnes) {
   }
 }
 
-}  // namespace
+}  // namespace neighbor_test
 }  // namespace talus::engine

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace talus::engine {
-namespace {
+namespace peer_heap_test {
 
 // LIGGGHTS-PUBLIC 3.8.0 (Debian 12), hertz, tangential history, rolling_friction epsd, on the
 // starts that `engine_heap --spheres 1100 --ratio 12 --seed 1 … 10 --data` writes, with the deck
@@ -46,5 +46,5 @@ TEST(PeerHeap, LeavesAsManySpheresAsLiggghts) {
   EXPECT_NEAR(Mean(left), Mean(kLeft), 3 * error);
 }
 
-}  // namespace
+}  // namespace peer_heap_test
 }  // namespace talus::engine

@@ -4,7 +4,7 @@
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
-namespace {
+namespace rest_test {
 
 // 27 spheres fall into a small box and come to rest; then nothing may move for 1e5 steps. Creep of
 // a bad tangential spring is micrometres; a contact's own overlap here is 1e-7 m. Springs in single
@@ -88,5 +88,5 @@ TEST(Rotation, TurningTheSceneTurnsTheResult) {
   }
 }
 
-}  // namespace
+}  // namespace rest_test
 }  // namespace talus::engine

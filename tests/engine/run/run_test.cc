@@ -7,7 +7,7 @@
 #include "base/files/file.h"
 
 namespace talus::engine {
-namespace {
+namespace run_test {
 
 using ::testing::HasSubstr;
 
@@ -60,5 +60,5 @@ TEST(SliceSteps, AreFewForManyParticlesAndNeverNone) {
   EXPECT_GT(SliceSteps(2), 1000);
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace talus::engine

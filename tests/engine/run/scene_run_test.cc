@@ -10,7 +10,7 @@
 #include "engine/scene/scene_json.h"
 
 namespace talus::engine {
-namespace {
+namespace scene_run_test {
 
 namespace fs = std::filesystem;
 
@@ -145,5 +145,5 @@ TEST(SceneRun, ASceneThatSpinsIsNotAtRest) {
   EXPECT_LT(run.Progress().time, 0.4);
 }
 
-}  // namespace
+}  // namespace scene_run_test
 }  // namespace talus::engine

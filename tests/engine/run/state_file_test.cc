@@ -10,7 +10,7 @@
 #include "base/files/file.h"
 
 namespace talus::engine {
-namespace {
+namespace state_file_test {
 
 std::vector<Particle> Two() {
   return {{.id = 4,
@@ -59,5 +59,5 @@ TEST(StateFile, VtkReadsTheVtpBack) {
             "diameter_m []\nvelocity_m_per_s []\nangular_velocity_rad_per_s []\ntype []\nid []\n");
 }
 
-}  // namespace
+}  // namespace state_file_test
 }  // namespace talus::engine

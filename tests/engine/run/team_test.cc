@@ -7,7 +7,7 @@
 #include <numeric>
 
 namespace talus::engine {
-namespace {
+namespace team_test {
 
 // One alone, two, and more than most machines have cores.
 class TeamOf : public ::testing::TestWithParam<int> {};
@@ -85,5 +85,5 @@ TEST(Patience, WhoSpinsInVainSpinsLessOftenUntilItHelpsAgain) {
   EXPECT_GT(spins_of(100, false), 80);  // the 16th at the latest, then all
 }
 
-}  // namespace
+}  // namespace team_test
 }  // namespace talus::engine

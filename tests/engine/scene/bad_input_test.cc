@@ -9,7 +9,7 @@
 #include "tests/engine/cloud.h"
 
 namespace talus::engine {
-namespace {
+namespace bad_input_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -163,5 +163,5 @@ TEST(RemoveIf, TakesOutWhatLeavesAndKeepsTheRest) {
   EXPECT_EQ(simulation.num_particles(), 0);
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace talus::engine

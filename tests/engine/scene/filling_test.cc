@@ -9,7 +9,7 @@
 #include "engine/scene/size_distribution.h"
 
 namespace talus::engine {
-namespace {
+namespace filling_test {
 
 struct Load {
   std::vector<double> radii;
@@ -118,5 +118,5 @@ TEST(Shuffled, KeepsTheValuesAndChangesTheirOrder) {
   EXPECT_EQ(shuffled, values);
 }
 
-}  // namespace
+}  // namespace filling_test
 }  // namespace talus::engine

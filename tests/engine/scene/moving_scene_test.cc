@@ -6,7 +6,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace moving_scene_test {
 
 constexpr double kGravity = 9.81;
 
@@ -283,5 +283,5 @@ TEST(BadMotion, IsRefused) {
   EXPECT_NE(problems_of(hole).find("above inner_radius"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace moving_scene_test
 }  // namespace talus::engine

@@ -7,7 +7,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace pairs_test {
 
 using ::testing::HasSubstr;
 
@@ -139,5 +139,5 @@ TEST(Pairs, TheSolverRefusesWhatNoFileCanGive) {
               HasSubstr("pairs[0].sliding_friction: is -1, must not be negative"));
 }
 
-}  // namespace
+}  // namespace pairs_test
 }  // namespace talus::engine

@@ -15,7 +15,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace pour_test {
 
 namespace fs = std::filesystem;
 
@@ -165,5 +165,5 @@ TEST(Bed, MeasuresALattice) {
   EXPECT_NEAR(bed.coordination, 2 * 32 / 48.0, 1e-12);  // only the layers touch
 }
 
-}  // namespace
+}  // namespace pour_test
 }  // namespace talus::engine

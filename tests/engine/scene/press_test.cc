@@ -8,7 +8,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace press_test {
 
 constexpr double kRadius = 1e-3;  // [m]
 
@@ -121,5 +121,5 @@ TEST(Press, WhatCannotBeIsNamed) {
   EXPECT_FALSE(refused(good, ""));
 }
 
-}  // namespace
+}  // namespace press_test
 }  // namespace talus::engine

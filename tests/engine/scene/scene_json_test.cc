@@ -15,7 +15,7 @@
 #include "base/json/json_schema.h"
 
 namespace talus::engine {
-namespace {
+namespace scene_json_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -201,5 +201,5 @@ TEST(SceneJson, TheShippedExamplesAreValid) {
   }
 }
 
-}  // namespace
+}  // namespace scene_json_test
 }  // namespace talus::engine

@@ -11,7 +11,7 @@
 #include "base/error.h"
 
 namespace talus::engine {
-namespace {
+namespace size_distribution_test {
 
 using ::testing::HasSubstr;
 
@@ -203,5 +203,5 @@ TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
   EXPECT_THROW(ReadSizeFile(missing), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace size_distribution_test
 }  // namespace talus::engine

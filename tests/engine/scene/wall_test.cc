@@ -6,7 +6,7 @@
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
-namespace {
+namespace wall_test {
 
 constexpr double kRadius = 2.0, kLength = 3.0, kSecond = 0.8;
 
@@ -247,5 +247,5 @@ TEST(Walls, ARemovedWallTouchesNothing) {
               1e-6);
 }
 
-}  // namespace
+}  // namespace wall_test
 }  // namespace talus::engine

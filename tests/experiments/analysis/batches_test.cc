@@ -11,7 +11,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace batches_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -120,5 +120,5 @@ TEST_F(BatchesTest, OtherParametersAreRefused) {
   EXPECT_THROW(CompareBatches({first, first}, {{"sliding_friction", "-1"}}), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace batches_test
 }  // namespace talus::analysis

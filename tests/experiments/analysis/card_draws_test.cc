@@ -10,7 +10,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace card_draws_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -129,5 +129,5 @@ TEST(CardTests, NameTheRigThatTheSetComesFrom) {
   EXPECT_THAT(CardText(card, CardFormat::kYade), HasSubstr("psdCumm=[0.2, 0.4, 0.6, 0.8, 1]"));
 }
 
-}  // namespace
+}  // namespace card_draws_test
 }  // namespace talus::analysis

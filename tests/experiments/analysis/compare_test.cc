@@ -10,7 +10,7 @@
 #include "tests/experiments/synthetic_campaign.h"
 
 namespace talus::analysis {
-namespace {
+namespace compare_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -147,5 +147,5 @@ TEST(CompareObjectives, AnAngleOfReposeIsLessUniqueThanSad) {
   EXPECT_GT(angle.from_trials.tied_volume, sad.from_trials.tied_volume);
 }
 
-}  // namespace
+}  // namespace compare_test
 }  // namespace talus::analysis

@@ -13,7 +13,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace design_test {
 
 using campaign::FakeEngine;
 using ::testing::ElementsAre;
@@ -147,5 +147,5 @@ TEST_F(DesignTest, ShippedSchemaIsTheParsers) {
   EXPECT_EQ(base::ReadFile(path), schema);
 }
 
-}  // namespace
+}  // namespace design_test
 }  // namespace talus::analysis

@@ -12,7 +12,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace goal_test {
 
 using campaign::FakeEngine;
 using campaign::GoalState;
@@ -136,5 +136,5 @@ TEST(GoalLooks, StandFartherAndFartherApart) {
   EXPECT_EQ(looks, (std::vector<std::int64_t>{16, 24, 36, 54, 81}));
 }
 
-}  // namespace
+}  // namespace goal_test
 }  // namespace talus::analysis

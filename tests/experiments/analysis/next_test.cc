@@ -21,7 +21,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace next_test {
 
 using campaign::FakeEngine;
 using campaign::JointView;
@@ -420,5 +420,5 @@ TEST_F(NextTest, TooFewTrialsForAPosteriorAreSaid) {
   EXPECT_THROW(Rank(campaign::ReadJointView(folder), {}, false), base::Error);
 }
 
-}  // namespace
+}  // namespace next_test
 }  // namespace talus::analysis

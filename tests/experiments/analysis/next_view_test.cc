@@ -17,7 +17,7 @@
 #include "tests/experiments/synthetic_campaign.h"
 
 namespace talus::analysis {
-namespace {
+namespace next_view_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -151,5 +151,5 @@ TEST(Predictions, ADamagedFileIsNamed) {
   EXPECT_THROW(MakeReportData(WithPrediction("damaged", "{\"name\": 3}")), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace next_view_test
 }  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "base/random.h"
 
 namespace talus::analysis {
-namespace {
+namespace posterior_density_test {
 
 TEST(PosteriorDensity, AnEvenSampleHasAnEvenDensity) {
   const Eigen::VectorXd even = Eigen::VectorXd::LinSpaced(2000, 0, 1);
@@ -79,5 +79,5 @@ TEST(PosteriorDensity, ASetOfTheRegionLiesOnItsShadowHoweverThinThereTheDrawsAre
   }
 }
 
-}  // namespace
+}  // namespace posterior_density_test
 }  // namespace talus::analysis

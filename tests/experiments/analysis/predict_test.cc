@@ -20,7 +20,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace predict_test {
 
 using campaign::FakeEngine;
 using campaign::JointView;
@@ -332,5 +332,5 @@ TEST_F(PredictTest, ASceneIsFilledWithTheCampaignsPowder) {
   EXPECT_THROW(ReadPredictedCase(*view_, file, 2, 1), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace predict_test
 }  // namespace talus::analysis

@@ -22,7 +22,7 @@
 #include "tests/experiments/synthetic_journal.h"
 
 namespace talus::analysis {
-namespace {
+namespace report_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -366,5 +366,5 @@ TEST(GatherEvidence, NamesAFolderWithoutACampaign) {
   EXPECT_THROW(GatherEvidence(testing::TempDir() + "/no campaign"), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace talus::analysis

@@ -12,7 +12,7 @@
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::analysis {
-namespace {
+namespace search_report_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -150,5 +150,5 @@ TEST_F(SearchReport, RefusesWhatDoesNotMatchItsChecksum) {
   EXPECT_NO_THROW(read());
 }
 
-}  // namespace
+}  // namespace search_report_test
 }  // namespace talus::analysis

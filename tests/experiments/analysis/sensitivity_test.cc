@@ -13,7 +13,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace sensitivity_test {
 
 using campaign::FakeEngine;
 using campaign::JointView;
@@ -146,5 +146,5 @@ TEST_F(SensitivityTest, SimulationsAreRunOnce) {
   EXPECT_EQ(Move(again, "restitution").num_failed, 0);
 }
 
-}  // namespace
+}  // namespace sensitivity_test
 }  // namespace talus::analysis

@@ -14,7 +14,7 @@
 #include "tests/experiments/synthetic_campaign.h"
 
 namespace talus::analysis {
-namespace {
+namespace sensitivity_view_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -96,5 +96,5 @@ TEST(SensitivityView, ADamagedOneIsNamedWithTheRemedy) {
   }
 }
 
-}  // namespace
+}  // namespace sensitivity_view_test
 }  // namespace talus::analysis

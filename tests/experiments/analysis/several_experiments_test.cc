@@ -15,7 +15,7 @@
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
-namespace {
+namespace several_experiments_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -241,5 +241,5 @@ TEST_F(Fit, WithoutAFreshSeedIsWhatTheModelExpects) {
   EXPECT_EQ(unsure[1].judgement, "1.4 standard errors of the measurement and the prediction away");
 }
 
-}  // namespace
+}  // namespace several_experiments_test
 }  // namespace talus::campaign

@@ -17,7 +17,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
-namespace {
+namespace unknowns_test {
 
 using campaign::FakeEngine;
 using campaign::JointView;
@@ -179,5 +179,5 @@ TEST(UnknownShift, BitsAreThoseOfTheErrorsAndTheShiftTogether) {
   EXPECT_GT(optimizer::Learn(draws, predicted, 1).bits, bits + 0.5);
 }
 
-}  // namespace
+}  // namespace unknowns_test
 }  // namespace talus::analysis

@@ -13,7 +13,7 @@
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
-namespace {
+namespace add_experiment_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -165,5 +165,5 @@ TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
   EXPECT_EQ(base::ReadFile(folder / "campaign.json"), kept);
 }
 
-}  // namespace
+}  // namespace add_experiment_test
 }  // namespace talus::campaign

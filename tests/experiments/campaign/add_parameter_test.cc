@@ -11,7 +11,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
-namespace {
+namespace add_parameter_test {
 
 using ::testing::HasSubstr;
 
@@ -107,5 +107,5 @@ TEST_F(AddedParameters, MustBeOneTheTrialsAgreeIn) {
   EXPECT_EQ(TrialTable(folder), table);
 }
 
-}  // namespace
+}  // namespace add_parameter_test
 }  // namespace talus::campaign

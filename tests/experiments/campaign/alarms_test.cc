@@ -14,7 +14,7 @@
 #include "tests/experiments/campaign/confirmed_answer.h"
 
 namespace talus::campaign {
-namespace {
+namespace alarms_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -327,5 +327,5 @@ TEST(Candidates, EndsOfAValleyAreConfirmedAfterRecommendedSetAndBranches) {
   EXPECT_EQ((ConfirmOptions{.candidates = 0, .replicates = 3}.MostTrials()), 0);
 }
 
-}  // namespace
+}  // namespace alarms_test
 }  // namespace talus::campaign

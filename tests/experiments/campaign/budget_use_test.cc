@@ -7,7 +7,7 @@
 #include "experiments/campaign/folder/progress.h"
 
 namespace talus::campaign {
-namespace {
+namespace budget_use_test {
 
 using testing::HasSubstr;
 
@@ -139,5 +139,5 @@ TEST(Progress, SaysWhatIsUsedAndWhatIsLeft) {
             "7 of 60 simulations, 2 running, best 1.2 mm² (trial 5), at most 3 min left");
 }
 
-}  // namespace
+}  // namespace budget_use_test
 }  // namespace talus::campaign

@@ -11,7 +11,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
-namespace {
+namespace campaign_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -311,5 +311,5 @@ TEST_F(CampaignTest, SeveralWorkersAndReplicatesMakeEveryTrialOnce) {
   for (const auto& [set, count] : sets) EXPECT_EQ(count, 2);
 }
 
-}  // namespace
+}  // namespace campaign_test
 }  // namespace talus::campaign

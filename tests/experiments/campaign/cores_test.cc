@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 namespace talus::campaign {
-namespace {
+namespace cores_test {
 
 using ::testing::HasSubstr;
 
@@ -39,5 +39,5 @@ TEST(Cores, MoreThanTheMachineHasIsWarnedOf) {
   EXPECT_FALSE(CoresWarning(elsewhere, 8).has_value());
 }
 
-}  // namespace
+}  // namespace cores_test
 }  // namespace talus::campaign

@@ -15,7 +15,7 @@
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::campaign {
-namespace {
+namespace drum_images_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -143,5 +143,5 @@ TEST(RealDrum, MicrocrystallineCellulose) {
   }
 }
 
-}  // namespace
+}  // namespace drum_images_test
 }  // namespace talus::campaign

@@ -15,11 +15,13 @@
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
-namespace {
+namespace hold_out_test {
 
 using ::testing::HasSubstr;
 
-TEST_F(TwoExperiments, TheOthersPredictOneThatIsHeldOut) {
+class HoldingOut : public TwoExperiments {};
+
+TEST_F(HoldingOut, TheOthersPredictOneThatIsHeldOut) {
   const auto folder = Begin("run");
   RunFake(folder, {});
   const JointView view = ReadJointView(folder);
@@ -37,7 +39,7 @@ TEST_F(TwoExperiments, TheOthersPredictOneThatIsHeldOut) {
 }
 
 // 42 mg would fall at μ_t 0.13, which the heaps exclude.
-TEST_F(TwoExperiments, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
+TEST_F(HoldingOut, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
   const auto folder = Begin("run", "42 mg", 40);
   RunFake(folder, {});
   const JointView view = ReadJointView(folder);
@@ -56,7 +58,7 @@ TEST_F(TwoExperiments, OneThatDisagreesIsNoticedAndEachSaysWhatItAnswersAlone) {
   }));
 }
 
-TEST_F(TwoExperiments, TestsThatAgreeRaiseNoAlarm) {
+TEST_F(HoldingOut, TestsThatAgreeRaiseNoAlarm) {
   const auto folder = Begin("run", "23 mg", 40);
   RunFake(folder, {});
   const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
@@ -73,7 +75,7 @@ TEST(Agreement, TensionIsNoAlarmWhereSurrogatesMissMostOfTheirOwnTrials) {
 }
 
 // 42 mg would drag the answer to low friction (the test above); held out, it does not.
-TEST_F(TwoExperiments, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
+TEST_F(HoldingOut, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   const auto folder = Begin("run", "42 mg", 30, {.hold_out = "fast lift"});
   RunFake(folder, {});
   const Answer result = ParseAnswer(base::ReadFile(folder / "result.json"));
@@ -108,7 +110,7 @@ TEST_F(TwoExperiments, ACampaignAnswersWithoutOneThatIsHeldOutAndPredictsIt) {
   EXPECT_EQ(considered.find("fast lift"), std::string::npos);
 }
 
-TEST_F(TwoExperiments, WhatCannotBeHeldOutIsSaid) {
+TEST_F(HoldingOut, WhatCannotBeHeldOutIsSaid) {
   for (const char* name : {"slow lift", ""}) {
     try {
       Begin("refused", "23 mg", 20, {.hold_out = name});
@@ -127,5 +129,5 @@ TEST_F(CampaignFixture, ACampaignWithOneExperimentHasNothingToHoldOut) {
   EXPECT_THROW(HoldOut(view, "slow lift"), base::ConfigError);
 }
 
-}  // namespace
+}  // namespace hold_out_test
 }  // namespace talus::campaign

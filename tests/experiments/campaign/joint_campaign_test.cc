@@ -23,7 +23,7 @@
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
-namespace {
+namespace joint_campaign_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -297,5 +297,5 @@ TEST(PosteriorInWords, FewSimulationsOfSeveralExperimentsAreSaid) {
   EXPECT_TRUE(PosteriorAlarms(With(posterior)).empty());
 }
 
-}  // namespace
+}  // namespace joint_campaign_test
 }  // namespace talus::campaign

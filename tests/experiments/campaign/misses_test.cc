@@ -8,7 +8,7 @@
 #include "tests/experiments/campaign/confirmed_answer.h"
 
 namespace talus::campaign {
-namespace {
+namespace misses_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -137,5 +137,5 @@ TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
   EXPECT_FALSE(Misses(answer, end));
 }
 
-}  // namespace
+}  // namespace misses_test
 }  // namespace talus::campaign

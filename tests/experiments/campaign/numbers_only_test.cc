@@ -19,7 +19,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
-namespace {
+namespace numbers_only_test {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -231,5 +231,5 @@ TEST_F(NumbersOnly, ANumberThatNoTrialDefinesEndsTheSearchWithWords) {
               HasSubstr("none of the first 8 trials defines \"tapped_density_kg_per_m3\""));
 }
 
-}  // namespace
+}  // namespace numbers_only_test
 }  // namespace talus::campaign

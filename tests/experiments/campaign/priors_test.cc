@@ -11,7 +11,7 @@
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::campaign {
-namespace {
+namespace priors_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -193,5 +193,5 @@ TEST_F(Priors, ADeterminedNuisanceIsCalledSo) {
               HasSubstr("rolling_friction: determined, 0."));
 }
 
-}  // namespace
+}  // namespace priors_test
 }  // namespace talus::campaign

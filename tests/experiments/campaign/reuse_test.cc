@@ -11,7 +11,7 @@
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
-namespace {
+namespace reuse_test {
 
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
@@ -232,5 +232,5 @@ TEST_F(ReuseTest, ACampaignThatAnotherProcessWorksOnIsSaidToBe) {
   EXPECT_THAT(said_, HasSubstr("former: another process works on it"));
 }
 
-}  // namespace
+}  // namespace reuse_test
 }  // namespace talus::campaign

@@ -9,7 +9,7 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
 namespace talus::campaign {
-namespace {
+namespace scale_factors_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -184,5 +184,5 @@ TEST(Estimate, WarnsOfABudgetThatBuysFewOfTheFinestTrials) {
   EXPECT_TRUE(EstimateWarnings(spec, estimate).empty());
 }
 
-}  // namespace
+}  // namespace scale_factors_test
 }  // namespace talus::campaign

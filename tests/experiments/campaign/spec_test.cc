@@ -12,7 +12,7 @@
 #include "experiments/rigs/case/pairs.h"
 
 namespace talus::campaign {
-namespace {
+namespace spec_test {
 
 using ::testing::HasSubstr;
 
@@ -216,5 +216,5 @@ TEST(Spec, TheShippedSchemaIsTheParsers) {
   EXPECT_EQ(base::ReadFile(path), schema);
 }
 
-}  // namespace
+}  // namespace spec_test
 }  // namespace talus::campaign

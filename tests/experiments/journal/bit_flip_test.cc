@@ -15,7 +15,7 @@
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
-namespace {
+namespace bit_flip_test {
 
 namespace fs = std::filesystem;
 
@@ -257,5 +257,5 @@ TEST_F(BitFlips, AnotherProgramsDatabaseIsNotTouched) {
   EXPECT_FALSE(fs::exists(path.string() + "-wal"));
 }
 
-}  // namespace
+}  // namespace bit_flip_test
 }  // namespace talus::campaign

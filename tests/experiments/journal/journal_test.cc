@@ -15,7 +15,7 @@
 #include "experiments/journal/schema.h"
 
 namespace talus::journal {
-namespace {
+namespace journal_test {
 
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -288,5 +288,5 @@ TEST_F(JournalTest, ManyTrialsAreReadByAsManyStatementsAsFewAndWithoutTheirImage
   EXPECT_EQ(num_statements[1], num_statements[0]);
 }
 
-}  // namespace
+}  // namespace journal_test
 }  // namespace talus::journal

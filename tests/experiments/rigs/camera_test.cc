@@ -13,7 +13,7 @@
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
-namespace {
+namespace camera_test {
 
 using ::testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST(Camera, PicturesAfterTheEndAreAFailure) {
   }
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace talus::rigs

@@ -21,7 +21,7 @@
 #include "experiments/rigs/load_case.h"
 
 namespace talus::rigs {
-namespace {
+namespace case_test {
 
 using ::testing::AllOf;
 using ::testing::Contains;
@@ -194,5 +194,5 @@ TEST(Case, TheShippedSchemaIsTheParsers) {
   EXPECT_EQ(base::ReadFile(path), schema);
 }
 
-}  // namespace
+}  // namespace case_test
 }  // namespace talus::rigs

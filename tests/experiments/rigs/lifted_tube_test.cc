@@ -18,7 +18,7 @@
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::rigs {
-namespace {
+namespace lifted_tube_test {
 
 // About 150 grains of 1 mm, soft so that a test takes a second.
 Case Coarse(double sliding_friction, double rolling_friction) {
@@ -370,5 +370,5 @@ TEST(Landing, WithinADiameterOfTheHeapAGrainBelongsToIt) {
   EXPECT_EQ(on_heap, (std::vector<bool>{true, true, false, true, false, false}));
 }
 
-}  // namespace
+}  // namespace lifted_tube_test
 }  // namespace talus::rigs

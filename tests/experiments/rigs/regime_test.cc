@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace talus::rigs {
-namespace {
+namespace regime_test {
 
 constexpr double kDiameter = 1e-3;  // [m]
 constexpr double kDensity = 2000;   // [kg/m³]
@@ -96,5 +96,5 @@ TEST(Regime, QuantilesAreOfTheWork) {
   EXPECT_TRUE(std::isnan(LogHistogram{}.Quantile(0.5)));
 }
 
-}  // namespace
+}  // namespace regime_test
 }  // namespace talus::rigs

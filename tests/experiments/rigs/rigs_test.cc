@@ -21,7 +21,7 @@
 #include "tests/experiments/scratch_folder.h"
 
 namespace talus::rigs {
-namespace {
+namespace rigs_test {
 
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
@@ -439,5 +439,5 @@ TEST(Surface, TheSlopeOfARampIsItsAngle) {
   EXPECT_NEAR(MassQuantile(grains, 0.5, [](const auto& p) { return p.position.x; }), 4.95, 0.06);
 }
 
-}  // namespace
+}  // namespace rigs_test
 }  // namespace talus::rigs

@@ -16,7 +16,7 @@
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
-namespace {
+namespace shear_cell_test {
 
 using ::testing::HasSubstr;
 
@@ -161,5 +161,5 @@ TEST(YieldLine, OfPointsOnALineIsThatLine) {
   EXPECT_FALSE(YieldLineOf({points.data(), 1}).has_value());
 }
 
-}  // namespace
+}  // namespace shear_cell_test
 }  // namespace talus::rigs

@@ -10,7 +10,7 @@
 #include "tests/experiments/rigs/rig_case.h"
 
 namespace talus::rigs {
-namespace {
+namespace spreading_test {
 
 using ::testing::HasSubstr;
 
@@ -151,5 +151,5 @@ TEST(Layer, OfOneGrainIsItsDisc) {
   EXPECT_EQ(LayerOf({}, window, d).coverage, 0);
 }
 
-}  // namespace
+}  // namespace spreading_test
 }  // namespace talus::rigs

@@ -15,7 +15,7 @@
 #include "base/files/file.h"
 
 namespace talus::runners {
-namespace {
+namespace local_runner_test {
 
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -257,5 +257,5 @@ TEST_F(LocalRunnerTest, TwoHundredTrivialJobsEndOnceEach) {
   EXPECT_THAT(num_ends, Each(1));
 }
 
-}  // namespace
+}  // namespace local_runner_test
 }  // namespace talus::runners

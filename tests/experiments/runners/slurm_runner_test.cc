@@ -15,7 +15,7 @@
 #include "experiments/runners/tool.h"
 
 namespace talus::runners {
-namespace {
+namespace slurm_runner_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -394,5 +394,5 @@ TEST(Tool, GivesOutputStatusAndAnEndToWhatHangs) {
   EXPECT_THAT(hung.errors, HasSubstr("gave no answer in time"));
 }
 
-}  // namespace
+}  // namespace slurm_runner_test
 }  // namespace talus::runners

@@ -18,7 +18,7 @@
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
-namespace {
+namespace command_engine_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -436,5 +436,5 @@ TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
   EXPECT_EQ(std::stod(grains.rows.at(0).at(4)), 2e-3);
 }
 
-}  // namespace
+}  // namespace command_engine_test
 }  // namespace talus::trials

@@ -9,7 +9,7 @@
 #include "base/json/json_schema.h"
 
 namespace talus::trials {
-namespace {
+namespace optimize_problem_test {
 
 TEST(OptimizeProblem, ShippedSchemaIsThatOfTheParser) {
   const std::string path = TALUS_SOURCE_DIR "/docs/optimize.schema.json";
@@ -26,5 +26,5 @@ TEST(OptimizeProblem, ExampleIsRead) {
   EXPECT_EQ(problem.evaluations, 40);
 }
 
-}  // namespace
+}  // namespace optimize_problem_test
 }  // namespace talus::trials

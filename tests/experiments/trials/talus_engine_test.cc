@@ -11,7 +11,7 @@
 #include "experiments/rigs/rig_run.h"
 
 namespace talus::trials {
-namespace {
+namespace talus_engine_test {
 
 namespace fs = std::filesystem;
 
@@ -110,5 +110,5 @@ TEST(TalusEngine, AFilmedRunIsTakenOverInItsOwnFrameOnly) {
   fs::remove_all(root);
 }
 
-}  // namespace
+}  // namespace talus_engine_test
 }  // namespace talus::trials

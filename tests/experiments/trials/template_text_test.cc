@@ -8,7 +8,7 @@
 #include "base/text/number_text.h"
 
 namespace talus::trials {
-namespace {
+namespace template_text_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -70,5 +70,5 @@ TEST(TextTemplate, NumbersAreReadBackAsTheSame) {
   EXPECT_EQ(base::ExactNumber(0.25), "0.25");
 }
 
-}  // namespace
+}  // namespace template_text_test
 }  // namespace talus::trials
