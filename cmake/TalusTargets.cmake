@@ -14,9 +14,11 @@ add_library(talus::compile_options ALIAS talus_compile_options)
 set_target_properties(talus_compile_options PROPERTIES EXPORT_NAME compile_options)
 target_compile_features(talus_compile_options INTERFACE cxx_std_20)
 # -fno-math-errno lets sqrt vectorise; -ffast-math would remove the NaN checks. -ffp-contract=off
-# keeps the bits independent of where the compiler chooses to fuse.
+# keeps the bits independent of where the compiler chooses to fuse. GCC collects its own garbage less
+# often than by default: a tenth of the time to compile for some hundred megabytes.
 target_compile_options(talus_compile_options INTERFACE
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor;-fno-math-errno;-ffp-contract=off>
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=400000>>
   $<BUILD_INTERFACE:$<$<BOOL:${TALUS_WARNINGS_AS_ERRORS}>:-Werror>>)
 # Checks that double the time to compile are left out where the address sanitizer finds what comes of
 # the mistake. GCC 12 takes the storage of an empty std::optional for read once it is instrumented.

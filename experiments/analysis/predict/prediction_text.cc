@@ -6,6 +6,7 @@
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/observables/observable.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -16,11 +17,11 @@ using base::ShortNumber;
 // A number's name without its unit, and the unit that people read it in.
 struct Shown {
   std::string title;
-  ShownUnit unit;
+  rigs::ShownUnit unit;
 
   explicit Shown(const std::string& name)
       : title(rigs::FindObservable(name) != nullptr ? rigs::FindObservable(name)->key : name),
-        unit(ShownUnitOf(rigs::UnitOfObservable(name))) {}
+        unit(rigs::ShownUnitOf(rigs::UnitOfObservable(name))) {}
 
   std::string Text(double x) const { return ShortNumber(unit.per_unit * x, 4); }
   std::string Unit() const { return unit.text.empty() ? "" : " " + unit.text; }

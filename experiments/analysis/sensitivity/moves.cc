@@ -117,8 +117,8 @@ void AddPowder(const campaign::JointView& view, const rigs::Case& c, std::vector
                    .placeholders = {"grains", "smallest_diameter", "largest_diameter"}});
   if (IsSearched(view, kFill)) return;
   moves.push_back({.name = "mass",
-                   .from = WithUnit(1e3 * c.powder.mass, "g"),
-                   .to = WithUnit(1e3 * kMoreMass * c.powder.mass, "g"),
+                   .from = base::WithUnit(1e3 * c.powder.mass, "g"),
+                   .to = base::WithUnit(1e3 * kMoreMass * c.powder.mass, "g"),
                    .apply = [](rigs::Case& moved) { moved.powder.mass *= kMoreMass; },
                    .placeholders = {"grains", "mass", "num_grains"}});
 }
@@ -128,8 +128,8 @@ void AddHandling(const rigs::Case& c, std::vector<Move>& moves) {
   if (c.rig.kind == rigs::RigKind::kLiftedTube) {
     const double speed = c.rig.lifted_tube.lift_velocity;
     moves.push_back({.name = "lift_velocity",
-                     .from = WithUnit(1e3 * speed, "mm/s"),
-                     .to = WithUnit(1e3 * kFaster * speed, "mm/s"),
+                     .from = base::WithUnit(1e3 * speed, "mm/s"),
+                     .to = base::WithUnit(1e3 * kFaster * speed, "mm/s"),
                      .apply =
                          [](rigs::Case& moved) {
                            if (moved.rig.kind != rigs::RigKind::kLiftedTube) return;
