@@ -18,7 +18,7 @@ constexpr std::string_view EnumeratorOf() {
 
 // "left_out", ended by a zero.
 template <auto kValue>
-constexpr auto kSnakeName = [] {
+inline constexpr auto kSnakeName = [] {
   constexpr std::string_view kWhole = EnumeratorOf<kValue>();
   constexpr std::string_view kName = kWhole.substr(kWhole.rfind(':') + 2);  // without the k
   std::array<char, 2 * kName.size() + 1> snake{};

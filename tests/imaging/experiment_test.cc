@@ -54,7 +54,7 @@ TEST(Experiment, PhotographedSpheresGiveTheirDirectProjection) {
       scene.baseline -= 2.7 * run;
       scene.seed = static_cast<std::uint64_t>(10 * run + view);
       const double angle = std::numbers::pi * view / kViews;
-      WritePng(folder / Name(run, view), Photograph(scene, spheres, kPlate, angle));
+      WritePng(folder / Name(run, view), PhotographOf(scene, spheres, kPlate, angle));
     }
   }
   const Experiment experiment = MeasureExperiment(Options(folder));

@@ -44,11 +44,11 @@ TEST(PhotoDoubt, DoubtfulPhotographsAreWarnedOf) {
   for (int view = 0; view < 4; ++view) WritePng(folder / Name(1, view), Triangle(scene));
   // A thread over the heap from the left edge of the picture: touches it and reaches beyond the
   // rim.
-  WritePng(folder / Name(1, 4), Photograph(scene, [](double x) {
+  WritePng(folder / Name(1, 4), PhotographOf(scene, [](double x) {
              return x < 0 ? std::max(0.5 * (150 - std::abs(x)), 8.0) : 0.5 * (150 - x);
            }));
   WritePng(folder / Name(1, 5),
-           Photograph(scene, [](double x) { return 0.2 * (150 - std::abs(x)); }));
+           PhotographOf(scene, [](double x) { return 0.2 * (150 - std::abs(x)); }));
   GrayImage white = Triangle(scene);
   for (std::uint8_t& level : white.pixels) level = level > 130 ? 255 : level;
   WritePng(folder / Name(1, 6), white);
@@ -165,10 +165,10 @@ TEST(PhotoDoubt, ATableThatIsNoneIsNamed) {
     return ErrorOf(options);
   };
   EXPECT_THAT(error_of(Triangle(SmallScene())), HasSubstr("lower border is not dark"));
-  EXPECT_THAT(error_of(Photograph(TableScene(), [](double) { return 0.0; })),
+  EXPECT_THAT(error_of(PhotographOf(TableScene(), [](double) { return 0.0; })),
               HasSubstr("nothing stands on the table"));
   const auto saw = [](double x) { return 20 + 1.7 * std::abs(std::fmod(x + 600, 60) - 30); };
-  EXPECT_THAT(error_of(Photograph(TableScene(), saw)), HasSubstr("no straight, level top"));
+  EXPECT_THAT(error_of(PhotographOf(TableScene(), saw)), HasSubstr("no straight, level top"));
 }
 
 std::vector<PhotoDoubt> DoubtsOf(const fs::path& folder) {
@@ -181,7 +181,7 @@ std::vector<PhotoDoubt> DoubtsOf(const fs::path& folder) {
 
 TEST(PhotoDoubt, AnEmptyPlateIsWarnedOf) {
   const fs::path folder = GoodFolder("empty_plate");
-  WritePng(folder / Name(2, 1), Photograph(SmallScene(), [](double) { return 0.0; }));
+  WritePng(folder / Name(2, 1), PhotographOf(SmallScene(), [](double) { return 0.0; }));
   EXPECT_THAT(DoubtsOf(folder), testing::ElementsAre(PhotoDoubt::kNoPowder));
 }
 
@@ -228,7 +228,7 @@ TEST(PhotoDoubt, ARunUnlikeTheOthersIsWarnedOf) {
   int run = 0;
   for (const double slope : {0.5, 0.505, 0.56, 0.495, 0.5}) {
     WritePng(folder / Name(++run, 0),
-             Photograph(SmallScene(), [&](double x) { return slope * (150 - std::abs(x)); }));
+             PhotographOf(SmallScene(), [&](double x) { return slope * (150 - std::abs(x)); }));
   }
   const auto warnings = MeasureExperiment(Options(folder)).warnings;
   ASSERT_EQ(warnings.size(), 1u);

@@ -43,7 +43,7 @@ inline ExperimentOptions Options(const fs::path& folder) {
 }
 
 inline GrayImage Triangle(const Scene& scene) {
-  return Photograph(scene, [&](double x) { return 0.5 * (150 - std::abs(x)); });
+  return PhotographOf(scene, [&](double x) { return 0.5 * (150 - std::abs(x)); });
 }
 
 // Two runs of two views, all good.

@@ -118,7 +118,7 @@ std::vector<std::filesystem::path> Photos(const Shape& shape, const Camera& came
     scene.baseline -= 0.6;
     photos.push_back(std::filesystem::path(testing::TempDir()) /
                      ("repose_" + shape.name + camera.name + std::to_string(view) + ".png"));
-    WritePng(photos.back(), Photograph(scene, [&](double x) { return shape.HeightAt(x); }));
+    WritePng(photos.back(), PhotographOf(scene, [&](double x) { return shape.HeightAt(x); }));
   }
   return photos;
 }

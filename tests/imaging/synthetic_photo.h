@@ -103,13 +103,13 @@ inline GrayImage Expose(const Scene& scene, std::vector<double> cover) {
 }
 
 // A heap drawn by its height over the plate, h(along) [px].
-inline GrayImage Photograph(const Scene& scene, const std::function<double(double)>& height) {
+inline GrayImage PhotographOf(const Scene& scene, const std::function<double(double)>& height) {
   return Expose(
       scene, Cover(scene, [&](double along, double up) { return up > 0 && up < height(along); }));
 }
 
 // Spheres seen along a horizontal direction turned by `angle`; the plate is `plate_diameter` wide.
-inline GrayImage Photograph(const Scene& scene, std::span<const base::Sphere> spheres,
+inline GrayImage PhotographOf(const Scene& scene, std::span<const base::Sphere> spheres,
                             double plate_diameter, double angle) {
   const double scale = scene.plate_width / plate_diameter;  // [px/m]
   const int columns = scene.width * kSamples;
