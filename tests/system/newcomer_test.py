@@ -98,7 +98,7 @@ class TubeAndDrum(unittest.TestCase):
         self.assertTrue(data["headline"]["fit"][0]["simulated"].startswith(f"{confirmed:.3g} mm² SAD as the mean of"))
 
     def test_words_and_numbers_are_those_of_the_bench(self):
-        for text in (self.terminal, run("status", self.run), run("next", self.run), run("card", self.run)):
+        for text in (self.terminal, run("validate", self.run.parent / "spec.json"), run("status", self.run), run("next", self.run), run("card", self.run)):
             self.assertNotRegex(text, r"\dmg|_kg [-\d]|[-−]\d[\d.]* ?mg|\de-\d\d ?(kg|m)\b")
         answer = self.terminal[self.terminal.index("recommended set"):]
         self.assertRegex(answer, r"mixer, drum: diameter 16 mm, width 5 mm, speed 60 rpm")

@@ -11,6 +11,7 @@
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/rigs/case/device_text.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -43,11 +44,11 @@ std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice
 std::string NumbersText(const campaign::JointView& view, const TestCandidate& test) {
   std::string text;
   for (const ExpectedNumber& number : NumbersOf(view, test)) {
-    text += (text.empty() ? "" : ", ") + number.metric;
+    text += (text.empty() ? "" : ", ") + rigs::SpokenName(number.metric);
     if (number.relative_error > 0) {
       text += " ± " + ShortNumber(100 * number.relative_error) + " %";
     } else if (number.standard_error > 0) {
-      text += " ± " + ShortNumber(number.standard_error);
+      text += " ± " + rigs::ShownNumber(number.metric, number.standard_error);
     }
   }
   return text;
