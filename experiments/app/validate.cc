@@ -18,6 +18,7 @@
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/engines/command_engine.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 
@@ -30,8 +31,8 @@ void PrintExperiment(const journal::ExperimentRecord& e, const journal::Campaign
                                     : "numbers only");
   if (e.noise_mm2) std::cout << ", noise floor " << base::ShortNumber(*e.noise_mm2) << " mm²";
   for (const journal::ScalarRecord& s : e.scalars) {
-    std::cout << ", " << s.name << " " << base::ShortNumber(s.value) << " ± "
-              << base::ShortNumber(s.standard_error);
+    std::cout << ", " << rigs::SpokenName(s.name) << " " << rigs::ShownNumber(s.name, s.value)
+              << " ± " << rigs::ShownNumber(s.name, s.standard_error);
   }
   std::cout << '\n';
 }

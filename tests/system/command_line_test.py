@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import shutil
 import subprocess
 import sys
@@ -196,6 +197,9 @@ class Progress(unittest.TestCase):
             done = talus("init", photos, "--out", str(out), *flags, *more)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("//", out.read_text())
+            for page in re.findall(r"docs/\w+\.md", out.read_text()):  # where its comments point to
+                self.assertTrue((SOURCE / page).exists(), page)
+            self.assertIn("size tables in docs/scene.md", out.read_text())
             self.assertIn('"scale_factors": [8, 3]', out.read_text())  # 12.5 and 33 grains across
             searched = out.read_text().split('"parameters"')[1]
             self.assertEqual("surface_energy" in searched, bool(more))

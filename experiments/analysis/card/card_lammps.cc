@@ -67,7 +67,7 @@ std::string WallLaw(const Card& card, const std::string& id, std::size_t wall) {
 }
 
 // Tube and plate of the lifted tube, ready to be uncommented.
-std::string TubeWalls(const Card& card, const CardTest& test) {
+std::string LammpsTube(const Card& card, const CardTest& test) {
   const std::string mark = TestMark(card, test);
   const rigs::LiftedTubeOptions& device = test.rig.lifted_tube;
   const std::string radius = CardNumber(device.tube_inner_diameter / 2);
@@ -88,7 +88,7 @@ std::string LammpsWalls(const Card& card) {
   std::string text;
   for (const CardTest& test : card.tests) {
     if (test.rig.kind == rigs::RigKind::kLiftedTube) {
-      text += TubeWalls(card, test);
+      text += LammpsTube(card, test);
       continue;
     }
     const std::string mark = TestMark(card, test);

@@ -65,7 +65,7 @@ std::string LiggghtsRemarks(const Card& card) {
 std::string TypeText(std::size_t material) { return std::to_string(material + 1); }
 
 // A primitive wall has no end and does not move: plate and tube before the lift.
-std::string TubeWalls(const Card& card, const CardTest& test, const std::string& model) {
+std::string LiggghtsTube(const Card& card, const CardTest& test, const std::string& model) {
   const std::string mark = TestMark(card, test);
   const std::string wall = " all wall/gran " + model + " primitive type ";
   return "# Walls of " + (card.tests.size() == 1 ? "that test" : base::OneLine(test.name)) +
@@ -79,7 +79,7 @@ std::string LiggghtsWalls(const Card& card, const std::string& model) {
   std::string text;
   for (const CardTest& test : card.tests) {
     if (test.rig.kind == rigs::RigKind::kLiftedTube) {
-      text += TubeWalls(card, test, model);
+      text += LiggghtsTube(card, test, model);
     } else if (test.tube > 0 || test.plate > 0) {
       text += "# Walls of " + base::OneLine(test.name) + ": type " + TypeText(test.tube) +
               ", its floor: type " + TypeText(test.plate) + "\n";

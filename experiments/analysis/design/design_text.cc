@@ -12,6 +12,7 @@
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/rigs/case/device_text.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -40,11 +41,13 @@ std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice
 
 std::string NumbersText(const campaign::JointView& view, const TestCandidate& test) {
   return base::Joined(NumbersOf(view, test), ", ", [](const ExpectedNumber& number) {
+    const std::string name = rigs::SpokenName(number.metric);
     if (number.relative_error > 0) {
-      return number.metric + " ± " + ShortNumber(100 * number.relative_error) + " %";
+      return name + " ± " + ShortNumber(100 * number.relative_error) + " %";
     }
     const bool is_stated = number.standard_error > 0;
-    return number.metric + (is_stated ? " ± " + ShortNumber(number.standard_error) : "");
+    return name +
+           (is_stated ? " ± " + rigs::ShownNumber(number.metric, number.standard_error) : "");
   });
 }
 

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+
+#include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/progress.h"
 
 namespace talus::campaign {
@@ -127,6 +131,21 @@ TEST(Progress, TrialLinesHaveTheNumbersOfTheirTestInTheUnitsThatPeopleRead) {
   EXPECT_EQ(ProgressText(trial),
             "trial 7 (search) at sliding_friction 0.3, mixer: "
             "what was measured is not defined of it, 2 s");
+}
+
+// Into a file, as a cluster or `nohup` has it, a line now and then; on a terminal it is one line
+// that changes.
+TEST(Progress, WhereNoTerminalIsTheStatusIsALineNowAndThen) {
+  const CampaignProgress progress{.used = "7 of 60 simulations", .seconds_left = 170};
+  const auto said = [&](std::chrono::steady_clock::duration period) {
+    testing::internal::CaptureStderr();
+    Console console(std::filesystem::path(testing::TempDir()) / "console.log",
+                    Console::Output::kStandardError, period);
+    console.Status(progress);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(std::chrono::seconds(0)), ProgressText(progress) + "\n");
+  EXPECT_EQ(said(std::chrono::hours(1)), "");
 }
 
 TEST(Progress, SaysWhatIsUsedAndWhatIsLeft) {
