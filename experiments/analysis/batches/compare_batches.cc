@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/joint_view.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/spheres/projection.h"

@@ -6,6 +6,7 @@
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/observables/observable.h"
+#include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {

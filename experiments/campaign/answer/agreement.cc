@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/campaign/answer/hold_out.h"
 #include "optimizer/posterior/sample_statistics.h"
 
 namespace talus::campaign {
