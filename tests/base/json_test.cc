@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/field.h"
 #include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_schema.h"

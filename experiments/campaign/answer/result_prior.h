@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "base/field.h"
+
 namespace talus::campaign {
 
 // What was known of a parameter beforehand, SI.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/load_case.h"
 
 namespace talus::campaign {

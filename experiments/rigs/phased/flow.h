@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/field.h"
 #include "experiments/rigs/observables/observable.h"
 
 namespace talus::rigs {

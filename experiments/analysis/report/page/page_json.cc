@@ -8,6 +8,7 @@
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/answer_words.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::analysis {
 
