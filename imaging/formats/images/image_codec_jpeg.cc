@@ -64,6 +64,7 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
                  .channels = 1,
                  .bits = 8,
                  .orientation = OrientationOf(jpeg)};
+  image.Reserve();
   std::vector<JSAMPLE> row(jpeg.output_width);
   while (jpeg.output_scanline < jpeg.output_height) {
     JSAMPLE* rows[] = {row.data()};

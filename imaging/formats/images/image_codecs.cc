@@ -25,9 +25,15 @@ void RawImage::AddRow(std::span<const std::uint16_t> row) {
     for (const std::uint16_t sample : row) largest = std::max(largest, sample);
     return;
   }
+  Reserve();
   for (std::size_t i = 0; i < row.size(); i += static_cast<std::size_t>(channels)) {
     gray.push_back(GrayLevel(&row[i], channels, bits == 8 ? 255 : white));
   }
+}
+
+// Pages that are never written take no memory.
+void RawImage::Reserve() {
+  gray.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
 void CheckImageSize(const ImageSize& size, const std::string& name) {

@@ -27,6 +27,7 @@ struct RawImage {
 
   // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
   void AddRow(std::span<const std::uint16_t> row);
+  void Reserve();  // for all rows: growing would take three times their memory
 };
 
 // Grey is luma (Rec. 601), transparency on white. Each throws ConfigError that starts with `name`
