@@ -77,7 +77,7 @@ WeightedDraws ChooseDraws(const Eigen::MatrixXd& draws, int count, std::uint64_t
   return chosen;
 }
 
-WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
+Eigen::MatrixXd PosteriorDraws(const campaign::JointView& view) {
   constexpr int kDraws = 1000;
   const auto strategy = campaign::StrategyOf(view, view.Answered());
   if (!strategy->CanModel()) {
@@ -85,7 +85,11 @@ WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
                       ": has too few trials of each experiment for a posterior; go on with "
                       "`talus resume`");
   }
-  return ChooseDraws(strategy->Sample().Draws(kDraws, view.spec.seed), count, view.spec.seed);
+  return strategy->Sample().Draws(kDraws, view.spec.seed);
+}
+
+WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
+  return ChooseDraws(PosteriorDraws(view), count, view.spec.seed);
 }
 
 }  // namespace talus::analysis

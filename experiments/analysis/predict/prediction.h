@@ -44,6 +44,24 @@ struct MeasuredThere {
   }
 };
 
+// A surrogate over the draws (number_surrogate.h) beside the draws themselves.
+struct PredictedSurrogate {
+  double scale_factor = 1;           // that it tells the number at
+  double left_out_error = kUnknown;  // by which it misses a draw that it was not told
+  double draws_error = kUnknown;     // by which the other draws' mean misses it
+  bool is_used = false;              // the number is by it
+  double sd = kUnknown;              // of what it gives for a set
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("scale_factor", self.scale_factor);
+    visit("left_out_error", self.left_out_error);
+    visit("draws_error", self.draws_error);
+    visit("is_used", self.is_used);
+    visit("sd", self.sd);
+  }
+};
+
 struct PredictedNumber {
   std::string name{};       // with its unit: "angle_deg"
   bool is_usual = false;    // what the rig is made to measure
@@ -56,7 +74,15 @@ struct PredictedNumber {
   double run_sd = kUnknown;            // of a single run; null where no set was run twice
   double parameters_share = kUnknown;  // of the variance of a single run
   std::vector<double> by_draw{};       // mean of each draw; null where it is not defined
+  std::vector<double> by_run{};        // as in Prediction::runs; null where it is not defined
+  std::optional<PredictedSurrogate> surrogate{};  // none: too few draws to stand on
   std::optional<MeasuredThere> measured{};
+
+  // Of a single run, as far as it is known where it comes from.
+  double Variance() const {
+    const double by_surrogate = surrogate && surrogate->is_used ? surrogate->sd : 0;
+    return parameters_sd * parameters_sd + by_surrogate * by_surrogate + run_sd * run_sd;
+  }
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -71,6 +97,8 @@ struct PredictedNumber {
     visit("run_sd", self.run_sd);
     visit("parameters_share", self.parameters_share);
     visit("by_draw", self.by_draw);
+    visit("by_run", self.by_run);
+    visit("surrogate", self.surrogate);
     visit("measured", self.measured);
   }
 };
@@ -106,6 +134,17 @@ struct PredictedDraw {
   }
 };
 
+struct PredictedRun {
+  int draw = 0;  // by its place from 0
+  double scale_factor = 1;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("draw", self.draw);
+    visit("scale_factor", self.scale_factor);
+  }
+};
+
 // How a test or process shears its powder (regimes.h): 5, 50 and 95 % of the work of shearing is
 // done below these.
 struct FlowRegime {
@@ -133,7 +172,8 @@ struct Prediction {
   std::string name{};
   std::string test{};  // the rig, or "scene"
   PredictedBy by = PredictedBy::kPosterior;
-  double scale_factor = 1;
+  double scale_factor = 1;      // of the runs that every draw has, with several seeds
+  double target = 1;            // scale factor that surrogates tell
   std::int64_t last_trial = 0;  // of the campaign when the draws were taken
   int num_runs = 0;
   int num_ended = 0;
@@ -142,6 +182,7 @@ struct Prediction {
   double core_time = 0;   // [s]
   std::vector<std::string> notes{};
   std::vector<PredictedDraw> draws{};
+  std::vector<PredictedRun> runs{};  // those that have ended well
   std::vector<PredictedNumber> numbers{};
   std::optional<MeasuredImage> image{};
   std::vector<FlowRegime> regimes{};  // of the process and of each test; none where not known
@@ -155,6 +196,7 @@ struct Prediction {
     visit("test", self.test);
     visit("by", self.by);
     visit("scale_factor", self.scale_factor);
+    visit("target_scale_factor", self.target);
     visit("after_trial", self.last_trial);
     visit("num_runs", self.num_runs);
     visit("num_ended", self.num_ended);
@@ -163,6 +205,7 @@ struct Prediction {
     visit("core_time_s", self.core_time);
     visit("notes", self.notes);
     visit("draws", self.draws);
+    visit("runs", self.runs);
     visit("numbers", self.numbers);
     visit("image", self.image);
     visit("regimes", self.regimes);
