@@ -16,7 +16,7 @@ void Take(const Spread& spread, PredictedNumber& number) {
 void AnswerBySurrogate(const Prediction& prediction, const SetsOfPosterior& sets,
                        PredictedNumber& number, std::optional<Spread>& spread) {
   const auto surrogate = NumberSurrogate::Fit(prediction, number, sets.space);
-  if (!surrogate) return;
+  if (!surrogate || surrogate->draws_error() == 0) return;  // a number that never changes
   const Spread told(surrogate->At(sets.points), surrogate->run_sd());
   number.surrogate =
       PredictedSurrogate{.scale_factor = prediction.target,

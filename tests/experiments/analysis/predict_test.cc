@@ -310,8 +310,11 @@ TEST_F(PredictTest, SeveralScaleFactorsTellTheOneThatTheAnswerIsFor) {
   EXPECT_LT(density.surrogate->left_out_error, density.surrogate->draws_error);
   double rolling = 0;
   for (const PredictedDraw& draw : p.draws) rolling += draw.weight * draw.values[1];
-  // Told at 1.5 alone it would be 20 kg/m³ more.
-  EXPECT_NEAR(density.mean, 1550 - 350 * rolling, 8);
+  // At 1.5 alone it is 20 kg/m³ more. As the shift may bend between the scale factors, 12 of these
+  // are taken away, and the interval allows for the rest.
+  const double truth = 1550 - 350 * rolling;
+  EXPECT_NEAR(density.mean, truth, 12);
+  EXPECT_LT(density.low, truth);
   const std::string text = PredictionText(p, view_->record.parameters);
   EXPECT_THAT(text, HasSubstr("scale factors 2 and 1.5: 48 of 48 runs"));
   EXPECT_THAT(text, HasSubstr("at scale factor 1 by a surrogate, which misses a draw left out by"));
