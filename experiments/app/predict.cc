@@ -10,6 +10,7 @@
 
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/units.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/app/command_line.h"
 #include "experiments/app/commands.h"
@@ -23,6 +24,7 @@ struct PredictArguments {
   std::vector<std::string> cases;
   std::vector<std::string> set;
   analysis::PredictOptions options;
+  std::string budget;
   bool json = false;
 };
 
@@ -33,6 +35,9 @@ void RunPredict(const PredictArguments& arguments) {
     analysis::PredictOptions options = arguments.options;
     options.file = file;
     options.set = ReadSetArgument(arguments.set);
+    if (!arguments.budget.empty()) {
+      options.core_time = base::ParseQuantity(arguments.budget, base::Dimension::kTime);
+    }
     // A queue's own files stand beside the predictions, not among those of the campaign's trials.
     const analysis::Prediction prediction = analysis::Predict(
         view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
@@ -62,9 +67,15 @@ void AddPredictCommand(CLI::App& app) {
                       "sets drawn from the posterior, from 2 to 200; default: 12");
   command->add_option("--seeds", options.num_seeds,
                       "runs of each set, from 1 to 100; default: 3, of one set alone 8");
-  command->add_option("--scale", options.scale_factor,
-                      "scale factor of the grains, 1 or more; default: the case's, else the finest "
-                      "of the campaign's that takes 4 min of core time at most");
+  command
+      ->add_option("--scale", options.scale_factors,
+                   "scale factors of the grains, each 1 or more: at the finest all seeds of "
+                   "every draw, at others one; default: the case's, else those of the "
+                   "campaign's that --budget affords")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--budget", arguments->budget,
+                      "core time for the runs of one case, such as \"10 min\"; default: 150 s");
   CLI::Option* set = command->add_option(
       "--set", arguments->set, "NAME=VALUE of every calibrated parameter: by this set alone");
   command->add_flag("--recommended", options.recommended, "by the recommended set alone")

@@ -1,6 +1,7 @@
 #include "experiments/campaign/reuse.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -28,26 +29,52 @@ NewExperiment ExperimentOf(const Reuser& reuser, std::size_t index) {
       .spec = reuser.spec, .index = static_cast<int>(index), .reference = reuser.references[index]};
 }
 
-// Why the trials of a test are none of this experiment; nothing where they are. All trials of a
-// test have one case but for what is searched, so the first that can be read tells.
-std::optional<std::string> WhyNotOf(const Reuser& reuser, const NewExperiment& experiment,
-                                    const FormerTest& test) {
-  if (test.trials.empty()) return "none of its simulations has succeeded";
+// A scale factor here over the one there at which the grains are as large; or why the trials of a
+// test are none of this experiment.
+struct Match {
+  double scale_ratio = 1;
+  std::optional<std::string> why_not{};
+};
+
+std::optional<std::string> WhyNotAt(double scale_factor, const Reuser& reuser,
+                                    const NewExperiment& experiment, FormerTrial former) {
+  former.scale_factor = scale_factor;
+  const rigs::Case rig_case = CaseOfTrial(reuser.spec, TrialOf(experiment, former, former.unit),
+                                          experiment.reference.frame());
+  try {
+    return reuser.engine.WhyNotTaken(rig_case, former.folder);
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+}
+
+// All trials of a test have one case but for what is searched, so the first that can be read tells.
+Match MatchOf(const Reuser& reuser, const NewExperiment& experiment, const FormerTest& test) {
+  if (test.trials.empty()) return {.why_not = "none of its simulations has succeeded"};
   if (!SearchesTheSame(reuser.spec, test)) {
-    return "searched there: " + NamesText(test.parameters) +
-           "; here: " + NamesText(SearchedParameters(reuser.spec));
+    return {.why_not = "searched there: " + NamesText(test.parameters) +
+                       "; here: " + NamesText(SearchedParameters(reuser.spec))};
   }
   for (const FormerTrial& former : test.trials) {
     if (!reuser.engine.IsComplete(former.folder)) continue;
-    const rigs::Case rig_case = CaseOfTrial(reuser.spec, TrialOf(experiment, former, former.unit),
-                                            experiment.reference.frame());
-    try {
-      return reuser.engine.WhyNotTaken(rig_case, former.folder);
-    } catch (const base::Error& error) {
-      return error.what();
+    Match match{.why_not = WhyNotAt(former.scale_factor, reuser, experiment, former)};
+    for (const double level : reuser.spec.coarse_graining.Levels()) {
+      if (!match.why_not) break;
+      if (WhyNotAt(level, reuser, experiment, former)) continue;
+      match = {.scale_ratio = level / former.scale_factor};
     }
+    return match;
   }
-  return "the folders of its simulations are empty or gone";
+  return {.why_not = "the folders of its simulations are empty or gone"};
+}
+
+// Of the spec, to the last bit; the scale factor itself where it is none of them.
+double LevelNear(const CampaignSpec& spec, double scale_factor) {
+  constexpr double kRounding = 1e-9;
+  for (const double level : spec.coarse_graining.Levels()) {
+    if (std::abs(level - scale_factor) <= kRounding * level) return level;
+  }
+  return scale_factor;
 }
 
 // What a folder has that is not taken.
@@ -108,6 +135,9 @@ class ReuseCollector {
     if (!plan_.trials.empty()) return std::move(plan_);
     std::string text = "--reuse: no simulation there is one of an experiment here";
     for (const std::string& message : plan_.messages) text += "\n  " + message;
+    text +=
+        "\n  what differs a little is refused as well: what it moves is not known here; `talus "
+        "sensitivity` of the former campaign tells it for a fixed property";
     throw base::ConfigError(text);
   }
 
@@ -119,16 +149,20 @@ class ReuseCollector {
     bool any_fits = false;
     std::string why;
     for (const FormerTest& test : tests) {
-      if (const auto why_not = WhyNotOf(reuser_, experiment, test)) {
+      const Match match = MatchOf(reuser_, experiment, test);
+      if (match.why_not) {
         // What is called the same was meant to be the same.
         if (why.empty() || base::FileWord(test.name) == base::FileWord(experiments_[e].name)) {
-          why = "of \"" + test.name + "\" there, " + *why_not;
+          why = "of \"" + test.name + "\" there, " + *match.why_not;
         }
         continue;
       }
       any_fits = true;
       left_out_.failed += test.num_failed;
-      for (const FormerTrial& former : test.trials) count += AddTrial(experiment, test, former);
+      for (FormerTrial former : test.trials) {
+        former.scale_factor = LevelNear(reuser_.spec, former.scale_factor * match.scale_ratio);
+        count += AddTrial(experiment, test, former);
+      }
     }
     if (!any_fits) {
       plan_.messages.push_back(folder_ + ": nothing for \"" + experiments_[e].name + "\": " + why);

@@ -75,6 +75,7 @@ struct FakeEngineOptions {
   double restitution_as_rolling = 0;  // a lower restitution acts as so many times more μ_r
   double mass_scatter = 1e-6;         // of the mass fallen, from seed to seed [kg]
   double density_scatter = 4;         // of the tapped density, from seed to seed [kg/m³]
+  double density_by_scale = 0;        // that it gains for each 1 of the scale factor [kg/m³]
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -132,7 +133,9 @@ class FakeEngine : public trials::TrialEngine {
               .num_particles = size.num_grains,
               .scalars = {{.name = "tapped_density_kg_per_m3",
                            .value = TappedDensity(m.rolling_friction, options_.density_scatter,
-                                                  rig_case.seed),
+                                                  rig_case.seed) +
+                                    options_.density_by_scale *
+                                        (rig_case.coarse_graining.scale_factor - 1),
                            .unit = "kg/m3",
                            .undefined = ""}},
               .note = ""};

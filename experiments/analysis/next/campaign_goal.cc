@@ -125,7 +125,8 @@ DesignRecord CampaignGoal::DesignOf(const campaign::JointView& view, const Eigen
 }
 
 Prediction CampaignGoal::Collect(double& core_time) const {
-  Prediction runs{.name = process_.name};
+  const double scale_factor = process_.rig_case.coarse_graining.scale_factor;
+  Prediction runs{.name = process_.name, .scale_factor = scale_factor, .target = scale_factor};
   PredictedNumber number{.name = plan_.spec.goal->metric()};
   for (const fs::path& folder : campaign::GoalLooks(plan_.folder.root)) {
     const DesignFolder look{folder};
@@ -144,9 +145,11 @@ Prediction CampaignGoal::Collect(double& core_time) const {
       } catch (const base::Error&) {
         continue;  // it failed, and says nothing
       }
+      runs.runs.push_back(
+          {.draw = static_cast<int>(runs.draws.size()), .scale_factor = scale_factor});
       runs.draws.push_back(
           {.weight = 1, .values = campaign::FreeValues(plan_.space, PointOf(*design, i))});
-      number.by_draw.push_back(value);
+      number.by_run.push_back(value);
     }
   }
   runs.num_runs = static_cast<int>(runs.draws.size());

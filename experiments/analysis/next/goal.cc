@@ -83,7 +83,7 @@ Goal SimulateGoal(const campaign::JointView& view, const GoalRequest& request,
   return {.process = prediction.name,
           .number = name,
           .surrogate = *surrogate,
-          .scale_factor = prediction.scale_factor,
+          .scale_factor = prediction.target,
           .num_draws = static_cast<int>(prediction.draws.size()),
           .num_runs = prediction.num_runs,
           .core_time = prediction.core_time};

@@ -20,7 +20,7 @@ struct Goal {
   std::string process;  // the file's name without its ending
   std::string number;   // "packing_fraction", "angle_deg"
   NumberSurrogate surrogate;
-  double scale_factor = 1;  // of its runs
+  double scale_factor = 1;  // that the surrogate tells it at
   int num_draws = 0;
   int num_runs = 0;
   double core_time = 0;  // of these [s]

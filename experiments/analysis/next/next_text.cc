@@ -93,8 +93,8 @@ std::string GoalText(const NextGoal& goal) {
       "goal: " + (known == nullptr ? goal.number : known->key) + " of " + goal.process +
       ", which the parameters leave open to " + GoalWidthText(goal, goal.half_width) +
       " (90 %), by " + base::Counted(goal.num_draws, "draw") + " in " +
-      base::Counted(goal.num_runs, "run") + " at scale factor " + ShortNumber(goal.scale_factor) +
-      "; a surrogate over them misses a draw left " + "out by " +
+      base::Counted(goal.num_runs, "run") + "; a surrogate over them, for scale factor " +
+      ShortNumber(goal.scale_factor) + ", misses a draw left out by " +
       rigs::ShownNumber(goal.number, goal.left_out_error, 2) + "\n";
   if (!(goal.half_width > goal.left_out_error)) {
     text +=

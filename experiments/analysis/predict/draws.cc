@@ -76,10 +76,13 @@ WeightedDraws ChooseDraws(const Eigen::MatrixXd& draws, int count, std::uint64_t
   return chosen;
 }
 
-WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
+Eigen::MatrixXd PosteriorDraws(const campaign::JointView& view) {
   constexpr int kDraws = 1000;
-  const auto strategy = campaign::AnsweringStrategy(view);
-  return ChooseDraws(strategy->Sample().Draws(kDraws, view.spec.seed), count, view.spec.seed);
+  return campaign::AnsweringStrategy(view)->Sample().Draws(kDraws, view.spec.seed);
+}
+
+WeightedDraws PosteriorSets(const campaign::JointView& view, int count) {
+  return ChooseDraws(PosteriorDraws(view), count, view.spec.seed);
 }
 
 }  // namespace talus::analysis

@@ -21,7 +21,11 @@ struct WeightedDraws {
 // draws differ.
 WeightedDraws ChooseDraws(const Eigen::MatrixXd& draws, int count, std::uint64_t seed);
 
-// ChooseDraws of what a campaign's trials say. Throws base::Error where they are too few.
+// Many equally likely ones of what a campaign's trials say, one a row. Throws base::Error where
+// the trials are too few.
+Eigen::MatrixXd PosteriorDraws(const campaign::JointView& view);
+
+// ChooseDraws of these.
 WeightedDraws PosteriorSets(const campaign::JointView& view, int count);
 
 // Rows of `draws`, each the farthest from those before it.

@@ -1,5 +1,5 @@
-// A number of a predicted test as a function of the parameters: a Gaussian process over the means
-// of the draws that were simulated. Their noise is known from the scatter of their runs.
+// A number of a predicted test as a function of the parameters and, where several were simulated,
+// of the scale factor: a Gaussian process over the runs of its draws.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +11,9 @@
 
 namespace talus::analysis {
 
+// The prediction's draws in the unit cube, one a row.
+Eigen::MatrixXd PointsOf(const Prediction& prediction, const optimizer::ParameterSpace& space);
+
 class NumberSurrogate {
  public:
   static constexpr int kFewest = 6;  // draws with a value that it can stand on
@@ -20,13 +23,17 @@ class NumberSurrogate {
                                             const PredictedNumber& number,
                                             const optimizer::ParameterSpace& space);
 
-  // What runs of each set give on average: one point of the unit cube a row. The variance is that
-  // of this mean.
+  // What runs of each set give on average at the prediction's target scale factor: one point of
+  // the unit cube a row. The variance is that of this mean.
   surrogate::Predictions At(const Eigen::MatrixXd& points) const;
+  // Standard deviation of a single run there.
+  double run_sd() const { return run_sd_; }
 
-  // Root mean square by which it misses the mean of a draw that it was not told; a mean's own
-  // scatter is in it.
-  double left_out_error() const { return left_out_error_; }
+  // Root mean squares of what misses the mean of a draw's runs that was not told, with all the runs
+  // of that draw; a mean's own scatter is in it. Of the runs at the prediction's scale factor and
+  // at finer ones.
+  double left_out_error() const { return left_out_error_; }  // by this surrogate
+  double draws_error() const { return draws_error_; }        // by the mean of the other draws
 
  private:
   NumberSurrogate() = default;
@@ -34,7 +41,9 @@ class NumberSurrogate {
   // None: the number is the same everywhere.
   std::optional<surrogate::GaussianProcess> process_;
   double constant_ = 0;
+  double run_sd_ = 0;
   double left_out_error_ = 0;
+  double draws_error_ = 0;
 };
 
 }  // namespace talus::analysis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iostream>
 #include <utility>
 
 #include "base/error.h"
@@ -13,14 +14,17 @@
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
 #include "experiments/analysis/predict/draws.h"
+#include "experiments/analysis/predict/number_surrogate.h"
+#include "experiments/analysis/predict/one_set.h"
 #include "experiments/analysis/predict/predicted_case.h"
+#include "experiments/analysis/predict/prediction_design.h"
 #include "experiments/analysis/predict/prediction_pictures.h"
+#include "experiments/analysis/predict/prediction_plan.h"
 #include "experiments/analysis/predict/prediction_runs.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/predict/regimes.h"
 #include "experiments/analysis/predict/scene_engine.h"
-#include "experiments/campaign/answer/answer.h"
-#include "experiments/campaign/answer/consider.h"
+#include "experiments/analysis/predict/surrogate_answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/console.h"
 #include "experiments/campaign/folder/record_file.h"
@@ -34,51 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 using campaign::JointView;
 
-constexpr int kUsualDraws = 12;
-constexpr int kUsualSeeds = 3;
-constexpr int kUsualSeedsOfOne = 8;  // scatter is all there is to tell
 constexpr const char* kSceneTest = "scene";
-
-// design.json: which sets are simulated, of what.
-struct PredictionDesign {
-  std::string test;   // the case in the middle of the ranges, without its frame; or the scene
-  std::string frame;  // that the images are drawn in
-  PredictedBy by = PredictedBy::kPosterior;
-  int num_draws = 0;  // that were asked for
-  std::int64_t last_trial = 0;
-  std::vector<std::vector<double>> points{};  // unit cube
-  std::vector<double> weights{};
-
-  static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"}};
-  TALUS_FIELDS(test, frame, by, num_draws, last_trial, points, weights);
-};
-
-PredictedBy ByOf(const PredictOptions& options) {
-  if (options.recommended) return PredictedBy::kRecommended;
-  return options.set.empty() ? PredictedBy::kPosterior : PredictedBy::kSet;
-}
-
-Eigen::VectorXd RecommendedPoint(const JointView& view) {
-  const fs::path file = view.folder.result();
-  if (!fs::exists(file)) {
-    throw base::ConfigError(view.folder.root.string() +
-                            ": has no result yet; without --recommended, draws of what its trials "
-                            "say so far are taken");
-  }
-  const campaign::Answer answer = campaign::ParseAnswer(base::ReadFile(file));
-  Eigen::VectorXd point(static_cast<Eigen::Index>(answer.parameters.size()));
-  for (Eigen::Index i = 0; i < point.size(); ++i) {
-    const campaign::ResultParameter& p = answer.parameters[static_cast<std::size_t>(i)];
-    point[i] = p.Range().ToUnit(p.value);
-  }
-  return point;
-}
-
-Eigen::VectorXd OneSet(const JointView& view, const PredictOptions& options) {
-  if (options.recommended) return RecommendedPoint(view);
-  return campaign::Filled(campaign::ReadSet(view.space, options.set),
-                          *campaign::StrategyOf(view, view.Answered()));
-}
 
 // `options` with what an earlier call for this file had, where it has ended.
 PredictOptions AsBefore(const JointView& view, PredictOptions options) {
@@ -90,11 +50,15 @@ PredictOptions AsBefore(const JointView& view, PredictOptions options) {
   const auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
   if (before.draws.empty() || before.by != PredictedBy::kPosterior) return options;
   options.num_draws = design->num_draws;
-  options.num_seeds = before.num_runs / static_cast<int>(before.draws.size());
+  const auto stage =
+      std::ranges::find(design->stages, before.scale_factor, &PredictionStage::scale_factor);
+  options.num_seeds = stage == design->stages.end()  // written before there were stages
+                          ? before.num_runs / static_cast<int>(before.draws.size())
+                          : stage->num_seeds;
   const nlohmann::json given = base::ReadJsonFile(options.file).root;
   const bool states =
       given.contains("coarse_graining") && given["coarse_graining"].contains("scale_factor");
-  if (before.test != kSceneTest && !states) options.scale_factor = before.scale_factor;
+  if (before.test != kSceneTest && !states) options.scale_factors = {before.scale_factor};
   return options;
 }
 
@@ -105,12 +69,15 @@ class Predictor {
       : view_(view),
         options_(std::move(options)),
         parts_(std::move(parts)),
-        num_draws_(ByOf(options_) == PredictedBy::kPosterior
-                       ? options_.num_draws.value_or(kUsualDraws)
-                       : 1),
-        num_seeds_(options_.num_seeds.value_or(num_draws_ > 1 ? kUsualSeeds : kUsualSeedsOfOne)),
-        case_(ReadPredictedCase(view, options_.file, options_.scale_factor,
-                                num_draws_ * num_seeds_)) {
+        num_draws_(options_.Draws()),
+        num_seeds_(options_.Seeds()),
+        case_(ReadPredictedCase(view, options_.file, options_.Finest(), num_draws_ * num_seeds_,
+                                StageTime())),
+        stages_(PlanStages(view, case_,
+                           {.num_draws = num_draws_,
+                            .num_seeds = num_seeds_,
+                            .coarser = options_.Coarser(),
+                            .core_time = CoreTime()})) {
     if (!options_.measured.empty()) {
       measured_ = ReadMeasured(options_.measured, case_);
       if (measured_.profile) case_.rig_case.frame = measured_.profile->frame;
@@ -127,7 +94,7 @@ class Predictor {
     fs::create_directories(root_);
     const campaign::CampaignLock lock(root_);
     design_ = TakeDesign();
-    PredictionRuns runs(design_.weights, num_seeds_);
+    PredictionRuns runs = NoRuns();
     campaign::Console console(root_ / "predict.log");
     const bool done =
         campaign::RunCases({.count = runs.size(),
@@ -148,9 +115,19 @@ class Predictor {
   }
 
  private:
+  double CoreTime() const { return options_.core_time.value_or(PredictOptions::kUsualTime); }
+  // Of the runs that every draw has, with several seeds.
+  double StageTime() const {
+    constexpr double kShare = 0.6;
+    return (num_draws_ > 1 ? kShare : 1) * CoreTime();
+  }
+  double ScaleFactor() const { return case_.rig_case.coarse_graining.scale_factor; }
+
+  PredictionRuns NoRuns() const { return {design_.weights, RunsOf(stages_), ScaleFactor()}; }
+
   std::string FolderName() const {
     const std::string name = base::FileWord(case_.name);
-    switch (ByOf(options_)) {
+    switch (options_.By()) {
       case PredictedBy::kPosterior:
         return name;
       case PredictedBy::kRecommended:
@@ -192,11 +169,16 @@ class Predictor {
     const fs::path file = root_ / "design.json";
     PredictionDesign wanted{.test = TestText(),
                             .frame = FrameText(),
-                            .by = ByOf(options_),
+                            .by = options_.By(),
                             .num_draws = num_draws_,
-                            .last_trial = LastTrial()};
+                            .last_trial = LastTrial(),
+                            .stages = {}};
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);
-    if (stored && options_.as_before) wanted.last_trial = stored->last_trial;
+    if (stored && options_.as_before) {
+      wanted.last_trial = stored->last_trial;
+      if (!stored->stages.empty()) stages_ = stored->stages;
+    }
+    wanted.stages = stages_;
     const bool same = stored && stored->test == wanted.test && stored->by == wanted.by &&
                       stored->num_draws == wanted.num_draws &&
                       stored->last_trial == wanted.last_trial && HasPoints(*stored);
@@ -219,7 +201,7 @@ class Predictor {
   // Finished runs in another frame, without simulating them again.
   void DrawAnew(const PredictionDesign& design) {
     design_ = design;
-    const PredictionRuns runs(design.weights, num_seeds_);
+    const PredictionRuns runs = NoRuns();
     for (std::size_t run = 0; run < runs.size(); ++run) {
       const campaign::FolderCase at = FolderCaseOf(runs, run);
       const fs::path anew = at.folder.string() + ".anew";
@@ -233,16 +215,22 @@ class Predictor {
   }
 
   campaign::FolderCase FolderCaseOf(const PredictionRuns& runs, std::size_t run) const {
-    const std::size_t draw = runs.draw(run);
-    const std::vector<double>& point = design_.points[draw];
+    const PlannedRun& planned = runs.planned(run);
+    const std::vector<double>& point = design_.points[planned.draw];
     const auto unit =
         Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
-    const std::string name = base::FileNumber(static_cast<std::int64_t>(draw) + 1) + "_" +
-                             std::to_string(runs.seed(run) + 1);
+    std::string name = base::FileNumber(static_cast<std::int64_t>(planned.draw) + 1) + "_" +
+                       std::to_string(planned.seed + 1);
+    if (planned.scale_factor != ScaleFactor()) {
+      name += "_at_" + base::ShortNumber(planned.scale_factor);
+    }
     // Every run has a seed of its own: the filling of one says nothing of another's.
-    const std::uint64_t seed = view_.spec.seed + draw * PredictOptions::kMostSeeds + runs.seed(run);
-    return {.folder = root_ / "trials" / name,
-            .rig_case = CaseWith(view_, case_, view_.space.ToNative(unit), seed)};
+    const std::uint64_t seed =
+        view_.spec.seed + planned.draw * PredictOptions::kMostSeeds + planned.seed;
+    campaign::FolderCase at{.folder = root_ / "trials" / name,
+                            .rig_case = CaseWith(view_, case_, view_.space.ToNative(unit), seed)};
+    at.rig_case.coarse_graining.scale_factor = planned.scale_factor;
+    return at;
   }
 
   void Collect(std::size_t run, PredictionRuns& runs) {
@@ -263,12 +251,15 @@ class Predictor {
   // The process by all its runs, and each test by a coarse run with the first of the sets.
   std::vector<FlowRegime> Regimes(const PredictionRuns& runs) const {
     std::vector<rigs::Regime> seen;
-    for (std::size_t run = 0; run < runs.size(); ++run) {
+    std::size_t first = 0;
+    for (std::size_t run = runs.size(); run-- > 0;) {
+      if (runs.planned(run).scale_factor != ScaleFactor()) continue;
+      first = run;
       if (const auto regime = RegimeIn(FolderCaseOf(runs, run).folder)) seen.push_back(*regime);
     }
     if (seen.empty()) return {};
     std::vector<FlowRegime> regimes{
-        DescribeRegime(case_.name, seen, FolderCaseOf(runs, 0).rig_case)};
+        DescribeRegime(case_.name, seen, FolderCaseOf(runs, first).rig_case)};
     regimes.front().is_process = true;
     const auto tests = campaign::ExperimentsOf(view_.spec);
     const auto at = [&](std::size_t test) { return TestCase(tests[test].name, test); };
@@ -299,13 +290,15 @@ class Predictor {
                                      std::nullopt)};
   }
 
-  Prediction Describe(const PredictionRuns& runs) const {
+  // Without numbers; `scale_factor`: of the runs that they are to be by.
+  Prediction Frame(double scale_factor) const {
     Prediction prediction{.name = case_.name,
                           .test = case_.scene_text.empty()
                                       ? std::string(base::NameOf(case_.rig_case.rig.kind))
                                       : kSceneTest,
-                          .by = ByOf(options_),
-                          .scale_factor = case_.rig_case.coarse_graining.scale_factor,
+                          .by = options_.By(),
+                          .scale_factor = scale_factor,
+                          .target = Target(),
                           .last_trial = design_.last_trial,
                           .notes = case_.notes};
     for (std::size_t d = 0; d < design_.points.size(); ++d) {
@@ -316,9 +309,15 @@ class Predictor {
                view_.space, Eigen::Map<const Eigen::VectorXd>(
                                 point.data(), static_cast<Eigen::Index>(point.size())))});
     }
-    runs.Summarise(prediction);
-    for (PredictedNumber& number : prediction.numbers) number.is_usual = IsUsual(number.name);
     return prediction;
+  }
+
+  // The scale factor that surrogates tell: the answer's, where several were simulated.
+  double Target() const {
+    if (stages_.size() == 1) return ScaleFactor();
+    double target = view_.spec.coarse_graining.Target();
+    for (const PredictionStage& stage : stages_) target = std::min(target, stage.scale_factor);
+    return target;
   }
 
   // After 4, 8, 16, … runs: the range as it is known by then.
@@ -328,11 +327,13 @@ class Predictor {
         ended == static_cast<int>(runs.size())) {
       return;
     }
+    const bool is_first = runs.NumEnded(ScaleFactor()) < 4;
+    Prediction so_far = Frame(is_first ? stages_.front().scale_factor : ScaleFactor());
+    runs.Summarise(so_far);
     std::string text =
         case_.name + ": " + std::to_string(ended) + " of " + std::to_string(runs.size()) + " runs";
-    const Prediction so_far = Describe(runs);
     for (const PredictedNumber& number : so_far.numbers) {
-      if (!number.is_usual || number.num_defined < 2) continue;
+      if (!IsUsual(number.name) || number.num_defined < 2) continue;
       text += "; " + NumberTitle(number) + " " + NumberText(number);
     }
     console.Line(text + " so far");
@@ -348,8 +349,12 @@ class Predictor {
   }
 
   Prediction Conclude(const PredictionRuns& runs) const {
-    Prediction prediction = Describe(runs);
-    runs.Compare(measured_, prediction);
+    Prediction prediction = Frame(ScaleFactor());
+    std::vector<std::optional<Spread>> spreads = runs.Summarise(prediction);
+    for (PredictedNumber& number : prediction.numbers) number.is_usual = IsUsual(number.name);
+    AskSurrogates(prediction, spreads);
+    runs.Compare(measured_, spreads, prediction);
+    NoteScaleFactor(prediction);
     WritePictures(runs, root_, prediction);
     prediction.regimes = regimes_;
     for (std::string& warning : RegimeWarnings(regimes_)) prediction.notes.push_back(warning);
@@ -362,12 +367,32 @@ class Predictor {
     return prediction;
   }
 
+  void AskSurrogates(Prediction& prediction, std::vector<std::optional<Spread>>& spreads) const {
+    if (design_.points.size() < NumberSurrogate::kFewest) return;
+    const Eigen::MatrixXd points = PosteriorDraws(view_);
+    for (std::size_t n = 0; n < spreads.size(); ++n) {
+      if (!spreads[n]) continue;
+      AnswerBySurrogate(prediction, {.space = view_.space, .points = points}, prediction.numbers[n],
+                        spreads[n]);
+    }
+  }
+
+  void NoteScaleFactor(Prediction& prediction) const {
+    const double target = view_.spec.coarse_graining.Target();
+    if (!case_.scene_text.empty() || prediction.target <= target) return;
+    prediction.notes.push_back("simulated at scale factor " + base::ShortNumber(ScaleFactor()) +
+                               ", where the answer is for " + base::ShortNumber(target) +
+                               ": what coarse grains change in this test is not known; --scale " +
+                               base::ShortNumber(target) + " shows it");
+  }
+
   const JointView& view_;
   PredictOptions options_;
   campaign::CampaignParts parts_;
   int num_draws_;
   int num_seeds_;
   PredictedCase case_;
+  std::vector<PredictionStage> stages_;
   MeasuredProcess measured_;
   std::optional<Eigen::VectorXd> one_set_;  // instead of draws
   fs::path root_;
@@ -375,28 +400,13 @@ class Predictor {
   std::vector<FlowRegime> regimes_;
 };
 
-void Require(bool ok, const std::string& message) {
-  if (!ok) throw base::ConfigError(message);
-}
-
 }  // namespace
 
 fs::path PredictFolder(const fs::path& campaign) { return fs::absolute(campaign) / "predict"; }
 
 Prediction Predict(const JointView& view, const PredictOptions& options,
                    campaign::CampaignParts parts) {
-  const int draws = options.num_draws.value_or(kUsualDraws);
-  const int seeds = options.num_seeds.value_or(kUsualSeeds);
-  Require(draws >= 2 && draws <= PredictOptions::kMostDraws,
-          "--draws: is " + std::to_string(draws) +
-              ", must be from 2 to 200; --set or --recommended "
-              "predicts by one set");
-  Require(seeds >= 1 && seeds <= PredictOptions::kMostSeeds,
-          "--seeds: is " + std::to_string(seeds) + ", must be from 1 to 100");
-  Require(
-      !options.scale_factor || (*options.scale_factor >= 1 && std::isfinite(*options.scale_factor)),
-      "--scale: is " + base::ShortNumber(options.scale_factor.value_or(1)) +
-          ", must be 1 or more: no grain is smaller than the powder's own");
+  CheckOptions(options);
   return Predictor(view, options.as_before ? AsBefore(view, options) : options, std::move(parts))
       .Run();
 }

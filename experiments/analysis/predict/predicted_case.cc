@@ -4,8 +4,8 @@
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/predict/affordable.h"
 #include "experiments/analysis/predict/scene_engine.h"
-#include "experiments/campaign/plan/core_time.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
@@ -76,47 +76,6 @@ void NotePowder(const JointView& view, const rigs::Powder& own, PredictedCase& p
                             base::ShortNumber(1e3 * own.mass) + " g");
 }
 
-// By the speed that the campaign's trials had.
-double CoreSecondsAt(const JointView& view, rigs::Case rig_case, double scale_factor) {
-  campaign::CoreTime core_time(view.spec);
-  core_time.Of(view.trials);
-  rig_case.coarse_graining.scale_factor = scale_factor;
-  const rigs::CaseSize size = rigs::EstimateCase(rig_case);
-  const double grain_steps = size.grain_time / size.time_step;
-  return grain_steps * core_time.OfOne(0, scale_factor) /
-         campaign::GrainStepsOf(view.spec, 0, scale_factor);
-}
-
-bool IsPossible(rigs::Case rig_case, double scale_factor) {
-  rig_case.coarse_graining.scale_factor = scale_factor;
-  base::Problems problems;
-  rigs::ValidateCase(rig_case, problems);
-  return problems.empty();
-}
-
-// Simulations that are meant to be made, and what they may take.
-struct RunBudget {
-  int num_runs = 1;
-  double core_time = 0;  // of all [s]
-};
-
-// The campaign's finest that all runs can afford, else its coarsest that the case has room for.
-double AffordableScale(const JointView& view, const rigs::Case& rig_case, const RunBudget& budget) {
-  std::vector<double> levels = view.spec.coarse_graining.Levels();  // the coarsest first
-  if (view.spec.coarse_graining.Target() < levels.back()) {
-    levels.push_back(view.spec.coarse_graining.Target());
-  }
-  double chosen = levels.back();
-  bool found = false;
-  for (const double level : levels) {
-    if (!IsPossible(rig_case, level)) continue;
-    if (found && budget.num_runs * CoreSecondsAt(view, rig_case, level) > budget.core_time) break;
-    chosen = level;
-    found = true;
-  }
-  return chosen;
-}
-
 void TakePowder(const JointView& view, rigs::Case& rig_case) {
   const double mass = rig_case.powder.mass;
   rig_case.powder = view.spec.powder;
@@ -142,6 +101,7 @@ void ReadRigCase(const JointView& view, const base::JsonFile& file,
   if (!scale_factor && graining != file.root.end() && graining->contains("scale_factor")) {
     scale_factor = rig_case.coarse_graining.scale_factor;
   }
+  predicted.states_scale_factor = scale_factor.has_value();
   NotePowder(view, rig_case.powder, predicted);
   TakePowder(view, rig_case);
   if (!file.root.contains("rayleigh_fraction")) {
@@ -186,14 +146,7 @@ PredictedCase ReadPredictedCase(const JointView& view, const fs::path& path,
                 predicted);
   } else {
     ReadScene(view, file, scale_factor, predicted);
-  }
-  const double target = view.spec.coarse_graining.Target();
-  const double used = predicted.rig_case.coarse_graining.scale_factor;
-  if (is_case && used > target) {
-    predicted.notes.push_back("simulated at scale factor " + base::ShortNumber(used) +
-                              ", where the answer is for " + base::ShortNumber(target) +
-                              ": what coarse grains change in this test is not known; --scale " +
-                              base::ShortNumber(target) + " shows it");
+    predicted.states_scale_factor = true;  // by its grains
   }
   return predicted;
 }

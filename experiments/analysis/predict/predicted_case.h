@@ -17,10 +17,11 @@
 namespace talus::analysis {
 
 struct PredictedCase {
-  std::string name;                // of the file, without its ending
-  rigs::Case rig_case;             // of a scene: its powder and laws alone
-  std::string scene_text;          // scene.json; empty: a bulk test
-  std::vector<std::string> notes;  // on what was replaced, for people
+  std::string name;                  // of the file, without its ending
+  rigs::Case rig_case;               // of a scene: its powder and laws alone
+  std::string scene_text;            // scene.json; empty: a bulk test
+  std::vector<std::string> notes;    // on what was replaced, for people
+  bool states_scale_factor = false;  // the file or the user, so that no other is simulated
 };
 
 // Throws ConfigError where the file is none, contradicts the campaign, or cannot be simulated with

@@ -35,6 +35,17 @@ struct MeasuredThere {
   TALUS_FIELDS(value, standard_error, low, high, is_inside, nearest_draw, nearest_is_inside);
 };
 
+// A surrogate over the draws (number_surrogate.h) beside the draws themselves.
+struct PredictedSurrogate {
+  double scale_factor = 1;           // that it tells the number at
+  double left_out_error = kUnknown;  // by which it misses a draw that it was not told
+  double draws_error = kUnknown;     // by which the other draws' mean misses it
+  bool is_used = false;              // the number is by it
+  double sd = kUnknown;              // of what it gives for a set
+
+  TALUS_FIELDS(scale_factor, left_out_error, draws_error, is_used, sd);
+};
+
 struct PredictedNumber {
   std::string name{};       // with its unit: "angle_deg"
   bool is_usual = false;    // what the rig is made to measure
@@ -47,11 +58,19 @@ struct PredictedNumber {
   double run_sd = kUnknown;            // of a single run; null where no set was run twice
   double parameters_share = kUnknown;  // of the variance of a single run
   std::vector<double> by_draw{};       // mean of each draw; null where it is not defined
+  std::vector<double> by_run{};        // as in Prediction::runs; null where it is not defined
+  std::optional<PredictedSurrogate> surrogate{};  // none: too few draws to stand on
   std::optional<MeasuredThere> measured{};
+
+  // Of a single run, as far as it is known where it comes from.
+  double Variance() const {
+    const double by_surrogate = surrogate && surrogate->is_used ? surrogate->sd : 0;
+    return parameters_sd * parameters_sd + by_surrogate * by_surrogate + run_sd * run_sd;
+  }
 
   static constexpr base::FieldKey kKeys[] = {{"low", "low_90"}, {"high", "high_90"}};
   TALUS_FIELDS(name, is_usual, num_defined, undefined, mean, low, high, parameters_sd, run_sd,
-               parameters_share, by_draw, measured);
+               parameters_share, by_draw, by_run, surrogate, measured);
 };
 
 // A measured profile beside the simulated ones. Distances are areas between silhouettes.
@@ -71,6 +90,13 @@ struct PredictedDraw {
   std::vector<double> values{};  // of the searched parameters, SI
 
   TALUS_FIELDS(weight, values);
+};
+
+struct PredictedRun {
+  int draw = 0;  // by its place from 0
+  double scale_factor = 1;
+
+  TALUS_FIELDS(draw, scale_factor);
 };
 
 // How a test or process shears its powder (regimes.h): 5, 50 and 95 % of the work of shearing is
@@ -94,7 +120,8 @@ struct Prediction {
   std::string name{};
   std::string test{};  // the rig, or "scene"
   PredictedBy by = PredictedBy::kPosterior;
-  double scale_factor = 1;
+  double scale_factor = 1;      // of the runs that every draw has, with several seeds
+  double target = 1;            // scale factor that surrogates tell
   std::int64_t last_trial = 0;  // of the campaign when the draws were taken
   int num_runs = 0;
   int num_ended = 0;
@@ -103,6 +130,7 @@ struct Prediction {
   double core_time = 0;   // [s]
   std::vector<std::string> notes{};
   std::vector<PredictedDraw> draws{};
+  std::vector<PredictedRun> runs{};  // those that have ended well
   std::vector<PredictedNumber> numbers{};
   std::optional<MeasuredImage> image{};
   std::vector<FlowRegime> regimes{};  // of the process and of each test; none where not known
@@ -110,12 +138,13 @@ struct Prediction {
   std::string most_different{};
   std::vector<int> different{};  // the two draws in it, by place from 0
 
-  static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"},
+  static constexpr base::FieldKey kKeys[] = {{"target", "target_scale_factor"},
+                                             {"last_trial", "after_trial"},
                                              {"core_time", "core_time_s"},
                                              {"different", "most_different_draws"}};
-  TALUS_FIELDS(name, test, by, scale_factor, last_trial, num_runs, num_ended, num_failed, failure,
-               core_time, notes, draws, numbers, image, regimes, mean_profile, most_different,
-               different);
+  TALUS_FIELDS(name, test, by, scale_factor, target, last_trial, num_runs, num_ended, num_failed,
+               failure, core_time, notes, draws, runs, numbers, image, regimes, mean_profile,
+               most_different, different);
 };
 
 }  // namespace talus::analysis

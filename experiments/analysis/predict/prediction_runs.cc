@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "experiments/analysis/predict/prediction_pictures.h"
+#include "experiments/analysis/predict/surrogate_answer.h"
 #include "imaging/heap/metrics.h"
 #include "imaging/spheres/projection.h"
 
@@ -23,6 +24,12 @@ double MeanOfRuns(const std::vector<double>& values) {
                               static_cast<double>(values.size());
 }
 
+// Of the mean that a draw's runs, or a surrogate in their place, say it has.
+double MeanSd(const PredictedNumber& predicted, const Spread& spread, int num_seeds) {
+  if (predicted.surrogate && predicted.surrogate->is_used) return spread.surrogate_sd();
+  return std::isnan(spread.run_sd()) ? 0 : spread.run_sd() / std::sqrt(num_seeds);
+}
+
 MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
                     const PredictedNumber& predicted, int num_seeds) {
   MeasuredThere there{.value = number.value,
@@ -38,20 +45,14 @@ MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
     there.nearest_draw = static_cast<int>(d);
   }
   const double run_sd = std::isnan(spread.run_sd()) ? 0 : spread.run_sd();
-  const double sd = std::hypot(run_sd * std::sqrt(1 + 1.0 / num_seeds), number.standard_error);
+  const double sd = std::hypot(run_sd, MeanSd(predicted, spread, num_seeds), number.standard_error);
   there.nearest_is_inside = nearest <= kNinety * sd;
   return there;
 }
 
-PredictedNumber Describe(std::string name, const DrawValues& values) {
-  const Spread spread(values);
-  PredictedNumber number{.name = std::move(name),
-                         .mean = spread.mean(),
-                         .low = spread.Quantile(0.05),
-                         .high = spread.Quantile(0.95),
-                         .parameters_sd = spread.parameters_sd(),
-                         .run_sd = spread.run_sd(),
-                         .parameters_share = spread.ParametersShare()};
+PredictedNumber Describe(std::string name, const DrawValues& values, const Spread& spread) {
+  PredictedNumber number{.name = std::move(name)};
+  Take(spread, number);
   for (const std::vector<double>& runs : values.runs) {
     number.num_defined += static_cast<int>(runs.size());
     number.by_draw.push_back(MeanOfRuns(runs));
@@ -79,8 +80,12 @@ double Quantile90(std::vector<Weighted> values) {
 
 }  // namespace
 
-PredictionRuns::PredictionRuns(std::vector<double> weights, int num_seeds)
-    : weights_(std::move(weights)), runs_(weights_.size() * static_cast<std::size_t>(num_seeds)) {}
+PredictionRuns::PredictionRuns(std::vector<double> weights, std::vector<PlannedRun> plan,
+                               double scale_factor)
+    : weights_(std::move(weights)),
+      plan_(std::move(plan)),
+      scale_factor_(scale_factor),
+      runs_(plan_.size()) {}
 
 void PredictionRuns::Add(std::size_t run, trials::TrialOutput output) {
   runs_[run] = {.has_ended = true, .output = std::move(output)};
@@ -94,68 +99,110 @@ void PredictionRuns::AddFailure(std::size_t run, std::string why) {
   failure_ = std::move(why);
 }
 
-std::vector<std::string> PredictionRuns::Names() const {
+int PredictionRuns::NumEnded(double scale_factor) const {
+  int count = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (runs_[r].output && plan_[r].scale_factor == scale_factor) ++count;
+  }
+  return count;
+}
+
+std::vector<std::string> PredictionRuns::Names(double scale_factor) const {
   std::vector<std::string> names;
-  for (const Run& run : runs_) {
-    if (!run.output) continue;
-    for (const journal::MetricRecord& scalar : run.output->scalars) {
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (!runs_[r].output || plan_[r].scale_factor != scale_factor) continue;
+    for (const journal::MetricRecord& scalar : runs_[r].output->scalars) {
       if (std::ranges::find(names, scalar.name) == names.end()) names.push_back(scalar.name);
     }
   }
   return names;
 }
 
-DrawValues PredictionRuns::ValuesOf(const std::string& name, std::string& undefined) const {
+DrawValues PredictionRuns::ValuesOf(const std::string& name, double scale_factor,
+                                    std::string& undefined) const {
   DrawValues values{.runs = std::vector<std::vector<double>>(weights_.size()), .weight = weights_};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    if (!runs_[r].output) continue;
+    if (!runs_[r].output || plan_[r].scale_factor != scale_factor) continue;
     const journal::MetricRecord* scalar = Find(*runs_[r].output, name);
     if (scalar == nullptr) continue;
     if (std::isfinite(scalar->value))
-      values.runs[draw(r)].push_back(scalar->value);
+      values.runs[plan_[r].draw].push_back(scalar->value);
     else
       undefined = scalar->undefined;
   }
   return values;
 }
 
-void PredictionRuns::Summarise(Prediction& prediction) const {
+std::vector<double> PredictionRuns::ByRun(const std::string& name) const {
+  std::vector<double> values;
+  for (const Run& run : runs_) {
+    if (!run.output) continue;
+    const journal::MetricRecord* scalar = Find(*run.output, name);
+    values.push_back(scalar == nullptr ? kUnknown : scalar->value);
+  }
+  return values;
+}
+
+int PredictionRuns::SeedsOfADraw() const {
+  return static_cast<int>(std::ranges::count_if(plan_, [&](const PlannedRun& run) {
+    return run.draw == 0 && run.scale_factor == scale_factor_;
+  }));
+}
+
+std::vector<std::optional<Spread>> PredictionRuns::Summarise(Prediction& prediction) const {
   prediction.num_runs = static_cast<int>(runs_.size());
   prediction.num_ended = num_ended_;
   prediction.num_failed = num_failed_;
   prediction.failure = failure_;
   prediction.core_time = 0;
-  for (const Run& run : runs_) prediction.core_time += run.output ? run.output->cpu_time : 0;
+  prediction.runs.clear();
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (!runs_[r].output) continue;
+    prediction.core_time += runs_[r].output->cpu_time;
+    prediction.runs.push_back(
+        {.draw = static_cast<int>(plan_[r].draw), .scale_factor = plan_[r].scale_factor});
+  }
   prediction.numbers.clear();
-  for (const std::string& name : Names()) {
+  std::vector<std::optional<Spread>> spreads;
+  for (const std::string& name : Names(prediction.scale_factor)) {
     std::string undefined;
-    const DrawValues values = ValuesOf(name, undefined);
+    const DrawValues values = ValuesOf(name, prediction.scale_factor, undefined);
     PredictedNumber number{.name = name, .by_draw = std::vector(weights_.size(), kUnknown)};
+    std::optional<Spread> spread;
     const bool any =
         std::ranges::any_of(values.runs, [](const auto& runs) { return !runs.empty(); });
-    if (any) number = Describe(name, values);
+    if (any) {
+      spread.emplace(values);
+      number = Describe(name, values, *spread);
+    }
+    number.by_run = ByRun(name);
     number.undefined = std::move(undefined);
     prediction.numbers.push_back(std::move(number));
+    spreads.push_back(std::move(spread));
   }
+  return spreads;
 }
 
 std::vector<imaging::GrayImage> PredictionRuns::ImagesOf(std::size_t wanted) const {
   std::vector<imaging::GrayImage> images;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    if (draw(r) != wanted || !runs_[r].output) continue;
+    if (plan_[r].draw != wanted || plan_[r].scale_factor != scale_factor_ || !runs_[r].output)
+      continue;
     if (!runs_[r].output->profile.pixels.empty()) images.push_back(runs_[r].output->profile);
   }
   return images;
 }
 
-void PredictionRuns::Compare(const MeasuredProcess& measured, Prediction& prediction) const {
+void PredictionRuns::Compare(const MeasuredProcess& measured,
+                             const std::vector<std::optional<Spread>>& spreads,
+                             Prediction& prediction) const {
   for (const campaign::ScalarSpec& scalar : measured.numbers) {
     const auto number =
         std::ranges::find(prediction.numbers, scalar.metric, &PredictedNumber::name);
-    if (number == prediction.numbers.end() || number->num_defined == 0) continue;
-    std::string undefined;
-    const auto seeds = static_cast<int>(runs_.size() / weights_.size());
-    number->measured = Judge(scalar, Spread(ValuesOf(scalar.metric, undefined)), *number, seeds);
+    if (number == prediction.numbers.end()) continue;
+    const std::optional<Spread>& spread =
+        spreads[static_cast<std::size_t>(number - prediction.numbers.begin())];
+    if (spread) number->measured = Judge(scalar, *spread, *number, SeedsOfADraw());
   }
   if (measured.profile) prediction.image = CompareImage(*measured.profile);
 }

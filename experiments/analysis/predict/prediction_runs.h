@@ -7,6 +7,7 @@
 
 #include "experiments/analysis/predict/measured_process.h"
 #include "experiments/analysis/predict/prediction.h"
+#include "experiments/analysis/predict/prediction_plan.h"
 #include "experiments/analysis/predict/spread.h"
 #include "experiments/trials/engines/trial_engine.h"
 
@@ -14,21 +15,24 @@ namespace talus::analysis {
 
 class PredictionRuns {
  public:
-  PredictionRuns(std::vector<double> weights, int num_seeds);
+  // `scale_factor`: of the runs that tell parameters and scatter apart, and have the pictures.
+  PredictionRuns(std::vector<double> weights, std::vector<PlannedRun> plan, double scale_factor);
 
   std::size_t size() const { return runs_.size(); }
-  // Every draw once, then every draw again: the first few runs show the range already.
-  std::size_t draw(std::size_t run) const { return run % weights_.size(); }
-  std::size_t seed(std::size_t run) const { return run / weights_.size(); }
+  const PlannedRun& planned(std::size_t run) const { return plan_[run]; }
 
   void Add(std::size_t run, trials::TrialOutput output);
   void AddFailure(std::size_t run, std::string why);
 
   int num_ended() const { return num_ended_; }
-  // Counts, and every number that has a value in some run.
-  void Summarise(Prediction& prediction) const;
+  // Runs with the scale factor that have ended well.
+  int NumEnded(double scale_factor) const;
+  // Counts, and every number that has a value in some run with the prediction's scale factor, each
+  // with its spread; none where no run gives it.
+  std::vector<std::optional<Spread>> Summarise(Prediction& prediction) const;
   // Beside what was measured; the prediction must have been summarised.
-  void Compare(const MeasuredProcess& measured, Prediction& prediction) const;
+  void Compare(const MeasuredProcess& measured, const std::vector<std::optional<Spread>>& spreads,
+               Prediction& prediction) const;
 
   // Images of a draw's runs; none of runs without.
   std::vector<imaging::GrayImage> ImagesOf(std::size_t draw) const;
@@ -40,12 +44,17 @@ class PredictionRuns {
     std::optional<trials::TrialOutput> output;  // none where it failed
   };
 
-  std::vector<std::string> Names() const;
+  std::vector<std::string> Names(double scale_factor) const;
   // A number's values by draw, and why the last run without one has none.
-  DrawValues ValuesOf(const std::string& name, std::string& undefined) const;
+  DrawValues ValuesOf(const std::string& name, double scale_factor, std::string& undefined) const;
+  // By those runs that have ended well.
+  std::vector<double> ByRun(const std::string& name) const;
+  int SeedsOfADraw() const;
   std::optional<MeasuredImage> CompareImage(const imaging::Profile& measured) const;
 
   std::vector<double> weights_;  // of the draws
+  std::vector<PlannedRun> plan_;
+  double scale_factor_ = 1;
   std::vector<Run> runs_;
   int num_ended_ = 0;
   int num_failed_ = 0;

@@ -1,6 +1,9 @@
 #include "experiments/analysis/predict/prediction_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "base/text/counted.h"
 #include "base/text/csv.h"
@@ -23,7 +26,9 @@ struct Shown {
       : title(rigs::FindObservable(name) != nullptr ? rigs::FindObservable(name)->key : name),
         unit(rigs::ShownUnitOf(rigs::UnitOfObservable(name))) {}
 
-  std::string Text(double x) const { return ShortNumber(unit.per_unit * x, 4); }
+  std::string Text(double x, int digits = 4) const {
+    return ShortNumber(unit.per_unit * x, digits);
+  }
   std::string Unit() const { return unit.text.empty() ? "" : " " + unit.text; }
 };
 
@@ -48,8 +53,43 @@ std::string SharesText(const PredictedNumber& number, bool many_draws) {
     return "parameters and the scatter of a run are not told apart: no set was run twice";
   }
   if (!std::isfinite(number.parameters_share)) return "the same in every run";
+  double scatter = 1 - number.parameters_share;
+  std::string surrogate;
+  if (number.surrogate && number.surrogate->is_used) {
+    const double share = std::pow(number.surrogate->sd, 2) / number.Variance();
+    surrogate = ", " + Percent(share) + " the surrogate";
+    scatter -= share;
+  }
   return "of the variance " + Percent(number.parameters_share) + " parameters, " +
-         Percent(1 - number.parameters_share) + " the scatter of a single run";
+         Percent(scatter) + " the scatter of a single run" + surrogate;
+}
+
+// By whom the number is told, and how far off either is of draws that were left out.
+std::string LeftOutText(const Prediction& prediction, const PredictedNumber& number) {
+  if (!number.surrogate) return "";
+  const Shown shown(number.name);
+  const PredictedSurrogate& s = *number.surrogate;
+  const std::string errors = " misses a draw left out by " + shown.Text(s.left_out_error, 2) +
+                             shown.Unit() + ", the other draws' mean by " +
+                             shown.Text(s.draws_error, 2) + shown.Unit();
+  if (s.is_used) {
+    return "    at scale factor " + ShortNumber(s.scale_factor) + " by a surrogate, which" +
+           errors + "\n";
+  }
+  return "    by the draws at scale factor " + ShortNumber(prediction.scale_factor) +
+         "; a surrogate" + errors + "\n";
+}
+
+// "scale factor 1.5", "scale factors 2 and 1.5"
+std::string ScaleFactorsText(const Prediction& prediction) {
+  std::set<double, std::greater<>> all{prediction.scale_factor};
+  for (const PredictedRun& run : prediction.runs) all.insert(run.scale_factor);
+  std::string text;
+  for (const double f : all) {
+    text += text.empty() ? "" : f == *all.rbegin() ? " and " : ", ";
+    text += ShortNumber(f);
+  }
+  return (all.size() > 1 ? "scale factors " : "scale factor ") + text;
 }
 
 std::string MeasuredText(const Prediction& prediction, const PredictedNumber& number,
@@ -121,7 +161,7 @@ std::string PredictionText(const Prediction& prediction,
                            const std::vector<journal::ParameterRecord>& parameters) {
   std::string text = prediction.name + " (" + prediction.test + "), by " + WhatText(prediction);
   if (prediction.test != "scene") {
-    text += ", scale factor " + ShortNumber(prediction.scale_factor);
+    text += ", " + ScaleFactorsText(prediction);
   }
   text += ": " + std::to_string(prediction.num_ended) + " of " +
           base::Counted(prediction.num_runs, "run") + ", " +
@@ -140,12 +180,13 @@ std::string PredictionText(const Prediction& prediction,
       continue;
     }
     text += NumberText(number) + "; " + SharesText(number, prediction.draws.size() > 1);
-    const int silent = prediction.num_ended - prediction.num_failed - number.num_defined;
+    const auto silent =
+        std::ranges::count_if(number.by_run, [](double value) { return !std::isfinite(value); });
     if (silent > 0) {
       text += "; without a value in " + base::Counted(silent, "run") +
               (number.undefined.empty() ? "" : ": " + number.undefined);
     }
-    text += "\n";
+    text += "\n" + LeftOutText(prediction, number);
     if (number.measured) text += MeasuredText(prediction, number, parameters);
   }
   if (prediction.image) text += ImageText(prediction, parameters);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "surrogate/standard_deviation.h"
+
 namespace talus::analysis {
 namespace {
 
@@ -16,6 +18,10 @@ double Mean(const std::vector<double>& values) {
 double StudentOverNormal(double freedom) {
   return 1 + (kNinety * kNinety + 1) / (4 * std::max(freedom, 1.0));
 }
+
+// A surrogate's hyper-parameters are estimates, from few runs: with 1.5 the 90 % intervals of 400
+// made-up processes held the next run in 88 %, with 1.75 in 90 %, with 2 in 91 % (predict_test).
+constexpr double kOverconfidence = 1.75;
 
 // What differs by rounding alone does not differ.
 double Rounded(double sd, double mean) { return sd > 1e-12 * std::abs(mean) ? sd : 0; }
@@ -60,18 +66,33 @@ Spread::Spread(const DrawValues& values) {
   const double wide = parameters_sd_ * std::sqrt(1 + squares) * StudentOverNormal(draw_freedom);
   const double drawn_in = between > 0 ? wide / std::sqrt(between) : 0;
   for (double& centre : centre_) centre = mean_ + drawn_in * (centre - mean_);
-  kernel_sd_ =
-      std::sqrt(run_variance * (1 + 1 / num_runs)) * StudentOverNormal(std::max(run_freedom, 1.0));
+  kernel_.assign(centre_.size(), std::sqrt(run_variance * (1 + 1 / num_runs)) *
+                                     StudentOverNormal(std::max(run_freedom, 1.0)));
+}
+
+Spread::Spread(const surrogate::Predictions& sets, double run_sd)
+    : mean_(sets.mean.mean()),
+      parameters_sd_(surrogate::StandardDeviation(sets.mean)),
+      run_sd_(run_sd),
+      surrogate_sd_(kOverconfidence * std::sqrt(sets.variance.mean())),
+      weight_(static_cast<std::size_t>(sets.mean.size()),
+              1.0 / static_cast<double>(sets.mean.size())),
+      centre_(sets.mean.begin(), sets.mean.end()) {
+  for (const double variance : sets.variance) {
+    kernel_.push_back(std::hypot(kOverconfidence * std::sqrt(variance), run_sd));
+  }
 }
 
 double Spread::ParametersShare() const {
-  const double sum = parameters_sd_ * parameters_sd_ + run_sd_ * run_sd_;
+  const double sum =
+      parameters_sd_ * parameters_sd_ + surrogate_sd_ * surrogate_sd_ + run_sd_ * run_sd_;
   return sum > 0 ? parameters_sd_ * parameters_sd_ / sum : std::numeric_limits<double>::quiet_NaN();
 }
 
-double Spread::Below(double value, double sd) const {
+double Spread::Below(double value, double error_sd) const {
   double probability = 0;
   for (std::size_t i = 0; i < centre_.size(); ++i) {
+    const double sd = std::hypot(kernel_[i], error_sd);
     probability += weight_[i] * 0.5 * std::erfc((centre_[i] - value) / (sd * std::numbers::sqrt2));
   }
   return probability;
@@ -80,16 +101,19 @@ double Spread::Below(double value, double sd) const {
 double Spread::Quantile(double probability, double error_sd) const {
   const auto [least, most] = std::minmax_element(centre_.begin(), centre_.end());
   // Draws of a number that never scatters stand for what lies between them.
-  double sd = std::hypot(kernel_sd_, error_sd);
-  if (std::isnan(run_sd_)) sd = std::hypot(sd, parameters_sd_ / std::sqrt(double(centre_.size())));
-  if (!(sd > 1e-12 * (*most - *least))) sd = 1e-12 * (*most - *least);
+  double error = error_sd;
+  if (std::isnan(run_sd_))
+    error = std::hypot(error, parameters_sd_ / std::sqrt(double(centre_.size())));
+  const double widest = std::hypot(*std::ranges::max_element(kernel_), error);
+  if (!(widest > 1e-12 * (*most - *least))) error = 1e-12 * (*most - *least);
+  const double sd = std::hypot(*std::ranges::max_element(kernel_), error);
   if (sd == 0) return *least;
   constexpr double kFar = 10;
   double low = *least - kFar * sd;
   double high = *most + kFar * sd;
   for (int i = 0; i < 100; ++i) {
     const double middle = (low + high) / 2;
-    (Below(middle, sd) < probability ? low : high) = middle;
+    (Below(middle, error) < probability ? low : high) = middle;
   }
   return (low + high) / 2;
 }

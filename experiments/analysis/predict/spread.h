@@ -8,10 +8,15 @@
 // With equal weights and numbers of runs this is the analysis of variance. What a single run will
 // give is the mixture of normals N(m_i, τ²) with weights w_i: the means m_i drawn in so that they
 // spread by σ_a, both widened to Student's t for the few draws and runs that they come from.
+//
+// By a surrogate it is the mixture of N(m(x), s²(x) + σ_e²) over sets x of the posterior: many, so
+// that nothing is widened but s.
 #pragma once
 
 #include <limits>
 #include <vector>
+
+#include "surrogate/process/gaussian_process.h"
 
 namespace talus::analysis {
 
@@ -25,25 +30,30 @@ class Spread {
  public:
   // At least one value.
   explicit Spread(const DrawValues& values);
+  // By a surrogate's predictions for sets that are equally likely.
+  Spread(const surrogate::Predictions& sets, double run_sd);
 
   double mean() const { return mean_; }
   double parameters_sd() const { return parameters_sd_; }
   // NaN where no draw has two runs: all of it then counts as the parameters'.
   double run_sd() const { return run_sd_; }
+  // Of what the surrogate gives for a set [rms]; 0 without one.
+  double surrogate_sd() const { return surrogate_sd_; }
   // Share of the variance of a single run, in [0, 1]; NaN where the two cannot be told apart.
   double ParametersShare() const;
   // Range of a single run that is measured with an independent error of this standard deviation.
   double Quantile(double probability, double error_sd = 0) const;
 
  private:
-  double Below(double value, double sd) const;
+  double Below(double value, double error_sd) const;
 
   double mean_ = 0;
   double parameters_sd_ = 0;
   double run_sd_ = std::numeric_limits<double>::quiet_NaN();
+  double surrogate_sd_ = 0;
   std::vector<double> weight_;  // of the draws that have values; sums to 1
   std::vector<double> centre_;  // m_i
-  double kernel_sd_ = 0;        // τ
+  std::vector<double> kernel_;  // τ_i
 };
 
 // Standard deviations on either side of the mean that hold 90 % of a normal.

@@ -1,11 +1,57 @@
 #include "experiments/rigs/case/case_text.h"
 
+#include <cmath>
+
 #include "base/files/file.h"
 #include "base/json/json_changes.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/number_text.h"
 
 namespace talus::rigs {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of grains that are equally large
+
+bool IsNear(double a, double b) { return std::abs(a - b) <= kRounding * std::abs(b); }
+
+// `sizes`, all of them so many times as large.
+engine::SizeDistribution Enlarged(engine::SizeDistribution sizes, double factor) {
+  using S = engine::SizeDistribution;
+  for (const auto length :
+       {&S::diameter, &S::mean, &S::standard_deviation, &S::median, &S::min, &S::max}) {
+    if (sizes.*length) *(sizes.*length) *= factor;
+  }
+  for (double& diameter : sizes.diameters) diameter *= factor;
+  return sizes;
+}
+
+// Whether two curves have one shape and size, at a few places.
+bool AreEqual(const engine::SizeDistribution& a, const engine::SizeDistribution& b) {
+  const engine::SizeCurve first(a);
+  const engine::SizeCurve second(b);
+  constexpr int kPlaces = 20;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double q = static_cast<double>(i) / kPlaces;
+    if (!IsNear(first.VolumeQuantile(q), second.VolumeQuantile(q))) return false;
+  }
+  return true;
+}
+
+// The scale factor at which the powder here has the grains of the case there; nothing where its
+// sizes have another shape, or where its surface energy goes with the scale factor.
+std::optional<double> ScaleFactorOf(const Case& there, const Case& here) {
+  const bool is_cohesive = here.models.adhesion != engine::Adhesion::kNone;
+  if (is_cohesive && here.coarse_graining.surface_energy_exponent != 0) return std::nullopt;
+  // A gap that is not stated goes with the sizes.
+  if (here.rig.kind == RigKind::kSpreading && !here.rig.spreading.gap) return std::nullopt;
+  const double ratio = engine::SizeCurve(there.powder.sizes).VolumeQuantile(0.5) /
+                       engine::SizeCurve(here.powder.sizes).VolumeQuantile(0.5);
+  if (!AreEqual(there.powder.sizes, Enlarged(here.powder.sizes, ratio))) return std::nullopt;
+  return ratio * there.coarse_graining.scale_factor;
+}
+
+}  // namespace
 
 std::string CaseText(const Case& rig_case) {
   return base::JsonText(base::ToJson(rig_case), 2) + "\n";
@@ -20,10 +66,24 @@ std::optional<std::string> RunDifference(const Case& there, const Case& here) {
     c.checkpoint_interval = 0;
     return base::ToJson(c);
   };
-  const auto changes = base::JsonChanges(run(there), run(here));
-  if (changes.empty()) return std::nullopt;
-  const base::JsonChange& first = changes.front();
-  return first.path + " is " + first.before + " there and " + first.after + " here";
+  Case seen = there;
+  std::optional<double> scale_factor;
+  if (base::ToJson(there.powder.sizes) != base::ToJson(here.powder.sizes)) {
+    scale_factor = ScaleFactorOf(there, here);
+  }
+  if (scale_factor) {  // then only that can tell the grains apart
+    seen.powder.sizes = here.powder.sizes;
+    seen.coarse_graining.scale_factor = here.coarse_graining.scale_factor;
+  }
+  const auto changes = base::JsonChanges(run(seen), run(here));
+  if (!changes.empty()) {
+    const base::JsonChange& first = changes.front();
+    return first.path + " is " + first.before + " there and " + first.after + " here";
+  }
+  if (!scale_factor || IsNear(*scale_factor, here.coarse_graining.scale_factor)) {
+    return std::nullopt;
+  }
+  return "its grains are those of scale factor " + base::ShortNumber(*scale_factor, 6) + " here";
 }
 
 std::uint64_t CaseHash(const Case& rig_case) {

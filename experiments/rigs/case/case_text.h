@@ -13,7 +13,8 @@ namespace talus::rigs {
 std::string CaseText(const Case& rig_case);
 
 // What makes the grains of the two differ, whatever is drawn or written of them: "powder.mass is
-// 0.001 there and 0.002 here"; nothing where both give the same.
+// 0.001 there and 0.002 here"; nothing where both give the same. Sizes that differ by a factor give
+// the same at scale factors that differ by it.
 std::optional<std::string> RunDifference(const Case& there, const Case& here);
 
 // Whether both give the same grains.

@@ -200,6 +200,7 @@ TEST_F(ReuseTest, WhatDoesNotMatchIsRefusedWithTheFirstKeyAndNothingIsWritten) {
   };
   refuses(R"("mass": "0.5 g")", R"("mass": "0.6 g")",
           "powder.mass is 0.0005 there and 0.0006 here");
+  refuses(R"("mass": "0.5 g")", R"("mass": "0.501 g")", "what differs a little is refused as well");
   refuses(R"("powder": {)", R"("powder": {"material": {"restitution": 0.5}, )",
           "powder.material.restitution is");
   refuses(R"("workers": 1)", R"("workers": 1, "gravity": 1.62)", "gravity is 9.81 there and 1.62");
@@ -207,6 +208,33 @@ TEST_F(ReuseTest, WhatDoesNotMatchIsRefusedWithTheFirstKeyAndNothingIsWritten) {
           R"("rolling_friction": {"fixed": 0.1})",
           "searched there: sliding_friction, rolling_friction; here: sliding_friction");
   refuses("[2, 1]", "[1.5, 1.2]", "at scale factors that are not searched here");
+}
+
+// Grains of 0.4 mm at scale factors 2 and 1 are those of 0.2 mm at 4 and 2: another fidelity of the
+// same model.
+TEST_F(ReuseTest, GrainsOfAnotherSizeAreThoseOfAnotherScaleFactor) {
+  const fs::path former = Ended();
+  const auto finer = [&](const std::string& levels) {
+    const fs::path spec = WriteSpec("finer");
+    std::string text = base::ReadFile(spec);
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{"0.4 mm", "0.2 mm"},
+                                   {"\"scale_factors\": [2, 1]", levels}}) {
+      text.replace(text.find(from), from.size(), to);
+    }
+    std::ofstream(spec) << text;
+    return spec;
+  };
+  const fs::path folder = Reuse(finer(R"("scale_factors": [4, 2, 1.5])"), "finer", {former});
+  const auto before = Trials(former);
+  const auto reused = Reused(folder);
+  ASSERT_EQ(reused.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(reused[i].scale_factor, 2 * before[i].scale_factor);
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  for (const auto& trial : Reused(folder)) EXPECT_EQ(trial.status, journal::TrialStatus::kOk);
+  EXPECT_THAT(ErrorOf(finer(R"("scale_factors": [3, 1.5])"), {former}),
+              HasSubstr("its grains are those of scale factor"));
 }
 
 // The others choose their first sets by what they have been told, and would leave them out.

@@ -136,6 +136,13 @@ PageValue PredictionJson(const PredictionView& view) {
                    {"parameters_sd", shown(n.parameters_sd)},
                    {"run_sd", shown(n.run_sd)},
                    {"parameters_share", NumberJson(n.parameters_share)}};
+    json["surrogate"] = nullptr;
+    if (n.surrogate) {
+      json["surrogate"] = {{"used", n.surrogate->is_used},
+                           {"scale_factor", NumberJson(n.surrogate->scale_factor)},
+                           {"left_out", shown(n.surrogate->left_out_error)},
+                           {"draws", shown(n.surrogate->draws_error)}};
+    }
     json["measured"] = nullptr;
     if (n.measured) {
       json["measured"] = {{"value", shown(n.measured->value)},

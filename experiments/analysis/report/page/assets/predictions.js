@@ -9,6 +9,11 @@ const measuredThere = (n) => n.measured === null ? "–" : formatUnit(n.measured
   format(n.measured.error, 2) + ": " + (n.measured.inside ? "inside" : n.measured.another_inside
     ? "outside, yet a draw gives it" : "outside, and no draw gives it");
 
+// By what a number is told, with what either misses of draws that were left out.
+const toldBy = (n) => n.surrogate === null ? "draws" : (n.surrogate.used ? "surrogate, scale factor " +
+  format(n.surrogate.scale_factor) : "draws") + " (" + formatUnit(n.surrogate.left_out, n.unit, 2) + " and " +
+  formatUnit(n.surrogate.draws, n.unit, 2) + ")";
+
 // The numbers that the test is made for.
 function predictionLine(p) {
   const known = p.numbers.filter((n) => n.mean !== null), usual = known.filter((n) => n.usual);
@@ -41,7 +46,7 @@ function predictionCard(p) {
         {title: "Measured", text: true}],
       p.numbers.map((n) => n.mean === null ? [n.title, "–", "–", "–", "–", "–", "–"] : [n.title, formatUnit(n.mean, n.unit),
         format(n.low) + " to " + formatUnit(n.high, n.unit), formatUnit(n.parameters_sd, n.unit, 2),
-        formatUnit(n.run_sd, n.unit, 2), percent(n.parameters_share), measuredThere(n)])),
+        formatUnit(n.run_sd, n.unit, 2), percent(n.parameters_share), toldBy(n), measuredThere(n)])),
     pictures.length ? element("div", {class: "grid two"}, pictures) : null);
 }
 

@@ -1,0 +1,82 @@
+#include "experiments/analysis/predict/prediction_plan.h"
+
+#include <algorithm>
+
+#include "experiments/analysis/predict/affordable.h"
+#include "experiments/analysis/predict/number_surrogate.h"
+
+namespace talus::analysis {
+namespace {
+
+constexpr double kLongRound = 20;  // [core s] of one run of each draw: coarser ones come first
+constexpr int kFewestFiner = 4;    // runs: fewer do not show what a scale factor changes
+
+// The coarsest of the campaign's scale factors that the case has room for, once for each draw,
+// where the first range would be long in coming.
+void AddFirstLook(const campaign::JointView& view, const rigs::Case& rig_case, int num_draws,
+                  std::vector<PredictionStage>& stages) {
+  const double base = rig_case.coarse_graining.scale_factor;
+  if (num_draws * CoreSecondsAt(view, rig_case, base) < kLongRound) return;
+  for (const double level : ScaleFactorsOf(view)) {
+    if (level <= base) return;
+    if (!IsPossibleAt(rig_case, level)) continue;
+    stages.push_back({.scale_factor = level, .num_draws = num_draws});
+    return;
+  }
+}
+
+// The finest scale factor of which the core time that is left holds a few runs.
+void AddFiner(const campaign::JointView& view, const rigs::Case& rig_case,
+              const StagesWanted& wanted, std::vector<PredictionStage>& stages) {
+  double left = wanted.core_time;
+  for (const PredictionStage& stage : stages) {
+    left -= stage.num_draws * stage.num_seeds * CoreSecondsAt(view, rig_case, stage.scale_factor);
+  }
+  std::vector<double> finest_first = ScaleFactorsOf(view);
+  std::ranges::reverse(finest_first);
+  for (const double level : finest_first) {
+    if (level >= rig_case.coarse_graining.scale_factor) return;
+    if (!IsPossibleAt(rig_case, level)) continue;
+    const double affordable = left / CoreSecondsAt(view, rig_case, level);
+    if (affordable < kFewestFiner) continue;
+    const int count = static_cast<int>(std::min<double>(affordable, wanted.num_draws));
+    stages.push_back({.scale_factor = level, .num_draws = count});
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<PredictionStage> PlanStages(const campaign::JointView& view,
+                                        const PredictedCase& predicted,
+                                        const StagesWanted& wanted) {
+  const rigs::Case& rig_case = predicted.rig_case;
+  const bool is_free =
+      !predicted.states_scale_factor && wanted.num_draws >= NumberSurrogate::kFewest;
+  std::vector<PredictionStage> stages;
+  for (const double coarser : wanted.coarser) {
+    stages.push_back({.scale_factor = coarser, .num_draws = wanted.num_draws});
+  }
+  if (is_free) AddFirstLook(view, rig_case, wanted.num_draws, stages);
+  stages.push_back({.scale_factor = rig_case.coarse_graining.scale_factor,
+                    .num_draws = wanted.num_draws,
+                    .num_seeds = wanted.num_seeds});
+  if (is_free) AddFiner(view, rig_case, wanted, stages);
+  return stages;
+}
+
+std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages) {
+  std::vector<PlannedRun> runs;
+  for (const PredictionStage& stage : stages) {
+    for (int seed = 0; seed < stage.num_seeds; ++seed) {
+      for (int draw = 0; draw < stage.num_draws; ++draw) {
+        runs.push_back({.draw = static_cast<std::size_t>(draw),
+                        .seed = static_cast<std::size_t>(seed),
+                        .scale_factor = stage.scale_factor});
+      }
+    }
+  }
+  return runs;
+}
+
+}  // namespace talus::analysis

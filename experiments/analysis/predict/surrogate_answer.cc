@@ -1,0 +1,34 @@
+#include "experiments/analysis/predict/surrogate_answer.h"
+
+#include "experiments/analysis/predict/number_surrogate.h"
+
+namespace talus::analysis {
+
+void Take(const Spread& spread, PredictedNumber& number) {
+  number.mean = spread.mean();
+  number.low = spread.Quantile(0.05);
+  number.high = spread.Quantile(0.95);
+  number.parameters_sd = spread.parameters_sd();
+  number.run_sd = spread.run_sd();
+  number.parameters_share = spread.ParametersShare();
+}
+
+void AnswerBySurrogate(const Prediction& prediction, const SetsOfPosterior& sets,
+                       PredictedNumber& number, std::optional<Spread>& spread) {
+  const auto surrogate = NumberSurrogate::Fit(prediction, number, sets.space);
+  if (!surrogate || surrogate->draws_error() == 0) return;  // a number that never changes
+  const Spread told(surrogate->At(sets.points), surrogate->run_sd());
+  number.surrogate =
+      PredictedSurrogate{.scale_factor = prediction.target,
+                         .left_out_error = surrogate->left_out_error(),
+                         .draws_error = surrogate->draws_error(),
+                         .is_used = surrogate->left_out_error() < surrogate->draws_error(),
+                         .sd = told.surrogate_sd()};
+  if (!number.surrogate->is_used) return;
+  const Eigen::VectorXd by_draw = surrogate->At(PointsOf(prediction, sets.space)).mean;
+  number.by_draw.assign(by_draw.begin(), by_draw.end());
+  Take(told, number);
+  spread = told;
+}
+
+}  // namespace talus::analysis
