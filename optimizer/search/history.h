@@ -28,8 +28,8 @@ struct Repeats {
 
 Repeats FindRepeats(const History& history);
 
-// The answer of a strategy that has no model: the best evaluation, taken at its word. `how` names the
-// strategy in Answer::model.
+// The answer of a strategy that has no model: the best evaluation, taken at its word. `how` names
+// the strategy in Answer::model.
 Answer BestObserved(std::span<const Observation> told, const Domain& domain,
                     const std::string& how);
 

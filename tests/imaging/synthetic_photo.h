@@ -110,7 +110,7 @@ inline GrayImage PhotographOf(const Scene& scene, const std::function<double(dou
 
 // Spheres seen along a horizontal direction turned by `angle`; the plate is `plate_diameter` wide.
 inline GrayImage PhotographOf(const Scene& scene, std::span<const base::Sphere> spheres,
-                            double plate_diameter, double angle) {
+                              double plate_diameter, double angle) {
   const double scale = scene.plate_width / plate_diameter;  // [px/m]
   const int columns = scene.width * kSamples;
   std::vector<bool> dark(static_cast<std::size_t>(columns * scene.height * kSamples));

@@ -313,7 +313,8 @@ TEST_F(NextTest, ForAGoalWhatNarrowsItComesFirst) {
 
 TEST_F(NextTest, RunsOfAnEarlierPredictionServeAGoalAndAreNotMadeAgain) {
   const JointView view = Run();
-  Predict(view, {.file = Taps(), .num_draws = 8, .num_seeds = 2, .scale_factors = {2}}, Parts(view));
+  Predict(view, {.file = Taps(), .num_draws = 8, .num_seeds = 2, .scale_factors = {2}},
+          Parts(view));
   const fs::path trials = folder_ / "predict/taps/trials";
   const auto time = fs::last_write_time(trials / "0001_1/profile.png");
   const Goal goal = SimulateGoal(view, {.file = Taps()}, Parts(view));
