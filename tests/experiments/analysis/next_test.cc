@@ -362,7 +362,7 @@ TEST_F(NextTest, WhatCannotBeSimulatedIsSaidAndNotTried) {
   const JointView view = Run();
   TestCandidate narrow{.name = "narrow"};
   narrow.device = view.spec.device;
-  narrow.device->tube_inner_diameter = 1e-3;  // grains of the coarse factor are 0.8 mm
+  narrow.device->tube_inner_diameter = 2.2e-3;  // grains of the coarse factor are 0.8 mm
   const TestCandidate taken{.name = campaign::ExperimentsOf(view.spec).front().name};
   const NextTable table = Rank(view, {narrow, taken}, true);
   EXPECT_THAT(Find(table, "narrow").what, HasSubstr("must be above three (scaled) grain"));
