@@ -123,7 +123,9 @@ class Predictor {
   }
   double ScaleFactor() const { return case_.rig_case.coarse_graining.scale_factor; }
 
-  PredictionRuns NoRuns() const { return {design_.weights, RunsOf(stages_), ScaleFactor()}; }
+  PredictionRuns NoRuns() const {
+    return {design_.weights, RunsOf(stages_, design_.weights.size()), ScaleFactor()};
+  }
 
   std::string FolderName() const {
     const std::string name = base::FileWord(case_.name);
@@ -176,7 +178,7 @@ class Predictor {
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);
     if (stored && options_.as_before) {
       wanted.last_trial = stored->last_trial;
-      if (!stored->stages.empty()) stages_ = stored->stages;
+      if (!stored->stages.empty() && stored->test == wanted.test) stages_ = stored->stages;
     }
     wanted.stages = stages_;
     const bool same = stored && stored->test == wanted.test && stored->by == wanted.by &&

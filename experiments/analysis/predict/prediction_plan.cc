@@ -65,12 +65,13 @@ std::vector<PredictionStage> PlanStages(const campaign::JointView& view,
   return stages;
 }
 
-std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages) {
+std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages, std::size_t num_draws) {
   std::vector<PlannedRun> runs;
   for (const PredictionStage& stage : stages) {
     for (int seed = 0; seed < stage.num_seeds; ++seed) {
-      for (int draw = 0; draw < stage.num_draws; ++draw) {
-        runs.push_back({.draw = static_cast<std::size_t>(draw),
+      const std::size_t draws = std::min(num_draws, static_cast<std::size_t>(stage.num_draws));
+      for (std::size_t draw = 0; draw < draws; ++draw) {
+        runs.push_back({.draw = draw,
                         .seed = static_cast<std::size_t>(seed),
                         .scale_factor = stage.scale_factor});
       }

@@ -46,6 +46,7 @@ struct StagesWanted {
 std::vector<PredictionStage> PlanStages(const campaign::JointView& view,
                                         const PredictedCase& predicted, const StagesWanted& wanted);
 
-std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages);
+// Where there are fewer draws than the stages have, of those that there are.
+std::vector<PlannedRun> RunsOf(const std::vector<PredictionStage>& stages, std::size_t num_draws);
 
 }  // namespace talus::analysis
