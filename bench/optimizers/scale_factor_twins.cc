@@ -4,7 +4,7 @@
 //
 //   scale_factor_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
 //                  [--useless yes] [--tests 1] [--nuisances 0] [--until-stop yes] [--stop-share
-//                  0.1]
+//                  0.1] [--look yes]
 //
 // A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
 // and scatters more, as measured on heaps of three grain sizes (docs/validation.md). --useless: a
@@ -13,7 +13,9 @@
 // parameters are searched, known beforehand within 0.2, each of which displaces the others by up to
 // 0.3 over its range, in another direction in each test. --until-stop: the search may end by itself
 // before the core time is spent. --again: half as many simulations again are made afterwards, and
-// what they do to the ranges is held against what was expected.
+// what they do to the ranges is held against what was expected. --look: the region is looked at
+// every ten simulations, and a powder's line says after how many core seconds it stays within 1.5
+// times its final size.
 #include <cstdio>
 #include <ctime>
 #include <map>
@@ -33,6 +35,7 @@ namespace {
 constexpr int kLook = 10;                // simulations between two looks at the stopping rule
 constexpr double kNuisanceSd = 0.2;      // of its prior, unit cube
 constexpr double kNuisanceEffect = 0.3;  // displacement over a nuisance's range, unit cube
+constexpr double kWithin = 1.5;          // of the region's final volume
 constexpr double kSolved = 0.1;          // distance of the answer from the truth, unit cube
 
 struct Options {
@@ -47,6 +50,7 @@ struct Options {
   bool until_stop = false;
   double stop_share = 0.1;
   bool again = false;
+  bool look = false;
 };
 
 Options Parse(int argc, char** argv) {
@@ -61,6 +65,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--tests") options.tests = std::stoi(argv[i + 1]);
     if (key == "--nuisances") options.nuisances = std::stoi(argv[i + 1]);
     if (key == "--again") options.again = true;
+    if (key == "--look") options.look = true;
     if (key == "--until-stop") options.until_stop = true;
     if (key == "--stop-share") options.stop_share = std::stod(argv[i + 1]);
     if (key != "--factors") continue;
@@ -141,6 +146,8 @@ struct Tally {
   double core_time = 0;
   double width_expected = 0;  // after half as many simulations again, over that before
   double width_then = 0;
+  double settled =
+      0;  // core time from which on the region was within kWithin of its final size [s]
 };
 
 // A powder that is not known, and the search for it.
@@ -201,6 +208,21 @@ double WidthOf(const optimizer::Answer& answer) {
   return std::exp(log_width);
 }
 
+// The region as it was seen during a search.
+struct Sight {
+  double spent = 0;  // [core s]
+  double volume = 1;
+};
+
+// From when on it was no larger than kWithin times its final size [core s].
+double SettledAt(const std::vector<Sight>& sights, double final_volume) {
+  double settled = 0;
+  for (const Sight& sight : sights) {
+    if (sight.volume > kWithin * final_volume) settled = sight.spent;
+  }
+  return settled;
+}
+
 void GoOn(Twin& twin, Tally& tally) {
   const double before = WidthOf(twin.strategy->Recommend());
   const auto outlook = twin.strategy->Shortfall();
@@ -217,7 +239,12 @@ void GoOn(Twin& twin, Tally& tally) {
 
 void Calibrate(const Options& options, int instance, Tally& tally) {
   Twin twin(options, instance);
+  std::vector<Sight> sights;
   while (twin.spent < options.core_time) {
+    if (options.look && twin.told % kLook == 0 && twin.strategy->CanModel()) {
+      const optimizer::Answer seen = twin.strategy->Recommend();
+      sights.push_back({.spent = twin.spent, .volume = seen.posterior->region_volume});
+    }
     if (options.until_stop && twin.told % kLook == 0 && twin.strategy->WhyStop()) break;
     twin.SimulateOne();
   }
@@ -232,6 +259,11 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
       answer.posterior->experiments[0].implausibility, twin.told);
   for (const auto& [factor, seconds] : twin.spent_at) {
     std::printf(", %.1f s at %g", seconds, factor);
+  }
+  if (options.look) {
+    const double settled = SettledAt(sights, answer.posterior->region_volume);
+    std::printf(", within %g of its size after %.1f s", kWithin, settled);
+    tally.settled += settled;
   }
   std::printf("\n");
   tally.covered += standing->credible_level <= 0.9 ? 1 : 0;
@@ -259,6 +291,10 @@ int Main(int argc, char** argv) {
       tally.covered, count, tally.solved, tally.volume / count, tally.distance / count,
       tally.simulations / count, tally.core_time / count, tally.stopped,
       static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  if (options.look) {
+    std::printf("mean core time until within %g of the final size %.1f s\n", kWithin,
+                tally.settled / count);
+  }
   if (options.again) {
     std::printf("mean width after half as many again times %.3f, expected %.3f\n",
                 tally.width_then / count, tally.width_expected / count);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--parameters 2|3] [--runs N]
-[--diameter MM] [--mass G] [--model-error E] [--campaigns A,B,…] [--other-plate]: calibrates virtual powders whose
-true parameters are known.
+[--diameter MM] [--mass G] [--model-error E] [--campaigns A,B,…] [--other-plate] [--drawn N]: calibrates virtual
+powders whose true parameters are known.
 
 Each powder has sliding and rolling friction, with --parameters 3 surface energy (JKR), too, drawn at random in the
 searched ranges. Three heaps of it, or --runs, are simulated at true grain size with seeds of their own, and so are as
@@ -19,6 +19,9 @@ region's share of what is searched, the distance of the recommended set in width
 
 --model-error is the campaigns' posterior.model_error (1); 0 is true of these powders, as one engine made all heaps.
 
+--drawn draws heaps by a formula (drawn_heap.py) in place of simulating them: N of them a campaign and test, at true
+size, 0.1 s each with all that goes on round it. For what asks how campaigns hang together, not for grains.
+
 --other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: those with
 both tests should raise an alarm, and only they run.
 """
@@ -30,7 +33,8 @@ import random
 import numpy
 from PIL import Image
 
-from twin import credible_level, device, frame, run
+from drawn_heap import draw
+from twin import credible_level, device, drawn_engine, frame, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
@@ -40,6 +44,21 @@ MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.3
             "rolling_damping": 0.3}
 POWDER = {"material": MATERIAL, "sizes": {"kind": "mono"}}
 MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
+
+
+def simulated(options, case, place):
+    """The image of one heap, and the mass that falls [kg]."""
+    run(options.talus, "simulate", place.with_suffix(".json"), "--out", place)
+    return place / "profile.png", json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"]
+
+
+def drawn(options, case, place):
+    material = case["powder"]["material"]
+    plate = case["device"].get("plate_material", {}).get("sliding_friction", material["sliding_friction"])
+    draw({"surface_energy": 0, **{k: v for k, v in material.items() if not isinstance(v, str)}, "plate_friction": plate,
+          "plate_diameter": case["frame"]["width_px"] * 1e-4 / 1.2, "mass": 1e-3 * options.mass, "scale_factor": 1,
+          "seed": case["seed"]}, place)
+    return place / "heap.png", json.loads((place / "scalars.json").read_text())["mass_fallen_kg"]
 
 
 def measure(options, folder, truth, plate_mm, seed, plate=None):
@@ -53,9 +72,9 @@ def measure(options, folder, truth, plate_mm, seed, plate=None):
         place = folder / f"plate{plate_mm}_run{i + 1}"
         place.mkdir(parents=True, exist_ok=True)
         (folder / f"{place.name}.json").write_text(json.dumps(case))
-        run(options.talus, "simulate", folder / f"{place.name}.json", "--out", place)
-        images.append(numpy.asarray(Image.open(place / "profile.png"), dtype=float))
-        masses.append(json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"])
+        image, mass = (drawn if options.drawn else simulated)(options, case, place)
+        images.append(numpy.asarray(Image.open(image), dtype=float))
+        masses.append(mass)
     name = f"plate{plate_mm}.png"
     Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
     grain = MATERIAL["density"] * numpy.pi / 6 * (1e-3 * options.diameter) ** 3
@@ -70,6 +89,9 @@ def calibrate(options, folder, name, experiments, seed, truth):
             "parameters": {k: {"min": a, "max": b} for k, (a, b) in RANGES.items()},
             "budget": {"core_time": f"{options.core_time} s"}, "confirm": {"candidates": 0},
             "posterior": {"model_error": options.model_error}}
+    if options.drawn:
+        spec |= {"engine": drawn_engine(), "coarse_graining": {"scale_factor": 1}, "next": {"share": 0},
+                 "budget": {"simulations": options.drawn * len(experiments)}}
     (folder / f"{name}.json").write_text(json.dumps(spec))
     run(options.talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")
     result = json.loads((folder / name / "result.json").read_text())
@@ -95,6 +117,7 @@ def main():
     parser.add_argument("--model-error", type=float, default=1, metavar="E")
     parser.add_argument("--campaigns", default="heap,both")
     parser.add_argument("--other-plate", action="store_true")
+    parser.add_argument("--drawn", type=int, metavar="N")
     options = parser.parse_args()
     wanted = ["both"] if options.other_plate else options.campaigns.split(",")
     if options.parameters == 3:

@@ -1,5 +1,6 @@
 """What the benches on virtual powders have in common: the device of their heaps, the frame of their images, the program."""
 import json
+import pathlib
 import subprocess
 import sys
 
@@ -13,6 +14,13 @@ def frame(plate_mm, height=120):
     width = 12 * plate_mm
     return {"width_px": width, "height_px": height, "pixel_size": "0.1 mm", "center_x_px": width / 2,
             "baseline_px": 110, "plate_diameter": f"{plate_mm} mm"}
+
+
+def drawn_engine():
+    """The spec's engine where heaps are drawn, not simulated (drawn_heap.py)."""
+    here = pathlib.Path(__file__).resolve().parent
+    return {"kind": "command", "templates": str(here / "deck"), "result": "heap.png",
+            "command": ["/usr/bin/python3", str(here / "drawn_heap.py")]}
 
 
 def run(*command):

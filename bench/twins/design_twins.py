@@ -1,0 +1,64 @@
+#!/usr/bin/python3
+"""design_twins.py TALUS FOLDER: do campaigns leave the ranges that `talus design` expects before any test is made?
+
+FOLDER is that of dem_twins.py. For each of its powders a plan with both tests, as long as nothing is measured, says what
+they are expected to leave together; the campaign with both tests tells what they left. What a plan expects is the mean
+over all sets that are searched, the same for every powder but for its seed, and what one of them leaves may be far from
+it: the last line compares the means over all powders, too.
+"""
+import argparse
+import json
+import math
+import pathlib
+
+from twin import run
+
+WITHIN = 1.5
+KEYS = ("powder", "device", "models", "coarse_graining", "parameters", "posterior", "engine", "seed")
+
+
+def candidate(experiment):
+    test = {"name": experiment["name"], "runs": experiment["map_heaps"], "frame": experiment["frame"]}
+    if "device" in experiment:
+        test["device"] = experiment["device"]
+    if "mass_fallen" in experiment:
+        test["mass_fallen"] = {"sd": experiment["mass_fallen"]["sd"]}
+    return test
+
+
+def expected(options, twin):
+    """Widths of the joint 90 % ranges after both tests, in shares of the searched."""
+    spec = json.loads((twin / "both.json").read_text())
+    plan = {k: spec[k] for k in KEYS if k in spec}
+    plan["candidates"] = [candidate(e) for e in spec["experiments"]]
+    (twin / "plan.json").write_text(json.dumps(plan))
+    told = json.loads(run(options.talus, "design", twin / "plan.json", "--out", twin / "plan", "--json"))
+    return next(c["width_90"] for c in told["choices"] if len(c["tests"]) == len(plan["candidates"]))
+
+
+def realised(twin):
+    spec = json.loads((twin / "both.json").read_text())["parameters"]
+    return {p["name"]: (p["credible_90_high"] - p["credible_90_low"]) / (spec[p["name"]]["max"] - spec[p["name"]]["min"])
+            for p in json.loads((twin / "both" / "result.json").read_text())["parameters"]}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("talus")
+    parser.add_argument("folder", type=pathlib.Path)
+    options = parser.parse_args()
+    rows = []
+    for twin in sorted(options.folder.glob("twin??*")):
+        if not (twin / "both" / "result.json").exists():
+            continue
+        then, now = expected(options, twin), realised(twin)
+        ratio = math.prod(now[k] / then[k] for k in then) ** (1 / len(then))
+        rows.append((then, now, ratio))
+        print(f"{twin.name}: expected " + ", ".join(f"{k} {v:.3f}" for k, v in then.items()) + "; left "
+              + ", ".join(f"{k} {now[k]:.3f}" for k in then) + f"; ratio {ratio:.2f}", flush=True)
+    within = sum(1 / WITHIN <= ratio <= WITHIN for _, _, ratio in rows)
+    print(f"{len(rows)} powders: within a factor {WITHIN} in {within}; means left over means expected "
+          + ", ".join(f"{k} {sum(n[k] for _, n, _ in rows) / sum(t[k] for t, _, _ in rows):.2f}" for k in rows[0][0]))
+
+
+main()
