@@ -9,7 +9,8 @@ The table is tests/system/bad_inputs.txt: one row a case, with columns parted by
 FILE is a good input (below); the value at the PLACE in it is replaced by the JSON VALUE, or taken away
 by "PLACE -". Each EXPECTED must be in the message. A row "$ ARGUMENTS | EXPECTED | …" runs talus with
 these arguments instead, in a folder with good files; \\e in it is the escape character, and "done" a
-finished campaign, with other_powder.json beside it, the same spec with more powder.
+finished campaign, with other_powder.json beside it, the same spec with more powder. "learnt" is one with enough
+simulations for a posterior, which is the prior of learnt_denser.json and learnt_elsewhere.json.
 """
 import concurrent.futures
 import hashlib
@@ -125,6 +126,21 @@ def finished_campaign(folder):
     (folder / "other_powder.json").write_text(json.dumps(other))
     subprocess.run([TALUS, "calibrate", "begun.json", "--out", "done", "--quiet"], cwd=folder,
                    check=True)
+    return small
+
+
+def learnt_campaign(folder, small):
+    """What the rows call "learnt", and specs that it can be no prior of."""
+    enough = {**small, "budget": {"simulations": 14}}
+    (folder / "begun.json").write_text(json.dumps(enough))
+    subprocess.run([TALUS, "calibrate", "begun.json", "--out", "learnt", "--quiet"], cwd=folder, check=True)
+    prior = {"from": "learnt"}
+    material = {**small["powder"].get("material", {}), "density": "8000 kg/m^3"}
+    (folder / "learnt_denser.json").write_text(json.dumps(
+        {**small, "powder": {**small["powder"], "material": material},
+         "parameters": {**small["parameters"], "prior": prior}}))
+    (folder / "learnt_elsewhere.json").write_text(json.dumps(
+        {**small, "parameters": {"sliding_friction": {"min": 0.895, "max": 0.9}, "prior": prior}}))
 
 
 def replaced(root, place, value):
@@ -211,6 +227,10 @@ def check(row, done):
                 shutil.copytree(done / "done", folder / "done")
                 shutil.copytree(done / "heap_deck", folder / "heap_deck")
                 shutil.copy(done / "other_powder.json", folder)
+            if arguments and arguments[-1].startswith("learnt"):
+                for path in ("learnt", "heap_deck"):
+                    shutil.copytree(done / path, folder / path)
+                shutil.copy(done / arguments[-1], folder)
         else:
             change, expected = rest[0], rest[1:]
             content, arguments = GOOD[case]
@@ -253,7 +273,7 @@ def main():
     assert verbs <= tried, f"these verbs have no row: {verbs - tried}"
     with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
         done = pathlib.Path(name)
-        finished_campaign(done)
+        learnt_campaign(done, finished_campaign(done))
         faults = [fault for fault in pool.map(lambda row: check(row, done), rows) if fault]
     for fault in faults:
         print(fault)
