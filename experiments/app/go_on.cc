@@ -153,10 +153,11 @@ void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& op
       break;
   }
   PrintAnswer(*ended.answer, folder, tell);
-  if (IsWorthAdvice(ended)) PrintAdvice(ended, folder, tell);
+  // First, since a further test that depends on something unknown is worth less.
   if (ended.spec.budget.sensitivity_share > 0) {
     FindSensitivityWithin(ended.spec.budget.sensitivity_share, folder, tell);
   }
+  if (IsWorthAdvice(ended)) PrintAdvice(ended, folder, tell);
 }
 
 }  // namespace talus::app

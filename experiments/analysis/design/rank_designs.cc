@@ -35,7 +35,7 @@ NextCandidate TestOf(const Ground& ground, const TestCandidate& test,
       SimulateDesign(ground.view, test, {.draws = ground.draws, .size = kSimulations}, parts);
   candidate.num_made = design.num_simulations;
   candidate.core_time_made = design.core_time;
-  JudgeTest(ground, test, design, candidate);
+  JudgeTest(ground, {.test = test, .design = design, .unknown = {}}, candidate);
   return candidate;
 }
 

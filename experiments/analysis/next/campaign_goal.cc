@@ -59,11 +59,6 @@ PredictedCase ReadProcess(const campaign::JointView& plan) {
   return process;
 }
 
-Eigen::VectorXd PointOf(const DesignRecord& design, std::size_t index) {
-  const std::vector<double>& point = design.points[index];
-  return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
-}
-
 // Widths, and whether they are a reason to end the search.
 void Judge(const campaign::CampaignSpec& spec, const NumberSurrogate& surrogate,
            optimizer::PosteriorStrategy& strategy, Ground& ground, GoalState& state) {

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "base/text/counted.h"
+#include "base/text/number_text.h"
 #include "experiments/analysis/compare/heap_pair.h"
+#include "experiments/analysis/next/unknown_shift.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -87,6 +89,77 @@ Eigen::VectorXd VarianceOf(const Ground& ground, const optimizer::OutputPredicti
   return variance;
 }
 
+// Outputs of simulations of the test, one a row; NaN where a number is undefined.
+Eigen::MatrixXd RowsOf(const std::vector<DesignTrial>& trials, const Hypothetical& made,
+                       const optimizer::ExperimentModel& model) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(trials.size()), model.num_outputs());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    std::vector<float> field;
+    if (model.has_image()) field = made.reference.Field(trials[i].profile);
+    std::vector<double> scalars;
+    for (const optimizer::ScalarTarget& scalar : made.target.scalars) {
+      scalars.push_back(ScalarOf(trials[i], scalar.name));
+    }
+    rows.row(static_cast<Eigen::Index>(i)) = model.OutputsOf(field, scalars).transpose();
+  }
+  return rows;
+}
+
+// What moves the test, with δ of each.
+std::vector<Eigen::VectorXd> ShiftsOf(const SimulatedTest& simulated, const Hypothetical& made,
+                                      const optimizer::ExperimentModel& model,
+                                      NextCandidate& candidate) {
+  std::vector<Eigen::MatrixXd> sets{RowsOf(simulated.unknown.base, made, model)};
+  for (const MovedTest& moved : simulated.unknown.moved) {
+    sets.push_back(RowsOf(moved.trials, made, model));
+  }
+  const Eigen::VectorXd noise =
+      model.NoiseAt(simulated.design.scale_factor).cwiseMax(PooledVariance(sets));
+  const auto num_scalars = static_cast<Eigen::Index>(made.target.scalars.size());
+  std::vector<Eigen::VectorXd> shifts;
+  for (std::size_t m = 0; m < simulated.unknown.moved.size(); ++m) {
+    const Eigen::VectorXd shift = ShiftBeyondChance({.moved = sets[m + 1],
+                                                     .base = sets.front(),
+                                                     .noise = noise,
+                                                     .num_modes = noise.size() - num_scalars});
+    if (shift.isZero(0)) continue;
+    const MovedTest& moved = simulated.unknown.moved[m];
+    const Eigen::ArrayXd errors = candidate.predicted.variance.array();
+    candidate.unknowns.push_back({.name = moved.name,
+                                  .from = moved.from,
+                                  .to = moved.to,
+                                  .shift = std::sqrt((shift.array().square() / errors).sum())});
+    shifts.push_back(shift);
+  }
+  return shifts;
+}
+
+// "; 5.1 bits if what it depends on were known: restitution (0.6 in place of 0.9 shifts it by 6.2
+// of its errors)"
+std::string DiscountText(const NextCandidate& candidate) {
+  constexpr std::size_t kMost = 3;
+  std::string text = "; " + base::ShortNumber(*candidate.bits_if_known, 2) +
+                     " bits if what it depends on were known: ";
+  for (std::size_t i = 0; i < std::min(kMost, candidate.unknowns.size()); ++i) {
+    const NextUnknown& unknown = candidate.unknowns[i];
+    text += (i == 0 ? "" : ", ") + unknown.name + " (" + unknown.to + " in place of " +
+            unknown.from + " shifts it by " + base::ShortNumber(unknown.shift, 2) +
+            (i == 0 ? " of its errors)" : ")");
+  }
+  const std::size_t more = candidate.unknowns.size() - std::min(kMost, candidate.unknowns.size());
+  return text + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
+void Discount(const Ground& ground, const std::vector<Eigen::VectorXd>& shifts,
+              NextCandidate& candidate) {
+  if (shifts.empty()) return;
+  const optimizer::PredictedMeasurement less = WithShifts(candidate.predicted, shifts);
+  candidate.bits_if_known = candidate.learning->bits;
+  candidate.learning = ground.Learn(less.mean, less.variance);
+  std::ranges::stable_sort(candidate.unknowns, std::greater<>{}, &NextUnknown::shift);
+  candidate.what += DiscountText(candidate);
+}
+
 void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetical& made,
                const optimizer::ExperimentModel& model, NextCandidate& candidate) {
   const std::vector<Eigen::Index> pair{candidate.learning->first, candidate.learning->second};
@@ -121,8 +194,8 @@ ListedTest ListTest(const campaign::JointView& view, const TestCandidate& test) 
   return listed;
 }
 
-void JudgeTest(const Ground& ground, const TestCandidate& test, const TestDesign& design,
-               NextCandidate& candidate) {
+void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandidate& candidate) {
+  const auto& [test, design, unknown] = simulated;
   if (design.trials.size() < kFewest) {
     candidate.what += "; too few of its simulations succeeded";
     return;
@@ -141,6 +214,9 @@ void JudgeTest(const Ground& ground, const TestCandidate& test, const TestDesign
       .variance = VarianceOf(ground, at, test, design,
                              static_cast<Eigen::Index>(made.target.scalars.size()))};
   candidate.learning = ground.Learn(candidate.predicted.mean, candidate.predicted.variance);
+  if (!unknown.base.empty()) {
+    Discount(ground, ShiftsOf(simulated, made, model, candidate), candidate);
+  }
   TellApart(ground, test, made, model, candidate);
 }
 

@@ -4,6 +4,7 @@
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/next_table.h"
 #include "experiments/analysis/next/test_design.h"
+#include "experiments/analysis/next/unknown_moves.h"
 
 namespace talus::analysis {
 
@@ -15,9 +16,15 @@ struct ListedTest {
 };
 ListedTest ListTest(const campaign::JointView& view, const TestCandidate& test);
 
-// Fills in what is expected to be learnt and the two sets that the test tells apart best, and draws
-// their picture; says in `what` why it cannot.
-void JudgeTest(const Ground& ground, const TestCandidate& test, const TestDesign& design,
-               NextCandidate& candidate);
+// A test's simulations: its design, and those with one fixed thing moved; none where nothing was.
+struct SimulatedTest {
+  const TestCandidate& test;
+  const TestDesign& design;
+  const UnknownTrials& unknown;
+};
+
+// Fills in what is expected to be learnt, less what hangs on something unknown, and the two sets
+// that the test tells apart best, and draws their picture; says in `what` why it cannot.
+void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandidate& candidate);
 
 }  // namespace talus::analysis

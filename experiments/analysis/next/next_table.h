@@ -28,6 +28,14 @@ struct ToldApart {
   double second = 0;
 };
 
+// Something held fixed that a test depends on.
+struct NextUnknown {
+  std::string name;  // "restitution"
+  std::string from;  // for people, with its unit
+  std::string to;    // as it was moved
+  double shift = 0;  // of what the test shows, √(δᵀ C⁻¹ δ), in its errors [-]
+};
+
 struct NextCandidate {
   NextKind kind = NextKind::kTest;
   std::string name;
@@ -35,6 +43,8 @@ struct NextCandidate {
   // Not known where the test's design has not been simulated.
   std::optional<optimizer::ExpectedLearning> learning{};
   optimizer::PredictedMeasurement predicted{};  // of a test: what `learning` is of
+  std::vector<NextUnknown> unknowns{};          // of a test: what it is discounted for, most first
+  std::optional<double> bits_if_known{};        // without that discount
   int num_simulations = 0;  // that it will take, about, with those that are made
   int num_made = 0;         // of these, for its design
   double core_time = 0;     // of all these simulations [s]

@@ -55,6 +55,15 @@ std::string CostText(const NextCandidate& c) {
   return text + trials::DurationText(c.core_time) + " of core time";
 }
 
+// ", which depends on restitution, mass": what it was discounted for.
+std::string DependsText(const NextCandidate& c) {
+  std::string text;
+  for (const NextUnknown& unknown : c.unknowns) {
+    text += (text.empty() ? ", which depends on " : ", ") + unknown.name;
+  }
+  return text;
+}
+
 const char* KindName(NextKind kind) {
   switch (kind) {
     case NextKind::kMoreRuns:
@@ -143,7 +152,7 @@ std::string NextSummary(const NextTable& table) {
   for (const NextCandidate& c : table.candidates) {
     if (c.kind != NextKind::kTest || !c.learning || shown == kMost) continue;
     text += (shown++ == 0 ? "  further tests     " : "                    ") + c.name +
-            ": expected to leave " + WidthsText(table, c.learning->width) + "\n";
+            DependsText(c) + ": expected to leave " + WidthsText(table, c.learning->width) + "\n";
   }
   if (shown == 0) return "";
   return text + "                    (width of the joint 90 % ranges now: " +
@@ -177,6 +186,13 @@ std::string NextJson(const NextTable& table) {
                                      {"core_time_made_s", c.core_time_made}};
     candidate["bits"] = c.learning ? nlohmann::ordered_json(c.learning->bits) : nullptr;
     candidate["width_90"] = c.learning ? widths(c.learning->width) : nullptr;
+    if (c.bits_if_known) candidate["bits_if_known"] = *c.bits_if_known;
+    for (const NextUnknown& unknown : c.unknowns) {
+      candidate["depends_on"].push_back({{"name", unknown.name},
+                                         {"from", unknown.from},
+                                         {"to", unknown.to},
+                                         {"shift_in_errors", unknown.shift}});
+    }
     if (table.goal) {
       candidate["goal_half_width_90"] =
           c.learning ? nlohmann::ordered_json(c.learning->goal_half_width) : nullptr;

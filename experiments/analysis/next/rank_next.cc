@@ -11,6 +11,7 @@
 #include "experiments/analysis/next/judge_test.h"
 #include "experiments/analysis/next/known.h"
 #include "experiments/analysis/next/test_design.h"
+#include "experiments/analysis/next/unknown_moves.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -180,13 +181,56 @@ std::vector<Design> DesignsOf(const JointView& view, const NextOptions& options,
   return designs;
 }
 
-std::string CostText(const TestCandidate& test, const Design& design) {
-  const int made = design.stored ? design.stored->num_simulations : 0;
-  return test.name + ": " + base::Counted(kDesignSize - made, "simulation") + ", about " +
-         trials::DurationText(design.cost) + " of core time";
+std::string CostText(int count, double cost) {
+  return base::Counted(count, "simulation") + ", about " + trials::DurationText(cost) +
+         " of core time";
 }
 
-// Simulates the designs that the core time allows, and judges every test that has one.
+// Simulates the designs that the core time allows, the cheapest first; takes away what that took.
+void SimulateDesigns(const Ground& ground, const NextOptions& options, std::vector<Design>& designs,
+                     double& left) {
+  for (Design& design : designs) {
+    if (!options.simulate || !(design.cost > 0) || design.cost > left) continue;
+    const TestCandidate& test = options.tests[design.candidate];
+    const int made = design.stored ? design.stored->num_simulations : 0;
+    options.say(test.name + ": " + CostText(kDesignSize - made, design.cost));
+    const double before = design.stored ? design.stored->core_time : 0;
+    design.stored = SimulateDesign(ground.view, test, {.draws = ground.draws}, options.parts);
+    left -= design.stored->core_time - before;
+  }
+}
+
+std::string NamesOf(const std::vector<Move>& moves) {
+  std::string names;
+  for (const Move& move : moves) names += (names.empty() ? "" : ", ") + move.name;
+  return names;
+}
+
+// A test's simulations with what is unknown moved, made where the core time left allows it; without
+// all of them none count, and the candidate says so.
+UnknownTrials UnknownsOf(const JointView& view, const NextOptions& options, const Design& design,
+                         Cost& cost, double& left, NextCandidate& candidate) {
+  const TestCandidate& test = options.tests[design.candidate];
+  const std::vector<Move> moves = UnknownMoves(view, test, *design.stored);
+  const MovedDesign moved{.test = test, .design = *design.stored, .moves = moves};
+  UnknownTrials trials = StoredUnknowns(view, moved, *options.parts.engine);
+  if (trials.num_missing == 0) return trials;
+  const double factor = design.stored->scale_factor;
+  const double needed =
+      trials.num_missing * cost.OfOne(0, factor) * RelativeCost(view, test, factor);
+  const std::string text = CostText(trials.num_missing, needed);
+  if (!options.simulate || needed > left) {
+    candidate.what += "; what it owes to " + NamesOf(moves) + " is judged by " + text;
+    return {};
+  }
+  options.say(test.name + ", with " + NamesOf(moves) + " moved: " + text);
+  const double before = trials.core_time;
+  trials = SimulateUnknowns(view, moved, options.parts);
+  left -= trials.core_time - before;
+  return trials;
+}
+
+// Simulates what the core time allows, and judges every test that has a design.
 std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& options,
                                       Cost& cost) {
   const JointView& view = ground.view;
@@ -195,14 +239,10 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
     candidates.push_back(CandidateOf(view, test, cost));
   }
   double left = options.core_time;
-  for (Design& design : DesignsOf(view, options, candidates, cost)) {
+  std::vector<Design> designs = DesignsOf(view, options, candidates, cost);
+  SimulateDesigns(ground, options, designs, left);
+  for (const Design& design : designs) {
     const TestCandidate& test = options.tests[design.candidate];
-    if (options.simulate && design.cost > 0 && design.cost <= left) {
-      options.say(CostText(test, design));
-      const double before = design.stored ? design.stored->core_time : 0;
-      design.stored = SimulateDesign(view, test, {.draws = ground.draws}, options.parts);
-      left -= design.stored->core_time - before;
-    }
     NextCandidate& candidate = candidates[design.candidate];
     if (!design.stored) {
       candidate.what += ", judged by " + base::Counted(kDesignSize, "coarse simulation") + " of " +
@@ -211,7 +251,8 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
     }
     candidate.num_made = design.stored->num_simulations;
     candidate.core_time_made = design.stored->core_time;
-    JudgeTest(ground, test, *design.stored, candidate);
+    const UnknownTrials unknown = UnknownsOf(view, options, design, cost, left, candidate);
+    JudgeTest(ground, {.test = test, .design = *design.stored, .unknown = unknown}, candidate);
   }
   return candidates;
 }

@@ -1,5 +1,6 @@
 #include "experiments/analysis/next/test_design.h"
 
+#include <limits>
 #include <string>
 
 #include "base/error.h"
@@ -8,7 +9,6 @@
 #include "base/json/json_writer.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/campaign/folder/design_folder.h"
-#include "experiments/campaign/run_cases.h"
 
 namespace talus::analysis {
 namespace {
@@ -36,13 +36,25 @@ std::vector<std::vector<double>> PointsOf(const DesignPlace& place) {
   return points;
 }
 
+Eigen::VectorXd MiddleOf(const campaign::DesignRecord& record) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(PointOf(record, 0).size());
+  for (std::size_t i = 0; i < record.points.size(); ++i) mean += PointOf(record, i);
+  mean /= static_cast<double>(record.points.size());
+  Eigen::VectorXd middle;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    const double distance = (PointOf(record, i) - mean).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    middle = PointOf(record, i);
+  }
+  return middle;
+}
+
 rigs::Case CaseAt(const campaign::JointView& view, const TestCandidate& test,
                   const campaign::DesignRecord& record, std::size_t index) {
-  const std::vector<double>& point = record.points[index];
-  const Eigen::VectorXd unit =
-      Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
   return campaign::CaseOf(SpecOf(view, test),
-                          {.values = view.space.ToNative(unit),
+                          {.values = view.space.ToNative(PointOf(record, index)),
                            .seed = campaign::DesignSeed(view.spec.seed, index),
                            .scale_factor = record.scale_factor},
                           FrameOf(view, test));
@@ -60,21 +72,16 @@ std::optional<campaign::DesignRecord> ReadRecord(const campaign::JointView& view
 
 TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
                    const campaign::DesignRecord& record, trials::TrialEngine& engine) {
-  TestDesign design{.scale_factor = record.scale_factor, .frame = FrameOf(view, test)};
+  TestDesign design{.scale_factor = record.scale_factor,
+                    .middle = MiddleOf(record),
+                    .frame = FrameOf(view, test)};
   for (std::size_t i = 0; i < record.points.size(); ++i) {
-    const fs::path folder = FolderOf(view, test).trial(i);
-    if (!engine.IsComplete(folder)) continue;
+    const campaign::FolderCase at{.folder = FolderOf(view, test).trial(i),
+                                  .rig_case = CaseAt(view, test, record, i)};
+    if (!engine.IsComplete(at.folder)) continue;
     ++design.num_simulations;
-    try {
-      trials::TrialOutput output = engine.Collect(CaseAt(view, test, record, i), folder);
-      design.core_time += output.cpu_time;
-      design.trials.push_back(
-          {.point = Eigen::Map<const Eigen::VectorXd>(
-               record.points[i].data(), static_cast<Eigen::Index>(record.points[i].size())),
-           .profile = std::move(output.profile),
-           .scalars = std::move(output.scalars)});
-    } catch (const base::Error&) {
-      continue;  // it failed, and says nothing
+    if (auto trial = CollectTrial(engine, at, PointOf(record, i), design.core_time)) {
+      design.trials.push_back(std::move(*trial));
     }
   }
   return design;
@@ -95,6 +102,18 @@ void Simulate(const campaign::JointView& view, const TestCandidate& test,
 }
 
 }  // namespace
+
+std::optional<DesignTrial> CollectTrial(trials::TrialEngine& engine, const campaign::FolderCase& at,
+                                        const Eigen::VectorXd& point, double& core_time) {
+  try {
+    trials::TrialOutput output = engine.Collect(at.rig_case, at.folder);
+    core_time += output.cpu_time;
+    return DesignTrial{
+        .point = point, .profile = std::move(output.profile), .scalars = std::move(output.scalars)};
+  } catch (const base::Error&) {
+    return std::nullopt;  // it failed, and says nothing
+  }
+}
 
 std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const TestCandidate& test,
                                        trials::TrialEngine& engine) {

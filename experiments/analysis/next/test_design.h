@@ -8,6 +8,7 @@
 
 #include "experiments/analysis/next/test_candidate.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/run_cases.h"
 #include "experiments/journal/records.h"
 #include "imaging/gray_image.h"
 
@@ -23,6 +24,7 @@ struct DesignTrial {
 
 struct TestDesign {
   double scale_factor = 1;
+  Eigen::VectorXd middle{};  // the point nearest to the mean of all, unit cube
   std::optional<imaging::Frame> frame{};
   std::vector<DesignTrial> trials{};  // those that succeeded
   int num_simulations = 0;            // that have ended
@@ -32,6 +34,10 @@ struct TestDesign {
 // The design that was made; nothing where none was, or one of another device.
 std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const TestCandidate& test,
                                        trials::TrialEngine& engine);
+
+// What a simulation of a set has shown; nothing where it failed. Adds what it took [s].
+std::optional<DesignTrial> CollectTrial(trials::TrialEngine& engine, const campaign::FolderCase& at,
+                                        const Eigen::VectorXd& point, double& core_time);
 
 // Where a design's points lie.
 struct DesignPlace {

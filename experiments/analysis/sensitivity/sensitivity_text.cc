@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/files/file.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
+#include "experiments/journal/record_json.h"
 #include "experiments/trials/simulate/run_log.h"
 
 namespace talus::analysis {
@@ -111,6 +113,17 @@ std::string SensitivityText(const SensitivityTable& table) {
 
 std::filesystem::path SensitivityFile(const std::filesystem::path& campaign) {
   return campaign / "sensitivity.json";
+}
+
+std::optional<SensitivityTable> LoadSensitivity(const std::filesystem::path& campaign) {
+  const std::filesystem::path path = SensitivityFile(campaign);
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    return journal::ParseRecord<SensitivityTable>(base::ReadFile(path), path.string());
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(std::string(error.what()) +
+                            "\nrun `talus sensitivity` again, or remove the file");
+  }
 }
 
 void WriteSensitivity(const SensitivityTable& table, const std::filesystem::path& campaign) {

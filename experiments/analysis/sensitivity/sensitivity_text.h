@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ std::string SensitivityText(const SensitivityTable& table);
 
 // DIR/sensitivity.json.
 std::filesystem::path SensitivityFile(const std::filesystem::path& campaign);
+// Nothing where `talus sensitivity` has not been run. Throws ConfigError on a damaged file.
+std::optional<SensitivityTable> LoadSensitivity(const std::filesystem::path& campaign);
 void WriteSensitivity(const SensitivityTable& table, const std::filesystem::path& campaign);
 
 }  // namespace talus::analysis

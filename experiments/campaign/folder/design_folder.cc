@@ -14,6 +14,11 @@ constexpr const char* kRecord = "design.json";
 
 }  // namespace
 
+Eigen::VectorXd PointOf(const DesignRecord& record, std::size_t index) {
+  const std::vector<double>& point = record.points[index];
+  return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+}
+
 fs::path DesignFolder::trial(std::size_t index) const {
   return root / "trials" / base::FileNumber(static_cast<std::int64_t>(index) + 1);
 }

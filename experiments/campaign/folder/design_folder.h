@@ -3,6 +3,7 @@
 // them over once the test is made.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -31,6 +32,9 @@ struct DesignRecord {
     visit("points", self.points);
   }
 };
+
+// Where a simulation lies, unit cube.
+Eigen::VectorXd PointOf(const DesignRecord& record, std::size_t index);
 
 struct DesignFolder {
   std::filesystem::path root;

@@ -1,0 +1,92 @@
+#include "experiments/analysis/next/unknown_shift.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace talus::analysis {
+namespace {
+
+// Of an output, over the rows that have it.
+struct ColumnMean {
+  double value = 0;
+  double count = 0;
+};
+
+ColumnMean MeanOfColumn(const Eigen::MatrixXd& rows, Eigen::Index k) {
+  ColumnMean mean;
+  for (const double value : rows.col(k)) {
+    if (!std::isfinite(value)) continue;
+    mean.value += value;
+    ++mean.count;
+  }
+  if (mean.count > 0) mean.value /= mean.count;
+  return mean;
+}
+
+// The 99.9 % quantile of χ² with so many degrees of freedom, by Wilson and Hilferty.
+double MostByChance(double degrees) {
+  constexpr double kQuantile = 3.0902;  // of a standard normal
+  const double share = 2 / (9 * degrees);
+  return degrees * std::pow(1 - share + kQuantile * std::sqrt(share), 3);
+}
+
+// Draws in, or takes back, the shift of outputs that are judged together.
+void JudgeTogether(const Eigen::VectorXd& by_chance, Eigen::Ref<Eigen::VectorXd> shift) {
+  double chi_square = 0;
+  double degrees = 0;
+  for (Eigen::Index k = 0; k < shift.size(); ++k) {
+    if (!(by_chance[k] > 0)) continue;
+    chi_square += shift[k] * shift[k] / by_chance[k];
+    ++degrees;
+  }
+  const bool is_chance = degrees == 0 || chi_square <= MostByChance(degrees);
+  shift *= is_chance ? 0 : std::sqrt(1 - degrees / chi_square);
+}
+
+}  // namespace
+
+Eigen::VectorXd PooledVariance(const std::vector<Eigen::MatrixXd>& sets) {
+  const Eigen::Index num_outputs = sets.front().cols();
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(num_outputs);
+  Eigen::VectorXd degrees = Eigen::VectorXd::Zero(num_outputs);
+  for (const Eigen::MatrixXd& rows : sets) {
+    for (Eigen::Index k = 0; k < num_outputs; ++k) {
+      const ColumnMean mean = MeanOfColumn(rows, k);
+      for (const double value : rows.col(k)) {
+        if (std::isfinite(value)) squares[k] += (value - mean.value) * (value - mean.value);
+      }
+      degrees[k] += std::max(0.0, mean.count - 1);
+    }
+  }
+  return squares.cwiseQuotient(degrees.cwiseMax(1));
+}
+
+Eigen::VectorXd ShiftBeyondChance(const MovedRows& rows) {
+  const Eigen::Index num_outputs = rows.noise.size();
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(num_outputs);
+  Eigen::VectorXd by_chance = Eigen::VectorXd::Zero(num_outputs);
+  for (Eigen::Index k = 0; k < num_outputs; ++k) {
+    const ColumnMean with = MeanOfColumn(rows.moved, k);
+    const ColumnMean without = MeanOfColumn(rows.base, k);
+    if (with.count == 0 || without.count == 0) continue;
+    shift[k] = with.value - without.value;
+    by_chance[k] = rows.noise[k] * (1 / with.count + 1 / without.count);
+  }
+  JudgeTogether(by_chance.head(rows.num_modes), shift.head(rows.num_modes));
+  for (Eigen::Index k = rows.num_modes; k < num_outputs; ++k) {
+    JudgeTogether(by_chance.segment(k, 1), shift.segment(k, 1));
+  }
+  return shift;
+}
+
+optimizer::PredictedMeasurement WithShifts(const optimizer::PredictedMeasurement& predicted,
+                                           const std::vector<Eigen::VectorXd>& shifts) {
+  Eigen::MatrixXd errors = predicted.variance.asDiagonal();
+  for (const Eigen::VectorXd& shift : shifts) errors += shift * shift.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> root(errors);
+  return {.mean = root.matrixL().solve(predicted.mean.transpose()).transpose(),
+          .variance = Eigen::VectorXd::Ones(predicted.variance.size())};
+}
+
+}  // namespace talus::analysis
