@@ -72,11 +72,12 @@ TEST_F(UnknownsTest, ATestThatDependsOnTheRestitutionLosesBitsAndAnotherKeepsThe
   const NextTable after = Rank(view, true);
   const NextCandidate& heap = Find(after, "again");
   EXPECT_EQ(*heap.bits_if_known, Find(before, "again").learning->bits);
-  EXPECT_LT(heap.learning->bits, 0.8 * *heap.bits_if_known);
+  EXPECT_LT(heap.learning->bits, *heap.bits_if_known - 1);
   // 0.06 of slope, where one coarse heap scatters by 0.01 and three true ones with a model error as
-  // large by 0.01 √(4/3 / 8): 15 errors. Four and eight heaps leave that to 0.006.
+  // large by 0.01 √(4/3 / 8): 15 errors of a slope, and more where an image has modes that scatter
+  // less. Four and eight heaps leave it to 0.006, two errors.
   ASSERT_EQ(heap.unknowns.size(), 1u);
-  EXPECT_NEAR(heap.unknowns[0].shift, 15, 5);
+  EXPECT_GT(heap.unknowns[0].shift, 13);
   // The slope tells μ_r: of that range more is left.
   EXPECT_GT(heap.learning->width[1], Find(before, "again").learning->width[1]);
   EXPECT_THAT(NextText(after), HasSubstr("bits if what it depends on were known: restitution (0.6 "
