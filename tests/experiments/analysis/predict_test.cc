@@ -341,7 +341,7 @@ TEST_F(PredictTest, WhatTheCoreTimeAffordsIsSimulatedFiner) {
   EXPECT_EQ(stages[1].scale_factor, 1);
   EXPECT_EQ(stages[1].num_draws, 6);
   EXPECT_EQ(RunsOf(stages, 12).size(), 42u);
-  EXPECT_EQ(RunsOf(stages, 5).size(), 20u);  // where only five sets differ
+  EXPECT_EQ(RunsOf(stages, 5).size(), 20u);     // where only five sets differ
   wanted.core_time = 36 * coarse + 3.5 * fine;  // fewer than four show nothing
   EXPECT_EQ(PlanStages(*view_, taps, wanted).size(), 1u);
   // One that is stated stands alone.
