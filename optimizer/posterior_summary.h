@@ -51,8 +51,8 @@ struct Standing {
 // What knowing a nuisance would change.
 struct NuisanceWeight {
   Eigen::Index coordinate = 0;
-  double narrowing =
-      0;  // of the asked parameter's range that it would narrow most: sample_statistics.h
+  // Share of the asked parameter's range that it would narrow most: sample_statistics.h.
+  double narrowing = 0;
   Eigen::Index other = 0;  // the coordinate of that parameter
 };
 

@@ -68,7 +68,7 @@ Match MatchOf(const Reuser& reuser, const NewExperiment& experiment, const Forme
   return {.why_not = "the folders of its simulations are empty or gone"};
 }
 
-// Of the spec, to the last bit; the scale factor itself where it is none of them.
+// The level of the spec to the last bit; the scale factor itself where it is none of them.
 double LevelNear(const CampaignSpec& spec, double scale_factor) {
   constexpr double kRounding = 1e-9;
   for (const double level : spec.coarse_graining.Levels()) {

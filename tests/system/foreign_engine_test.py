@@ -35,7 +35,7 @@ def cheap(folder):
     spec["powder"]["material"]["youngs_modulus"] = "5 MPa"
     spec["device"]["lift_velocity"] = "200 mm/s"
     spec["rules"] = {"settling": {"max_time": "0.05 s"}, "heap": {"max_time": "0.1 s"}}
-    # Of the ranges the half in which so few, large grains stay on the plate as a heap.
+    # In this half of the ranges so few, large grains stay on the plate as a heap.
     spec["parameters"]["sliding_friction"]["min"] = 0.5
     spec["parameters"]["rolling_friction"]["min"] = 0.2
     spec["strategy"] = {"kind": "sobol", "num_points": 8}

@@ -41,7 +41,8 @@ SPEC = {
     "strategy": {"kind": "sobol", "num_points": 2}, "workers": 1,
     "budget": {"simulations": 2}, "noise": {"replicates": 0}, "confirm": {"candidates": 0},
 }
-# Of images alone, with a posterior: it can be asked what to do next, and take a further test.
+# A campaign of images alone, with a posterior: it can be asked what to do next, and take a
+# further test.
 LEARNING = {**SPEC, "strategy": {"kind": "auto"}, "budget": {"simulations": 8},
             "coarse_graining": {"scale_factors": [1.5]}}
 FURTHER = {"name": "plate", "mass_fallen": {"value": "300 mg", "sd": "50 mg"}}

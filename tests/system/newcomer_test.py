@@ -88,7 +88,7 @@ class TubeAndDrum(unittest.TestCase):
         told = re.findall(r"(?:further tests)? {5,}(\S.*): expected to leave", self.terminal)
         self.assertEqual(told, [c["name"] for c in tests[:3]])
 
-    # Of the mean heap, which is what the model predicts: single runs lie farther off and are told as such only.
+    # The figure is the mean heap's, which the model predicts: single runs lie farther off and are told as such only.
     def test_the_confirmed_figure_is_the_same_everywhere(self):
         confirmed = self.result["confirmed"][0]["experiments"][0]["mean_profile_sad_mm2"]
         self.assertIn(f", confirmed {confirmed:.4g} mm²", self.terminal)

@@ -83,7 +83,7 @@ std::string LammpsTube(const Card& card, const CardTest& test) {
          WallLaw(card, "plate" + mark, test.plate) + "\n";
 }
 
-// Of rigs other than the lifted tube the laws of their walls.
+// Rigs other than the lifted tube have the laws of their walls alone.
 std::string LammpsWalls(const Card& card) {
   std::string text;
   for (const CardTest& test : card.tests) {

@@ -7,7 +7,7 @@
 namespace talus::analysis {
 namespace {
 
-// Of an output, over the rows that have it.
+// The mean of an output over the rows that have it.
 struct ColumnMean {
   double value = 0;
   double count = 0;

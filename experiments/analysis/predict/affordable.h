@@ -18,7 +18,7 @@ struct RunBudget {
 // Those that the campaign simulates and the one that it answers for, the coarsest first.
 std::vector<double> ScaleFactorsOf(const campaign::JointView& view);
 
-// Of one simulation [core s].
+// What one simulation takes [core s].
 double CoreSecondsAt(const campaign::JointView& view, rigs::Case rig_case, double scale_factor);
 
 // Whether the vessel has room for grains so coarse.

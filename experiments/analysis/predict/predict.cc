@@ -116,7 +116,7 @@ class Predictor {
 
  private:
   double CoreTime() const { return options_.core_time.value_or(PredictOptions::kUsualTime); }
-  // Of the runs that every draw has, with several seeds.
+  // What the runs that every draw has may take, where a draw has several seeds.
   double StageTime() const {
     constexpr double kShare = 0.6;
     return (num_draws_ > 1 ? kShare : 1) * CoreTime();

@@ -62,7 +62,7 @@ struct PredictedNumber {
   std::optional<PredictedSurrogate> surrogate{};  // none: too few draws to stand on
   std::optional<MeasuredThere> measured{};
 
-  // Of a single run, as far as it is known where it comes from.
+  // The variance of a single run, as far as it is known where it comes from.
   double Variance() const {
     const double by_surrogate = surrogate && surrogate->is_used ? surrogate->sd : 0;
     return parameters_sd * parameters_sd + by_surrogate * by_surrogate + run_sd * run_sd;

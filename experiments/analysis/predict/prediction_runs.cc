@@ -24,7 +24,7 @@ double MeanOfRuns(const std::vector<double>& values) {
                               static_cast<double>(values.size());
 }
 
-// Of the mean that a draw's runs, or a surrogate in their place, say it has.
+// The error of the mean that a draw's runs, or a surrogate in their place, say it has.
 double MeanSd(const PredictedNumber& predicted, const Spread& spread, int num_seeds) {
   if (predicted.surrogate && predicted.surrogate->is_used) return spread.surrogate_sd();
   return std::isnan(spread.run_sd()) ? 0 : spread.run_sd() / std::sqrt(num_seeds);

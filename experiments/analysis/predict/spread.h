@@ -37,7 +37,7 @@ class Spread {
   double parameters_sd() const { return parameters_sd_; }
   // NaN where no draw has two runs: all of it then counts as the parameters'.
   double run_sd() const { return run_sd_; }
-  // Of what the surrogate gives for a set [rms]; 0 without one.
+  // The error of what the surrogate gives for a set [rms]; 0 without one.
   double surrogate_sd() const { return surrogate_sd_; }
   // Share of the variance of a single run, in [0, 1]; NaN where the two cannot be told apart.
   double ParametersShare() const;

@@ -155,8 +155,8 @@ class MadeUpProcess {
   std::optional<Spread> spread_;
 };
 
-// Of 150 such processes; a standard error is 2.5 %. The draws at scale factor 2 alone scatter more
-// and do not know the shift.
+// The share among 150 such processes has a standard error of 2.5 %. The draws at scale factor 2
+// alone scatter more and do not know the shift.
 TEST(Surrogate, NinetyPerCentHoldTheNextRunAtAScaleFactorThatNobodySimulated) {
   int inside = 0;
   double width = 0;

@@ -288,8 +288,8 @@ TEST(LiftedTube, AFunnelThatWouldPourForHoursIsRefused) {
   EXPECT_THAT(problems.list().front().message, ::testing::HasSubstr("raise it to"));
 }
 
-// Of hard grains, which the floor does not stop. The bed leapt out of its tube, and a heap of
-// nothing was called done; thousands of taps went on for hours.
+// The floor does not stop hard grains. Their bed leapt out of its tube, and a heap of nothing was
+// called done; thousands of taps went on for hours.
 TEST(LiftedTube, TapsThatNoDeviceMakesAreRefused) {
   Case c = Poured(0.5, 0.2);
   c.filling = {};

@@ -29,7 +29,7 @@ WidthView Stated(const Evidence& evidence) {
   return view;
 }
 
-// Of the draws inside the region, from the first to the last.
+// How far the draws inside the region reach.
 WidthView Shadow(const Evidence& evidence) {
   WidthView view = Empty(evidence, "Shadow of the region",
                          "from end to end of the joint 90 % region, whatever the others are; what "

@@ -163,7 +163,7 @@ function marginalChart(marginal, k) {
   }), "small").figure;
 }
 
-// Of the edges of cells the first and the last to show: the region with some room, not all that was searched.
+// The first and the last edge of cells to show: the region with some room, not all that was searched.
 function zoomed(inside, edges) {
   const cells = inside.map((some, k) => some ? k : -1).filter((k) => k >= 0);
   if (!cells.length) return {};
