@@ -192,10 +192,9 @@ ListedTest ListTest(const campaign::JointView& view, const TestCandidate& test) 
   listed.candidate.what = listed.can_simulate ? "carry it out in " + base::Counted(test.runs, "run")
                                               : "cannot be simulated: " + why;
   if (listed.can_simulate && view.spec.HasOwnProposer()) {
-    listed.candidate.what +=
-        ", in a campaign of its own: one of the strategy \"" +
-        std::string(base::NameOf(view.spec.strategy.kind)) +
-        "\" takes no further test, and `talus calibrate SPEC --reuse DIR` uses its simulations";
+    listed.candidate.what += " in a new campaign (--reuse): one of \"" +
+                             std::string(base::NameOf(view.spec.strategy.kind)) +
+                             "\" takes no further test";
   }
   return listed;
 }
