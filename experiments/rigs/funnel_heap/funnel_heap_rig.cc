@@ -31,7 +31,8 @@ Vessel FunnelHeapRig::VesselOf(const Case& c) {
   return {.region = region,
           .area = region.Area(),
           .across = diameter,
-          .funnel = Funnel{.height = options.height, .outlet = options.outlet}};
+          .funnel = Funnel{
+              .height = options.height, .outlet = options.outlet, .follows = options.follows}};
 }
 
 std::vector<engine::Wall> FunnelHeapRig::Walls(const Case& c, double) {
