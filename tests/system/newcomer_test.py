@@ -76,7 +76,7 @@ class TubeAndDrum(unittest.TestCase):
         self.assertRegex(self.terminal, r"heap at scale factor 1: [\d.]+ mm², mass fallen [\d.]+ mg, ")
         self.assertNotIn("not defined", self.terminal)
 
-    # Issued without being asked, for a fifth of the core time; a line for each and none of what would not help.
+    # Without being asked, within the share of the core time that the spec allows.
     def test_a_campaign_that_leaves_a_curve_looks_into_further_tests(self):
         self.assertIn(self.result["verdict"]["kind"], ("curve", "region"))
         self.assertRegex(self.terminal, r"looks into further tests for at most \d+ s of core time \(the spec's next\.share\)")
