@@ -42,13 +42,13 @@ def tube_and_drum(talus, folder):
     spec = {
         "name": "tube and drum",
         "experiments": [
-            {"name": "heap", "runs": runs, "plate_diameter": "10 mm", "frame": frame, "mass_fallen": {"values": fallen}},
+            {"name": "heap", "runs": runs, "plate_diameter": "10 mm", "frame": frame, "mass_fallen": {"value": sum(fallen) / len(fallen), "sd": "10 mg"}},
             {"name": "mixer", "rig": {"kind": "drum", "diameter": "16 mm", "width": "5 mm", "speed": "60 rpm",
                                       "start_turns": 0.2, "turns": 0.25},
-             "mass": "0.6 g", "angle": {"value": "42 deg", "sd": "1.5 deg"}}],
+             "mass": "0.6 g", "angle": {"value": "43 deg", "sd": "2 deg"}}],
         "powder": powder, "device": device,
         "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}, "rolling_friction": {"min": 0.02, "max": 0.6}},
-        "budget": {"simulations": 26}, "confirm": {"replicates": 2}, "seed": 3}
+        "budget": {"simulations": 26}, "confirm": {"replicates": 2}, "next": {"share": 0.6}, "seed": 3}
     (folder / "spec.json").write_text(json.dumps(spec))
     ended = subprocess.run([talus, "calibrate", folder / "spec.json", "--out", folder / "run"], capture_output=True, text=True)
     assert ended.returncode == 0, ended.stdout + ended.stderr
