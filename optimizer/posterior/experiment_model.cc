@@ -13,10 +13,11 @@ double CompressionSlope(const ScalarTarget& target) {
   return 1 / std::sqrt(scale * scale + target.value * target.value);
 }
 
+constexpr double kOfMany = 2;  // SurrogateCaution of many evaluations
+
 }  // namespace
 
 double SurrogateCaution(double num_finest) {
-  constexpr double kOfMany = 2;
   constexpr double kFew = 15;  // evaluations of which the variance counts twice
   return kOfMany * std::sqrt(1 + kFew / std::max(1.0, num_finest));
 }
@@ -157,7 +158,7 @@ double ExperimentModel::Misfit(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd ExperimentModel::SquaredMisfit(const Eigen::MatrixXd& points) const {
-  return MisfitOf(Outputs(points), 1, OpenWith(setup_.model_error))
+  return MisfitOf(Outputs(points), caution_ / kOfMany, OpenWith(setup_.model_error))
       .residual.rowwise()
       .squaredNorm();
 }

@@ -84,8 +84,8 @@ class ExperimentModel {
   //
   // The larger of √(mean squared residual) over the image's modes and each scalar's |residual|.
   double Misfit(const Eigen::VectorXd& x) const;
-  // Sum of the squared residuals of all outputs, one point a row; without caution: a region may be
-  // too wide, but no disagreement may hide in that.
+  // Sum of the squared residuals of all outputs, one point a row; with the caution that is due to
+  // few evaluations alone: a region may be too wide, but no disagreement may hide in that.
   Eigen::VectorXd SquaredMisfit(const Eigen::MatrixXd& points) const;
 
   // As OutputModel's.

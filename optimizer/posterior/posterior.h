@@ -42,7 +42,8 @@ class Posterior {
 
   // Misfit of an experiment over √T at x [standard deviations].
   double Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const;
-  // Σ r² of an experiment over T, one point a row, without the surrogate's caution.
+  // Σ r² of an experiment over T, one point a row, with no more of the surrogate's caution
+  // than is due to few evaluations.
   Eigen::VectorXd SquaredMisfit(std::size_t experiment, const Eigen::MatrixXd& points) const;
   // Where each experiment stands at x.
   std::vector<ExperimentStanding> StandingsAt(const Eigen::VectorXd& x) const;

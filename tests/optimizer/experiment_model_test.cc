@@ -73,5 +73,26 @@ TEST(ExperimentModel, KnowsTheNoiseOfEveryMode) {
   for (const double mode : log_ratio) EXPECT_NEAR(mode, 0, 0.35);
 }
 
+// Many coarse evaluations and one at the target: what a number is there hangs on the discrepancy. A
+// tension that counts the surrogate's variance as it is, in place of the 16 times that one
+// evaluation is good for, is off by a factor of up to 64 from the misfit.
+TEST(ExperimentModel, OneFineEvaluationIsNoGroundForATension) {
+  const Levels levels({2, 1}, 0);
+  const ExperimentTarget target{.name = "box", .scalars = {{"angle_deg", 30, 0.01}}};
+  OutputData data;
+  for (int i = 0; i < 16; ++i) {
+    const double u = (i + 0.5) / 16;
+    data.points.push_back(Eigen::VectorXd::Constant(1, u));
+    data.level.push_back(i == 8 ? 1 : 0);
+    data.scalars.push_back({20 + 8 * u + (i == 8 ? 3 : 0)});
+  }
+  const ExperimentModel model({.target = &target, .code = nullptr, .levels = &levels}, data,
+                              nullptr);
+  const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, 0.1);
+  const double squared = std::pow(model.Misfit(at), 2);
+  ASSERT_GT(squared, 0);
+  EXPECT_LE(model.SquaredMisfit(at.transpose())[0], 4 * squared * (1 + 1e-9));
+}
+
 }  // namespace experiment_model_test
 }  // namespace talus::optimizer
