@@ -3,7 +3,6 @@
 // both made binary (powder where any picture of the series has it), closed over 7 px, inside 0.775
 // of the drum's radius. The photograph's drum fills the picture. The overlay shows powder of both
 // grey, of the photograph alone blue, of the simulation alone red.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -13,6 +12,7 @@
 #include "base/json/json_reader.h"
 #include "imaging/color_image.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/heap/closing.h"
 #include "imaging/heap/profile.h"
 
 namespace {
@@ -22,31 +22,6 @@ using namespace talus;
 constexpr int kLight = 225;          // a pixel of the average that is darker was powder once
 constexpr int kReach = 3;            // of the closing: 7 px wide
 constexpr double kCounts = 0.77460;  // √0.6 of the radius
-
-// Smallest (darkest) or largest level within the reach; pixels outside the image have no say.
-template <class Better>
-imaging::GrayImage Extreme(const imaging::GrayImage& image, Better better) {
-  const auto along = [&](const imaging::GrayImage& from, int dx, int dy) {
-    imaging::GrayImage to = from;
-    for (int y = 0; y < from.height; ++y) {
-      for (int x = 0; x < from.width; ++x) {
-        for (int i = -kReach; i <= kReach; ++i) {
-          const int u = x + i * dx, v = y + i * dy;
-          if (u < 0 || v < 0 || u >= from.width || v >= from.height) continue;
-          to.at(x, y) = better(to.at(x, y), from.at(u, v));
-        }
-      }
-    }
-    return to;
-  };
-  return along(along(image, 1, 0), 0, 1);
-}
-
-imaging::GrayImage Closed(const imaging::GrayImage& image) {
-  const auto darker = [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); };
-  const auto lighter = [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); };
-  return Extreme(Extreme(image, darker), lighter);
-}
 
 imaging::Frame FrameOf(const std::filesystem::path& trial) {
   const base::JsonFile file = base::ReadJsonFile(trial / "case.json");
@@ -82,8 +57,8 @@ int Run(int count, char** arguments) {
     return 2;
   }
   const imaging::GrayImage photo = imaging::ReadGrayImage(arguments[1]);
-  const imaging::GrayImage seen = Closed(photo);
-  const imaging::GrayImage simulated = Closed(OnPhoto(arguments[2], photo));
+  const imaging::GrayImage seen = imaging::Closed(photo, kReach);
+  const imaging::GrayImage simulated = imaging::Closed(OnPhoto(arguments[2], photo), kReach);
   imaging::ColorImage overlay{.width = photo.width, .height = photo.height, .pixels = {}};
   int missing = 0, beyond = 0;
   for (int y = 0; y < photo.height; ++y) {

@@ -50,8 +50,9 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
   }
   if (case_.outputs.csv) base::WriteFileAtomically(folder_ / "heap.csv", engine::CsvOf(grains));
   if (case_.rig.camera) {
-    const Pictures pictures = PicturesOf(rig_->state().camera, case_.frame.value());
-    base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(pictures.mean));
+    const Pictures pictures =
+        PicturesOf(rig_->state().camera, case_.frame.value(), *case_.rig.camera);
+    base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(pictures.profile));
     base::WriteFileAtomically(folder_ / "profile_sd.png",
                               imaging::EncodePng(pictures.standard_deviation));
   } else if (case_.frame) {

@@ -32,6 +32,16 @@ bool AreThere(const ExperimentSpec& e) {
   return std::filesystem::exists(e.images.photos.empty() ? e.images.map : e.images.photos);
 }
 
+// Photographs are then made binary, too.
+bool ShowsAny(const ExperimentSpec& e) {
+  return e.rig->camera && e.rig->camera->shows == rigs::Shown::kAny;
+}
+
+// Powder where the map, 0 powder in every picture and 255 in none, is darker than the share.
+void MakeBinary(double share, imaging::GrayImage& image) {
+  for (std::uint8_t& level : image.pixels) level = level < 255 * share ? 0 : 255;
+}
+
 void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images) {
   if (images.HasImages() && images.plate_diameter == 0) images.plate_diameter = rig.drum.diameter;
 }
@@ -60,16 +70,21 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
                    "are of heaps: give a drum's photographs as the folder of one series, "
                    "\"photos\", or as their average, \"map\"");
   const bool plain = images.scale.empty() && images.tilt == 0 && !images.pixel_size &&
-                     !images.threshold && images.powder != imaging::PowderLook::kBright;
+                     images.powder != imaging::PowderLook::kBright &&
+                     (!images.threshold || ShowsAny(e));
   problems.Require(plain, place,
                    "has a scale, tilt, pixel_size, threshold or bright powder, which are of heaps: "
                    "a drum is read by its circle, lit from behind");
+  problems.Require(images.threshold || !ShowsAny(e), prefix + "threshold",
+                   "is missing: the camera shows powder where any picture has it, so say below "
+                   "which share of the light the photographs' average is powder, such as 0.9");
 }
 
 imaging::Experiment MeasureImages(const ExperimentSpec& e) {
   if (!ShowsDrum(e)) return imaging::MeasureExperiment(e.images);
   imaging::Experiment experiment;
   experiment.aehp = imaging::DrumProfile(MeasureDrumOf(e));
+  if (ShowsAny(e)) MakeBinary(e.images.threshold.value(), experiment.aehp.image);
   experiment.metrics = imaging::DescribeProfile(experiment.Images(), e.images.metrics);
   return experiment;
 }

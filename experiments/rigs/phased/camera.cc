@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/rigs/phased/spheres.h"
+#include "imaging/heap/closing.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
@@ -44,6 +45,11 @@ double StandardDeviation(int count, int num_frames) {
 
 std::uint8_t Rounded(double level) { return static_cast<std::uint8_t>(level + 0.5); }
 
+// Squares of an odd number of pixels, as near to the width as can be.
+int ReachOf(double width, double pixel_size) {
+  return static_cast<int>(std::lround((width / pixel_size - 1) / 2));
+}
+
 }  // namespace
 
 void TakePicture(std::span<const engine::Particle> grains, const imaging::Frame& frame,
@@ -56,15 +62,21 @@ void TakePicture(std::span<const engine::Particle> grains, const imaging::Frame&
   ++memory.num_frames;
 }
 
-Pictures PicturesOf(const CameraMemory& memory, const imaging::Frame& frame) {
+Pictures PicturesOf(const CameraMemory& memory, const imaging::Frame& frame,
+                    const CameraOptions& camera) {
+  const bool any = camera.shows == Shown::kAny;
   Pictures pictures;
-  pictures.mean = {.width = frame.width, .height = frame.height, .pixels = {}};
-  pictures.standard_deviation = pictures.mean;
+  pictures.profile = {.width = frame.width, .height = frame.height, .pixels = {}};
+  pictures.standard_deviation = pictures.profile;
   for (const int count : CountsOf(memory, frame)) {
     const double unseen = memory.num_frames - count;
-    pictures.mean.pixels.push_back(Rounded(255 * unseen / memory.num_frames));
+    const double light = any ? (count == 0 ? 1 : 0) : unseen / memory.num_frames;
+    pictures.profile.pixels.push_back(Rounded(255 * light));
     pictures.standard_deviation.pixels.push_back(
         Rounded(255 * StandardDeviation(count, memory.num_frames)));
+  }
+  if (camera.closing > 0) {
+    pictures.profile = imaging::Closed(pictures.profile, ReachOf(camera.closing, frame.pixel_size));
   }
   return pictures;
 }

@@ -1,5 +1,5 @@
 // The pictures that a rig's camera takes while the powder moves: their mean, as an average heap
-// profile is the mean of views, and their standard deviation.
+// profile is the mean of views, or where any of them shows powder; and their standard deviation.
 #pragma once
 
 #include <span>
@@ -7,6 +7,7 @@
 
 #include "engine/scene.h"
 #include "experiments/rigs/observables/observable.h"
+#include "experiments/rigs/options/camera_options.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::rigs {
@@ -26,10 +27,11 @@ void TakePicture(std::span<const engine::Particle> grains, const imaging::Frame&
 
 // With p the share of the frames in which a pixel is powder:
 struct Pictures {
-  imaging::GrayImage mean;                // 255 (1 - p)
+  imaging::GrayImage profile;             // 255 (1 - p); shown any: 0 where p > 0, closed
   imaging::GrayImage standard_deviation;  // of the silhouettes, 255 √(p (1 - p)): 127 at most
 };
-Pictures PicturesOf(const CameraMemory& memory, const imaging::Frame& frame);
+Pictures PicturesOf(const CameraMemory& memory, const imaging::Frame& frame,
+                    const CameraOptions& camera);
 
 // How much the surface moves: ∫ √(p (1 - p)) dA / D, over the picture, D the width that it is
 // scaled by. Level surfaces that lie s high or low by chance give 1.81 s.

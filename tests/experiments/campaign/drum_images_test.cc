@@ -24,8 +24,9 @@ constexpr int kSide = 200;  // of the picture [px]
 constexpr double kRadius = 95;
 constexpr double kRing = 3;  // [px]
 
-// Half full; the surface falls by 40 degrees to the right, or to the left.
-imaging::GrayImage Draw(bool falls_right) {
+// Half full; the surface falls by 40 degrees to the right, or to the left. Up to `haze` [px] above
+// it half of the pictures show powder.
+imaging::GrayImage Draw(bool falls_right, double haze = 0) {
   imaging::GrayImage image{.width = kSide, .height = kSide, .pixels = {}};
   const double slope = std::tan(40 * std::numbers::pi / 180) * (falls_right ? -1 : 1);
   for (int y = 0; y < kSide; ++y) {
@@ -35,7 +36,8 @@ imaging::GrayImage Draw(bool falls_right) {
       const double r = std::hypot(right, up);
       const bool dark =
           (r <= kRadius && up < slope * right) || (r <= kRadius && r > kRadius - kRing);
-      image.pixels.push_back(dark ? 20 : 240);
+      const bool half = r <= kRadius && up < slope * right + haze;
+      image.pixels.push_back(dark ? 20 : half ? 130 : 240);
     }
   }
   return image;
@@ -47,6 +49,7 @@ class DrumImages : public ::testing::Test {
     fs::create_directories(scratch_.path() / "photos");
     imaging::WritePng(scratch_.path() / "photos/one.png", Draw(false));
     imaging::WritePng(scratch_.path() / "map.png", Draw(true));
+    imaging::WritePng(hazy_, Draw(true, 16));
   }
   // `more` are keys of the second experiment, whose series turns the other way.
   CampaignSpec Read(const std::string& more = "", bool fill_is_searched = true) const {
@@ -76,6 +79,9 @@ class DrumImages : public ::testing::Test {
 
  private:
   ScratchFolder scratch_;
+
+ protected:
+  const fs::path hazy_ = scratch_.path() / "hazy.png";
 };
 
 TEST_F(DrumImages, DiameterIsTheRigsAndTheFillThatOfThePicture) {
@@ -113,6 +119,22 @@ TEST_F(DrumImages, ProfilesTurnAsTheRigDoesAndKnowTheDiscOnly) {
     }
   }
   EXPECT_LT(first.frame.disc_diameter.value(), 0.084 * (kRadius - kRing) / kRadius);
+}
+
+// The mean shows half of the haze, and a binary map all or nothing of it. Its level comes out
+// within a tenth of half-way: it counts among those that powder and light are read from.
+TEST_F(DrumImages, PowderInAnyPictureIsWhatIsDarkerThanTheThreshold) {
+  ExperimentSpec e = ExperimentsOf(Read())[0];
+  e.images.map = hazy_;
+  e.rig->camera = {.frames = 20, .interval = 0.01};
+  const double mean = imaging::Nebp(MeasureImages(e).aehp.image);
+  e.rig->camera->shows = rigs::Shown::kAny;
+  e.images.threshold = 0.9;
+  const double any = imaging::Nebp(MeasureImages(e).aehp.image);
+  e.images.threshold = 0.1;
+  const double all = imaging::Nebp(MeasureImages(e).aehp.image);
+  EXPECT_GT(any, 1.1 * all);
+  EXPECT_NEAR(mean, (any + all) / 2, 0.1 * (any - all));
 }
 
 TEST_F(DrumImages, ErrorsSayWhatToDo) {

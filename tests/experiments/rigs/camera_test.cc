@@ -38,8 +38,8 @@ TEST(Camera, TheProfileIsTheMeanOfSilhouettesWhileThePowderMoves) {
     views.push_back(imaging::ProjectViews(SpheresOf(again->Grains()), *c.frame, 1).front());
   }
   EXPECT_NE(views.front().pixels, views.back().pixels);
-  const Pictures pictures = PicturesOf(filmed->state().camera, *c.frame);
-  EXPECT_EQ(pictures.mean.pixels, imaging::MeanImage(views).pixels);
+  const Pictures pictures = PicturesOf(filmed->state().camera, *c.frame, *c.rig.camera);
+  EXPECT_EQ(pictures.profile.pixels, imaging::MeanImage(views).pixels);
   EXPECT_GT(Value(c, *filmed, "cohesive_index_m"), 0);
 }
 
@@ -60,13 +60,26 @@ TEST(Camera, ASeriesGoesOnFromACheckpoint) {
 TEST(Camera, MeanAndStandardDeviationAreThoseOfEachPixel) {
   const imaging::Frame frame{.width = 6, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
   const CameraMemory memory{.num_frames = 4, .runs = {0, 1, 1, 1, 2, 1, 4, 3}};
-  const Pictures pictures = PicturesOf(memory, frame);
-  EXPECT_EQ(pictures.mean.pixels, (std::vector<std::uint8_t>{255, 191, 128, 0, 0, 0}));
+  const Pictures pictures = PicturesOf(memory, frame, {});
+  EXPECT_EQ(pictures.profile.pixels, (std::vector<std::uint8_t>{255, 191, 128, 0, 0, 0}));
   EXPECT_EQ(pictures.standard_deviation.pixels,
             (std::vector<std::uint8_t>{0, 110, 128, 0, 0, 0}));  // 255 √(3/16), 255 / 2
   EXPECT_NEAR(CohesiveIndex(memory, frame).value, (std::sqrt(3.0 / 16) + 0.5) * 1e-6 / 0.01, 1e-15);
   EXPECT_THAT(CohesiveIndex({.num_frames = 1, .runs = {1, 6}}, frame).undefined,
               HasSubstr("no standard deviation"));
+}
+
+// Two pixels that any frame shows stand two apart: a closing of three pixels fills the gap between
+// them, one of a single pixel none; what lies at the picture's edge stays light.
+TEST(Camera, AnyFrameThatShowsPowderCountsAndNarrowGapsAreFilled) {
+  const imaging::Frame frame{.width = 7, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
+  const CameraMemory memory{.num_frames = 4, .runs = {0, 2, 1, 1, 0, 1, 4, 1, 0, 2}};
+  const auto shown = [&](double closing) {
+    return PicturesOf(memory, frame, {.shows = Shown::kAny, .closing = closing}).profile.pixels;
+  };
+  EXPECT_EQ(shown(0), (std::vector<std::uint8_t>{255, 255, 0, 255, 0, 255, 255}));
+  EXPECT_EQ(shown(1e-3), shown(0));
+  EXPECT_EQ(shown(3e-3), (std::vector<std::uint8_t>{255, 255, 0, 0, 0, 255, 255}));
 }
 
 // A column comes to rest long before a second.
