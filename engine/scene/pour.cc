@@ -141,17 +141,32 @@ double Pour::NextTime(const PourState& state) const {
   return plan_.start + static_cast<double>(state.num_batches) * Interval();
 }
 
+Vec3 Pour::Down() const { return plan_.gravity / base::Norm(plan_.gravity); }
+
 Vec3 Pour::Mouth(const PourState& state) const {
   const double poured = state.num_poured > 0 ? cum_[state.num_poured - 1] : 0;
-  const Vec3 down = plan_.gravity / base::Norm(plan_.gravity);
-  return plan_.mouth - plan_.rise * poured * down;
+  return plan_.mouth - (plan_.rise * poured + state.lift) * Down();
+}
+
+// The stream falls at its speed at the mouth or faster; what is slower than half of it lies there.
+double Pour::LiftOver(const Simulation& simulation) const {
+  const double reach = plan_.mouth_diameter / 2;
+  double lift = 0;
+  for (const Particle& p : simulation.Particles()) {
+    const Vec3 from_mouth = p.position - plan_.mouth;
+    const double depth = Dot(from_mouth, Down());
+    const bool is_below = base::Norm(from_mouth - depth * Down()) < reach;
+    if (!is_below || base::Norm(p.velocity) > speed_ / 2) continue;
+    lift = std::max(lift, plan_.clearance.value() - (depth - p.radius));
+  }
+  return lift;
 }
 
 // Where the grain k touches nothing, if a place is found. Each batch tries other places, for grains
 // that waited.
 std::optional<Particle> Pour::Place(std::int64_t k, const PourState& state,
                                     const Surroundings& around) const {
-  const Vec3 down = plan_.gravity / base::Norm(plan_.gravity);
+  const Vec3 down = Down();
   const Vec3 across = Across(down), other = Cross(down, across);
   const double r = plan_.radii[static_cast<std::size_t>(k)];
   base::Random random(
@@ -178,7 +193,7 @@ std::optional<Particle> Pour::Place(std::int64_t k, const PourState& state,
 }
 
 std::vector<Particle> Pour::Batch(const Simulation& simulation, const PourState& state) const {
-  const Vec3 down = plan_.gravity / base::Norm(plan_.gravity);
+  const Vec3 down = Down();
   const double due = plan_.rate * Interval() * static_cast<double>(state.num_batches + 1);
   const double largest = std::max(Largest(plan_.radii), simulation.LargestRadius());
   Surroundings around{Occupied(2 * largest), PresentWalls(simulation)};
@@ -199,6 +214,7 @@ std::vector<Particle> Pour::Batch(const Simulation& simulation, const PourState&
 
 void Pour::Advance(Simulation& simulation, PourState& state) const {
   if (simulation.time() < NextTime(state)) return;
+  if (plan_.clearance) state.lift = std::max(state.lift, LiftOver(simulation));
   const std::vector<Particle> batch = Batch(simulation, state);
   simulation.Add(batch);
   state.num_poured += static_cast<std::int64_t>(batch.size());

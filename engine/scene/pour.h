@@ -7,8 +7,10 @@
 //
 // D the mouth's diameter, d the mean one of the grains by volume. The grains leave the mouth at the
 // speed at which the stream fills 0.22 of its section, and are placed at random in a slab above
-// it, where they touch nothing; those that find no room wait. Everything follows from the seed and
-// from how many have come, so that a run goes on from a checkpoint with the same bits.
+// it, where they touch nothing; those that find no room wait. The mouth may rise with what has
+// come, or keep its distance from the heap below it. Everything follows from the seed, from how
+// many have come and how far it has risen, so that a run goes on from a checkpoint with the same
+// bits.
 #pragma once
 
 #include <cstdint>
@@ -63,9 +65,11 @@ struct PourSpec {
 struct PourPlan {
   std::vector<double> radii;  // in the order in which they come [m]
   int material = 0;
-  double density = 0;         // of a grain [kg/m³]
-  Vec3 mouth;                 // at first [m]
-  double rise = 0;            // of the mouth against gravity, with what has come [m/kg]
+  double density = 0;  // of a grain [kg/m³]
+  Vec3 mouth;          // at first [m]
+  double rise = 0;     // of the mouth against gravity, with what has come [m/kg]
+  // That the mouth keeps at least from the highest grain which lies below it [m]; it never sinks.
+  std::optional<double> clearance{};
   double mouth_diameter = 0;  // [m]
   double rate = 0;            // [kg/s]
   double scatter = 0;         // [m/s]
@@ -81,8 +85,9 @@ double StreamSpeed(const PourPlan& plan);   // at the mouth [m/s]
 struct PourState {
   std::int64_t num_poured = 0;
   std::int64_t num_batches = 0;
+  double lift = 0;  // of the mouth, to keep its clearance [m]
 
-  TALUS_FIELDS(num_poured, num_batches);
+  TALUS_FIELDS(num_poured, num_batches, lift);
 };
 
 class Pour {
@@ -104,7 +109,9 @@ class Pour {
   struct Surroundings;
   std::optional<Particle> Place(std::int64_t k, const PourState& state,
                                 const Surroundings& around) const;
-  Vec3 Mouth(const PourState& state) const;  // [m]
+  Vec3 Down() const;                                    // direction of the stream
+  Vec3 Mouth(const PourState& state) const;             // [m]
+  double LiftOver(const Simulation& simulation) const;  // that keeps the clearance [m]
   std::vector<Particle> Batch(const Simulation& simulation, const PourState& state) const;
   double Interval() const;  // between two batches [s]
 

@@ -52,6 +52,7 @@ engine::Pour MakePour(const Case& c, const Vessel& vessel) {
       .density = c.powder.material.density,
       .mouth = {foot.x, foot.y, foot.z + DropHeight(c, vessel)},
       .rise = vessel.funnel ? 0 : 1 / (kFollowed * c.powder.material.density * vessel.area),
+      .clearance = {},
       .mouth_diameter = MouthDiameter(c, vessel),
       .rate = 0,
       .scatter = c.filling.scatter.value_or(0),
@@ -59,6 +60,7 @@ engine::Pour MakePour(const Case& c, const Vessel& vessel) {
       .gravity = {0, 0, -c.gravity},
       .seed = c.seed,
       .first_id = 0};
+  if (vessel.funnel && vessel.funnel->follows) plan.clearance = vessel.funnel->height;
   plan.rate = c.filling.rate.value_or(engine::BeverlooRate(plan));
   return engine::Pour(std::move(plan));
 }

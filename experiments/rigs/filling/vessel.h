@@ -10,10 +10,11 @@
 
 namespace talus::rigs {
 
-// A funnel that stands still; others rise with what they have poured.
+// A funnel that stands still or follows a heap's top; others rise with what they have poured.
 struct Funnel {
-  double height = 0;  // of its outlet above the vessel's floor [m]
-  double outlet = 0;  // its diameter [m]
+  double height = 0;     // of its outlet above the vessel's floor, or what lies highest [m]
+  double outlet = 0;     // its diameter [m]
+  bool follows = false;  // keeps its height above what lies highest below it
 };
 
 // More of the same powder beside the vessel, there from the beginning.

@@ -49,7 +49,8 @@ class FunnelHeapRig : public RememberingRig<FunnelHeapMemory> {
     return {.region = region,
             .area = region.Area(),
             .across = diameter,
-            .funnel = Funnel{.height = options.height, .outlet = options.outlet}};
+            .funnel = Funnel{
+                .height = options.height, .outlet = options.outlet, .follows = options.follows}};
   }
 
   static std::vector<engine::Wall> Walls(const Case& c, double) {

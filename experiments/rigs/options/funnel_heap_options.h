@@ -1,4 +1,4 @@
-// A heap that is poured from a funnel at a fixed height onto a plate.
+// A heap that is poured from a funnel, at a fixed height or one that follows, onto a plate.
 #pragma once
 
 #include <cmath>
@@ -14,6 +14,7 @@ struct FunnelHeapOptions {
   double rim_height = 0;         // of the plate's rim [m], >= 0
   double height = 0.025;         // of the funnel's outlet above the plate [m], > 0
   double outlet = 0.008;         // its diameter [m], > 0 and below the plate's
+  bool follows = false;          // the funnel keeps its height above the heap's top
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -26,6 +27,9 @@ struct FunnelHeapOptions {
           {.dimension = kLength, .doc = "of the funnel's outlet above the plate, > 0"});
     visit("outlet", self.outlet,
           {.dimension = kLength, .doc = "the outlet's diameter, > 0 and below the plate's"});
+    visit("follows", self.follows,
+          {.doc = "whether the funnel rises with the heap and keeps its height above the top, in "
+                  "place of one above the plate"});
   }
   void Validate(base::Problems& problems) const {
     RequireLength(problems, "plate_diameter", plate_diameter);

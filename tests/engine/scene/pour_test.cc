@@ -95,6 +95,32 @@ TEST(Pour, GrainsWaitWhereThereIsNoRoom) {
   EXPECT_GT(pour.NextTime(state), 0);
 }
 
+// Two grains lie below the mouth, one of them beside it, and one falls: the one that lies is kept 5
+// mm away; what is poured makes no difference, and the mouth never sinks.
+TEST(Pour, AMouthThatFollowsKeepsItsDistanceFromWhatLiesBelowIt) {
+  PourPlan plan = Plan();
+  plan.mouth = {0, 0, 6e-3};
+  plan.clearance = 5e-3;
+  const Pour pour(plan);
+  PourState state;
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.gravity = {0, 0, -9.81};
+  scene.particles = {
+      {.id = 10000, .radius = 1e-3, .position = {1e-3, 0, 2e-3}},
+      {.id = 10001, .radius = 1e-3, .position = {9e-3, 0, 3e-3}},
+      {.id = 10002, .radius = 1e-3, .position = {0, 0, 4e-3}, .velocity = {0, 0, -1}}};
+  Simulation simulation(scene);
+  pour.Advance(simulation, state);
+  EXPECT_NEAR(state.lift, 3e-3 + 5e-3 - 6e-3, 1e-12);
+  for (const Particle& p : simulation.Particles()) {
+    EXPECT_TRUE(p.id >= 10000 || p.position.z >= 8e-3);
+  }
+  const double lift = state.lift;
+  simulation.Advance(std::llround(std::ceil(0.05 / simulation.time_step())));  // all have fallen
+  pour.Advance(simulation, state);
+  EXPECT_GE(state.lift, lift);
+}
+
 TEST(PouredScene, FillsTheCupWithAllOfTheMass) {
   const LoadedScene loaded = Load(kCup, "poured_scene");
   const fs::path folder = fs::path(::testing::TempDir()) / "poured_scene";

@@ -259,6 +259,33 @@ TEST(FunnelHeap, RoughGrainsStandSteeperAndEveryGrainIsWeighed) {
   EXPECT_GT(indices[0], indices[1]);
 }
 
+// The same powder on the same plate, with more of it than stays: grains that fall from a funnel
+// leave a flatter heap than those that a tube as wide as the plate sets down, 38.5 degrees and 40.0
+// (a funnel that follows) for 45.8 with this seed; single heaps of so few grains scatter by some
+// two. A funnel that follows starts lower than the heap is high in the end, where one that stands
+// still would be buried.
+TEST(FunnelHeap, ItIsFlatterThanTheLiftedTubesByTenDegreesAtMost) {
+  Case tube = CaseOf(RigKind::kLiftedTube, 0.5, 0.2, 1.2e-3);
+  tube.rig.lifted_tube.tube_inner_diameter = tube.rig.lifted_tube.plate_diameter = 0.014;
+  const double lifted = Value(tube, *Ran(tube), "angle_of_repose_triangle_deg");
+  for (const bool follows : {false, true}) {
+    Case c = CaseOf(RigKind::kFunnelHeap, 0.5, 0.2, 1.2e-3);
+    c.rig.funnel_heap = {.plate_diameter = 0.014,
+                         .height = follows ? 0.003 : 0.010,
+                         .outlet = 0.005,
+                         .follows = follows};
+    c.filling.kind = FillingKind::kPour;
+    const auto rig = Ran(c);
+    const double angle = Value(c, *rig, "angle_of_repose_triangle_deg");
+    EXPECT_LT(angle, lifted) << follows;
+    EXPECT_GT(angle, lifted - 10) << follows;
+    const double top = Value(c, *rig, "height_m");
+    if (!follows) continue;
+    EXPECT_GT(rig->state().pour.lift, top - 0.001);
+    EXPECT_LT(rig->state().pour.lift, top + 0.002);
+  }
+}
+
 // Every rig goes on from a checkpoint with the same bits.
 class EveryRig : public ::testing::TestWithParam<RigKind> {};
 
