@@ -18,7 +18,8 @@ namespace {
 constexpr int kGroups = 4;            // of trials, each left out once (delete-a-group jackknife)
 constexpr double kSidesOf90 = 1.645;  // standard deviations each side
 
-// One objective alone: what it is to meet, and what each trial of the search shows of it.
+// One objective alone: what it is to meet, and what the trials of the search that define it show of
+// it.
 struct Sole {
   std::string title;
   optimizer::ExperimentTarget target;
@@ -54,9 +55,11 @@ Sole SoleNumber(const campaign::JointView& view, int experiment,
   sole.target.scalars = {measured};
   for (const journal::TrialRecord& trial : campaign::InOrderOfFinish(view.trials)) {
     if (trial.experiment != experiment || !campaign::IsOfSearch(trial)) continue;
+    const double value =
+        trial.Metric(measured.name).value_or(std::numeric_limits<double>::quiet_NaN());
     optimizer::Observation observation = Bare(trial);
-    observation.scalars = {
-        trial.Metric(measured.name).value_or(std::numeric_limits<double>::quiet_NaN())};
+    if (!observation.failed && std::isnan(value)) continue;  // a column has no angle of repose
+    observation.scalars = {value};
     sole.told.push_back(std::move(observation));
   }
   return sole;

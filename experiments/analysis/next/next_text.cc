@@ -168,7 +168,14 @@ std::string NextSummary(const NextTable& table) {
     text += (shown++ == 0 ? "  further tests     " : "                    ") + c.name +
             DependsText(c) + ": expected to leave " + WidthsText(table, c.learning->width) + "\n";
   }
-  if (shown == 0) return "";
+  if (shown == 0) {
+    const bool is_open = std::ranges::any_of(table.candidates, [](const NextCandidate& candidate) {
+      return candidate.kind == NextKind::kTest && !IsImpossible(candidate);
+    });
+    return is_open ? "  further tests     none could be simulated in that time: `talus next DIR "
+                     "--simulate` tells what each would teach\n"
+                   : "";
+  }
   return text + "                    (width of the joint 90 % ranges now: " +
          WidthsText(table, table.width) + "; `talus next DIR` lists all)\n";
 }

@@ -9,9 +9,12 @@
 #include "experiments/analysis/compare/compare_tables.h"
 #include "experiments/analysis/compare/experiment_fit.h"
 #include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/compare/knowledge.h"
 #include "experiments/analysis/export/export.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/write_report.h"
+#include "experiments/campaign/record/stored.h"
+#include "experiments/journal/objective.h"
 #include "tests/experiments/two_experiments.h"
 
 namespace talus::campaign {
@@ -124,6 +127,21 @@ TEST_F(TwoExperiments, AnAngleOfReposeKnowsLessThanTheWholeHeap) {
       analysis::CompareObjectives(data.evidence);
   EXPECT_THAT(analysis::ComparisonText({data.evidence, findings}),
               HasSubstr("holds the recommended set"));
+}
+
+// Where every set stands as a column, no trial has an angle: nothing is known by it, and that is
+// said.
+TEST_F(TwoExperiments, AnAngleThatNoTrialDefinesKnowsNothing) {
+  const fs::path folder = Begin("run");
+  RunFake(folder, {});
+  JointView view = ReadJointView(folder);
+  const std::string angle(journal::InfoOf(journal::Objective::kAor1).metric);
+  for (journal::TrialRecord& trial : view.trials) {
+    std::erase_if(trial.metrics, [&](const auto& metric) { return metric.name == angle; });
+  }
+  const auto knowledge = analysis::KnowledgeOf(view, 0, PointOf(view.trials.front()));
+  EXPECT_THAT(knowledge, ::testing::Contains(::testing::Field(&analysis::ObjectiveKnowledge::absent,
+                                                              HasSubstr("too few trials"))));
 }
 
 TEST_F(TwoExperiments, AreEachComparedAndBothStandOnThePageWithEitherShown) {
