@@ -218,6 +218,7 @@ TEST_F(NextTest, DesignsAreSimulatedWithinTheirBudgetTheCheapestFirst) {
   EXPECT_THAT(said[0], HasSubstr("again: 16 simulations"));
   EXPECT_THAT(NextSummary(table), HasSubstr("again: expected to leave sliding_friction"));
   EXPECT_EQ(NextSummary(Rank(view, {}, false)), "");
+  EXPECT_THAT(NextSummary(Rank(view, {slow}, false)), HasSubstr("none could be simulated"));
 }
 
 // Two rectangles, of which the second is lower and wider: the difference has both colours, and two
