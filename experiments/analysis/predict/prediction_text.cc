@@ -8,6 +8,7 @@
 #include "base/text/counted.h"
 #include "base/text/csv.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"
@@ -27,7 +28,7 @@ struct Shown {
         unit(rigs::ShownUnitOf(rigs::UnitOfObservable(name))) {}
 
   std::string Text(double x, int digits = 4) const {
-    return ShortNumber(unit.per_unit * x, digits);
+    return base::PlainNumber(unit.per_unit * x, digits);
   }
   std::string Unit() const { return unit.text.empty() ? "" : " " + unit.text; }
 };
@@ -124,14 +125,15 @@ std::string ImageText(const Prediction& prediction,
 
 // "0.012 (0.003 … 0.05)": the median of the work, and what 90 % of it lies in.
 std::string RangeText(const std::vector<double>& range) {
-  return ShortNumber(range[1], 2) + " (" + ShortNumber(range[0], 2) + " … " +
-         ShortNumber(range[2], 2) + ")";
+  return base::PlainNumber(range[1], 2) + " (" + base::PlainNumber(range[0], 2) + " … " +
+         base::PlainNumber(range[2], 2) + ")";
 }
 
 std::string RegimeText(const FlowRegime& r) {
   return "  sheared in " + r.name + " at an inertial number of " + RangeText(r.inertial_number) +
-         ", under " + RangeText(r.pressure) + " Pa, Bond number " + ShortNumber(r.bond_number, 2) +
-         ", contact duration × shear rate " + ShortNumber(r.contact_duration[1], 2) + "\n";
+         ", under " + RangeText(r.pressure) + " Pa, Bond number " +
+         base::PlainNumber(r.bond_number, 2) + ", contact duration × shear rate " +
+         ShortNumber(r.contact_duration[1], 2) + "\n";
 }
 
 std::string WhatText(const Prediction& prediction) {

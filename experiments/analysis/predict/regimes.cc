@@ -9,7 +9,7 @@
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
 #include "base/median.h"
-#include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 
 namespace talus::analysis {
 namespace {
@@ -70,10 +70,10 @@ std::string WarningOf(const Compared& compared, const FlowRegime& process,
   const double there = (process.*compared.range)[1];
   const bool above = high > 0 && there > kBeyond * high;
   if (!above && !(there * kBeyond < low && std::isfinite(low))) return "";
-  return process.name + " shears at " + compared.what + " of " + base::ShortNumber(there, 2) +
+  return process.name + " shears at " + compared.what + " of " + base::PlainNumber(there, 2) +
          compared.unit + ", your tests " +
-         (above ? "at most at " + base::ShortNumber(high, 2)
-                : "at least at " + base::ShortNumber(low, 2)) +
+         (above ? "at most at " + base::PlainNumber(high, 2)
+                : "at least at " + base::PlainNumber(low, 2)) +
          compared.unit + ": what the sets give there was not tested";
 }
 
