@@ -25,7 +25,8 @@ def what_it_says(talus, folder):
     for verb in (("resume", "out"), ("export", "out"), ("consider", "out", "sliding_friction=0.5", "rolling_friction=0.3"),
                  ("card", "out")):
         done = subprocess.run([talus, *verb], cwd=folder, capture_output=True, text=True)
-        noticed |= done.returncode != 0 or "damaged" in done.stdout + done.stderr
+        told = done.stdout + done.stderr
+        noticed |= done.returncode != 0 or "damaged" in told or "made anew" in told
         assert done.returncode in (0, 1, 2), (verb, done.returncode, done.stderr)
         if verb[0] in ("consider", "card"):
             text += done.stdout
