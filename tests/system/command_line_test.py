@@ -13,26 +13,16 @@ import tempfile
 import time
 import unittest
 
-from quick_campaign import quick_spec
+from quick_campaign import PILE, quick_spec
 
 TALUS = sys.argv[1]
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
-
-# An engine that takes no time: a pile of grains whose height follows the friction.
-ENGINE = """#!/bin/sh
-awk 'BEGIN {
-  print "x_m,y_m,z_m,diameter_m"
-  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
-    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
-      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
-}' > heap.csv
-"""
 
 
 def write_campaign(folder):
     deck = folder / "deck"
     deck.mkdir()
-    (deck / "run.sh").write_text(ENGINE)
+    (deck / "run.sh").write_text(PILE)
     (deck / "run.sh").chmod(0o755)
     spec = quick_spec(SOURCE, "quick", ["./run.sh"])
     (folder / "quick.json").write_text(json.dumps(spec))
@@ -351,7 +341,7 @@ class Progress(unittest.TestCase):
         out = self.folder / "out"
         read = self.folder / "read"
         wait = f"case $PWD in */0001) ;; *) until [ -e {read} ]; do sleep 0.05; done ;; esac\nawk"
-        (self.folder / "deck/run.sh").write_text(ENGINE.replace("awk", wait, 1))
+        (self.folder / "deck/run.sh").write_text(PILE.replace("awk", wait, 1))
         campaign = subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"])
         self.addCleanup(campaign.kill)
         while not list(out.glob("trials/0002")):

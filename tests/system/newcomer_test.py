@@ -9,20 +9,10 @@ import sys
 import tempfile
 import unittest
 
-from quick_campaign import quick_spec, tube_and_drum
+from quick_campaign import PILE, quick_spec, tube_and_drum
 
 TALUS = sys.argv[1]
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
-
-# An engine that takes no time: a pile whose height follows the friction, steeper than any photographed heap.
-PILE = """#!/bin/sh
-awk 'BEGIN {
-  print "x_m,y_m,z_m,diameter_m"
-  for (i = -8; i <= 8; ++i) for (j = -8; j <= 8; ++j)
-    for (k = 0; k < 12 * {{ sliding_friction }} - (i * i + j * j) / 12; ++k)
-      printf "%g,%g,%g,6e-4\\n", i * 5.9e-4, j * 5.9e-4, 3e-4 + k * 5.9e-4
-}' > heap.csv
-"""
 
 
 def run(*arguments):

@@ -6,6 +6,7 @@
 
 #include "base/json/json_text.h"
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/observables/observable.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -57,11 +58,8 @@ std::string CostText(const NextCandidate& c) {
 
 // ", which depends on restitution, mass": what it was discounted for.
 std::string DependsText(const NextCandidate& c) {
-  std::string text;
-  for (const NextUnknown& unknown : c.unknowns) {
-    text += (text.empty() ? ", which depends on " : ", ") + unknown.name;
-  }
-  return text;
+  if (c.unknowns.empty()) return "";
+  return ", which depends on " + base::Joined(c.unknowns, ", ", &NextUnknown::name);
 }
 
 const char* KindName(NextKind kind) {

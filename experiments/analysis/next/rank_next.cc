@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text/counted.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/ground.h"
 #include "experiments/analysis/next/judge_test.h"
@@ -219,9 +220,7 @@ void SimulateDesigns(const Ground& ground, const NextOptions& options, std::vect
 }
 
 std::string NamesOf(const std::vector<Move>& moves) {
-  std::string names;
-  for (const Move& move : moves) names += (names.empty() ? "" : ", ") + move.name;
-  return names;
+  return base::Joined(moves, ", ", &Move::name);
 }
 
 // A test's simulations with what is unknown moved, made where the core time left allows it; without

@@ -20,17 +20,8 @@ struct PredictionDesign {
   std::vector<double> weights{};
   std::vector<PredictionStage> stages{};
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("test", self.test);
-    visit("frame", self.frame);
-    visit("by", self.by);
-    visit("num_draws", self.num_draws);
-    visit("after_trial", self.last_trial);
-    visit("points", self.points);
-    visit("weights", self.weights);
-    visit("stages", self.stages);
-  }
+  static constexpr base::FieldKey kKeys[] = {{"last_trial", "after_trial"}};
+  TALUS_FIELDS(test, frame, by, num_draws, last_trial, points, weights, stages);
 };
 
 }  // namespace talus::analysis

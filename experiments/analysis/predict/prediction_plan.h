@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/field.h"
 #include "experiments/analysis/predict/predicted_case.h"
 #include "experiments/campaign/answer/joint_view.h"
 
@@ -20,12 +21,7 @@ struct PredictionStage {
   int num_draws = 0;
   int num_seeds = 1;
 
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    visit("scale_factor", self.scale_factor);
-    visit("num_draws", self.num_draws);
-    visit("num_seeds", self.num_seeds);
-  }
+  TALUS_FIELDS(scale_factor, num_draws, num_seeds);
 };
 
 struct PlannedRun {
