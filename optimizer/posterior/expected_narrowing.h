@@ -11,6 +11,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "optimizer/posterior/posterior.h"
@@ -23,10 +24,28 @@ struct SurrogateAhead {
   double times_finest = 1;  // evaluations at the finest scale factor then over those now
 };
 
-// The share of its width that the joint 90 % range of each coordinate in `asked` loses, in [0, 1].
-// `draws` of the posterior: equally likely, one a row; `ahead`: one an experiment.
-Eigen::VectorXd ExpectedNarrowing(const Posterior& posterior, const Eigen::MatrixXd& draws,
-                                  const std::vector<Eigen::Index>& asked,
-                                  const std::vector<SurrogateAhead>& ahead, std::uint64_t seed);
+// What outlooks on several futures share: what the surrogate says of the draws now, and what it may
+// be off by there.
+class ExpectedNarrowing {
+ public:
+  // `draws` of the posterior, which outlives this: equally likely, one a row.
+  ExpectedNarrowing(const Posterior& posterior, const Eigen::MatrixXd& draws, std::uint64_t seed);
+
+  // The share of its width that the joint 90 % range of each coordinate in `asked` loses, in [0,
+  // 1]. `ahead`: one an experiment.
+  Eigen::VectorXd Of(const std::vector<Eigen::Index>& asked,
+                     const std::vector<SurrogateAhead>& ahead) const;
+
+ private:
+  // The outputs as draw f of g has them, as far as they are learnt.
+  std::vector<OutputMoments> Fantasy(int f, const std::vector<SurrogateAhead>& ahead) const;
+
+  const Posterior& posterior_;
+  const Eigen::MatrixXd draws_;
+  const std::vector<OutputMoments> outputs_;
+  const Eigen::VectorXd log_density_;
+  std::vector<std::vector<Eigen::MatrixXd>>
+      moves_;  // g, [experiment][output]; none of one held out
+};
 
 }  // namespace talus::optimizer

@@ -351,9 +351,9 @@ const Outlook& PosteriorStrategy::OutlookNow() {
   const Eigen::MatrixXd draws = Sample().Draws(kDraws, options_.seed);
   const Eigen::MatrixXd few = draws(Eigen::seqN(0, kFew, kDraws / kFew), Eigen::all);
   std::vector<SurrogateAhead> ahead = SurrogatesAhead(few);
+  const ExpectedNarrowing expected(Model(), draws, options_.seed);
   const auto narrowing = [&]() -> std::vector<double> {
-    const Eigen::VectorXd each =
-        ExpectedNarrowing(Model(), draws, domain_.Asked(), ahead, options_.seed);
+    const Eigen::VectorXd each = expected.Of(domain_.Asked(), ahead);
     return {each.begin(), each.end()};
   };
   outlook_.emplace(Outlook{.again = narrowing(), .temper = Model().temper()});

@@ -46,9 +46,9 @@ TEST(ExpectedNarrowing, ASurrogateThatIsSureLeavesTheMeasurementsError) {
   const std::vector<SurrogateAhead> sure{{.left = Eigen::VectorXd::Zero(1)}};
   const double expected = 1 - std::sqrt(b / (c * c * v + b));
   ASSERT_GT(expected, 0.2);
-  EXPECT_NEAR(ExpectedNarrowing(posterior, draws, {0}, sure, 1)[0], expected, 0.1);
+  EXPECT_NEAR(ExpectedNarrowing(posterior, draws, 1).Of({0}, sure)[0], expected, 0.1);
   // What the output does not know stays as it is.
-  EXPECT_LT(ExpectedNarrowing(posterior, draws, {1}, sure, 1)[0], 0.1);
+  EXPECT_LT(ExpectedNarrowing(posterior, draws, 1).Of({1}, sure)[0], 0.1);
 }
 
 TEST(ExpectedNarrowing, ASurrogateThatLearnsNothingNarrowsNothing) {
@@ -56,7 +56,7 @@ TEST(ExpectedNarrowing, ASurrogateThatLearnsNothingNarrowsNothing) {
   const Posterior posterior = line.Make();
   const Eigen::MatrixXd draws = posterior.Sample(line.domain, 3000, 1, 1).Draws(400, 1);
   const std::vector<SurrogateAhead> same{{.left = Eigen::VectorXd::Ones(1)}};
-  EXPECT_LT(ExpectedNarrowing(posterior, draws, {0, 1}, same, 1).maxCoeff(), 1e-12);
+  EXPECT_LT(ExpectedNarrowing(posterior, draws, 1).Of({0, 1}, same).maxCoeff(), 1e-12);
 }
 
 }  // namespace expected_narrowing_test
