@@ -28,4 +28,21 @@ inline Sample SampleOf(const std::vector<double>& values) {
   return sample;
 }
 
+// Scatter within groups, whose means may differ: what a few values of each tell of all.
+struct PooledScatter {
+  double squares = 0;  // of the deviations from their group's mean
+  int degrees = 0;     // of freedom
+
+  void Add(const Sample& group) {
+    if (group.count < 2) return;
+    degrees += group.count - 1;
+    squares += (group.count - 1) * group.variance;
+  }
+  // Of the mean of so many; NaN where no group has two values.
+  double StandardError(int count) const {
+    return degrees == 0 ? std::numeric_limits<double>::quiet_NaN()
+                        : std::sqrt(squares / degrees / count);
+  }
+};
+
 }  // namespace talus::base

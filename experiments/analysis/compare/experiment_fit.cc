@@ -42,6 +42,13 @@ std::string SimulatedShape(const ResultConfirmed& confirmed) {
   return text;
 }
 
+// Where it is farther than what fits and no farther than chance.
+std::string ChanceText(const campaign::MeasurementFit& fit) {
+  return fit.meets == Meets::kUnknown && std::isfinite(fit.off)
+             ? ", which so few simulations may be by chance"
+             : "";
+}
+
 std::string ShapeJudgement(const campaign::MeasurementFit& fit, int num_heaps) {
   std::string text;
   if (std::isfinite(fit.off)) {
@@ -50,7 +57,7 @@ std::string ShapeJudgement(const campaign::MeasurementFit& fit, int num_heaps) {
   if (std::isfinite(fit.share)) {
     text += (text.empty() ? "" : ", ") + ShortText(100 * fit.share, 2) + " % of the powder's area";
   }
-  if (std::isfinite(fit.off)) return text;
+  if (std::isfinite(fit.off)) return text + ChanceText(fit);
   return text + (text.empty() ? "" : "; ") +
          (num_heaps > 1 ? "one map of all runs does not tell how they scatter"
                         : "no second run to compare with");
@@ -116,7 +123,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
                     (has_error      ? " and the simulations"
                      : is_confirmed ? ""
                                     : " and the prediction") +
-                    " away";
+                    " away" + (is_confirmed ? ChanceText(fit) : "");
   }
   return row;
 }

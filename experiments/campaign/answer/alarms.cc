@@ -24,14 +24,6 @@ constexpr int kFewestLeftOut = 10;       // evaluations that a coverage is judge
 constexpr double kLeastCoverage = 0.75;  // of nominal 90 % regions
 constexpr int kEnoughAtFinest = 12;  // simulations of each experiment (bench/twins/dem_twins.py)
 
-double OrZero(double x) { return std::isfinite(x) ? x : 0; }
-
-// Error of the recommended set's confirmed mean. A few seeds that happen to agree say little of it.
-double ErrorOf(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
-  return std::max(OrZero(confirmed.standard_error),
-                  experiment.noise_sd.value_or(0) / std::sqrt(std::max(1, confirmed.num_trials)));
-}
-
 // The set without the scatter of its simulations, which is what a model of mean heaps predicts.
 double WithoutScatter(const ResultConfirmed& confirmed) {
   if (!confirmed.profile_sad_mm2 || confirmed.num_trials < 2) return confirmed.mean;

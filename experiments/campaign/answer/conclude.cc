@@ -74,10 +74,43 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
   }
   for (const journal::ScalarRecord& scalar : record.scalars) {
     const base::Sample number = MetricSample(trials, scalar.name);
-    confirmed.scalars.push_back(
-        {.name = scalar.name, .mean = number.mean, .standard_error = number.StandardError()});
+    confirmed.scalars.push_back({.name = scalar.name, .mean = number.mean});
   }
   return confirmed;
+}
+
+// Scatter of a metric from seed to seed, within every set that was simulated again.
+base::PooledScatter ScatterOf(const Planner& planner, const std::vector<Candidate>& simulated,
+                              int experiment, std::string_view metric) {
+  base::PooledScatter scatter;
+  for (const Candidate& candidate : simulated) {
+    scatter.Add(MetricSample(Confirming(planner, candidate.point, experiment), metric));
+  }
+  return scatter;
+}
+
+// Two or three seeds say little of their own scatter; all sets that were simulated again say more.
+void AddStandardErrors(const Planner& planner, const std::vector<Candidate>& simulated,
+                       Answer& result) {
+  const std::string_view sad_metric = journal::InfoOf(journal::Objective::kSad).metric;
+  for (ResultCandidate& candidate : result.confirmed) {
+    for (std::size_t e = 0; e < candidate.experiments.size(); ++e) {
+      ResultConfirmed& confirmed = candidate.experiments[e];
+      const int index = static_cast<int>(e);
+      if (confirmed.sad_mm2) {
+        const auto scatter = ScatterOf(planner, simulated, index, sad_metric);
+        confirmed.degrees = scatter.degrees;
+        if (scatter.degrees > 0) {
+          confirmed.sad_standard_error = scatter.StandardError(confirmed.num_trials);
+        }
+      }
+      for (ResultScalar& scalar : confirmed.scalars) {
+        const auto scatter = ScatterOf(planner, simulated, index, scalar.name);
+        scalar.standard_error = scatter.StandardError(confirmed.num_trials);
+        scalar.degrees = scatter.degrees;
+      }
+    }
+  }
 }
 
 ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& evidence,
@@ -173,13 +206,15 @@ void AddParameters(const optimizer::Answer& answer, const Planner& planner,
 
 void AddConfirmation(const optimizer::Answer& answer, const Planner& planner,
                      const CampaignEvidence& evidence, Answer& result) {
-  for (const Candidate& simulated : planner.Candidates(answer)) {
+  const std::vector<Candidate> all = planner.Candidates(answer);
+  for (const Candidate& simulated : all) {
     ResultCandidate candidate = CandidateOf(planner, evidence, simulated);
     const auto succeeded = [](const ResultConfirmed& c) { return c.num_trials > 0; };
     if (std::ranges::any_of(candidate.experiments, succeeded)) {
       result.confirmed.push_back(std::move(candidate));
     }
   }
+  AddStandardErrors(planner, all, result);
 }
 
 ResultConditions ConditionsOf(const CampaignSpec& spec) {

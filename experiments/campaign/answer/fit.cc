@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "base/student_factor.h"
+#include "experiments/journal/objective.h"
 
 namespace talus::campaign {
 namespace {
 
-constexpr double kCloseNumber = 2;   // standard errors
+constexpr double kCloseNumber = 2;  // standard errors
+constexpr double kNoChance =
+    0.99;                        // of the measurements that a set gives are not said to be missed
+constexpr double kFarImage = 3;  // standard errors: SADs are skewed (tests count 1 in 100)
 constexpr double kMostShare = 0.05;  // of the powder's area
 
 // The square of a mean profile's SAD falls as a² + b²/n with its n heaps: b, from one heap and all.
@@ -18,10 +25,26 @@ double ScatterOfOne(const ResultConfirmed& confirmed) {
   return std::sqrt(std::max(0.0, (one * one - all * all) * n / (n - 1)));
 }
 
-Meets ImageMeets(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
+// How far above its mean chance may take the SAD of a mean profile [mm²], by the scatter that the
+// model has found over the campaign, where it has one of SADs, and by that of the confirming seeds.
+double ChanceOf(const Answer& answer, const ResultExperiment& experiment,
+                const ResultConfirmed& confirmed) {
+  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
+  const double seeds = OrZero(confirmed.sad_standard_error.value_or(0));
+  if (is_sad && experiment.noise_sd) {
+    return kFarImage * std::max(seeds, ErrorOf(experiment, confirmed));
+  }
+  if (confirmed.degrees == 0) return 0;
+  return seeds * std::max(kFarImage, base::StudentFactor(confirmed.degrees, kNoChance));
+}
+
+Meets ImageMeets(const Answer& answer, const ResultExperiment& experiment,
+                 const ResultConfirmed& confirmed) {
   if (!confirmed.profile_sad_mm2) return Meets::kUnknown;
   if (confirmed.over_floor) {
-    return *confirmed.over_floor <= kCloseRuns ? Meets::kYes : Meets::kNo;
+    if (*confirmed.over_floor <= kCloseRuns) return Meets::kYes;
+    const double beyond = (1 - kCloseRuns / *confirmed.over_floor) * *confirmed.profile_sad_mm2;
+    return beyond > ChanceOf(answer, experiment, confirmed) ? Meets::kNo : Meets::kUnknown;
   }
   const double own = SadWithoutScatter(confirmed);
   const bool misses = experiment.powder_area && own > kMostShare * *experiment.powder_area &&
@@ -39,12 +62,29 @@ double OffBy(const ResultNumber& measured, const ResultScalar& simulated) {
   return OffBy(measured, simulated.mean, simulated.standard_error);
 }
 
+// An error of the simulations whose degrees of freedom are not known counts as exact.
+Meets NumberMeets(const ResultNumber& measured, double off, double simulated_error, int degrees) {
+  if (!std::isfinite(off)) return Meets::kUnknown;
+  if (off <= kCloseNumber) return Meets::kYes;
+  const double exact = base::StudentFactor(std::numeric_limits<double>::infinity(), kNoChance);
+  const double few = degrees > 0 ? base::StudentFactor(degrees, kNoChance) : exact;
+  const double error = OrZero(simulated_error);
+  const double limit = std::hypot(exact * measured.standard_error, few * error) /
+                       std::hypot(measured.standard_error, error);
+  return off > limit ? Meets::kNo : Meets::kUnknown;
+}
+
 bool IsImplausible(const Answer& answer, const std::string& experiment) {
   const ResultStanding* standing = StandingOf(answer, experiment);
   return standing != nullptr && standing->implausibility > kImplausible;
 }
 
 }  // namespace
+
+double ErrorOf(const ResultExperiment& experiment, const ResultConfirmed& confirmed) {
+  return std::max(OrZero(confirmed.standard_error),
+                  experiment.noise_sd.value_or(0) / std::sqrt(std::max(1, confirmed.num_trials)));
+}
 
 double SadWithoutScatter(const ResultConfirmed& confirmed) {
   const double all = confirmed.profile_sad_mm2.value_or(confirmed.sad_mm2.value_or(kNotKnown));
@@ -59,7 +99,7 @@ MeasurementFit ImageFit(const Answer& answer, const ResultExperiment& experiment
   if (confirmed == nullptr || !confirmed->profile_sad_mm2) return fit;
   if (experiment.powder_area) fit.share = *confirmed->profile_sad_mm2 / *experiment.powder_area;
   if (confirmed->over_floor) fit.off = *confirmed->over_floor;
-  if (fit.meets != Meets::kNo) fit.meets = ImageMeets(experiment, *confirmed);
+  if (fit.meets != Meets::kNo) fit.meets = ImageMeets(answer, experiment, *confirmed);
   return fit;
 }
 
@@ -71,15 +111,17 @@ MeasurementFit NumberFit(const Answer& answer, const ResultExperiment& experimen
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   double simulated = kNotKnown;
   double error = kNotKnown;
+  int degrees = 0;
   if (confirmed != nullptr && std::isfinite(confirmed->scalars.at(number).mean)) {
     simulated = confirmed->scalars[number].mean;
     error = confirmed->scalars[number].standard_error;
+    degrees = confirmed->scalars[number].degrees;
   } else if (standing != nullptr && number < standing->numbers.size()) {
     simulated = standing->numbers[number].predicted;
     error = standing->numbers[number].predicted_sd;
   }
   fit.off = OffBy(measured, simulated, error);
-  if (std::isfinite(fit.off)) fit.meets = fit.off <= kCloseNumber ? Meets::kYes : Meets::kNo;
+  fit.meets = NumberMeets(measured, fit.off, error, degrees);
   if (IsImplausible(answer, experiment.name)) fit.meets = Meets::kNo;
   return fit;
 }
@@ -90,7 +132,10 @@ bool Misses(const Answer& answer, const ResultCandidate& candidate) {
         std::ranges::find(answer.experiments, confirmed.name, &ResultExperiment::name);
     // An experiment without a standing is held out.
     if (experiment == answer.experiments.end() || !StandingOf(answer, confirmed.name)) continue;
-    if (ImageMeets(*experiment, confirmed) == Meets::kNo) return true;
+    const bool is_far = confirmed.over_floor
+                            ? *confirmed.over_floor > kCloseRuns
+                            : ImageMeets(answer, *experiment, confirmed) == Meets::kNo;
+    if (is_far) return true;
     for (std::size_t i = 0; i < experiment->numbers.size(); ++i) {
       if (OffBy(experiment->numbers[i], confirmed.scalars.at(i)) > kCloseNumber) return true;
     }

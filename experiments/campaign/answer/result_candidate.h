@@ -1,6 +1,7 @@
 // A set that was simulated again with fresh seeds, and how it came out at each experiment.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -12,33 +13,43 @@
 namespace talus::campaign {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+inline double OrZero(double error) { return std::isfinite(error) ? error : 0; }  // where not known
 
 // A number of an experiment, the mean over the confirming trials.
 struct ResultScalar {
   std::string name{};
   double mean = kNotKnown;
-  double standard_error = kNotKnown;  // of that mean; not known for one trial
+  // Of that mean, by the scatter within all sets that were simulated again; not known where each
+  // has one trial.
+  double standard_error = kNotKnown;
+  int degrees = 0;  // of freedom that the standard error has; 0: not known
 
-  TALUS_FIELDS(name, mean, standard_error);
+  static constexpr base::FieldKey kKeys[] = {{"degrees", "degrees_of_freedom"}};
+  TALUS_FIELDS(name, mean, standard_error, degrees);
 };
 
 // How the confirming trials of one experiment came out.
 struct ResultConfirmed {
   std::string name{};
-  int num_trials = 0;                       // that succeeded
-  double mean = kNotKnown;                  // of the objective
-  double standard_error = kNotKnown;        // of that mean; not known for one trial
-  std::optional<double> sad_mm2{};          // mean SAD of the trials, whatever the objective
+  int num_trials = 0;                 // that succeeded
+  double mean = kNotKnown;            // of the objective
+  double standard_error = kNotKnown;  // of that mean; not known for one trial
+  std::optional<double> sad_mm2{};    // mean SAD of the trials, whatever the objective
+  // Of that mean, and its degrees of freedom, as of ResultScalar.
+  std::optional<double> sad_standard_error{};
+  int degrees = 0;
   std::optional<double> profile_sad_mm2{};  // SAD of their mean profile
   std::optional<double> over_floor{};       // … over the experiment's noise floor
   std::vector<ResultScalar> scalars{};
 
   static constexpr base::FieldKey kKeys[] = {{"mean", "objective_mean"},
                                              {"standard_error", "objective_standard_error"},
+                                             {"sad_standard_error", "sad_standard_error_mm2"},
+                                             {"degrees", "sad_degrees_of_freedom"},
                                              {"profile_sad_mm2", "mean_profile_sad_mm2"},
                                              {"over_floor", "mean_profile_sad_over_noise_floor"}};
-  TALUS_FIELDS(name, num_trials, mean, standard_error, sad_mm2, profile_sad_mm2, over_floor,
-               scalars);
+  TALUS_FIELDS(name, num_trials, mean, standard_error, sad_mm2, sad_standard_error, degrees,
+               profile_sad_mm2, over_floor, scalars);
 };
 
 // A set that was simulated again with fresh seeds.
