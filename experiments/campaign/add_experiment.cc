@@ -26,6 +26,7 @@ CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment
 void Write(OpenedCampaign& opened, const journal::CampaignRecord& record, const TakenOver& taken) {
   const journal::ExperimentRecord& experiment = record.experiments.back();
   KeepCampaign(opened.folder, record);
+  Reopen(opened.journal);
   opened.journal.AddExperiment(experiment, record.spec_json);
   opened.journal.AddEvent("experiment", 0, "\"" + experiment.name + "\" is added");
   if (taken.trials.empty()) return;

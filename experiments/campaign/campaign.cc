@@ -71,7 +71,7 @@ double Campaign::Elapsed() const {
 }
 
 CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
-  journal_.SetProgress({.elapsed_s = Elapsed()});
+  if (!StayEnded()) journal_.SetProgress({.elapsed_s = Elapsed()});
   TellFinished();
   if (parts_.goal) planner_.NoteGoal(LastGoal(folder_.root, spec_));
   TakeUpRunning();
@@ -96,6 +96,17 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
     ShowStatus();
     for (const runners::FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
   }
+}
+
+// A search that has ended stays so until something is asked of it (Reopen). Its budget may have
+// room again: trials that still ran when it ended counted by an estimate.
+bool Campaign::StayEnded() {
+  const journal::ProgressRecord before = journal_.Progress();
+  if (before.state != "finished" || before.result_json.empty()) return false;
+  planner_.StopSearch(ParseAnswer(before.result_json).stop);
+  console_.Line("it has ended: " + before.stop_reason + "; `talus resume " + folder_.root.string() +
+                " --add-simulations " + std::to_string(kMoreSimulations) + "` goes on");
+  return true;
 }
 
 // Trials become known by their ids, observations are told in the order in which they finished.

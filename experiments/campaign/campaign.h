@@ -52,6 +52,7 @@ class Campaign {
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool StayEnded();
   void TellFinished();
   void TakeUpRunning();
   void CollectReused();

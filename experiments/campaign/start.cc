@@ -249,6 +249,14 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   for (const std::string& message : plan.messages) options.say(message);
 }
 
+void Reopen(journal::Journal& journal) {
+  journal::ProgressRecord progress = journal.Progress();
+  if (progress.state != "finished") return;
+  progress.state = "interrupted";
+  progress.stop_reason = "it is to go on";
+  journal.SetProgress(progress);
+}
+
 OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptions& options,
                             Console& console) {
   const CampaignFolder folder{std::filesystem::absolute(root)};
@@ -282,6 +290,7 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
   if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }
+  if (!change.event.empty() || options.objective) Reopen(journal);
   return {.folder = folder,
           .lock = std::move(lock),
           .journal = std::move(journal),

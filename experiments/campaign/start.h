@@ -60,4 +60,7 @@ struct OpenedCampaign {
 OpenedCampaign OpenCampaign(const std::filesystem::path& folder, const ResumeOptions& options,
                             Console& console);
 
+// A campaign that has ended is to go on: something was asked of it since.
+void Reopen(journal::Journal& journal);
+
 }  // namespace talus::campaign

@@ -66,34 +66,58 @@ std::string Photographs(const SpecAnswers& answers) {
   return text + "],\n";
 }
 
-// The largest surface energy that is searched [J/m²]: the published fine metal powders lie below.
-constexpr double kMostSurfaceEnergy = 8e-4;
+// The largest surface energy that is searched [J/m²]: the published fine metal powders lie below
+// it, and coarse moist grains below a Bond number of 10,
+//
+//   Bo = 4πγR* / (m g),  R* = d/4,  m = πρd³/6:  γ = Bo ρ g d² / 6
+//
+// with one digit, upwards.
+double MostSurfaceEnergy(double diameter, double density) {
+  constexpr double kFinePowders = 8e-4;
+  constexpr double kBond = 10;
+  constexpr double kGravity = 9.81;  // [m/s²]
+  const double moist = kBond * density * kGravity * diameter * diameter / 6;
+  if (moist <= kFinePowders) return kFinePowders;
+  const double digit = std::pow(10.0, std::floor(std::log10(moist)));
+  return std::ceil(moist / digit) * digit;
+}
 
 // Tabor's number of two like grains: (R* w² / (Y*² z₀³))^(1/3), w = 2γ. Below 0.1 adhesion acts as
 // DMT has it, above 5 as JKR does. The stiffness is the real one, not what is simulated to save
 // steps.
-double TaborNumber(double diameter) {
+double TaborNumber(double diameter, double surface_energy) {
   constexpr double kStiffness = 70e9;  // of metals and minerals, Y [Pa]
   constexpr double kPoissonRatio = 0.3;
   constexpr double kSpacing = 4e-10;  // of atoms, z₀ [m]
   const double y_star = kStiffness / (2 * (1 - kPoissonRatio * kPoissonRatio));
-  const double work = 2 * kMostSurfaceEnergy;
+  const double work = 2 * surface_energy;
   return std::cbrt(diameter / 4 * work * work / (y_star * y_star * std::pow(kSpacing, 3)));
 }
 
-std::string Models(bool cohesive, double diameter) {
+// What the adhesion of cohesive grains is begun with.
+struct Cohesion {
+  double most_surface_energy;  // [J/m²]
+  double tabor;                // Tabor's number there [-]
+};
+
+Cohesion CohesionOf(double diameter, const std::string& density) {
+  const double most =
+      MostSurfaceEnergy(diameter, base::ParseQuantity(density, base::Dimension::kDensity));
+  return {.most_surface_energy = most, .tabor = TaborNumber(diameter, most)};
+}
+
+std::string Models(bool cohesive, const Cohesion& cohesion) {
   if (!cohesive) {
     return "  // docs/physics.md. Dry grains; \"dmt\" or \"jkr\" for cohesive ones, with a range "
            "of "
            "surface_energy below\n"
            "  \"models\": {\"adhesion\": \"none\", \"rolling\": \"epsd\"},\n";
   }
-  const double tabor = TaborNumber(diameter);
-  const bool dmt = tabor < 1;
+  const bool dmt = cohesion.tabor < 1;
   return "  // Cohesive grains, poured: filled densely they may stand where poured ones slump. "
          "Adhesion is " +
          std::string(dmt ? "dmt" : "jkr") + ":\n  // Tabor's number of such grains of 70 GPa is " +
-         base::ShortNumber(tabor) +
+         base::ShortNumber(cohesion.tabor, 2) +
          " at the largest surface_energy below; dmt holds below\n  // 0.1, jkr above 5. Soft or "
          "moist "
          "grains: \"jkr\". Dry ones: \"none\", without surface_energy\n"
@@ -117,7 +141,7 @@ std::string Nuisances(const SpecAnswers& answers) {
          text.substr(1);
 }
 
-std::string Searched(const SpecAnswers& answers) {
+std::string Searched(const SpecAnswers& answers, const Cohesion& cohesion) {
   std::string text =
       "  // What is searched, and where. A parameter that you have measured: {\"fixed\": 0.4}.\n"
       "  \"parameters\": {\n"
@@ -125,7 +149,7 @@ std::string Searched(const SpecAnswers& answers) {
       "    \"rolling_friction\": {\"min\": 0.005, \"max\": 0.6}";
   if (answers.cohesive) {
     text += ",\n    \"surface_energy\": {\"min\": \"1e-6 J/m^2\", \"max\": \"" +
-            base::ShortNumber(kMostSurfaceEnergy) +
+            base::ShortNumber(cohesion.most_surface_energy) +
             " J/m^2\", "
             "\"scale\": \"log\"}";
   }
@@ -246,6 +270,7 @@ std::string CoarseGraining(const SpecAnswers& answers, const Lengths& lengths) {
 
 std::string DraftSpec(const SpecAnswers& answers) {
   const Lengths lengths = LengthsOf(answers);
+  const Cohesion cohesion = CohesionOf(lengths.grain, answers.density);
   if (!answers.HasPhotographs() && answers.tests.empty()) {
     throw base::ConfigError(
         "there is nothing to calibrate on: give photographs of a heap, or what a test has "
@@ -256,8 +281,8 @@ std::string DraftSpec(const SpecAnswers& answers) {
          "// `talus calibrate` runs it. Comments may stay; docs/campaigns.md has every key.\n"
          "{\n  \"name\": " +
          Quoted(answers.name) + ",\n" + Experiments(answers) + Powder(answers) + Device(answers) +
-         Models(answers.cohesive, lengths.grain) + CoarseGraining(answers, lengths) +
-         Searched(answers) +
+         Models(answers.cohesive, cohesion) + CoarseGraining(answers, lengths) +
+         Searched(answers, cohesion) +
          "  \"objective\": \"sad\",\n"
          "  // at most; add \"core_time\": \"4 h\" for an evening\n"
          "  \"budget\": {\"simulations\": 60},\n"

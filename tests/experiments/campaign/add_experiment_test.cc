@@ -71,6 +71,26 @@ TEST_F(AddExperimentTest, TheTrialsStayAndTheAnswerMeetsBoth) {
   EXPECT_EQ(result.confirmed.at(0).experiments.size(), 2u);
 }
 
+// A trial that still runs when the budget is used counts by an estimate; where it takes less, the
+// budget has room again.
+TEST_F(AddExperimentTest, ACampaignThatHasEndedWithItDoesNotSearchOnByItself) {
+  const fs::path folder = Ended();
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")), {.core_time = 0.2});
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const auto ended = Trials(folder);
+  {
+    auto journal = journal::Journal::Open(journal::JournalPath(folder));
+    CampaignSpec spec = LoadSpec(folder);
+    *spec.budget.core_time *= 2;
+    journal.SetSpec(journal.Campaign().spec_text, SpecText(spec));
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  EXPECT_EQ(Trials(folder).size(), ended.size());
+  EXPECT_EQ(Result(folder).stop.kind, StopKind::kCoreTime);
+  EXPECT_EQ(RunFake(folder, {}, {.add_simulations = 2}), CampaignEnd::kFinished);
+  EXPECT_GE(Trials(folder).size(), ended.size() + 2);
+}
+
 // The design stands 16 simulations; none of them is run again, and nothing of the usual design of
 // an added test beside them.
 TEST_F(AddExperimentTest, WhatNextHasSimulatedOfTheTestIsTakenOver) {
