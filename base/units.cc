@@ -20,9 +20,12 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr Unit kNoUnits[] = {{"%", 0.01}};
 // In Canonical spelling.
-constexpr Unit kLengths[] = {{"m", 1},     {"dm", 1e-1}, {"cm", 1e-2},     {"mm", 1e-3},
-                             {"um", 1e-6}, {"nm", 1e-9}, {"micron", 1e-6}, {"microns", 1e-6}};
-constexpr Unit kMasses[] = {{"kg", 1}, {"g", 1e-3}, {"mg", 1e-6}, {"ug", 1e-9}, {"t", 1e3}};
+constexpr Unit kLengths[] = {{"m", 1},          {"dm", 1e-1},       {"cm", 1e-2},
+                             {"mm", 1e-3},      {"um", 1e-6},       {"nm", 1e-9},
+                             {"micron", 1e-6},  {"microns", 1e-6},  {"in", 25.4e-3},
+                             {"inch", 25.4e-3}, {"inches", 25.4e-3}};
+constexpr Unit kMasses[] = {{"kg", 1},  {"g", 1e-3},    {"mg", 1e-6},   {"ug", 1e-9},
+                            {"t", 1e3}, {"gram", 1e-3}, {"grams", 1e-3}};
 constexpr Unit kTimes[] = {{"s", 1},    {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9},
                            {"min", 60}, {"h", 3600},  {"d", 86400}};
 constexpr Unit kVelocities[] = {{"m/s", 1},     {"cm/s", 1e-2},        {"mm/s", 1e-3},
@@ -33,8 +36,8 @@ constexpr Unit kAngularVelocities[] = {
 constexpr Unit kAngles[] = {{"rad", 1}, {"deg", kDegree}, {"°", kDegree}};
 constexpr Unit kDensities[] = {{"kg/m^3", 1}, {"g/cm^3", 1e3}, {"g/cc", 1e3}, {"g/mL", 1e3},
                                {"g/ml", 1e3}, {"kg/L", 1e3},   {"kg/l", 1e3}};
-constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3}, {"MPa", 1e6},
-                               {"GPa", 1e9}, {"N/m^2", 1}, {"bar", 1e5}};
+constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3},    {"MPa", 1e6},    {"GPa", 1e9},
+                               {"N/m^2", 1}, {"MN/m^2", 1e6}, {"N/mm^2", 1e6}, {"bar", 1e5}};
 constexpr Unit kSurfaceEnergies[] = {
     {"J/m^2", 1}, {"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}, {"N/m", 1}, {"mN/m", 1e-3}};
 constexpr Unit kMassRates[] = {{"kg/s", 1}, {"g/s", 1e-3}, {"mg/s", 1e-6}, {"g/min", 1e-3 / 60}};
@@ -85,7 +88,7 @@ void Replace(std::string& text, std::string_view from, std::string_view to) {
   }
 }
 
-// "µm" → "um", "kg/m³" and "kg/m3" → "kg/m^3": as people type them.
+// "µm" → "um", "kg/m³" and "kg/m3" → "kg/m^3", "mm/sec" → "mm/s": as people type them.
 std::string Canonical(std::string_view unit) {
   std::string name(unit);
   for (const char* micro : {"µ", "μ"}) Replace(name, micro, "u");
@@ -95,6 +98,7 @@ std::string Canonical(std::string_view unit) {
       Replace(name, std::string(letter) + power, std::string(letter) + "^" + power);
     }
   }
+  if (name.ends_with("sec")) name.resize(name.size() - 2);
   return name;
 }
 

@@ -82,7 +82,21 @@ imaging::ExperimentOptions Experiment(const MeasureFlags& flags) {
   return options;
 }
 
+// Files of spheres are measured in the frame of an experiment, and no other input is.
+void CheckSpheres(const MeasureFlags& flags) {
+  if (!flags.like.empty()) return;
+  for (const std::filesystem::path input : flags.inputs) {
+    const std::string kind = input.extension().string();
+    if (kind != ".vtp" && kind != ".vtk" && kind != ".vtu" && kind != ".csv") continue;
+    throw base::ConfigError(
+        input.string() +
+        ": holds spheres, no image; they are drawn as a photographed heap was: add --like DIR, the "
+        "folder that `talus measure PHOTOS --out DIR` has written, or its profile with the frame");
+  }
+}
+
 void Measure(const MeasureFlags& flags) {
+  CheckSpheres(flags);
   trials::MeasureRequest request{.inputs = {flags.inputs.begin(), flags.inputs.end()},
                                  .out = flags.out,
                                  .experiment = Experiment(flags),

@@ -57,6 +57,11 @@ TEST(Units, ReadsWhatPeopleType) {
   EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g/cm3", Dimension::kDensity), 1500);
   EXPECT_DOUBLE_EQ(ParseQuantity("1.5 g/ml", Dimension::kDensity), 1500);
   EXPECT_DOUBLE_EQ(ParseQuantity("80 microns", Dimension::kLength), 80e-6);
+  EXPECT_DOUBLE_EQ(ParseQuantity("0.5 inch", Dimension::kLength), 12.7e-3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("1.6 grams", Dimension::kMass), 1.6e-3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("20 mm/sec", Dimension::kVelocity), 0.02);
+  EXPECT_DOUBLE_EQ(ParseQuantity("3 sec", Dimension::kTime), 3);
+  EXPECT_DOUBLE_EQ(ParseQuantity("10 MN/m2", Dimension::kPressure), 1e7);
   EXPECT_DOUBLE_EQ(ParseQuantity("80 \u00b5m", Dimension::kLength), 80e-6);
   EXPECT_DOUBLE_EQ(ParseQuantity("80 \u03bcm", Dimension::kLength), 80e-6);
   EXPECT_DOUBLE_EQ(ParseQuantity("2 mJ/m2", Dimension::kSurfaceEnergy), 2e-3);

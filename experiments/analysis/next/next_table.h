@@ -54,6 +54,7 @@ struct NextCandidate {
   int num_made = 0;         // of these, for its design
   double core_time = 0;     // of all these simulations [s]
   double core_time_made = 0;
+  double core_time_to_judge = 0;             // of a test without a design: what that takes [s]
   std::vector<std::vector<double>> apart{};  // the two sets it separates most, SI; or none
   std::vector<ToldApart> numbers{};          // at these two
   std::filesystem::path picture{};           // of these two; empty without images

@@ -124,6 +124,23 @@ std::string CandidateText(const NextTable& table, const NextCandidate& c) {
          " bits)\n" + (c.apart.empty() ? "" : ApartText(c));
 }
 
+// "the cheapest, rough plate, takes 32 s of core time": why nothing was simulated. "" where no test
+// can be.
+std::string CheapestText(const NextTable& table) {
+  const NextCandidate* cheapest = nullptr;
+  for (const NextCandidate& c : table.candidates) {
+    if (c.kind != NextKind::kTest || !(c.core_time_to_judge > 0)) continue;
+    if (cheapest == nullptr || c.core_time_to_judge < cheapest->core_time_to_judge) cheapest = &c;
+  }
+  if (cheapest == nullptr) return "";
+  // A whole half minute more, so that an estimate that is a little short still pays for it.
+  const double budget = 30 * std::ceil(1.2 * cheapest->core_time_to_judge / 30);
+  return "  further tests     none could be simulated in that time: the cheapest, " +
+         cheapest->name + ", takes about " + trials::DurationText(cheapest->core_time_to_judge) +
+         " of core time (`talus next DIR --simulate --budget \"" + ShortNumber(budget) +
+         " s\"`, or a larger next.share in the spec)\n";
+}
+
 }  // namespace
 
 std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
@@ -166,14 +183,7 @@ std::string NextSummary(const NextTable& table) {
     text += (shown++ == 0 ? "  further tests     " : "                    ") + c.name +
             DependsText(c) + ": expected to leave " + WidthsText(table, c.learning->width) + "\n";
   }
-  if (shown == 0) {
-    const bool is_open = std::ranges::any_of(table.candidates, [](const NextCandidate& candidate) {
-      return candidate.kind == NextKind::kTest && !IsImpossible(candidate);
-    });
-    return is_open ? "  further tests     none could be simulated in that time: `talus next DIR "
-                     "--simulate` tells what each would teach\n"
-                   : "";
-  }
+  if (shown == 0) return CheapestText(table);
   return text + "                    (width of the joint 90 % ranges now: " +
          WidthsText(table, table.width) + "; `talus next DIR` lists all)\n";
 }

@@ -262,6 +262,7 @@ std::vector<NextCandidate> JudgeTests(const Ground& ground, const NextOptions& o
     const TestCandidate& test = options.tests[design.candidate];
     NextCandidate& candidate = candidates[design.candidate];
     if (!design.stored) {
+      candidate.core_time_to_judge = design.cost;
       candidate.what += ", judged by " + base::Counted(kDesignSize, "coarse simulation") + " of " +
                         trials::DurationText(design.cost) + " of core time together";
       continue;

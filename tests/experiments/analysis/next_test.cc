@@ -218,7 +218,9 @@ TEST_F(NextTest, DesignsAreSimulatedWithinTheirBudgetTheCheapestFirst) {
   EXPECT_THAT(said[0], HasSubstr("again: 16 simulations"));
   EXPECT_THAT(NextSummary(table), HasSubstr("again: expected to leave sliding_friction"));
   EXPECT_EQ(NextSummary(Rank(view, {}, false)), "");
-  EXPECT_THAT(NextSummary(Rank(view, {slow}, false)), HasSubstr("none could be simulated"));
+  const std::string none = NextSummary(Rank(view, {slow, {.name = "quick"}}, false));
+  EXPECT_THAT(none, HasSubstr("none could be simulated in that time: the cheapest, quick, takes"));
+  EXPECT_THAT(none, HasSubstr("`talus next DIR --simulate --budget \"30 s\"`"));
 }
 
 // Two rectangles, of which the second is lower and wider: the difference has both colours, and two

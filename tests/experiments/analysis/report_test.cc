@@ -117,6 +117,16 @@ TEST(SvgChart, PutsValuesWhereTheyBelong) {
   EXPECT_EQ(chart.Text().find("<circle"), chart.Text().rfind("<circle"));
 }
 
+TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
+  const std::string chart = SvgChart({.title = "γ (J/m²)", .low = 1e-6, .high = 1e-2, .log = true},
+                                     {.title = "cost", .low = 0, .high = 4e6})
+                                .Text();
+  for (const char* tick : {">10⁻⁶<", ">10⁻⁵<", ">0.01<", ">10⁶<", ">3 × 10⁶<"}) {
+    EXPECT_THAT(chart, HasSubstr(tick));
+  }
+  EXPECT_THAT(chart, Not(HasSubstr("e-0")));
+}
+
 TEST_F(Report, OutlinesEndOnThePlateWithinIt) {
   for (const OutlineCurve& outline : Data().outlines) {
     ASSERT_GT(outline.x.size(), 10u);

@@ -6,6 +6,7 @@
 
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/report/views/answer_words.h"
 
 namespace talus::analysis {
 namespace {
@@ -37,6 +38,12 @@ std::string LineStyle(const SvgStyle& style) {
 std::string Words(double x, double y, const std::string& anchor, const std::string& text) {
   return "<text x=\"" + Pixel(x) + "\" y=\"" + Pixel(y) + "\" text-anchor=\"" + anchor + "\">" +
          base::MarkupText(text) + "</text>\n";
+}
+
+// "0.2", "10⁻⁶", as the rest of the page writes numbers.
+std::string TickText(double tick) {
+  const std::string text = WithPowers(Number(tick, 4));
+  return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
 }
 
 // Powers of ten within a logarithmic axis, else about five round values.
@@ -149,12 +156,12 @@ std::string SvgChart::AxesText() const {
   for (const double tick : TicksOf(x_)) {
     const double x = PixelX(tick);
     text += "<path d=\"M" + Pixel(x) + " " + Pixel(plot_height_) + "v5\"" + stroke + "/>\n" +
-            Words(x, plot_height_ + 20, "middle", Number(tick, 4));
+            Words(x, plot_height_ + 20, "middle", TickText(tick));
   }
   for (const double tick : TicksOf(y_)) {
     const double y = PixelY(tick);
     text += "<path d=\"M0 " + Pixel(y) + "h-5\"" + stroke + "/>\n" +
-            Words(-9, y + 5, "end", Number(tick, 4));
+            Words(-9, y + 5, "end", TickText(tick));
   }
   text += Words(kPlotWidth / 2, plot_height_ + 44, "middle", x_.title);
   return text + "<g transform=\"translate(-56 " + Pixel(plot_height_ / 2) + ") rotate(-90)\">" +
