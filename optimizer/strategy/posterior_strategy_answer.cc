@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/text/counted.h"
 #include "optimizer/posterior/branches.h"
 #include "optimizer/posterior/credible_ranges.h"
 #include "optimizer/posterior/measured_shift.h"
@@ -117,10 +118,10 @@ Answer PosteriorStrategy::Recommend() {
   }
   char text[200];
   std::snprintf(text, sizeof text,
-                "posterior of %zu evaluations at %d scale factors; leave-one-out coverage of 90 %% "
+                "posterior of %zu evaluations at %s; leave-one-out coverage of 90 %% "
                 "regions %.0f %%, %.0f %% after tempering by %.2f",
-                observations_.size(), levels_.size(), 100 * summary.raw_coverage,
-                100 * summary.tempered_coverage, summary.temper);
+                observations_.size(), base::Counted(levels_.size(), "scale factor").c_str(),
+                100 * summary.raw_coverage, 100 * summary.tempered_coverage, summary.temper);
   answer.model = text;
   return answer;
 }

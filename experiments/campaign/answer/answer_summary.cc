@@ -115,6 +115,13 @@ std::string NameOfCandidate(const Answer& answer, std::size_t index) {
                                      : "candidate " + std::to_string(number + 1);
 }
 
+// "sliding_friction 0.31, rolling_friction 0.12"
+std::string ValuesText(const Answer& answer, const std::vector<double>& values) {
+  return base::JoinedUpTo(values.size(), ", ", [&](std::size_t k) {
+    return answer.parameters[k].name + " " + base::ShortNumber(values[k], 4);
+  });
+}
+
 std::string ConfirmedLines(const Answer& answer) {
   std::string text;
   for (std::size_t i = 0; i < answer.confirmed.size(); ++i) {
@@ -122,9 +129,7 @@ std::string ConfirmedLines(const Answer& answer) {
     text += Padded("  " + NameOfCandidate(answer, i), 20) + "with " +
             std::to_string(c.experiments.front().num_trials) + " fresh seeds at scale factor " +
             base::ShortNumber(c.scale_factor);
-    for (std::size_t k = 0; i > 0 && k < c.values.size(); ++k) {
-      text += (k == 0 ? ": " : " ") + base::ShortNumber(c.values[k]);
-    }
+    if (i > 0) text += ": " + ValuesText(answer, c.values);
     for (const ResultConfirmed& e : c.experiments) {
       const double value = ComparableOf(answer, e);
       if (i > 0 && std::isfinite(value)) {
@@ -137,17 +142,16 @@ std::string ConfirmedLines(const Answer& answer) {
   return text;
 }
 
-std::string BranchLine(const ResultBranch& branch) {
-  std::string text = "    " + base::ShortNumber(100 * branch.share) + " % at";
-  for (const double value : branch.values) text += " " + base::ShortNumber(value);
-  return text + "\n";
+std::string BranchLine(const Answer& answer, const ResultBranch& branch) {
+  return "    " + base::ShortNumber(100 * branch.share) + " % at " +
+         ValuesText(answer, branch.values) + "\n";
 }
 
 std::string PosteriorLines(const Answer& result) {
   const ResultPosterior& p = *result.posterior;
   std::string text;
   if (p.branches.size() > 1) {
-    for (const ResultBranch& branch : p.branches) text += BranchLine(branch);
+    for (const ResultBranch& branch : p.branches) text += BranchLine(result, branch);
   }
   if (p.experiments.size() > 1) {
     text += "  tension           " + base::PlainNumber(p.tension, 2) +
@@ -186,7 +190,7 @@ std::string AnswerSummary(const Answer& r, const std::filesystem::path& folder) 
         "it\n";
   }
   text += "  holds for         scale factor " + base::ShortNumber(r.conditions.scale_factor) +
-          ", Y " + base::ShortNumber(r.conditions.youngs_modulus) + " Pa" + ", adhesion " +
+          ", Y " + base::ShortNumber(r.conditions.youngs_modulus / 1e6) + " MPa, adhesion " +
           r.conditions.adhesion + ", rolling " + r.conditions.rolling + "\n";
   for (const ResultDevice& device : r.conditions.devices) {
     text += "                    " + device.experiment + ", " + device.text + "\n";

@@ -14,6 +14,7 @@
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/page.h"
 #include "experiments/analysis/report/views/answer_words.h"
+#include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/answer/answer.h"
 #include "imaging/formats/images/image_file.h"
@@ -161,6 +162,23 @@ TEST_F(Report, SlicesPassThroughTheAnswerOfTheModelThatAnswered) {
 }
 
 // The posterior is drawn from its draws; nothing is fitted to the trials beside it.
+// Where every set fits the shadow is the whole plane, also between draws on nine stripes.
+TEST(PosteriorPairs, StripesOfTheDrawsAreNotTakenForTheRegion) {
+  Evidence evidence;
+  for (const char* name : {"a", "b", "c"}) {
+    evidence.parameters.push_back({.range = {.name = name, .low = 0, .high = 1}, .symbol = name});
+  }
+  ModelEvidence& model = evidence.model.emplace();
+  model.draws.resize(900, 3);
+  for (int i = 0; i < 900; ++i) model.draws.row(i) << i / 900.0, (i % 9 + 0.5) / 9, 0.5;
+  model.credible_levels = [](const Eigen::MatrixXd& points) {
+    return Eigen::VectorXd::Constant(points.rows(), 0.5).eval();
+  };
+  const PairMap pair = PosteriorPairs(evidence).front();
+  const auto inside = std::ranges::count_if(pair.value, [](double level) { return level < 0.9; });
+  EXPECT_GT(inside, 0.99 * static_cast<double>(pair.value.size()));
+}
+
 TEST_F(Report, RegionsOfTwoAreTheShadowOfTheJointOne) {
   const ReportData& data = Data();
   ASSERT_EQ(data.marginals.size(), 3u);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "experiments/analysis/report/views/posterior_density.h"
+#include "experiments/campaign/plan/candidates.h"
 
 namespace talus::analysis {
 namespace {
@@ -82,6 +84,33 @@ PairMap RegionMap(const Evidence& evidence) {
   return map;
 }
 
+// Points with their credible levels, one a row.
+struct Levelled {
+  Eigen::MatrixXd points;
+  Eigen::VectorXd levels;
+};
+
+// The draws, and what a uniform sample finds inside the region. The draws come from a sequence that
+// fills the cube evenly and leaves stripes on some planes of four and more parameters.
+Levelled ShadowPoints(const ModelEvidence& model) {
+  constexpr Eigen::Index kTried = 1 << 13;
+  constexpr Eigen::Index kMost = 2000;
+  base::Random random(1, base::Stream("shadow of the region"));
+  const Eigen::MatrixXd tried = Eigen::MatrixXd::NullaryExpr(
+      kTried, model.draws.cols(), [&](Eigen::Index, Eigen::Index) { return random.Uniform(); });
+  const Eigen::VectorXd levels = model.credible_levels(tried);
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index i = 0; i < kTried && std::ssize(inside) < kMost; ++i) {
+    if (levels[i] <= campaign::kRegionLevel) inside.push_back(i);
+  }
+  const Eigen::Index count = model.draws.rows() + std::ssize(inside);
+  Levelled all{.points = Eigen::MatrixXd(count, model.draws.cols()),
+               .levels = Eigen::VectorXd(count)};
+  all.points << model.draws, tried(inside, Eigen::all);
+  all.levels << model.credible_levels(model.draws), levels(inside);
+  return all;
+}
+
 }  // namespace
 
 std::vector<ModelSlice> SliceModel(const Evidence& evidence, const Eigen::VectorXd& point) {
@@ -127,9 +156,9 @@ std::vector<PairMap> PosteriorPairs(const Evidence& evidence) {
   const bool all_asked = std::ranges::none_of(
       evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
   if (evidence.parameters.size() == 2 && all_asked) return {RegionMap(evidence)};
-  const Eigen::VectorXd levels = evidence.model->credible_levels(evidence.model->draws);
-  return EachPair(evidence, evidence.model->draws, kRegionCells, [&](const Eigen::MatrixXd& two) {
-    return ProjectedLevels(two, levels, kRegionCells);
+  const Levelled shadow = ShadowPoints(*evidence.model);
+  return EachPair(evidence, shadow.points, kRegionCells, [&](const Eigen::MatrixXd& two) {
+    return ProjectedLevels(two, shadow.levels, kRegionCells);
   });
 }
 
