@@ -41,6 +41,9 @@ constexpr Unit kPressures[] = {{"Pa", 1},    {"kPa", 1e3},    {"MPa", 1e6},    {
 constexpr Unit kSurfaceEnergies[] = {
     {"J/m^2", 1}, {"mJ/m^2", 1e-3}, {"uJ/m^2", 1e-6}, {"N/m", 1}, {"mN/m", 1e-3}};
 constexpr Unit kMassRates[] = {{"kg/s", 1}, {"g/s", 1e-3}, {"mg/s", 1e-6}, {"g/min", 1e-3 / 60}};
+constexpr Unit kAreaDensities[] = {{"kg/m^2", 1},  {"g/m^2", 1e-3},  {"mg/cm^2", 1e-2},
+                                   {"g/cm^2", 10}, {"mg/m^2", 1e-6}, {"ug/cm^2", 1e-5},
+                                   {"mg/mm^2", 1}, {"ug/mm^2", 1e-3}};
 constexpr Unit kEnergies[] = {{"J", 1}, {"mJ", 1e-3}, {"uJ", 1e-6}, {"nJ", 1e-9}, {"zJ", 1e-21}};
 
 std::span<const Unit> UnitsOf(Dimension dimension) {
@@ -71,6 +74,8 @@ std::span<const Unit> UnitsOf(Dimension dimension) {
       return kEnergies;
     case Dimension::kMassRate:
       return kMassRates;
+    case Dimension::kAreaDensity:
+      return kAreaDensities;
   }
   return {};
 }

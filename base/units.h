@@ -21,6 +21,7 @@ enum class Dimension {
   kSurfaceEnergy,    // J/m²
   kEnergy,           // J
   kMassRate,         // kg/s
+  kAreaDensity,      // kg/m²
 };
 
 // The SI unit's symbol as it is written in an input: "m", "kg/m^3"; "" for kNone.

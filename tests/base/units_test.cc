@@ -70,5 +70,15 @@ TEST(Units, ReadsWhatPeopleType) {
   EXPECT_THROW(ParseQuantity("1 m2", Dimension::kLength), ConfigError);
 }
 
+// 1 g of powder on 100 cm².
+TEST(Units, MassPerAreaAsItIsWeighed) {
+  for (const char* text : {"0.1 kg/m2", "0.1 kg/m^2", "0.1 kg/m\u00b2", "100 g/m^2", "10 mg/cm^2",
+                           "10 mg/cm2", "0.01 g/cm2", "1e5 mg/m2", "1e4 \u00b5g/cm\u00b2",
+                           "100 \u03bcg/mm2", "0.1 mg/mm^2", "0.1"}) {
+    EXPECT_DOUBLE_EQ(ParseQuantity(text, Dimension::kAreaDensity), 0.1) << text;
+  }
+  EXPECT_THAT(ErrorOf("10 mg/cm3", Dimension::kAreaDensity), HasSubstr("\"1 mg/cm^2\""));
+}
+
 }  // namespace units_test
 }  // namespace talus::base

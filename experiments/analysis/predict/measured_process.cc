@@ -1,6 +1,7 @@
 #include "experiments/analysis/predict/measured_process.h"
 
 #include "base/json/json_reader.h"
+#include "experiments/campaign/spec/possible_numbers.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/photos/experiment.h"
@@ -23,6 +24,7 @@ struct MeasuredFile {
                      "has no data: give photos, runs or a map, or numbers with their errors such "
                      "as \"angle\": {\"value\": \"38 deg\", \"sd\": \"1 deg\"}");
     if (images.HasImages()) images.Validate(problems);
+    campaign::RequirePossible(numbers, "", problems);
   }
 };
 

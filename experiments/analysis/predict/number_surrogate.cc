@@ -125,6 +125,7 @@ struct ToldRuns {
   const Prediction& prediction;
   const DefinedRuns& defined;
   const surrogate::Evaluations& evaluations;
+  rigs::Bounds bounds;
 };
 
 surrogate::Evaluations WithoutDraw(const ToldRuns& told, int draw) {
@@ -155,8 +156,8 @@ LeftOutErrors ErrorsOf(const surrogate::GaussianProcess& process,
   for (const PooledMean& mean : means) {
     if (mean.scale_factor > told.prediction.scale_factor) continue;
     const auto without = surrogate::GaussianProcess::Fit(WithoutDraw(told, mean.draw), options);
-    by_surrogate.push_back(without.PredictAll(points.row(mean.draw), mean.growth).mean[0] -
-                           mean.value);
+    const double told_mean = without.PredictAll(points.row(mean.draw), mean.growth).mean[0];
+    by_surrogate.push_back(told.bounds.Clamp(told_mean) - mean.value);
     by_draws.push_back(MissedByDraws(told.prediction, means, mean));
   }
   return {.surrogate = RootMeanSquare(by_surrogate), .draws = RootMeanSquare(by_draws)};
@@ -188,6 +189,7 @@ std::optional<NumberSurrogate> NumberSurrogate::Fit(const Prediction& prediction
   const surrogate::Evaluations evaluations = EvaluationsOf(prediction, number, *defined, points);
   NumberSurrogate fitted;
   fitted.constant_ = evaluations.values.mean();
+  fitted.bounds_ = rigs::BoundsOf(number.name);
   const double spread = surrogate::StandardDeviation(evaluations.values);
   if (!(spread > 1e-12 * std::abs(fitted.constant_))) return fitted;
   const surrogate::GaussianProcessOptions options{
@@ -197,16 +199,23 @@ std::optional<NumberSurrogate> NumberSurrogate::Fit(const Prediction& prediction
   fitted.run_sd_ = levels.NoiseAtTarget(levels.finest()) *
                    std::sqrt(fitted.process_->noise_variance(levels.finest()));
 
-  const LeftOutErrors errors =
-      ErrorsOf(*fitted.process_, options,
-               {.prediction = prediction, .defined = *defined, .evaluations = evaluations}, points);
+  const LeftOutErrors errors = ErrorsOf(*fitted.process_, options,
+                                        {.prediction = prediction,
+                                         .defined = *defined,
+                                         .evaluations = evaluations,
+                                         .bounds = fitted.bounds_},
+                                        points);
   fitted.left_out_error_ = errors.surrogate;
   fitted.draws_error_ = errors.draws;
   return fitted;
 }
 
 surrogate::Predictions NumberSurrogate::At(const Eigen::MatrixXd& points) const {
-  if (process_) return process_->PredictAll(points);
+  if (process_) {
+    surrogate::Predictions at = process_->PredictAll(points);
+    at.mean = at.mean.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    return at;
+  }
   return {.mean = Eigen::VectorXd::Constant(points.rows(), constant_),
           .variance = Eigen::VectorXd::Zero(points.rows())};
 }

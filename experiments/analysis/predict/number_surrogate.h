@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiments/analysis/predict/prediction.h"
+#include "experiments/rigs/observables/observable.h"
 #include "optimizer/space/parameter_space.h"
 #include "surrogate/process/gaussian_process.h"
 
@@ -24,7 +25,7 @@ class NumberSurrogate {
                                             const optimizer::ParameterSpace& space);
 
   // What runs of each set give on average at the prediction's target scale factor: one point of
-  // the unit cube a row. The variance is that of this mean.
+  // the unit cube a row; never beyond what the number can be. The variance is that of this mean.
   surrogate::Predictions At(const Eigen::MatrixXd& points) const;
   // Standard deviation of a single run there.
   double run_sd() const { return run_sd_; }
@@ -41,6 +42,7 @@ class NumberSurrogate {
   // None: the number is the same everywhere.
   std::optional<surrogate::GaussianProcess> process_;
   double constant_ = 0;
+  rigs::Bounds bounds_;
   double run_sd_ = 0;
   double left_out_error_ = 0;
   double draws_error_ = 0;

@@ -32,10 +32,11 @@ double MeanSd(const PredictedNumber& predicted, const Spread& spread, int num_se
 
 MeasuredThere Judge(const campaign::ScalarSpec& number, const Spread& spread,
                     const PredictedNumber& predicted, int num_seeds) {
+  const Range range = spread.Ninety(number.standard_error);
   MeasuredThere there{.value = number.value,
                       .standard_error = number.standard_error,
-                      .low = spread.Quantile(0.05, number.standard_error),
-                      .high = spread.Quantile(0.95, number.standard_error)};
+                      .low = range.low,
+                      .high = range.high};
   there.is_inside = number.value >= there.low && number.value <= there.high;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t d = 0; d < predicted.by_draw.size(); ++d) {
@@ -172,7 +173,7 @@ std::vector<std::optional<Spread>> PredictionRuns::Summarise(Prediction& predict
     const bool any =
         std::ranges::any_of(values.runs, [](const auto& runs) { return !runs.empty(); });
     if (any) {
-      spread.emplace(values);
+      spread.emplace(values, rigs::BoundsOf(name));
       number = Describe(name, values, *spread);
     }
     number.by_run = ByRun(name);

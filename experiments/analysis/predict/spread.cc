@@ -28,7 +28,7 @@ double Rounded(double sd, double mean) { return sd > 1e-12 * std::abs(mean) ? sd
 
 }  // namespace
 
-Spread::Spread(const DrawValues& values) {
+Spread::Spread(const DrawValues& values, const rigs::Bounds& bounds) : bounds_(bounds) {
   double squares_within = 0;
   double num_runs = 0;
   std::vector<double> count;
@@ -70,8 +70,9 @@ Spread::Spread(const DrawValues& values) {
                                      StudentOverNormal(std::max(run_freedom, 1.0)));
 }
 
-Spread::Spread(const surrogate::Predictions& sets, double run_sd)
-    : mean_(sets.mean.mean()),
+Spread::Spread(const surrogate::Predictions& sets, double run_sd, const rigs::Bounds& bounds)
+    : bounds_(bounds),
+      mean_(sets.mean.mean()),
       parameters_sd_(surrogate::StandardDeviation(sets.mean)),
       run_sd_(run_sd),
       surrogate_sd_(kOverconfidence * std::sqrt(sets.variance.mean())),
@@ -96,6 +97,14 @@ double Spread::Below(double value, double error_sd) const {
     probability += weight_[i] * 0.5 * std::erfc((centre_[i] - value) / (sd * std::numbers::sqrt2));
   }
   return probability;
+}
+
+Range Spread::Ninety(double error_sd) const {
+  const auto within = [&](double quantile, double beyond) {
+    return std::clamp(quantile, bounds_.low + beyond, bounds_.high + beyond);
+  };
+  return {.low = within(Quantile(0.05, error_sd), -kNinety * error_sd),
+          .high = within(Quantile(0.95, error_sd), kNinety * error_sd)};
 }
 
 double Spread::Quantile(double probability, double error_sd) const {

@@ -11,11 +11,16 @@
 //
 // By a surrogate it is the mixture of N(m(x), s²(x) + σ_e²) over sets x of the posterior: many, so
 // that nothing is widened but s.
+//
+// A run beyond what the number can be is one at its bound: a layer of which a fifth more would
+// still cover the plate covers it. So the mixture's tail counts there, a range ends there, and as
+// many runs lie in it as before.
 #pragma once
 
 #include <limits>
 #include <vector>
 
+#include "experiments/rigs/observables/observable.h"
 #include "surrogate/process/gaussian_process.h"
 
 namespace talus::analysis {
@@ -26,12 +31,18 @@ struct DrawValues {
   std::vector<double> weight;             // of each draw, >= 0
 };
 
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+
 class Spread {
  public:
-  // At least one value.
-  explicit Spread(const DrawValues& values);
+  // At least one value; the number can be what `bounds` say.
+  explicit Spread(const DrawValues& values, const rigs::Bounds& bounds = rigs::kAnyNumber);
   // By a surrogate's predictions for sets that are equally likely.
-  Spread(const surrogate::Predictions& sets, double run_sd);
+  Spread(const surrogate::Predictions& sets, double run_sd,
+         const rigs::Bounds& bounds = rigs::kAnyNumber);
 
   double mean() const { return mean_; }
   double parameters_sd() const { return parameters_sd_; }
@@ -41,12 +52,15 @@ class Spread {
   double surrogate_sd() const { return surrogate_sd_; }
   // Share of the variance of a single run, in [0, 1]; NaN where the two cannot be told apart.
   double ParametersShare() const;
-  // Range of a single run that is measured with an independent error of this standard deviation.
-  double Quantile(double probability, double error_sd = 0) const;
+  // 90 % of single runs that are measured with an independent error of this standard deviation. A
+  // run within the bounds, measured, is at most kNinety errors beyond them in 95 %.
+  Range Ninety(double error_sd = 0) const;
 
  private:
   double Below(double value, double error_sd) const;
+  double Quantile(double probability, double error_sd) const;
 
+  rigs::Bounds bounds_;
   double mean_ = 0;
   double parameters_sd_ = 0;
   double run_sd_ = std::numeric_limits<double>::quiet_NaN();

@@ -6,8 +6,9 @@ namespace talus::analysis {
 
 void Take(const Spread& spread, PredictedNumber& number) {
   number.mean = spread.mean();
-  number.low = spread.Quantile(0.05);
-  number.high = spread.Quantile(0.95);
+  const Range range = spread.Ninety();
+  number.low = range.low;
+  number.high = range.high;
   number.parameters_sd = spread.parameters_sd();
   number.run_sd = spread.run_sd();
   number.parameters_share = spread.ParametersShare();
@@ -17,7 +18,7 @@ void AnswerBySurrogate(const Prediction& prediction, const SetsOfPosterior& sets
                        PredictedNumber& number, std::optional<Spread>& spread) {
   const auto surrogate = NumberSurrogate::Fit(prediction, number, sets.space);
   if (!surrogate || surrogate->draws_error() == 0) return;  // a number that never changes
-  const Spread told(surrogate->At(sets.points), surrogate->run_sd());
+  const Spread told(surrogate->At(sets.points), surrogate->run_sd(), rigs::BoundsOf(number.name));
   number.surrogate =
       PredictedSurrogate{.scale_factor = prediction.target,
                          .left_out_error = surrogate->left_out_error(),

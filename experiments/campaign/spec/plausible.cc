@@ -8,18 +8,17 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/spec/plausible_quantity.h"
+#include "experiments/campaign/spec/possible_numbers.h"
 
 namespace talus::campaign {
 namespace {
 
 using rigs::Observable;
 
-constexpr double kSolidFraction = 0.6;              // of a filled tube, roughly [-]
-constexpr double kMostDiameters = 50;               // height of the filling / tube diameter
-constexpr double kFewestGrains = 20;                // that could make a heap
-constexpr double kSteepest = std::numbers::pi / 2;  // [rad]
-constexpr double kLargestAngleError = 0.5;          // [rad]
-constexpr double kLooseFill = 1.02;                 // of the mass filled: a balance is that good
+constexpr double kSolidFraction = 0.6;  // of a filled tube, roughly [-]
+constexpr double kMostDiameters = 50;   // height of the filling / tube diameter
+constexpr double kFewestGrains = 20;    // that could make a heap
+constexpr double kLooseFill = 1.02;     // of the mass filled: a balance is that good
 constexpr double kLargestHausner = 3;
 
 // One experiment's keys, to name them in problems.
@@ -33,21 +32,6 @@ class Place {
  private:
   std::string prefix_;
 };
-
-// A bare number of degrees, read as radians.
-void CheckAngle(const std::optional<MeasuredNumber<base::Dimension::kAngle>>& angle,
-                const std::string& place, base::Problems& problems) {
-  if (!angle) return;
-  const auto check = [&](const char* key, double value, double most) {
-    const std::string number = base::ShortNumber(value);
-    problems.Require(value <= most, place + "." + key, value,
-                     "in rad, which is " + base::ShortNumber(value * 180 / std::numbers::pi) +
-                         " degrees; a bare number is in rad: write \"" + number +
-                         " deg\" for degrees");
-  };
-  check(angle->values ? "values" : "value", angle->Value(), kSteepest);
-  check(angle->values ? "values" : "sd", angle->StandardError(), kLargestAngleError);
-}
 
 void CheckDensity(const std::optional<MeasuredNumber<base::Dimension::kDensity>>& bulk,
                   double grains, const std::string& place, base::Problems& problems) {
@@ -195,8 +179,7 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const ExperimentSpec& e = experiments[i];
     const Place place(spec.experiments ? "experiments[" + std::to_string(i) + "]" : "");
-    CheckAngle(e.numbers.Of<Observable::kAngle>(), place("angle"), problems);
-    CheckAngle(e.numbers.Of<Observable::kShearAngle>(), place("shear_angle"), problems);
+    RequirePossible(e.numbers, place(""), problems);
     CheckDensities(e.numbers, spec.powder.material.density, place, problems);
     if (e.mass) CheckMasses(e.numbers, *e.mass, place, problems);
     rigs::Powder powder = spec.powder;

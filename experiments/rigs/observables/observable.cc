@@ -27,6 +27,8 @@ MetricUnit MetricUnitOf(base::Dimension dimension) {
       return {"_s", "s"};
     case base::Dimension::kMassRate:
       return {"_kg_per_s", "kg/s"};
+    case base::Dimension::kAreaDensity:
+      return {"_kg_per_m2", "kg/m2"};
     case base::Dimension::kPressure:
       return {"_pa", "Pa"};
     case base::Dimension::kAngle:
@@ -46,6 +48,13 @@ const ObservableInfo* FindObservable(std::string_view metric) {
     if (MetricName(info.observable) == metric) return &info;
   }
   return nullptr;
+}
+
+Bounds BoundsOf(std::string_view metric) {
+  const ObservableInfo* info = FindObservable(metric);
+  if (info == nullptr) return kAnyNumber;
+  const double scale = MetricUnitOf(info->dimension).scale;
+  return {.low = scale * info->bounds.low, .high = scale * info->bounds.high};
 }
 
 std::string UnitOfObservable(std::string_view metric) {

@@ -3,8 +3,10 @@
 // A new number is a value of the enum and a line of the table.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -43,6 +45,7 @@ enum class Observable {
   kCoverage,
   kRoughness,
   kLayerMass,
+  kMassPerArea,
   kMassAhead,
   kSizeDrift,
   kShearStress1,
@@ -58,6 +61,18 @@ struct UsualError {
   double absolute = 0;  // angles in degrees, the others in SI
 };
 
+// What a number can be at all [SI]. A range that is predicted for it ends there: no run lies
+// beyond.
+struct Bounds {
+  double low = 0;
+  double high = std::numeric_limits<double>::infinity();
+
+  double Clamp(double value) const { return std::clamp(value, low, high); }
+};
+inline constexpr Bounds kAnyNumber{.low = -std::numeric_limits<double>::infinity()};
+inline constexpr Bounds kShare{.high = 1};
+inline constexpr Bounds kInclination{.low = -std::numbers::pi / 2, .high = std::numbers::pi / 2};
+
 struct ObservableInfo {
   Observable observable;
   const char* key = "";  // in a spec; the name in results has the unit, too
@@ -65,6 +80,7 @@ struct ObservableInfo {
   const char* title = "";  // in tables and figures
   const char* doc = "";    // how it is read
   UsualError usual_error{};
+  Bounds bounds{};
 };
 
 inline constexpr std::array kObservables = [] {
@@ -103,8 +119,13 @@ inline constexpr std::array kObservables = [] {
        "Hausner ratio",
        "tapped over poured density",
        {.relative = 0.01}},
-      {O::kTappedSolidFraction, "tapped_solid_fraction", Dimension::kNone, "Tapped solid fraction",
-       "share of the volume that the grains fill after the taps"},
+      {O::kTappedSolidFraction,
+       "tapped_solid_fraction",
+       Dimension::kNone,
+       "Tapped solid fraction",
+       "share of the volume that the grains fill after the taps",
+       {},
+       kShare},
       {O::kRunout,
        "runout",
        Dimension::kLength,
@@ -138,7 +159,8 @@ inline constexpr std::array kObservables = [] {
        Dimension::kAngle,
        "Angle",
        "of repose, sliding or the drum's surface (docs/rigs.md)",
-       {.absolute = 1}},
+       {.absolute = 1},
+       kInclination},
       {O::kAngleSd, "angle_sd", Dimension::kAngle, "Angle, standard deviation",
        "of the drum's surface over time"},
       {O::kShearAngle,
@@ -146,33 +168,43 @@ inline constexpr std::array kObservables = [] {
        Dimension::kAngle,
        "Shear angle",
        "of the slopes above the slot",
-       {.absolute = 1}},
-      {O::kFlows, "flows", Dimension::kNone, "Flows",
-       "1 where powder runs through the orifice, 0 where an arch stands"},
+       {.absolute = 1},
+       kInclination},
+      {O::kFlows,
+       "flows",
+       Dimension::kNone,
+       "Flows",
+       "1 where powder runs through the orifice, 0 where an arch stands",
+       {},
+       kShare},
       {O::kReposeAngle1,
        "angle_of_repose_1",
        Dimension::kAngle,
        "AOR 1",
        "of a round heap's silhouette by method 1 (docs/imaging.md)",
-       {.absolute = 1}},
+       {.absolute = 1},
+       kInclination},
       {O::kReposeAngle2,
        "angle_of_repose_2",
        Dimension::kAngle,
        "AOR 2",
        "the same by method 2",
-       {.absolute = 1}},
+       {.absolute = 1},
+       kInclination},
       {O::kReposeAngle3,
        "angle_of_repose_3",
        Dimension::kAngle,
        "AOR 3",
        "the same by method 3",
-       {.absolute = 1}},
+       {.absolute = 1},
+       kInclination},
       {O::kReposeTriangle,
        "angle_of_repose_triangle",
        Dimension::kAngle,
        "AOR, triangle",
        "of the triangle of the silhouette's area on the plate's diameter",
-       {.absolute = 1}},
+       {.absolute = 1},
+       kInclination},
       {O::kStaticCohesiveIndex, "heap_cohesive_index", Dimension::kNone, "Static cohesive index",
        "how far a round heap's outline is from that triangle, over its area (docs/imaging.md)"},
       {O::kCohesiveIndex, "cohesive_index", Dimension::kLength, "Cohesive index",
@@ -183,7 +215,8 @@ inline constexpr std::array kObservables = [] {
        Dimension::kNone,
        "Packing fraction",
        "of the spread layer: grains' volume over plate area times gap",
-       {.relative = 0.03}},
+       {.relative = 0.03},
+       kShare},
       {O::kThickness,
        "thickness",
        Dimension::kLength,
@@ -195,7 +228,8 @@ inline constexpr std::array kObservables = [] {
        Dimension::kNone,
        "Coverage",
        "share of the plate that grains hide from above",
-       {.absolute = 0.02}},
+       {.absolute = 0.02},
+       kShare},
       {O::kRoughness,
        "roughness",
        Dimension::kLength,
@@ -206,7 +240,13 @@ inline constexpr std::array kObservables = [] {
        "layer_mass",
        Dimension::kMass,
        "Mass of the layer",
-       "that the blade leaves on the plate; over length times width the mass per area",
+       "that the blade leaves on the plate, its ends included",
+       {.relative = 0.02}},
+      {O::kMassPerArea,
+       "mass_per_area",
+       Dimension::kAreaDensity,
+       "Mass per area",
+       "of the spread layer away from the plate's ends, as a piece cut out of its middle weighs",
        {.relative = 0.02}},
       {O::kMassAhead, "mass_ahead", Dimension::kMass, "Mass ahead",
        "of the blade when it has crossed the plate"},
@@ -235,13 +275,15 @@ inline constexpr std::array kObservables = [] {
        Dimension::kAngle,
        "Angle of internal friction",
        "slope of the line through the shear stresses over the normal stresses",
-       {.absolute = 1}},
+       {.absolute = 1},
+       kInclination},
       {O::kCohesion,
        "cohesion",
        Dimension::kPressure,
        "Cohesion",
        "shear stress of that line without a normal stress",
-       {.absolute = 50}},
+       {.absolute = 50},
+       kAnyNumber},
   });
 }();
 
@@ -265,6 +307,9 @@ const ObservableInfo* FindObservable(std::string_view metric);
 
 // "kg/m3" of "tapped_density_kg_per_m3", "-" of a ratio and of what is not in the table.
 std::string UnitOfObservable(std::string_view metric);
+
+// Of a name in results, in its unit there; any number where it is not in the table.
+Bounds BoundsOf(std::string_view metric);
 
 // A number that a run has given.
 struct Reading {

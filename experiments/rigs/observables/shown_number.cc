@@ -1,6 +1,5 @@
 #include "experiments/rigs/observables/shown_number.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
@@ -25,9 +24,9 @@ std::string Translated(const std::array<Entry, N>& list, std::string_view key) {
 
 std::string PrettyUnit(std::string_view unit) {
   static constexpr std::array kUnits{
-      Entry{"mm2", "mm²"},          Entry{"deg", "°"},      Entry{"-", ""},
-      Entry{"gray", "grey levels"}, Entry{"J/m^2", "J/m²"}, Entry{"kg/m^3", "kg/m³"},
-      Entry{"kg/m3", "kg/m³"},
+      Entry{"mm2", "mm²"},          Entry{"deg", "°"},       Entry{"-", ""},
+      Entry{"gray", "grey levels"}, Entry{"J/m^2", "J/m²"},  Entry{"kg/m^3", "kg/m³"},
+      Entry{"kg/m3", "kg/m³"},      Entry{"kg/m2", "kg/m²"},
   };
   return Translated(kUnits, unit);
 }
@@ -55,11 +54,7 @@ std::string SpokenName(const std::string& metric) {
   return name;
 }
 
-double Possible(std::string_view metric, double value) {
-  const ObservableInfo* info = FindObservable(metric);
-  const bool is_mass = info != nullptr && info->dimension == base::Dimension::kMass;
-  return is_mass ? std::max(0.0, value) : value;
-}
+double Possible(std::string_view metric, double value) { return BoundsOf(metric).Clamp(value); }
 
 std::string ShownNumber(std::string_view metric, double value, int digits) {
   const ShownUnit unit = ShownUnitOf(UnitOfObservable(metric));

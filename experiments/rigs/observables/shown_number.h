@@ -21,7 +21,7 @@ std::string ShownName(const std::string& metric);
 // "mass fallen" of "mass_fallen_kg": in a sentence, with a number that has its unit.
 std::string SpokenName(const std::string& metric);
 
-// A metric's value as it can be: a model's mass below zero is none.
+// A metric's value as it can be: a model's mass below zero is none, its share above one is all.
 double Possible(std::string_view metric, double value);
 
 // "5.04 mg" of 5.04e-6 of "mass_fallen_kg".

@@ -29,6 +29,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
                                                 {Observable::kCoverage, true},
                                                 {Observable::kRoughness},
                                                 {Observable::kLayerMass, true},
+                                                {Observable::kMassPerArea},
                                                 {Observable::kMassAhead},
                                                 {Observable::kSizeDrift}};
 
@@ -106,6 +107,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
             {Observable::kCoverage, LayerOf(heap, window, MeanDiameter()).coverage},
             {Observable::kRoughness, layer.roughness},
             {Observable::kLayerMass, plate},
+            {Observable::kMassPerArea, seen / window.Area()},
             {Observable::kMassAhead, MassAhead(heap)},
             SizeDrift(heap)};
   }

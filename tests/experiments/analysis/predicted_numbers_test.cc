@@ -15,6 +15,7 @@
 #include "experiments/analysis/predict/regimes.h"
 #include "experiments/analysis/predict/spread.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
+#include "experiments/rigs/observables/observable.h"
 
 namespace talus::analysis {
 namespace predicted_numbers_test {
@@ -29,7 +30,7 @@ TEST(Spread, OfABalancedDesignIsTheAnalysisOfVariance) {
   EXPECT_NEAR(spread.run_sd(), std::sqrt(2), 1e-12);
   EXPECT_NEAR(spread.parameters_sd(), std::sqrt(7), 1e-12);
   EXPECT_NEAR(spread.ParametersShare(), 7.0 / 9, 1e-12);
-  EXPECT_NEAR(spread.Quantile(0.05) + spread.Quantile(0.95), 2 * 4, 1e-6);  // symmetric
+  EXPECT_NEAR(spread.Ninety().low + spread.Ninety().high, 2 * 4, 1e-6);  // symmetric
 }
 
 TEST(Spread, WhatDoesNotDifferBetweenDrawsIsNotOfTheParameters) {
@@ -48,8 +49,32 @@ TEST(Spread, RoundingIsNoScatter) {
 
 TEST(Spread, OneValueAloneIsItsOwnRange) {
   const Spread spread({.runs = {{5}}, .weight = {1}});
-  EXPECT_EQ(spread.Quantile(0.05), 5);
+  EXPECT_EQ(spread.Ninety().low, 5);
   EXPECT_TRUE(std::isnan(spread.ParametersShare()));
+}
+
+// Runs of 0.97 ± 0.04 and at most 1, as coverages are: the normals reach 1.06.
+TEST(Spread, ARangeEndsWhereTheNumberDoes) {
+  const DrawValues coverage{.runs = {{0.9, 1, 1}, {1, 0.95, 0.98}, {1, 0.92, 1}},
+                            .weight = {0.3, 0.4, 0.3}};
+  const rigs::Bounds bounds = rigs::BoundsOf("coverage");
+  EXPECT_GT(Spread(coverage).Ninety().high, 1.02);
+  const Range range = Spread(coverage, bounds).Ninety();
+  EXPECT_EQ(range.high, 1);
+  EXPECT_EQ(range.low, Spread(coverage).Ninety().low);  // the tail at the other side stays
+  // A measurement of it may err beyond, by its own error: 1.645 of 0.01 in 90 %.
+  EXPECT_NEAR(Spread(coverage, bounds).Ninety(0.01).high, 1.01645, 1e-4);
+  const DrawValues fallen{.runs = {{0, 0, 3e-6}, {0, 1e-6, 0}}, .weight = {0.5, 0.5}};
+  EXPECT_LT(Spread(fallen).Ninety().low, 0);
+  EXPECT_EQ(Spread(fallen, rigs::BoundsOf("mass_fallen_kg")).Ninety().low, 0);
+}
+
+TEST(Bounds, AreInTheUnitOfResults) {
+  EXPECT_NEAR(rigs::BoundsOf("angle_deg").high, 90, 1e-9);
+  EXPECT_EQ(rigs::BoundsOf("packing_fraction").high, 1);
+  EXPECT_EQ(rigs::BoundsOf("mass_per_area_kg_per_m2").low, 0);
+  EXPECT_LT(rigs::BoundsOf("cohesion_pa").low, -1e9);       // a line's, which may pass below 0
+  EXPECT_LT(rigs::BoundsOf("their own number").low, -1e9);  // of another engine
 }
 
 // 2000 predictions of 12 draws and 3 runs each: seen 90.8 %, with a standard error of 0.7 %. A
@@ -67,7 +92,7 @@ TEST(Spread, NinetyPerCentHoldTheNextRunInNinetyPerCentOfCases) {
     }
     const Spread spread(values);
     const double next = random.Normal() + random.Normal();
-    inside += next > spread.Quantile(0.05) && next < spread.Quantile(0.95);
+    inside += next > spread.Ninety().low && next < spread.Ninety().high;
   }
   EXPECT_NEAR(static_cast<double>(inside) / kCases, 0.90, 0.025);
 }
@@ -172,6 +197,31 @@ TEST(Surrogate, NinetyPerCentHoldTheNextRunAtAScaleFactorThatNobodySimulated) {
   EXPECT_GT(used, 0.9 * kCases);
   EXPECT_NEAR(static_cast<double>(inside) / kCases, 0.90, 0.06);
   EXPECT_LT(width, 0.9 * width_of_draws);
+}
+
+// Twelve draws along a line of which the last third covers the plate: a plane through them would go
+// on to 1.5 at its end.
+TEST(Surrogate, TellsNoShareAboveOne) {
+  Prediction p{.scale_factor = 1, .target = 1, .numbers = {{.name = "coverage"}}};
+  for (int d = 0; d < 12; ++d) {
+    const double a = d / 11.0;
+    p.draws.push_back({.weight = 1.0 / 12, .values = {a, 0.5}});
+    for (int k = 0; k < 2; ++k) {
+      p.runs.push_back({.draw = d, .scale_factor = 1});
+      p.numbers[0].by_run.push_back(std::min(1.0, 0.5 + 0.8 * a + 0.002 * k));
+    }
+  }
+  const optimizer::ParameterSpace space = MadeUpProcess::Space();
+  const auto surrogate = NumberSurrogate::Fit(p, p.numbers[0], space);
+  ASSERT_TRUE(surrogate.has_value());
+  Eigen::MatrixXd line(41, 2);
+  for (Eigen::Index i = 0; i < line.rows(); ++i) {
+    line.row(i) << static_cast<double>(i) / 40, 0.5;
+  }
+  const surrogate::Predictions at = surrogate->At(line);
+  EXPECT_EQ(at.mean.maxCoeff(), 1);
+  p.numbers[0].name = "their own number";  // without bounds
+  EXPECT_GT(NumberSurrogate::Fit(p, p.numbers[0], space)->At(line).mean.maxCoeff(), 1);
 }
 
 FlowRegime Sheared(const std::string& name, bool is_process, double number, double pressure) {

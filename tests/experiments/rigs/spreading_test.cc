@@ -56,6 +56,17 @@ TEST(Spreading, AFasterBladeLeavesAThinnerLayer) {
             0.9 * Value(slow, *after_slow, "layer_mass_kg"));
 }
 
+// What is read off the middle is the packing fraction's mass by another name; the whole plate's,
+// its thin ends included, is no more than a fifth from it.
+TEST(Spreading, MassPerAreaIsThatOfTheMiddleOfTheLayer) {
+  const Case c = Spread(2.5e-3);
+  const auto rig = Ran(c);
+  const double mass = Value(c, *rig, "mass_per_area_kg_per_m2");
+  EXPECT_NEAR(mass, Value(c, *rig, "packing_fraction") * 2.5e-3 * c.powder.material.density,
+              1e-12 * mass);
+  EXPECT_NEAR(mass, Value(c, *rig, "layer_mass_kg") / (0.024 * 0.006), 0.2 * mass);
+}
+
 // Pull-off 1.5 π γ R = 100 grain weights: lumps that do not pass a gap of two grains.
 TEST(Spreading, CohesionLowersTheCoverage) {
   const Case dry = Spread(2e-3);
