@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/joined.h"
+
 namespace talus::base {
 namespace {
 
@@ -42,6 +44,11 @@ std::string Nearest(std::string_view name, std::span<const std::string> known) {
 }
 
 std::string DidYouMean(std::string_view name, std::span<const std::string> known) {
+  std::vector<std::string> kinds;
+  for (const std::string& candidate : known) {
+    if (candidate.starts_with(std::string(name) + "_")) kinds.push_back("\"" + candidate + "\"");
+  }
+  if (kinds.size() > 1) return "; did you mean one of " + Joined(kinds, ", ") + "?";
   const std::string near = Nearest(name, known);
   return near.empty() ? "" : "; did you mean \"" + near + "\"?";
 }

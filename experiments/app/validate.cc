@@ -75,7 +75,7 @@ journal::CampaignRecord MeasuredRecord(const campaign::CampaignSpec& spec,
 
 void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   const campaign::CampaignSpec spec = campaign::ReadSpecWithPosteriors(file);
-  analysis::CheckGoal(spec);
+  analysis::CheckGoal(spec, file);
   journal::CampaignRecord record;
   if (with_experiment) record = MeasuredRecord(spec, file);
   std::cout << file.path.string() << ": is in order\n";

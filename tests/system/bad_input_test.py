@@ -10,7 +10,8 @@ FILE is a good input (below); the value at the PLACE in it is replaced by the JS
 by "PLACE -". Each EXPECTED must be in the message. A row "$ ARGUMENTS | EXPECTED | …" runs talus with
 these arguments instead, in a folder with good files; \\e in it is the escape character, and "done" a
 finished campaign, with other_powder.json beside it, the same spec with more powder. "learnt" is one with enough
-simulations for a posterior, which is the prior of learnt_denser.json and learnt_elsewhere.json.
+simulations for a posterior, which is the prior of learnt_denser.json, learnt_elsewhere.json, learnt_other.json
+and learnt_more.json.
 """
 import concurrent.futures
 import hashlib
@@ -141,6 +142,12 @@ def learnt_campaign(folder, small):
          "parameters": {**small["parameters"], "prior": prior}}))
     (folder / "learnt_elsewhere.json").write_text(json.dumps(
         {**small, "parameters": {"sliding_friction": {"min": 0.895, "max": 0.9}, "prior": prior}}))
+    del small["engine"]  # its deck has no rolling friction
+    rolling = {"min": 0.1, "max": 0.4}
+    (folder / "learnt_other.json").write_text(json.dumps(
+        {**small, "parameters": {"rolling_friction": {**rolling, "prior": prior}}}))
+    (folder / "learnt_more.json").write_text(json.dumps(
+        {**small, "parameters": {"rolling_friction": rolling, "prior": prior}}))
 
 
 def replaced(root, place, value):
@@ -178,6 +185,10 @@ def good_folder(folder):
     (folder / "weighed.json").write_text('{"runout": {"value": "9 mm", "sd": "1 mm"}}')
     (folder / "other_laws.json").write_text(json.dumps(
         {**example("scenes/heap_case.json"), "models": {"rolling": "constant"}}))
+    (folder / "fixed_pair.json").write_text(json.dumps(
+        {**example("scenes/heap_case.json"),
+         "pairs": [{"between": ["powder", "plate"], "sliding_friction": 0.2}]}))
+    (folder / "degrees.json").write_text('{"angle_of_repose_1": {"value": 33, "sd": "1 deg"}}')
     (folder / "candidates.json").write_text('{"candidates": [{"name": "again"}]}')
     (folder / "further.json").write_text(
         '{"name": "plate", "mass_fallen": {"value": "21 mg", "sd": "2 mg"}}')

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/known.h"
 #include "experiments/analysis/next/planned_view.h"
@@ -39,23 +40,21 @@ double TimeFor(const campaign::CampaignSpec& spec) {
   return spec.budget.core_time ? std::min(kUsualTime, kShare * *spec.budget.core_time) : kUsualTime;
 }
 
-PredictedCase ReadProcess(const campaign::JointView& plan) {
+PredictedCase ReadProcess(const campaign::JointView& plan, base::Problems problems) {
   const campaign::GoalSpec& goal = *plan.spec.goal;
   PredictedCase process = ReadPredictedCase(plan, goal.file, {}, kUsualRuns, TimeFor(plan.spec));
   if (!process.scene_text.empty()) {
     throw base::ConfigError(goal.file.string() +
                             ": is a scene; a goal is a number of a bulk test (docs/rigs.md)");
   }
-  std::string all;
-  bool known = false;
-  for (const rigs::RigObservable& o : rigs::EntryOf(process.rig_case).observables) {
-    known |= goal.observable == rigs::InfoOf(o.observable).key;
-    all += std::string(all.empty() ? "" : ", ") + rigs::InfoOf(o.observable).key;
-  }
-  if (!known) {
-    throw base::ConfigError("goal.observable: is \"" + goal.observable + "\", which " +
-                            goal.file.string() + " does not measure; it measures " + all);
-  }
+  const auto known = rigs::EntryOf(process.rig_case).observables;
+  const auto metric = [](const rigs::RigObservable& o) { return rigs::MetricName(o.observable); };
+  const auto key = [](const rigs::RigObservable& o) { return rigs::InfoOf(o.observable).key; };
+  problems.Require(std::ranges::find(known, goal.metric(), metric) != known.end(),
+                   "goal.observable",
+                   "is \"" + goal.observable + "\", which " + goal.file.string() +
+                       " does not measure; it measures " + base::Joined(known, ", ", key));
+  problems.ThrowIfAny();
   return process;
 }
 
@@ -89,13 +88,15 @@ void Judge(const campaign::CampaignSpec& spec, const NumberSurrogate& surrogate,
 
 }  // namespace
 
-void CheckGoal(const campaign::CampaignSpec& spec) {
-  if (spec.goal) ReadProcess(PlannedView(spec, {}));
+void CheckGoal(const campaign::CampaignSpec& spec, const base::JsonFile& file) {
+  if (spec.goal) ReadProcess(PlannedView(spec, {}), {file.path.string(), file.places});
 }
 
 CampaignGoal::CampaignGoal(const campaign::CampaignSpec& spec, const fs::path& campaign,
                            campaign::CampaignParts parts)
-    : plan_(PlannedView(spec, campaign)), process_(ReadProcess(plan_)), parts_(std::move(parts)) {}
+    : plan_(PlannedView(spec, campaign)),
+      process_(ReadProcess(plan_, {})),
+      parts_(std::move(parts)) {}
 
 rigs::Case CampaignGoal::CaseAt(const fs::path& look, const DesignRecord& design,
                                 std::size_t index) const {

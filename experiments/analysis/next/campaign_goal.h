@@ -5,6 +5,7 @@
 // the spec and these trials: a look that was ended is finished by the next process.
 #pragma once
 
+#include "base/json/json_file.h"
 #include "experiments/analysis/predict/predicted_case.h"
 #include "experiments/analysis/predict/prediction.h"
 #include "experiments/campaign/campaign.h"
@@ -13,9 +14,9 @@
 
 namespace talus::analysis {
 
-// Throws ConfigError where the spec's goal contradicts it or its case does not measure the number;
-// a spec without a goal is in order.
-void CheckGoal(const campaign::CampaignSpec& spec);
+// Throws ConfigError where the goal of the spec, which `file` holds, contradicts it or its case
+// does not measure the number; a spec without a goal is in order.
+void CheckGoal(const campaign::CampaignSpec& spec, const base::JsonFile& file);
 
 class CampaignGoal : public campaign::GoalJudge {
  public:

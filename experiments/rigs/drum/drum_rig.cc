@@ -18,6 +18,7 @@ namespace {
 constexpr double kBoxWidth = 1.2;   // of the box that is filled, in radii
 constexpr double kBoxFloor = 0.2;   // its floor above the lowest point, in radii
 constexpr double kBoxHeight = 1.6;  // in radii
+constexpr double kStill = 0.01;     // grain diameters that nobody sees move
 
 struct DrumMemory {
   std::vector<double> angles{};  // of the surface at each look [deg]
@@ -80,6 +81,14 @@ class DrumRig : public RememberingRig<DrumMemory> {
                            base::ShortNumber(measured) + " s; raise rig.turns to " +
                            base::ShortNumber(drum.turns * c.rig.camera->LastTime() / measured, 3) +
                            " or more, or take fewer pictures");
+      const double series = c.rig.camera->LastTime() - c.rig.camera->start;
+      const double turned = drum.speed * drum.diameter / 2 * series;
+      problems.Require(c.rig.camera->frames == 1 || turned > kStill * LargestDiameter(c),
+                       "rig.camera.interval", c.rig.camera->interval,
+                       "s is so short that nothing moves: from the first picture to the last the "
+                       "drum turns by " +
+                           base::ShortNumber(1e3 * turned, 2) +
+                           " mm, less than a hundredth of a grain");
     }
     const double most = kBoxHeight * c.rig.drum.diameter / 2;
     const double filled = FilledHeight(c, VesselOf(c));

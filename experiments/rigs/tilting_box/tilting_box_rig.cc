@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
@@ -76,6 +77,17 @@ class TiltingBoxRig : public RememberingRig<TiltingBoxMemory> {
         {.name = "back", .shape = side({0, box.width / 2, 0}, {0, -1, 0}), .material = kWalls}};
     if (lip > 0) walls.push_back({.name = "lip", .shape = across(0, lip), .material = kWalls});
     return walls;
+  }
+
+  static void Validate(const Case& c, base::Problems& problems) {
+    if (!c.rig.camera) return;
+    const TiltingBoxOptions& box = c.rig.tilting_box;
+    const double end = box.largest_angle / box.rate;
+    problems.Require(c.rig.camera->LastTime() <= end, "rig.camera",
+                     "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
+                         " s after the box has begun to tilt, which it does for " +
+                         base::ShortNumber(end) +
+                         " s at most; take fewer pictures, or a shorter interval");
   }
 
   static double Width(const Case& c) { return c.rig.tilting_box.length; }
