@@ -63,7 +63,9 @@ void SettleFaults(bool allowed, const std::vector<std::string>& faults,
           ? "\nput them right, or go on without them: \"allow_missing_views\": true in the "
             "spec's experiment, --allow-missing-views for talus measure"
           : "\nmost photographs have a fault: give the plate's place with \"frame\", or say with "
-            "\"powder\" how they are lit";
+            "\"powder\" how they are lit; turn upright those that lie on their side without saying "
+            "so in "
+            "their EXIF data";
   if (!all.empty() && !allowed) throw UnusablePhotosError(all + remedy, collection.left_out);
   if (collection.photos.empty()) throw base::ConfigError(all + "\nno photograph is left");
   for (const std::string& fault : faults) {
