@@ -17,9 +17,9 @@ constexpr int kDraws = 2000;
 const double kMostFalse = 0.01 * kDraws + 3 * std::sqrt(0.01 * kDraws);
 
 struct Bench {
-  int num_seeds;        // of each set that is simulated again
-  int num_sets;         // … their number
-  double seed_scatter;  // of one simulation, in standard errors of the measurement
+  int num_seeds = 3;        // of each set that is simulated again
+  int num_sets = 1;         // … their number
+  double seed_scatter = 1;  // of one simulation, in standard errors of the measurement
 };
 
 base::Sample Seeds(base::Random& random, const Bench& bench, double truth) {
