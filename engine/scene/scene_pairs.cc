@@ -60,9 +60,9 @@ void ValidatePairs(const SceneSpec& spec, base::Problems& problems) {
       const auto [a, b, stated] = *pair;
       problems.Require(MayTouch(spec, a, b), "between",
                        "never touch: no sphere of the one meets a sphere or wall of the other");
-      problems.Require(
-          std::ranges::none_of(before, [&](const MaterialPair& p) { return p.Joins(a, b); }),
-          "between", "is a pair that stands before; keep one of them");
+      problems.Require(std::ranges::none_of(
+                           before, [a = a, b = b](const MaterialPair& p) { return p.Joins(a, b); }),
+                       "between", "is a pair that stands before; keep one of them");
       before.push_back(*pair);
     });
   }

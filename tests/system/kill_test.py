@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""kill_test.py TALUS SOURCE_DIR [--kills N] [--two]: kill -9 of a campaign at random moments.
+"""kill_test.py TALUS SOURCE_DIR [--kills N] [--seed S] [--two]: kill -9 of a campaign at random moments.
 
 Two workers run another engine whose command leaves processes in sessions of their own. After each kill
 nothing of it may run on, and what was finished must stay as it was; in the end the campaign has the
 trials that it was to have, each once. --two: of two experiments at three scale factors, searched by the posterior.
 `bench/kills` runs both with 200 kills.
 """
-import argparse
 import json
 import os
 import pathlib
@@ -17,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from chance_arguments import chance_arguments
 
 DECK = """#!/bin/sh
 setsid sleep 300 &
@@ -134,19 +135,13 @@ def killed_campaign(talus, source, most_kills, dice, two):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus", type=pathlib.Path)
-    parser.add_argument("source", type=pathlib.Path)
-    parser.add_argument("--kills", type=int, default=20)
-    parser.add_argument("--two", action="store_true")
-    arguments = parser.parse_args()
-    talus, source = arguments.talus.resolve(), arguments.source.resolve()
-    dice = random.Random(1)
+    arguments = chance_arguments("kills", 20, "--two")
+    dice = random.Random(arguments.seed)
     kills, trials = 0, 0
     while kills < arguments.kills:  # a fast machine ends a campaign after few kills
         # The posterior's proposals become dearer with the trials: many short campaigns.
         most = min(arguments.kills - kills, 20) if arguments.two else arguments.kills - kills
-        more_kills, more_trials = killed_campaign(talus, source, most, dice, arguments.two)
+        more_kills, more_trials = killed_campaign(arguments.talus, arguments.source, most, dice, arguments.two)
         kills, trials = kills + more_kills, trials + more_trials
     print(f"{kills} kills, {trials} trials, none lost, nothing left running")
 

@@ -1,5 +1,5 @@
 """A finished campaign of one test at three scale factors, whose heaps a shell script draws, and a second test to add
-to it: what the tests that kill and damage campaigns begin with."""
+to it: what the tests that kill and damage campaigns begin with. No heap is drawn while folder/hold stands."""
 import json
 import subprocess
 
@@ -16,7 +16,8 @@ def make_finished(talus, source, folder):
     (folder / "spec.json").write_text(json.dumps(spec))
     (folder / "wide.json").write_text(json.dumps(wide))
     deck = (folder / "deck/run.sh").read_text()
-    (folder / "deck/run.sh").write_text(deck.replace("setsid sleep 300 &\n(sleep 300 &)\nsleep 0.05\n", ""))
+    (folder / "deck/run.sh").write_text(deck.replace(
+        "setsid sleep 300 &\n(sleep 300 &)\nsleep 0.05\n", f"while [ -e '{folder}/hold' ]; do sleep 0.01; done\n"))
     run(talus, folder, "calibrate", "spec.json", "--out", "out")
 
 
