@@ -3,8 +3,25 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text/printable.h"
 
 namespace talus::base {
+namespace {
+
+// A key or a value that holds a line break would write a line of its own.
+std::string OneLine(std::string_view text) {
+  std::string line;
+  for (const char c : Printable(text)) {
+    if (c == '\n') {
+      line += "\\x0a";
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+}  // namespace
 
 std::string Problems::FullPath(std::string_view path) const {
   if (prefix_.empty()) return std::string(path);
@@ -42,12 +59,12 @@ std::string Problems::Text() const {
   for (std::size_t i = 0; i < list_.size(); ++i) {
     if (i > 0) text << '\n';
     if (!file_.empty()) {
-      text << file_ << ':';
+      text << OneLine(file_) << ':';
       if (places[i].line > 0) text << places[i].line << ':' << places[i].column << ':';
       text << ' ';
     }
-    if (!paths[i].empty()) text << paths[i] << ": ";
-    text << list_[i].message;
+    if (!paths[i].empty()) text << OneLine(paths[i]) << ": ";
+    text << OneLine(list_[i].message);
   }
   if (num_more_ > 0) text << "\n… and " << num_more_ << " more problems";
   return text.str();

@@ -61,6 +61,13 @@ class Measure(unittest.TestCase):
         # Powder where the photographs have none (the outermost grains overhang) counts twice.
         self.assertAlmostEqual(float(metrics["sad_mm2"]), missing, delta=0.02 * missing)
 
+    def test_spheres_in_millimetres_are_not_read_in_metres(self):
+        spheres = self.folder / "millimetres.csv"
+        spheres.write_text("x_m,y_m,z_m,diameter_m\n0,0,0.2,0.4\n0.4,0,0.2,0.4\n")
+        done = run(spheres, "--like", self.aehp)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("has a sphere of 0.4 m, which is wider than the plate of 0.01 m; give its unit", done.stderr)
+
     def test_bad_input_ends_with_status_2_names_it_and_writes_nothing(self):
         out = self.folder / "nothing"
         for arguments, named in [

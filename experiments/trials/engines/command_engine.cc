@@ -11,7 +11,6 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
-#include "base/text/number_text.h"
 #include "base/version.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/size_distribution.h"
@@ -24,6 +23,7 @@
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
+#include "experiments/trials/measure/plate_check.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
 #include "imaging/spheres/projection.h"
@@ -83,17 +83,6 @@ void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
   base::WriteFileAtomically(path, engine::VtpOf(particles, 0), Outlives::kProgram);
 }
 
-// A file in millimetres that says nothing of it is read in metres.
-void RequireSmallerThanPlate(const std::vector<base::Sphere>& spheres, double plate,
-                             const std::string& file) {
-  double largest = 0;  // diameter [m]
-  for (const base::Sphere& s : spheres) largest = std::max(largest, 2 * s.radius);
-  if (largest < plate) return;
-  throw base::Error("left " + file + " with a sphere of " + base::ShortNumber(largest) +
-                    " m, which is wider than the plate of " + base::ShortNumber(plate) +
-                    " m; is engine.length_unit right?");
-}
-
 Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_case,
                         const fs::path& file, const fs::path& folder) {
   const auto spheres =
@@ -101,7 +90,10 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   const bool on_plate = rig_case.rig.kind == rigs::RigKind::kLiftedTube;
   const double plate =
       rig_case.frame ? rig_case.frame->plate_diameter : rig_case.rig.lifted_tube.plate_diameter;
-  if (on_plate) RequireSmallerThanPlate(spheres, plate, file.filename());
+  if (const auto wrong = on_plate ? WiderThanPlate(spheres, plate) : std::nullopt) {
+    throw base::Error("left " + file.filename().string() + " with " + *wrong +
+                      "; is engine.length_unit right?");
+  }
   const auto heap = on_plate ? imaging::GrainsOnPlate(spheres, plate) : spheres;
   if (heap.empty()) {
     throw base::Error("left nothing on the plate, of " + std::to_string(spheres.size()) +

@@ -10,6 +10,7 @@
 #include "base/json/json_writer.h"
 #include "experiments/trials/measure/measure_json_csv.h"
 #include "experiments/trials/measure/measure_request.h"
+#include "experiments/trials/measure/plate_check.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/profile_file.h"
 #include "imaging/formats/spheres/sphere_files.h"
@@ -49,6 +50,10 @@ Projected Project(const fs::path& file, const imaging::Frame& frame,
                   const MeasureRequest& request) {
   const std::vector<base::Sphere> all =
       imaging::ReadSpheres(file, {.length_unit = request.length_unit, .timestep = {}});
+  if (const auto wrong = WiderThanPlate(all, frame.plate_diameter)) {
+    throw base::ConfigError(file.string() + ": has " + *wrong +
+                            "; give its unit, such as --length-unit mm, or write x_mm for x_m");
+  }
   const std::vector<base::Sphere> heap = imaging::GrainsOnPlate(all, frame.plate_diameter);
   if (heap.empty()) {
     throw base::ConfigError(file.string() + ": none of its " + std::to_string(all.size()) +
