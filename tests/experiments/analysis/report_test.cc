@@ -166,7 +166,8 @@ TEST_F(Report, SlicesPassThroughTheAnswerOfTheModelThatAnswered) {
 TEST(PosteriorPairs, StripesOfTheDrawsAreNotTakenForTheRegion) {
   Evidence evidence;
   for (const char* name : {"a", "b", "c"}) {
-    evidence.parameters.push_back({.range = {.name = name, .low = 0, .high = 1}, .symbol = name});
+    evidence.parameters.push_back(
+        {.range = {.name = name, .low = 0, .high = 1}, .symbol = name, .unit = "", .column = name});
   }
   ModelEvidence& model = evidence.model.emplace();
   model.draws.resize(900, 3);
