@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/text/printable.h"
 
 namespace talus::base {
 namespace {
@@ -11,7 +10,7 @@ namespace {
 // A key or a value that holds a line break would write a line of its own.
 std::string OneLine(std::string_view text) {
   std::string line;
-  for (const char c : Printable(text)) {
+  for (const char c : text) {
     if (c == '\n') {
       line += "\\x0a";
     } else {
