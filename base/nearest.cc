@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/text/joined.h"
-
 namespace talus::base {
 namespace {
 
@@ -44,11 +42,13 @@ std::string Nearest(std::string_view name, std::span<const std::string> known) {
 }
 
 std::string DidYouMean(std::string_view name, std::span<const std::string> known) {
-  std::vector<std::string> kinds;
+  std::string kinds;
+  int num_kinds = 0;
   for (const std::string& candidate : known) {
-    if (candidate.starts_with(std::string(name) + "_")) kinds.push_back("\"" + candidate + "\"");
+    if (!candidate.starts_with(std::string(name) + "_")) continue;
+    kinds += (num_kinds++ > 0 ? ", \"" : "\"") + candidate + "\"";
   }
-  if (kinds.size() > 1) return "; did you mean one of " + Joined(kinds, ", ") + "?";
+  if (num_kinds > 1) return "; did you mean one of " + kinds + "?";
   const std::string near = Nearest(name, known);
   return near.empty() ? "" : "; did you mean \"" + near + "\"?";
 }
