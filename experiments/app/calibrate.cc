@@ -35,7 +35,9 @@ void AddCalibrateCommand(CLI::App& app) {
     const std::filesystem::path folder = arguments->out.empty()
                                              ? std::filesystem::path(arguments->spec).stem()
                                              : std::filesystem::path(arguments->out);
-    campaign::BeginOptions options{.check = analysis::CheckGoal};
+    campaign::BeginOptions options{.check = [&](const campaign::CampaignSpec& spec) {
+      analysis::CheckGoal(spec, base::ReadJsonFile(arguments->spec));
+    }};
     if (!arguments->hold_out.empty()) options.hold_out = arguments->hold_out;
     options.reuse.assign(arguments->reuse.begin(), arguments->reuse.end());
     options.say = [&](const std::string& text) {
