@@ -53,10 +53,21 @@ double ContactDuration(const engine::Material& m, double diameter, double speed)
 
 // One quantity of the process beside the same of the tests.
 struct Compared {
-  std::vector<double> FlowRegime::*range;
+  std::vector<double> (*range)(const FlowRegime&);  // 5, 50, 95 %
   const char* what;
-  const char* unit;
+  const char* unit = "";
+  double least = 0;  // below it the process does not care
 };
+
+// A collision that lasts a tenth of the time in which its neighbourhood shears by a grain.
+constexpr double kSoft = 0.1;
+
+constexpr Compared kCompared[] = {
+    {[](const FlowRegime& r) { return r.inertial_number; }, "an inertial number"},
+    {[](const FlowRegime& r) { return r.pressure; }, "a pressure", " Pa"},
+    {[](const FlowRegime& r) { return std::vector(3, r.bond_number); }, "a Bond number"},
+    {[](const FlowRegime& r) { return r.contact_duration; }, "a contact duration × shear rate", "",
+     kSoft}};
 
 std::string WarningOf(const Compared& compared, const FlowRegime& process,
                       const std::vector<FlowRegime>& regimes) {
@@ -64,10 +75,12 @@ std::string WarningOf(const Compared& compared, const FlowRegime& process,
   double high = 0;
   for (const FlowRegime& test : regimes) {
     if (test.is_process) continue;
-    low = std::min(low, (test.*compared.range).front());
-    high = std::max(high, (test.*compared.range).back());
+    const std::vector<double> range = compared.range(test);
+    low = std::min(low, range.front());
+    high = std::max(high, range.back());
   }
-  const double there = (process.*compared.range)[1];
+  const double there = compared.range(process)[1];
+  if (!(there >= compared.least)) return "";
   const bool above = high > 0 && there > kBeyond * high;
   if (!above && !(there * kBeyond < low && std::isfinite(low))) return "";
   return process.name + " shears at " + compared.what + " of " + base::PlainNumber(there, 2) +
@@ -114,8 +127,7 @@ std::vector<std::string> RegimeWarnings(const std::vector<FlowRegime>& regimes) 
   std::vector<std::string> warnings;
   const auto process = std::ranges::find_if(regimes, &FlowRegime::is_process);
   if (process == regimes.end()) return warnings;
-  for (const Compared& compared : {Compared{&FlowRegime::inertial_number, "an inertial number", ""},
-                                   Compared{&FlowRegime::pressure, "a pressure", " Pa"}}) {
+  for (const Compared& compared : kCompared) {
     const std::string warning = WarningOf(compared, *process, regimes);
     if (!warning.empty()) warnings.push_back(warning);
   }

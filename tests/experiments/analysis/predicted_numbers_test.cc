@@ -228,7 +228,9 @@ FlowRegime Sheared(const std::string& name, bool is_process, double number, doub
   return {.name = name,
           .is_process = is_process,
           .inertial_number = {number / 2, number, 2 * number},
-          .pressure = {pressure / 2, pressure, 2 * pressure}};
+          .pressure = {pressure / 2, pressure, 2 * pressure},
+          .contact_duration = {1e-3, 2e-3, 4e-3},
+          .bond_number = 5};
 }
 
 TEST(Regimes, AProcessThatNoTestReachesIsWarnedOf) {
@@ -243,6 +245,22 @@ TEST(Regimes, AProcessThatNoTestReachesIsWarnedOf) {
               HasSubstr("drum shears at an inertial number of 0.1, your tests at most at 0.02"));
   EXPECT_THAT(warnings(5e-3, 1)[0], HasSubstr("a pressure of 1 Pa, your tests at least at 5 Pa"));
   EXPECT_THAT(RegimeWarnings({Sheared("drum", true, 1, 1)}), testing::IsEmpty());  // no test known
+}
+
+// Far below 1 a contact's duration does not count, however far the tests are from it; on another
+// planet grains weigh less.
+TEST(Regimes, SoftContactsAndAnotherWeightAreWarnedOf) {
+  FlowRegime process = Sheared("drum", true, 5e-3, 20);
+  const auto warnings = [&] { return RegimeWarnings({process, Sheared("heap", false, 5e-3, 20)}); };
+  process.contact_duration = {0.01, 0.05, 0.1};
+  EXPECT_THAT(warnings(), testing::IsEmpty());
+  process.contact_duration = {0.1, 0.3, 0.5};
+  ASSERT_EQ(warnings().size(), 1u);
+  EXPECT_THAT(warnings()[0],
+              HasSubstr("a contact duration × shear rate of 0.3, your tests at most at 0.004"));
+  process = Sheared("drum", true, 5e-3, 20);
+  process.bond_number = 30;
+  EXPECT_THAT(warnings()[0], HasSubstr("a Bond number of 30, your tests at most at 5"));
 }
 
 // One run of 1 mm grains at scale factor 2: their I is twice the powder's, P and γ̇ are the bulk's.
