@@ -25,15 +25,13 @@ size, 0.1 s each with all that goes on round it. For what asks how campaigns han
 --other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: those with
 both tests should raise an alarm, and only they run.
 """
-import argparse
 import json
-import pathlib
 import random
 
 import numpy
 
 from drawn_heap import draw
-from twin import credible_level, device, drawn_engine, mean_heap, run, simulated
+from twin import arguments, credible_level, device, drawn_engine, mean_heap, run, simulated
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
@@ -85,12 +83,7 @@ def calibrate(options, folder, name, experiments, seed, truth):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--last", type=int, default=20)
-    parser.add_argument("--core-time", type=float, default=60)
+    parser = arguments(powders=20, core_time=60)
     parser.add_argument("--parameters", type=int, choices=[2, 3], default=2)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--diameter", type=float, default=0.7, metavar="MM")

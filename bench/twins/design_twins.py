@@ -6,12 +6,10 @@ they are expected to leave together; the campaign with both tests tells what the
 over all sets that are searched, the same for every powder but for its seed, and what one of them leaves may be far from
 it: the last line compares the means over all powders, too.
 """
-import argparse
 import json
 import math
-import pathlib
 
-from twin import run
+from twin import arguments, finished, run
 
 WITHIN = 1.5
 KEYS = ("powder", "device", "models", "coarse_graining", "parameters", "posterior", "engine", "seed")
@@ -43,14 +41,9 @@ def realised(twin):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
-    options = parser.parse_args()
+    options = arguments().parse_args()
     rows = []
-    for twin in sorted(options.folder.glob("twin??*")):
-        if not (twin / "both" / "result.json").exists():
-            continue
+    for twin in finished(options.folder):
         then, now = expected(options, twin), realised(twin)
         ratio = math.prod(now[k] / then[k] for k in then) ** (1 / len(then))
         rows.append((then, now, ratio))

@@ -9,12 +9,11 @@ Two of them are means over few draws, so the last line compares the sums over al
 --campaigns: the campaign with both tests runs again with this goal, to be known to 1.2 times what the first one left, and a line
 says its core time over that one's, and why it ended.
 """
-import argparse
 import json
 import math
 import pathlib
 
-from twin import run
+from twin import arguments, finished, run
 
 WITHIN = 1.5
 SLACK = 1.2
@@ -52,18 +51,14 @@ def with_goal(options, twin, half_width):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
+    parser = arguments()
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("observable")
     parser.add_argument("--unit", default="", help="of the observable in results, such as deg")
     parser.add_argument("--campaigns", action="store_true")
     options = parser.parse_args()
     rows = []
-    for twin in sorted(options.folder.glob("twin*")):
-        if not (twin / "both" / "result.json").exists():
-            continue
+    for twin in finished(options.folder):
         now, then = expected(options, twin)
         left = table(options, twin / "both")["goal"]["half_width_90"]
         rows.append((now, then, left))

@@ -8,12 +8,12 @@ widths of the joint 90 % ranges, in shares of the searched ones, and the realise
 the geometric mean of both parameters. What is expected is the mean over the sets that the posterior holds, and what
 one of them leaves may be far from it: the last line compares the sums over all powders.
 """
-import argparse
 import json
 import math
-import pathlib
 import subprocess
 import sys
+
+from twin import arguments, finished
 
 WITHIN = 1.5
 
@@ -45,14 +45,9 @@ def realised(twin):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
-    options = parser.parse_args()
+    options = arguments().parse_args()
     ratios, first, sums = [], 0, {}
-    for twin in sorted(options.folder.glob("twin*")):
-        if not (twin / "both" / "result.json").exists():
-            continue
+    for twin in finished(options.folder):
         after, above = expected(options.talus, twin)
         is_now = realised(twin)
         ratio = math.prod(is_now[k] / after[k] for k in after) ** (1 / len(after))

@@ -18,12 +18,10 @@ parameters' share, and what told the number. The last lines count.
 --valley: a campaign with the heap alone predicts the drum and the wide plate, too: its valley is wide, and a test that
 tells its sets apart should have a larger share of parameters.
 """
-import argparse
 import json
-import pathlib
 import random
 
-from twin import device, mean_heap, run
+from twin import arguments, device, mean_heap, run
 
 SEARCHED = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 DRAWN = {"sliding_friction": (0.15, 0.85), "rolling_friction": (0.04, 0.5)}
@@ -112,12 +110,7 @@ def judge(options, campaign, folder, name, process, truth, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--last", type=int, default=20)
-    parser.add_argument("--core-time", type=float, default=60)
+    parser = arguments(powders=20, core_time=60)
     parser.add_argument("--budget", type=float, default=60)
     parser.add_argument("--draws", type=int, default=12)
     parser.add_argument("--seeds", type=int, default=3)

@@ -11,11 +11,9 @@ One line a powder: seconds to the first answer, the joint 90 % region over that 
 own truth, and what `talus compare` says of the two. The last lines count the differences found where there is one, and claimed
 where there is none.
 """
-import argparse
 import csv
 import json
 import math
-import pathlib
 import random
 import subprocess
 import sys
@@ -23,7 +21,7 @@ import time
 
 from PIL import Image, ImageDraw
 
-from twin import credible_level, device, frame, run
+from twin import arguments, credible_level, device, frame, run
 
 SEARCHED = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 DRAWN = {"sliding_friction": (0.15, 0.75), "rolling_friction": (0.05, 0.5)}
@@ -101,12 +99,7 @@ def holds(options, folder, truth):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--last", type=int, default=20)
-    parser.add_argument("--core-time", type=float, default=120)
+    parser = arguments(powders=20, core_time=120)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--shift", type=float, default=0.1)
     parser.add_argument("--workers", type=int, default=2)

@@ -10,11 +10,9 @@ it cannot be fixed: the second campaign has the number that the first one's answ
 One line a powder and move: the shifts foretold and found of each parameter in half ranges, and whether the two are
 within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise.
 """
-import argparse
 import json
-import pathlib
 
-from twin import run
+from twin import arguments, run
 
 FACTOR = 1.5
 SMALL = 0.25  # half ranges
@@ -53,9 +51,7 @@ def is_right(a, b):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
+    parser = arguments()
     parser.add_argument("--campaign", default="both")
     parser.add_argument("--scale-factor", type=float)
     parser.add_argument("--replicates", type=int, default=16)

@@ -17,16 +17,14 @@ One line a powder and campaign: the credible level of the truth (0.9 or less is 
 joint 90 % ranges in shares of the searched ones, what `talus next` expected of the test after the heap alone, and the
 realised over the expected width, as the geometric mean of the parameters. Then the means over all powders.
 """
-import argparse
 import json
 import math
-import pathlib
 import random
 
 import numpy
 from PIL import Image
 
-from twin import credible_level, device, frame, run
+from twin import arguments, credible_level, device, frame, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.5), "surface_energy": (2e-4, 2e-2)}
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.7,
@@ -143,12 +141,7 @@ def line(widths):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("talus")
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--last", type=int, default=10)
-    parser.add_argument("--core-time", type=float, default=240)
+    parser = arguments(powders=10, core_time=240)
     parser.add_argument("--next-time", type=float, default=600)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--diameter", type=float, default=0.7, metavar="MM")

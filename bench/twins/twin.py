@@ -1,4 +1,6 @@
-"""What the benches on virtual powders have in common: the device of their heaps, the frame of their images, the program."""
+"""What the benches on virtual powders have in common: their arguments, the device of their heaps, the frame of their
+images, the program, and the campaigns that dem_twins.py has finished."""
+import argparse
 import json
 import math
 import pathlib
@@ -7,6 +9,24 @@ import sys
 
 import numpy
 from PIL import Image
+
+
+def arguments(powders=None, core_time=None):
+    """A parser of TALUS FOLDER; of --first and --last, the latter `powders` by default; of --core-time in seconds."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("talus")
+    parser.add_argument("folder", type=pathlib.Path)
+    if powders:
+        parser.add_argument("--first", type=int, default=1)
+        parser.add_argument("--last", type=int, default=powders)
+    if core_time:
+        parser.add_argument("--core-time", type=float, default=core_time)
+    return parser
+
+
+def finished(folder):
+    """The powders of dem_twins.py whose campaign of both tests has a result."""
+    return [twin for twin in sorted(folder.glob("twin??*")) if (twin / "both" / "result.json").exists()]
 
 
 def device(plate_mm):
