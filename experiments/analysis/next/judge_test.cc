@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "base/text/counted.h"
-#include "base/text/number_text.h"
 #include "experiments/analysis/compare/heap_pair.h"
-#include "experiments/analysis/next/unknown_shift.h"
+#include "experiments/analysis/next/unknown_discount.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/rigs/observables/shown_number.h"
@@ -105,59 +104,17 @@ Eigen::MatrixXd RowsOf(const std::vector<DesignTrial>& trials, const Hypothetica
   return rows;
 }
 
-// What moves the test, with δ of each.
-std::vector<Eigen::VectorXd> ShiftsOf(const SimulatedTest& simulated, const Hypothetical& made,
-                                      const optimizer::ExperimentModel& model,
-                                      NextCandidate& candidate) {
-  std::vector<Eigen::MatrixXd> sets{RowsOf(simulated.unknown.base, made, model)};
-  for (const MovedTest& moved : simulated.unknown.moved) {
-    sets.push_back(RowsOf(moved.trials, made, model));
-  }
-  const Eigen::VectorXd noise =
-      model.NoiseAt(simulated.design.scale_factor).cwiseMax(PooledVariance(sets));
+UnknownRows UnknownRowsOf(const SimulatedTest& simulated, const Hypothetical& made,
+                          const optimizer::ExperimentModel& model) {
   const auto num_scalars = static_cast<Eigen::Index>(made.target.scalars.size());
-  std::vector<Eigen::VectorXd> shifts;
-  for (std::size_t m = 0; m < simulated.unknown.moved.size(); ++m) {
-    const Eigen::VectorXd shift = ShiftBeyondChance({.moved = sets[m + 1],
-                                                     .base = sets.front(),
-                                                     .noise = noise,
-                                                     .num_modes = noise.size() - num_scalars});
-    if (shift.isZero(0)) continue;
-    const MovedTest& moved = simulated.unknown.moved[m];
-    const Eigen::ArrayXd errors = candidate.predicted.variance.array();
-    candidate.unknowns.push_back({.name = moved.name,
-                                  .from = moved.from,
-                                  .to = moved.to,
-                                  .shift = std::sqrt((shift.array().square() / errors).sum())});
-    shifts.push_back(shift);
+  UnknownRows rows{.base = RowsOf(simulated.unknown.base, made, model),
+                   .moved = {},
+                   .noise = model.NoiseAt(simulated.design.scale_factor),
+                   .num_modes = model.num_outputs() - num_scalars};
+  for (const MovedTest& moved : simulated.unknown.moved) {
+    rows.moved.push_back(RowsOf(moved.trials, made, model));
   }
-  return shifts;
-}
-
-// "; 5.1 bits if what it depends on were known: restitution (0.6 in place of 0.9 shifts it by 6.2
-// of its errors)"
-std::string DiscountText(const NextCandidate& candidate) {
-  constexpr std::size_t kMost = 3;
-  std::string text = "; " + base::ShortNumber(*candidate.bits_if_known, 2) +
-                     " bits if what it depends on were known: ";
-  for (std::size_t i = 0; i < std::min(kMost, candidate.unknowns.size()); ++i) {
-    const NextUnknown& unknown = candidate.unknowns[i];
-    text += (i == 0 ? "" : ", ") + unknown.name + " (" + unknown.to + " in place of " +
-            unknown.from + " shifts it by " + base::ShortNumber(unknown.shift, 2) +
-            (i == 0 ? " of its errors)" : ")");
-  }
-  const std::size_t more = candidate.unknowns.size() - std::min(kMost, candidate.unknowns.size());
-  return text + (more > 0 ? " and " + std::to_string(more) + " more" : "");
-}
-
-void Discount(const Ground& ground, const std::vector<Eigen::VectorXd>& shifts,
-              NextCandidate& candidate) {
-  if (shifts.empty()) return;
-  const optimizer::PredictedMeasurement less = WithShifts(candidate.predicted, shifts);
-  candidate.bits_if_known = candidate.learning->bits;
-  candidate.learning = ground.Learn(less.mean, less.variance);
-  std::ranges::stable_sort(candidate.unknowns, std::greater<>{}, &NextUnknown::shift);
-  candidate.what += DiscountText(candidate);
+  return rows;
 }
 
 void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetical& made,
@@ -220,7 +177,7 @@ void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandida
                              static_cast<Eigen::Index>(made.target.scalars.size()))};
   candidate.learning = ground.Learn(candidate.predicted.mean, candidate.predicted.variance);
   if (!unknown.base.empty()) {
-    Discount(ground, ShiftsOf(simulated, made, model, candidate), candidate);
+    Discount(ground, unknown, UnknownRowsOf(simulated, made, model), candidate);
   }
   TellApart(ground, test, made, model, candidate);
 }
