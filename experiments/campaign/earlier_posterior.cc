@@ -19,8 +19,8 @@
 namespace talus::campaign {
 namespace {
 
-constexpr std::size_t kMostDraws = 400;  // that a prior is made of: each is a kernel
-constexpr double kLeastInside = 0.5;     // of the draws, in the ranges of this campaign
+constexpr std::size_t kMostDraws = 1000;  // that a prior is made of: each is a kernel
+constexpr double kLeastInside = 0.5;      // of the draws, in the ranges of this campaign
 
 // A campaign's posterior, as it lies in its folder.
 struct Earlier {

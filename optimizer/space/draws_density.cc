@@ -11,7 +11,7 @@
 namespace talus::optimizer {
 namespace {
 
-constexpr double kRound = 0.05;    // share of the draws that a kernel is shaped by
+constexpr double kRound = 0.1;     // share of the draws that a kernel is shaped by
 constexpr double kNarrowed = 0.5;  // … and its variance over theirs, as each kernel adds its own
 constexpr double kBroad = 0.05;    // weight of the broad Gaussian
 constexpr double kBroader = 4;     // … and its variance over that of the draws

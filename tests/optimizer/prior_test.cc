@@ -95,6 +95,26 @@ TEST(DrawsDensity, FollowsABentValley) {
   EXPECT_NEAR(density.LogDensity(fresh).mean(), expected, 0.15);
 }
 
+// Kernels that are too narrow for their number make hills of chance, which a later campaign takes
+// for knowledge. The error is 0.27 to 0.29 over seeds; with a twentieth of the draws to shape each
+// kernel, 0.37 to 0.40.
+TEST(DrawsDensity, IsNearlyAsSmoothAsWhatItsDrawsAreFrom) {
+  constexpr double kSd = 0.1;
+  base::Random random(5, base::Stream("ball"));
+  const auto normal = [&](int count) {
+    Eigen::MatrixXd draws(count, 3);
+    for (double& coordinate : draws.reshaped()) coordinate = 0.5 + kSd * random.Normal();
+    return draws;
+  };
+  const DrawsDensity density(normal(1000));
+  const Eigen::MatrixXd fresh = normal(1000);
+  const Eigen::ArrayXd squared = ((fresh.array() - 0.5) / kSd).square().rowwise().sum();
+  const Eigen::ArrayXd error = density.LogDensity(fresh).array() + 0.5 * squared;
+  const Eigen::ArrayXd inside = (squared < 6.25).cast<double>();  // 90 % of them
+  const double mean = (inside * error).sum() / inside.sum();
+  EXPECT_LT(std::sqrt((inside * (error - mean).square()).sum() / inside.sum()), 0.33);
+}
+
 ParameterSpace TwoParameters() {
   return {.parameters = {{.name = "friction", .low = 0, .high = 1},
                          {.name = "restitution", .low = 0.2, .high = 1}}};
