@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""optima.py TALUS FOLDER [--powder ti6al4v|al6061] [--workers N] [--scale-factors F…] [--beyond F]
+"""optima.py TALUS FOLDER [--powder ti6al4v|al6061] [--workers N] [--scale-factors F…] [--beyond F [--make SET…]]
 
 Predicts the heaps of published optima from coarse ones. Both powders have millions of grains; here they are simulated
 4 to 16 times as large, with more seeds where they are cheaper, and what they show is carried on to true size (f = 1).
@@ -15,6 +15,7 @@ or 1.5 with equal weights beforehand. A heap of grains f times as large has f^-3
                  place of one as the powder). Prints the means at the scale factors given beside those as above
 --scale-factors  the heaps that the model is told of (all that it makes)
 --beyond         predicts at this scale factor instead and, where heaps of it are made, says what they show
+--make           makes one heap there of each of these sets first; the first set is 1
 
 Heaps are kept in FOLDER and not made twice. All default ones: 25 core minutes for Ti6Al4V, 15 for Al6061.
 """
@@ -112,8 +113,8 @@ def read(options, powder, number, f, seed, choice=None):
 def heaps(options, powder, factors):
     """(set, f, numbers) of each heap."""
     found = [(number, f, read(options, powder, number, f, seed))
-             for number in range(len(POWDERS[powder]["sets"])) for f, seeds in POWDERS[powder]["heaps"].items()
-             if f in factors for seed in range(1, seeds + 1)]
+             for number in range(len(POWDERS[powder]["sets"])) for f in factors
+             for seed in range(1, POWDERS[powder]["heaps"].get(f, 1) + 1)]
     return [heap for heap in found if heap[2] is not None]
 
 
@@ -217,12 +218,14 @@ def main():
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--scale-factors", type=float, nargs="+")
     parser.add_argument("--beyond", type=float, default=1)
+    parser.add_argument("--make", type=int, nargs="+", default=[])
     parser.add_argument("--other-choice", choices=OTHER_CHOICES)
     options = parser.parse_args()
     powders = options.powder or list(POWDERS)
     jobs = [(powder, number, f, seed) for powder in powders
             for f, seeds in POWDERS[powder]["heaps"].items() if not options.scale_factors or f in options.scale_factors
             for number in range(len(POWDERS[powder]["sets"])) for seed in range(1, seeds + 1)]
+    jobs += [(powder, number - 1, options.beyond, 1) for powder in powders for number in options.make]
     with concurrent.futures.ThreadPoolExecutor(options.workers) as pool:
         for done in [pool.submit(simulate, options, *job) for job in jobs]:
             done.result()
