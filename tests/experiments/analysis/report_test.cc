@@ -122,7 +122,8 @@ TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
   const std::string chart = SvgChart({.title = "γ (J/m²)", .low = 1e-6, .high = 1e-2, .log = true},
                                      {.title = "cost", .low = 0, .high = 4e6})
                                 .Text();
-  for (const char* tick : {">10⁻⁶<", ">10⁻⁵<", ">0.01<", ">10⁶<", ">3 × 10⁶<"}) {
+  for (const char* tick :
+       {">10⁻⁶<", ">10⁻⁵<", ">10⁻⁴<", ">0.001<", ">0.01<", ">10⁶<", ">3 × 10⁶<"}) {
     EXPECT_THAT(chart, HasSubstr(tick));
   }
   EXPECT_THAT(chart, Not(HasSubstr("e-0")));

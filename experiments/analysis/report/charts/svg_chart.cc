@@ -40,9 +40,14 @@ std::string Words(double x, double y, const std::string& anchor, const std::stri
          base::MarkupText(text) + "</text>\n";
 }
 
-// "0.2", "10⁻⁶", as the rest of the page writes numbers.
+// "0.2", "10⁻⁶", as the page's own charts (format.js).
 std::string TickText(double tick) {
-  const std::string text = WithPowers(Number(tick, 4));
+  const double power = std::log10(std::abs(tick));
+  const bool is_far = power < -3 - 1e-9 || power > 4 + 1e-9;
+  char scientific[32];
+  std::snprintf(scientific, sizeof scientific, "%.0e", tick);
+  const bool is_power = std::abs(power - std::round(power)) < 1e-9;
+  const std::string text = WithPowers(is_far && is_power ? scientific : Number(tick, 4));
   return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
 }
 
