@@ -113,7 +113,7 @@ TEST_F(GoalTest, WhatItsCaseDoesNotMeasureIsRefusedBeforeAnythingIsWritten) {
                          const std::string& rig) -> std::string {
     const fs::path folder = WithGoal("1", name, observable, rig);
     try {
-      CheckGoal(campaign::ReadJointView(folder).spec);
+      CheckGoal(campaign::ReadJointView(folder).spec, {});
     } catch (const base::ConfigError& e) {
       return e.what();
     }
