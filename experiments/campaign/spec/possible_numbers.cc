@@ -29,7 +29,7 @@ struct Checker {
     } else if constexpr (D == base::Dimension::kNone) {
       const double most = rigs::BoundsOf(key).high;  // without a unit key and metric are the same
       problems.Require(number->Value() <= most, value, number->Value(),
-                       "is a share, which is at most 1; write \"" +
+                       "must be at most 1: it is a share; write \"" +
                            base::ShortNumber(number->Value()) + " %\" for percent");
     }
   }
