@@ -282,6 +282,8 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
   if (options.objective) spec.objective = *options.objective;
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
+  // First: a search that stayed ended beside its changed spec would never go on.
+  if (!change.event.empty() || options.objective) Reopen(journal);
   if (!options.search.empty()) {
     WriteAddedParameters(folder, change.spec, change.text, journal);
   } else if (!change.event.empty()) {
@@ -290,7 +292,6 @@ OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptio
   if (!change.event.empty()) {
     journal.AddEvent(change.event, 0, change.words);
   }
-  if (!change.event.empty() || options.objective) Reopen(journal);
   return {.folder = folder,
           .lock = std::move(lock),
           .journal = std::move(journal),

@@ -54,6 +54,13 @@ class GoalTest : public campaign::CampaignFixture {
                                 opened.spec, std::move(own), console);
     return campaign.Run(interrupt);
   }
+  // The folder of a search that has not ended yet.
+  static void Reopen(const fs::path& folder) {
+    campaign::Console console(folder / "campaign.log", campaign::Console::Output::kQuiet);
+    campaign::OpenedCampaign opened = campaign::OpenCampaign(folder, {}, console);
+    campaign::Reopen(opened.journal);
+    fs::remove(folder / "result.json");
+  }
   static std::optional<GoalState> Last(const fs::path& folder) {
     return campaign::LastGoal(folder, campaign::ReadJointView(folder).spec);
   }
@@ -99,7 +106,7 @@ TEST_F(GoalTest, GoesOnWhereItWasEndedToTheSameTrials) {
   const fs::path look = campaign::GoalLooks(again).back();
   fs::remove(look / "goal.json");
   fs::remove_all(look / "trials/0002");
-  fs::remove(again / "result.json");
+  Reopen(again);
   const auto time = fs::last_write_time(look / "trials/0001/profile.png");
   EXPECT_EQ(Run(again), campaign::CampaignEnd::kFinished);
   EXPECT_EQ(fs::last_write_time(look / "trials/0001/profile.png"), time);
