@@ -83,12 +83,11 @@ class DrumRig : public RememberingRig<DrumMemory> {
                            " or more, or take fewer pictures");
       const double series = c.rig.camera->LastTime() - c.rig.camera->start;
       const double turned = drum.speed * drum.diameter / 2 * series;
-      problems.Require(c.rig.camera->frames == 1 || turned > kStill * LargestDiameter(c),
-                       "rig.camera.interval", c.rig.camera->interval,
-                       "s is so short that nothing moves: from the first picture to the last the "
-                       "drum turns by " +
-                           base::ShortNumber(1e3 * turned, 2) +
-                           " mm, less than a hundredth of a grain");
+      problems.Require(
+          c.rig.camera->frames == 1 || turned > kStill * LargestDiameter(c), "rig.camera.interval",
+          "is so short that nothing moves: from the first picture to the last the "
+          "drum turns by " +
+              base::ShortNumber(1e3 * turned, 2) + " mm, less than a hundredth of a grain");
     }
     const double most = kBoxHeight * c.rig.drum.diameter / 2;
     const double filled = FilledHeight(c, VesselOf(c));
