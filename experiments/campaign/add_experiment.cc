@@ -27,10 +27,9 @@ void Write(OpenedCampaign& opened, const journal::CampaignRecord& record, const 
   const journal::ExperimentRecord& experiment = record.experiments.back();
   KeepCampaign(opened.folder, record);
   Reopen(opened.journal);
-  opened.journal.AddExperiment(experiment, record.spec_json);
+  opened.journal.AddExperiment(experiment, record.spec_json, taken.trials);
   opened.journal.AddEvent("experiment", 0, "\"" + experiment.name + "\" is added");
   if (taken.trials.empty()) return;
-  opened.journal.Start(taken.trials);
   opened.journal.AddEvent("experiment", 0, TakenOverText(taken));
 }
 

@@ -41,8 +41,10 @@ class Journal {
   // Other parameters than it began with, and for each of `trials`, which are all of them, its
   // point; together with the spec's texts. There is no result any more.
   void SetParameters(const CampaignRecord& campaign, std::span<const TrialRecord> trials);
-  // A further one, after the others, together with the spec that has it.
-  void AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json);
+  // A further one, after the others, together with the spec that has it and with the trials that it
+  // takes over, as running.
+  void AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json,
+                     std::span<const TrialRecord> trials);
 
   // By id, with their metrics, without their images.
   std::vector<TrialRecord> Trials();

@@ -129,10 +129,12 @@ void Journal::SetSpec(std::string_view spec_text, std::string_view spec_json) {
   transaction.Commit();
 }
 
-void Journal::AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json) {
+void Journal::AddExperiment(const ExperimentRecord& experiment, std::string_view spec_json,
+                            std::span<const TrialRecord> trials) {
   Transaction transaction(database_);
   InsertExperiment(database_, database_.Number("SELECT count(*) FROM experiments"), experiment);
   database_.Prepare("UPDATE campaign SET spec_json = ?1").Bind(spec_json).Finish();
+  for (const TrialRecord& trial : trials) Insert(trial);
   SealCampaign(database_);
   transaction.Commit();
 }

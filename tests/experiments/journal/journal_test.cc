@@ -176,6 +176,22 @@ TEST_F(JournalTest, FinishedTrialsKeepTheirOrder) {
   EXPECT_EQ(trials[2].finish_order, 1);
 }
 
+// Else a process that is killed in between leaves a test without the trials it could have had.
+TEST_F(JournalTest, AnExperimentAndTheTrialsItTakesOverAreThereTogetherOrNotAtAll) {
+  Journal journal = Journal::Create(File(), Campaign());
+  const TrialRecord first[] = {Trial(1)};
+  journal.Start(first);
+  const TrialRecord again[] = {Trial(2), Trial(1)};
+  EXPECT_THROW(journal.AddExperiment(Experiment("drum", 40), "{\"new\": 1}", again), base::Error);
+  EXPECT_EQ(journal.Campaign().experiments.size(), 2u);
+  EXPECT_EQ(journal.Campaign().spec_json, "{}");
+  EXPECT_EQ(journal.Trials().size(), 1u);
+  const TrialRecord further[] = {Trial(2), Trial(3)};
+  journal.AddExperiment(Experiment("drum", 40), "{\"new\": 1}", further);
+  EXPECT_EQ(journal.Campaign().experiments.size(), 3u);
+  EXPECT_EQ(journal.Trials().size(), 3u);
+}
+
 TEST_F(JournalTest, KilledWhileWritingLosesNothingThatWasFinished) {
   Journal::Create(File(), Campaign());
   int told[2];
