@@ -12,8 +12,7 @@ namespace talus::base {
 std::string Nearest(std::string_view name, std::span<const std::string> known);
 
 // "; did you mean "NAME"?" of that name; of all that go on after it with "_", where there are
-// several
-// ("angle_of_repose": its methods); "" if none is near.
+// several ("angle_of_repose": its methods); "" if none is near.
 std::string DidYouMean(std::string_view name, std::span<const std::string> known);
 
 }  // namespace talus::base
