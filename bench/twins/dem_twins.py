@@ -67,9 +67,9 @@ def calibrate(options, folder, name, experiments, seed, truth):
             "coarse_graining": LEVELS[name], "seed": seed, "workers": 1,
             "parameters": {k: {"min": a, "max": b} for k, (a, b) in RANGES.items()},
             "budget": {"core_time": f"{options.core_time} s"}, "confirm": {"candidates": 0},
-            "posterior": {"model_error": options.model_error}}
+            "next": {"share": 0}, "posterior": {"model_error": options.model_error}}
     if options.drawn:
-        spec |= {"engine": drawn_engine(), "coarse_graining": {"scale_factor": 1}, "next": {"share": 0},
+        spec |= {"engine": drawn_engine(), "coarse_graining": {"scale_factor": 1},
                  "budget": {"simulations": options.drawn * len(experiments)}}
     (folder / f"{name}.json").write_text(json.dumps(spec))
     run(options.talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--campaigns]: is a prediction narrowed as `talus next --for` expects?
+"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--first N] [--last N] [--campaigns]: is a prediction
+narrowed as `talus next --for` expects?
 
 FOLDER is that of dem_twins.py, CASE a bulk test whose OBSERVABLE is to be predicted (examples/rigs/spreading.json
-packing_fraction). For each powder the campaign with the heap alone is asked what the wide plate would leave of it, and
-the campaign with both tests tells what it left. One line a powder: half-widths of the goal now, expected and realised.
+packing_fraction). For each powder from --first to --last the campaign with the heap alone is
+asked what the wide plate would leave of it, and the campaign with both tests tells what it left. One line a powder: half-widths of the goal now, expected and realised.
 Two of them are means over few draws, so the last line compares the sums over all powders, too.
 
 --campaigns: the campaign with both tests runs again with this goal, to be known to 1.2 times what the first one left, and a line
@@ -51,14 +52,14 @@ def with_goal(options, twin, half_width):
 
 
 def main():
-    parser = arguments()
+    parser = arguments(powders=20)
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("observable")
     parser.add_argument("--unit", default="", help="of the observable in results, such as deg")
     parser.add_argument("--campaigns", action="store_true")
     options = parser.parse_args()
     rows = []
-    for twin in finished(options.folder):
+    for twin in finished(options.folder, options.first, options.last):
         now, then = expected(options, twin)
         left = table(options, twin / "both")["goal"]["half_width_90"]
         rows.append((now, then, left))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""row_twins.py TALUS FOLDER: do two campaigns in a row find what one campaign of both tests finds?
+"""row_twins.py TALUS FOLDER [--first N] [--last N]: do two campaigns in a row find what one campaign of both tests finds?
 
-FOLDER is that of dem_twins.py. For each of its powders the campaign with the heap alone comes first; the second has the
+FOLDER is that of dem_twins.py. For each of its powders from --first to --last the campaign with the heap alone comes first; the second has the
 wide plate alone, with the first one's posterior as prior and the rest of the joint campaign's budget. It is compared with
 the campaign of both tests. The yardstick is the joint campaign once more, of the same measurements with another seed: no
 campaign in a row can be nearer than that. One line a powder: the distance of the two recommended sets in half ranges of
@@ -10,9 +10,8 @@ credible level of the truth; of the second campaign, then of the joint one once 
 """
 import json
 import math
-import random
 
-from twin import arguments, credible_level, finished, run
+from twin import arguments, credible_level, finished, run, truth_of
 
 NEAR = 1  # half ranges: half of a range
 FACTOR = 1.5
@@ -60,12 +59,10 @@ def summary(name, rows):
 
 
 def main():
-    options = arguments().parse_args()
+    options = arguments(powders=20).parse_args()
     rows = {"second": [], "again": []}
-    for twin in finished(options.folder):
-        draw = random.Random(int(twin.name.removeprefix("twin")))  # as dem_twins.py draws it
-        ranges = json.loads((twin / "both.json").read_text())["parameters"]
-        truth = {k: draw.uniform(r["min"], r["max"]) for k, r in ranges.items()}
+    for twin in finished(options.folder, options.first, options.last):
+        _, truth = truth_of(twin)
         joint = json.loads((twin / "both" / "result.json").read_text())
         for campaign in (second, again):
             apart, volume = compare(campaign(options, twin), joint)

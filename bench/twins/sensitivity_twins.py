@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""sensitivity_twins.py TALUS FOLDER [--campaign both] [--scale-factor F] [--replicates N]: does a campaign with another
+"""sensitivity_twins.py TALUS FOLDER [--first N] [--last N] [--campaign both] [--scale-factor F] [--replicates N]: does a campaign with another
 fixed value find the answer that `talus sensitivity` foretells?
 
 FOLDER is that of dem_twins.py. Each of its campaigns is asked what a restitution of 0.6 in place of 0.9, and a
@@ -12,7 +12,7 @@ within a factor of 1.5, or both below a quarter of the half range, which no camp
 """
 import json
 
-from twin import arguments, run
+from twin import arguments, finished, run
 
 FACTOR = 1.5
 SMALL = 0.25  # half ranges
@@ -51,13 +51,13 @@ def is_right(a, b):
 
 
 def main():
-    parser = arguments()
+    parser = arguments(powders=20)
     parser.add_argument("--campaign", default="both")
     parser.add_argument("--scale-factor", type=float)
     parser.add_argument("--replicates", type=int, default=16)
     options = parser.parse_args()
     right, count = 0, 0
-    for twin in sorted(options.folder.glob("twin??")):
+    for twin in finished(options.folder, options.first, options.last):
         first = twin / options.campaign
         now = parameters(first)
         moves = {"restitution": 0.6,

@@ -1,9 +1,10 @@
 """What the benches on virtual powders have in common: their arguments, the device of their heaps, the frame of their
-images, the program, and the campaigns that dem_twins.py has finished."""
+images, the program, and the powders that dem_twins.py has finished."""
 import argparse
 import json
 import math
 import pathlib
+import random
 import subprocess
 import sys
 
@@ -24,9 +25,21 @@ def arguments(powders=None, core_time=None):
     return parser
 
 
-def finished(folder):
-    """The powders of dem_twins.py whose campaign of both tests has a result."""
-    return [twin for twin in sorted(folder.glob("twin??*")) if (twin / "both" / "result.json").exists()]
+def finished(folder, first=0, last=math.inf):
+    """The powders of dem_twins.py from `first` to `last` whose campaign of both tests has a result."""
+    return [twin for twin in sorted(folder.glob("twin??*")) if first <= number_of(twin) <= last
+            and (twin / "both" / "result.json").exists()]
+
+
+def number_of(twin):
+    return int(twin.name.removeprefix("twin"))
+
+
+def truth_of(twin):
+    """Number and true parameters of a finished powder, as dem_twins.py draws them."""
+    draw = random.Random(number_of(twin))
+    ranges = json.loads((twin / "both.json").read_text())["parameters"]
+    return number_of(twin), {k: draw.uniform(r["min"], r["max"]) for k, r in ranges.items()}
 
 
 def device(plate_mm):
