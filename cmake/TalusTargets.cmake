@@ -43,6 +43,16 @@ if(TALUS_FUZZ)
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
 
+# The headers that most libraries include, read once. A file includes what it uses all the same: the thread preset
+# builds without.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/library_headers.cc CONTENT "")
+add_library(talus_library_headers OBJECT ${PROJECT_BINARY_DIR}/library_headers.cc)
+target_link_libraries(talus_library_headers PRIVATE
+  talus::compile_options Eigen3::Eigen nlohmann_json::nlohmann_json)
+target_precompile_headers(talus_library_headers PRIVATE
+  <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
+  <nlohmann/json.hpp> <numbers> <optional> <span> <sstream> <string> <string_view> <utility> <vector>)
+
 # talus_unite_folders(target ON|OFF sources…)
 function(talus_unite_folders target unite)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
@@ -54,12 +64,13 @@ function(talus_unite_folders target unite)
   endif()
 endfunction()
 
-# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [UNITY])
-# PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. UNITY: the files of a
+# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED] [UNITY])
+# PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. PRECOMPILED: with
+# talus_library_headers, which a library that itself compiles with OpenMP cannot take. UNITY: the files of a
 # folder are compiled together where CMAKE_UNITY_BUILD is on, in half of the time; so their unnamed
 # namespaces share no name.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "UNITY" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "PRECOMPILED;UNITY" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
@@ -70,6 +81,9 @@ function(talus_add_library name)
       FILES ${ARG_HEADERS})
   target_link_libraries(talus_${name} PUBLIC talus::compile_options ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE})
+  if(ARG_PRECOMPILED)
+    target_precompile_headers(talus_${name} REUSE_FROM talus_library_headers)
+  endif()
   talus_unite_folders(talus_${name} ${ARG_UNITY} ${ARG_SOURCES})
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
