@@ -43,15 +43,15 @@ if(TALUS_FUZZ)
     $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
 
-# The headers that most libraries include, read once. A file includes what it uses all the same: the thread preset
-# builds without.
+# The headers that the libraries with Eigen include, read once. A file includes what it uses all the same: the thread
+# preset builds without. Not for libraries that join many strings: GCC 12 warns of its own std::string where it comes
+# out of a precompiled header.
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/library_headers.cc CONTENT "")
 add_library(talus_library_headers OBJECT ${PROJECT_BINARY_DIR}/library_headers.cc)
-target_link_libraries(talus_library_headers PRIVATE
-  talus::compile_options Eigen3::Eigen nlohmann_json::nlohmann_json)
+target_link_libraries(talus_library_headers PRIVATE talus::compile_options Eigen3::Eigen)
 target_precompile_headers(talus_library_headers PRIVATE
-  <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-  <nlohmann/json.hpp> <numbers> <optional> <span> <sstream> <string> <string_view> <utility> <vector>)
+  <Eigen/Core> <algorithm> <array> <cmath> <functional> <limits> <memory> <optional> <span> <string> <utility>
+  <vector>)
 
 # talus_unite_folders(target ON|OFF sources…)
 function(talus_unite_folders target unite)
@@ -66,9 +66,8 @@ endfunction()
 
 # talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED] [UNITY])
 # PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. PRECOMPILED: with
-# talus_library_headers, which a library that itself compiles with OpenMP cannot take. UNITY: the files of a
-# folder are compiled together where CMAKE_UNITY_BUILD is on, in half of the time; so their unnamed
-# namespaces share no name.
+# talus_library_headers. UNITY: the files of a folder are compiled together where CMAKE_UNITY_BUILD is on, in half of
+# the time; so their unnamed namespaces share no name.
 function(talus_add_library name)
   cmake_parse_arguments(ARG "PRECOMPILED;UNITY" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
