@@ -84,6 +84,10 @@ std::vector<ShownTrial> TrialsToShow(const Evidence& evidence,
   return shown;
 }
 
+std::string AnhpName(const TrialEvidence& trial) {
+  return "anhp_trial_" + std::to_string(trial.id);
+}
+
 std::vector<Picture> ProfilePictures(const Evidence& evidence,
                                      const std::vector<ShownTrial>& shown) {
   if (!evidence.reference.has_image()) return {};
@@ -98,11 +102,11 @@ std::vector<Picture> ProfilePictures(const Evidence& evidence,
   std::vector<Picture> pictures{MakePicture("aehp", "Experiment (AEHP)", Cropped(aehp.image, box))};
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (!profiles[i]) continue;
-    const std::string id = "trial_" + std::to_string(shown[i].trial->id);
     const std::string title = TitleOf(shown[i]) + ", " + shown[i].why;
-    pictures.push_back(
-        MakePicture("anhp_" + id, "ANHP of " + title, Cropped(profiles[i]->image, box)));
-    pictures.push_back(MakePicture("signed_map_" + id, "Signed map of " + title,
+    pictures.push_back(MakePicture(AnhpName(*shown[i].trial), "ANHP of " + title,
+                                   Cropped(profiles[i]->image, box)));
+    pictures.push_back(MakePicture("signed_map_trial_" + std::to_string(shown[i].trial->id),
+                                   "Signed map of " + title,
                                    imaging::DrawDifferenceMap(*profiles[i], aehp)));
   }
   return pictures;

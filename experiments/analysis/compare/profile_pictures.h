@@ -43,6 +43,9 @@ Picture MakePicture(const std::string& name, const std::string& title, const Ima
           .png = imaging::EncodePng(image)};
 }
 
+// The name of the picture of a trial's ANHP: "anhp_trial_12".
+std::string AnhpName(const TrialEvidence& trial);
+
 // The AEHP, then the ANHP and the signed difference map of each trial that has an image.
 std::vector<Picture> ProfilePictures(const Evidence& evidence,
                                      const std::vector<ShownTrial>& shown);

@@ -6,6 +6,7 @@
 #include "base/text/joined.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/compare/profile_pictures.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
 #include "experiments/analysis/report/page/base64.h"
@@ -76,9 +77,9 @@ std::string Heaps(const ReportData& data) {
            Image(data.overlay.simulated, name + ", simulated: " + data.overlay.simulated.title);
   }
   if (data.pictures.size() < 2) return "";
-  const auto confirming = std::ranges::find_if(data.pictures, [](const Picture& picture) {
-    return picture.title.starts_with("ANHP") &&
-           picture.title.find("confirming") != std::string::npos;
+  const TrialEvidence* trial = ConfirmingTrial(data.evidence);
+  const auto confirming = std::ranges::find_if(data.pictures, [&](const Picture& picture) {
+    return trial != nullptr && picture.name == AnhpName(*trial);
   });
   const Picture& simulated = confirming != data.pictures.end() ? *confirming : data.pictures[1];
   return Image(data.pictures.front(), name + ", measured, average profile") +
