@@ -71,9 +71,8 @@ def percent(share):
     return "-" if share is None else f"{100 * share:.0f} %"
 
 
-def judge(options, campaign, name, process, truth, seed):
-    """A row: whether the truth is inside, its distance from the mean [sd], the parameters' share."""
-    value = true_value(options, campaign.parent, name, process, truth, seed)
+def judge(options, campaign, name, process, value):
+    """A row: whether the truth's number is inside, its distance from the mean [sd], the parameters' share."""
     prediction, number = predicted(options, campaign, campaign.parent, name, process)
     inside = number["low_90"] <= value <= number["high_90"]
     surrogate = number["surrogate"] or {"is_used": False, "sd": 0, "left_out_error": 0, "draws_error": 0}
@@ -100,11 +99,15 @@ def main():
     for twin in finished(options.folder, options.first, options.last):
         number, truth = truth_of(twin)
         print(f"{twin.name} truth " + " ".join(f"{v:.3g}" for v in truth.values()), flush=True)
-        asked = [("both", name, process) for name, process in PROCESSES.items()]
+        asked = [("both", name) for name in PROCESSES]
         if number < options.first + options.valley:
-            asked += [("heap", name, process) for name, process in {"drum": PROCESSES["drum"], **WIDE}.items()]
-        for i, (campaign, name, process) in enumerate(asked):
-            row = judge(options, twin / campaign, name, process, truth, 1000 * number + 700 + i)
+            asked += [("heap", name) for name in ("drum", *WIDE)]
+        values = {}
+        for campaign, name in asked:
+            process = {**PROCESSES, **WIDE}[name]
+            if name not in values:
+                values[name] = true_value(options, twin, name, process, truth, 1000 * number + 700 + len(values))
+            row = judge(options, twin / campaign, name, process, values[name])
             rows.setdefault((campaign, name), []).append(row)
     for (campaign, name), of_it in rows.items():
         shares = [r["share"] for r in of_it if r["share"] is not None]
