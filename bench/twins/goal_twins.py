@@ -1,18 +1,20 @@
 #!/usr/bin/python3
-"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--first N] [--last N] [--campaigns]: is a prediction
+"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--first N] [--last N] [--campaigns N]: is a prediction
 narrowed as `talus next --for` expects?
 
 FOLDER is that of dem_twins.py, CASE a bulk test whose OBSERVABLE is to be predicted (examples/rigs/spreading.json
 packing_fraction). For each powder from --first to --last the campaign with the heap alone is
-asked what the wide plate would leave of it, and the campaign with both tests tells what it left. One line a powder: half-widths of the goal now, expected and realised.
+asked what the wide plate would leave of it, and in what core time; the campaign with both tests goes on for as long (`enough`)
+and tells what it left. One line a powder: half-widths of the goal now, expected and realised.
 Two of them are means over few draws, so the last line compares the sums over all powders, too.
 
---campaigns: the campaign with both tests runs again with this goal, to be known to 1.2 times what the first one left, and a line
-says its core time over that one's, and why it ended.
+--campaigns: of the first N powders the campaign with both tests runs again with this goal, to be known to 1.2 times what the
+first one left, and a line says its core time over that one's, and why it ended.
 """
 import json
 import math
 import pathlib
+import shutil
 
 from twin import arguments, finished, run
 
@@ -26,14 +28,28 @@ def table(options, folder, *more):
 
 
 def expected(options, twin):
-    """The goal's half-width now, and the one that the wide plate is expected to leave."""
+    """The goal's half-width now, the one that the wide plate is expected to leave, and in what core time [s]."""
     wide = json.loads((twin / "both.json").read_text())["experiments"][1]
     ask = {"name": wide["name"], "device": wide["device"], "runs": wide["map_heaps"],
            "mass_fallen": {"sd": wide["mass_fallen"]["sd"]}}
     (twin / "candidates.json").write_text(json.dumps({"candidates": [ask]}))
     answer = table(options, twin / "heap", twin / "candidates.json", "--simulate")
-    after = next(c["goal_half_width_90"] for c in answer["candidates"] if c["name"] == wide["name"])
-    return answer["goal"]["half_width_90"], after
+    after = next(c for c in answer["candidates"] if c["name"] == wide["name"])
+    return answer["goal"]["half_width_90"], after["goal_half_width_90"], after["core_time_s"]
+
+
+def seconds(time):
+    return float(time.removesuffix(" s"))
+
+
+def go_on(options, twin, core_time):
+    """The campaign with both tests and so much more core time [s]."""
+    spec = json.loads((twin / "both.json").read_text())
+    spec["budget"]["core_time"] = f"{seconds(spec['budget']['core_time']) + core_time} s"
+    (twin / "enough.json").write_text(json.dumps(spec))
+    shutil.rmtree(twin / "enough", ignore_errors=True)
+    shutil.copytree(twin / "both", twin / "enough", ignore=shutil.ignore_patterns("predict"))
+    run(options.talus, "resume", twin / "enough", "--spec", twin / "enough.json", "--quiet")
 
 
 def core_hours(folder):
@@ -42,13 +58,13 @@ def core_hours(folder):
 
 def with_goal(options, twin, half_width):
     """Core time of a campaign that ends by its goal, over that of the one without, and why it ended."""
-    spec = json.loads((twin / "both.json").read_text())
+    spec = json.loads((twin / "enough.json").read_text())
     spec["goal"] = {"case": str(options.case.resolve()), "observable": options.observable,
                     "half_width": f"{half_width} {options.unit}".strip()}
     (twin / "goal.json").write_text(json.dumps(spec))
     run(options.talus, "calibrate", twin / "goal.json", "--out", twin / "goal", "--quiet")
     stop = json.loads((twin / "goal" / "result.json").read_text())["stop"]["text"]
-    return core_hours(twin / "goal") / core_hours(twin / "both"), stop
+    return core_hours(twin / "goal") / core_hours(twin / "enough"), stop
 
 
 def main():
@@ -56,16 +72,17 @@ def main():
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("observable")
     parser.add_argument("--unit", default="", help="of the observable in results, such as deg")
-    parser.add_argument("--campaigns", action="store_true")
+    parser.add_argument("--campaigns", type=int, default=0, metavar="N")
     options = parser.parse_args()
     rows = []
     for twin in finished(options.folder, options.first, options.last):
-        now, then = expected(options, twin)
-        left = table(options, twin / "both")["goal"]["half_width_90"]
+        now, then, core_time = expected(options, twin)
+        go_on(options, twin, core_time)
+        left = table(options, twin / "enough")["goal"]["half_width_90"]
         rows.append((now, then, left))
         print(f"{twin.name}: now ± {now:.3g}, expected ± {then:.3g}, realised ± {left:.3g}; ratio {left / then:.2f}",
               flush=True)
-        if options.campaigns:
+        if len(rows) <= options.campaigns:
             share, why = with_goal(options, twin, SLACK * left)
             print(f"{twin.name}: with the goal {share:.2f} of the core time: {why}", flush=True)
     ratios = [left / then for _, then, left in rows]

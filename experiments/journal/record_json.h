@@ -1,6 +1,7 @@
 // Records read back from the JSON that they were written as.
 #pragma once
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -8,7 +9,8 @@
 
 namespace talus::journal {
 
-// What is null was not defined when it was written: the field keeps its default.
+// What is null was not defined when it was written: the field keeps its default, a number in a list
+// is NaN.
 inline void DropNulls(nlohmann::json& value) {
   if (value.is_object()) {
     for (auto it = value.begin(); it != value.end();) {
@@ -16,7 +18,10 @@ inline void DropNulls(nlohmann::json& value) {
     }
   }
   if (value.is_structured()) {
-    for (auto& element : value) DropNulls(element);
+    for (auto& element : value) {
+      if (element.is_null()) element = std::numeric_limits<double>::quiet_NaN();
+      DropNulls(element);
+    }
   }
 }
 

@@ -9,12 +9,15 @@
 #include <numeric>
 
 #include "base/files/checked_text.h"
+#include "base/json/json_writer.h"
 #include "base/random.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/analysis/predict/number_surrogate.h"
+#include "experiments/analysis/predict/prediction.h"
 #include "experiments/analysis/predict/regimes.h"
 #include "experiments/analysis/predict/spread.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
+#include "experiments/journal/record_json.h"
 #include "experiments/rigs/observables/observable.h"
 
 namespace talus::analysis {
@@ -51,6 +54,19 @@ TEST(Spread, OneValueAloneIsItsOwnRange) {
   const Spread spread({.runs = {{5}}, .weight = {1}});
   EXPECT_EQ(spread.Ninety().low, 5);
   EXPECT_TRUE(std::isnan(spread.ParametersShare()));
+}
+
+// A run whose number is not defined is null in prediction.json; the next command reads it back.
+TEST(PredictedNumber, WithARunThatHasNoneIsReadAsItWasWritten) {
+  PredictedNumber number{.name = "angle_deg"};
+  number.by_run = {41.5, kUnknown, 43};
+  const std::string text = base::ToJson(number).dump();
+  EXPECT_THAT(text, HasSubstr("[41.5,null,43.0]"));
+  const auto read = journal::ParseRecord<PredictedNumber>(text, "prediction.json");
+  ASSERT_EQ(read.by_run.size(), 3U);
+  EXPECT_EQ(read.by_run[0], 41.5);
+  EXPECT_TRUE(std::isnan(read.by_run[1]));
+  EXPECT_EQ(read.by_run[2], 43);
 }
 
 // Runs of 0.97 ± 0.04 and at most 1, as coverages are: the normals reach 1.06.
