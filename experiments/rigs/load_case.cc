@@ -67,6 +67,17 @@ double BedShare(const Case& c, const Vessel& vessel) {
   return vessel.bed ? vessel.bed->mass / c.powder.mass : 0;
 }
 
+// Rigs whose powder runs until it rests: later there is nothing to film.
+void ValidateLastPicture(const Case& c, base::Problems& problems) {
+  const bool rests = c.rig.kind == RigKind::kColumnCollapse || c.rig.kind == RigKind::kDrawDown;
+  if (!c.rig.camera || !rests) return;
+  problems.Require(c.rig.camera->LastTime() <= c.rules.heap.max_time, "rig.camera",
+                   "takes its last picture " + base::ShortNumber(c.rig.camera->LastTime()) +
+                       " s after the gate has opened, and the test ends after " +
+                       base::ShortNumber(c.rules.heap.max_time) +
+                       " s at the latest (rules.heap.max_time); take it earlier");
+}
+
 void ValidateWithRig(const Case& c, base::Problems& problems) {
   const RigEntry& entry = EntryOf(c);
   const Vessel vessel = entry.vessel(c);
@@ -79,6 +90,7 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
                    c.rig.kind == RigKind::kLiftedTube ? "device.tube_inner_diameter" : "rig",
                    vessel.across, "must be above three (scaled) grain diameters");
   entry.validate(c, problems);
+  ValidateLastPicture(c, problems);
   if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps", problems);
   if (c.rig.kind == RigKind::kTappedDensity) {
     ValidateTaps(c, c.rig.tapped_density.taps, "rig.taps", problems);

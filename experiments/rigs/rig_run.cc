@@ -1,5 +1,6 @@
 #include "experiments/rigs/rig_run.h"
 
+#include <string>
 #include <utility>
 
 #include "base/files/file.h"
@@ -9,6 +10,7 @@
 #include "experiments/rigs/phased/spheres.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
@@ -50,11 +52,7 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
   }
   if (case_.outputs.csv) base::WriteFileAtomically(folder_ / "heap.csv", engine::CsvOf(grains));
   if (case_.rig.camera) {
-    const Pictures pictures =
-        PicturesOf(rig_->state().camera, case_.frame.value(), *case_.rig.camera);
-    base::WriteFileAtomically(folder_ / "profile.png", imaging::EncodePng(pictures.profile));
-    base::WriteFileAtomically(folder_ / "profile_sd.png",
-                              imaging::EncodePng(pictures.standard_deviation));
+    WritePictures();
   } else if (case_.frame) {
     const imaging::Profile profile =
         imaging::ProjectHeap(SpheresOf(grains), *case_.frame, NumViewsOf(case_));
@@ -64,6 +62,21 @@ void RigRun::WriteResults(const engine::RunTiming& timing) const {
     base::WriteFileAtomically(folder_ / "from_above.png", imaging::EncodePng(*picture));
   }
   base::WriteFileAtomically(folder_ / "result.json", rig_->ResultText(grains, timing));
+}
+
+void RigRun::WritePictures() const {
+  const CameraOptions& camera = *case_.rig.camera;
+  Pictures pictures = PicturesOf(rig_->state().camera, case_.frame.value(), camera);
+  const auto write = [&](const std::string& file, const imaging::GrayImage& image) {
+    base::WriteFileAtomically(folder_ / file, imaging::EncodePng(image));
+  };
+  write("profile.png", pictures.profile);
+  write("profile_sd.png", pictures.standard_deviation);
+  if (camera.num_pictures() == 1) return;
+  const imaging::Profile film{.image = std::move(pictures.profile), .frame = ProfileFrameOf(case_)};
+  for (int i = 0; i < camera.num_pictures(); ++i) {
+    write(PictureFile(i), imaging::PictureOf(film, i).image);
+  }
 }
 
 }  // namespace talus::rigs

@@ -1,8 +1,9 @@
 // A bulk test in a trial folder.
 //
 // Written there: heap.vtp and heap.csv (the grains that the image shows), profile.png (when the
-// case has a frame; with a camera the mean of its pictures, and profile_sd.png), from_above.png
-// (of a spread layer), state_NNNN.vtp (at the times of the case), result.json last.
+// case has a frame; with a camera the mean of its pictures, and profile_sd.png; of a film the
+// strip, and its pictures profile_1.png …), from_above.png (of a spread layer), state_NNNN.vtp (at
+// the times of the case), result.json last.
 #pragma once
 
 #include <filesystem>
@@ -34,6 +35,8 @@ class RigRun : public engine::Run {
   const Rig& rig() const { return *rig_; }
 
  private:
+  void WritePictures() const;
+
   Case case_;
   std::filesystem::path folder_;
   std::unique_ptr<Rig> rig_;

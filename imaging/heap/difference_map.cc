@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "imaging/drawing/canvas.h"
+#include "imaging/heap/film_strip.h"
 #include "imaging/heap/metrics.h"
 
 namespace talus::imaging {
@@ -82,6 +84,25 @@ void DrawLengthBar(ColorImage& canvas, const Axis& x, double y) {
            {TickText(length) + " mm", {(left + right) / 2, y + 14}, Align::kCenter, 0.42, kBlack});
 }
 
+// One below the other.
+ColorImage DrawFilm(const Profile& anhp, const Profile& aehp) {
+  std::vector<ColorImage> maps;
+  int width = 0;
+  int height = 0;
+  for (int i = 0; i < aehp.frame.num_pictures(); ++i) {
+    maps.push_back(DrawDifferenceMap(PictureOf(anhp, i), PictureOf(aehp, i)));
+    width = std::max(width, maps.back().width);
+    height += maps.back().height;
+  }
+  ColorImage film = MakeCanvas(width, height);
+  int top = 0;
+  for (const ColorImage& map : maps) {
+    Paste(map, 1, 0, top, film);
+    top += map.height;
+  }
+  return film;
+}
+
 }  // namespace
 
 Color DifferenceColor(int difference) {
@@ -99,6 +120,7 @@ ColorImage DifferenceImage(const Profile& anhp, const Profile& aehp) {
 }
 
 ColorImage DrawDifferenceMap(const Profile& anhp, const Profile& aehp) {
+  if (aehp.frame.num_pictures() > 1) return DrawFilm(anhp, aehp);
   const Frame& frame = aehp.frame;
   const ColorImage map = DifferenceImage(anhp, aehp);
   const Region region = Interesting(anhp, aehp);

@@ -16,7 +16,7 @@ Color DifferenceColor(int difference);
 ColorImage DifferenceImage(const Profile& anhp, const Profile& aehp);
 
 // With axes in mm from the plate's centre and top, the baseline, a length bar and the colour scale,
-// cut to where the two heaps are.
+// cut to where the two heaps are; those of a film below one another.
 ColorImage DrawDifferenceMap(const Profile& anhp, const Profile& aehp);
 
 }  // namespace talus::imaging

@@ -14,6 +14,7 @@ namespace talus::imaging {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;  // [rad]
+constexpr const char* kFilm = "a film shows another heap in each picture";
 
 Measured InDegrees(Measured angle) {
   angle.value /= kDegree;
@@ -57,6 +58,7 @@ Measured Iou(const GrayImage& a, const GrayImage& b) {
 double BaseWidth(const Frame& frame) { return frame.plate_diameter / frame.pixel_size; }
 
 Measured TriangleAngle(const Profile& profile) {
+  if (profile.frame.num_pictures() > 1) return {.not_defined = kFilm};
   const double area = Nebp(profile.image);
   if (!(area > 0)) return {.not_defined = "the heap is empty"};
   const double base = BaseWidth(profile.frame);
@@ -64,6 +66,7 @@ Measured TriangleAngle(const Profile& profile) {
 }
 
 Measured CohesiveIndex(const Profile& profile) {
+  if (profile.frame.num_pictures() > 1) return {.not_defined = kFilm};
   const Outline outline = FindOutline(profile.image, profile.frame);
   if (outline.empty()) return {.not_defined = "the heap is empty"};
   double area = 0;
@@ -123,6 +126,7 @@ std::vector<Metric> Differences(const Profile& heap, const Profile& reference,
 std::string FrameText(const Frame& frame) {
   std::ostringstream text;
   text.precision(10);
+  if (frame.num_pictures() > 1) text << frame.num_pictures() << " pictures in ";
   text << frame.width << " x " << frame.height << " px of " << frame.pixel_size
        << " m, plate centre at column " << frame.center_x << ", baseline at row " << frame.baseline;
   return text.str();
@@ -153,7 +157,7 @@ void RequireSameFrame(const Frame& a, const Frame& b) {
   const auto close = [](double x, double y, double tolerance) {
     return std::abs(x - y) <= tolerance;
   };
-  if (a.width == b.width && a.height == b.height &&
+  if (a.width == b.width && a.height == b.height && a.num_pictures() == b.num_pictures() &&
       close(a.pixel_size, b.pixel_size, 1e-6 * b.pixel_size) &&
       close(a.center_x, b.center_x, 1e-3) && close(a.baseline, b.baseline, 1e-3)) {
     return;

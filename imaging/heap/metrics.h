@@ -9,7 +9,7 @@
 //   triangle  angle of the isosceles triangle on the plate of the same area, tan θ = 4 A / D²
 //   cohesive  ∫|h − h_triangle| dx / A, how far the outline is from that triangle
 //
-// and the angles of repose (repose_angle.h).
+// and the angles of repose (repose_angle.h). Angles and indices of a film strip are not defined.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 #include "imaging/heap/profile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -17,8 +18,10 @@ void Frame::Validate(base::Problems& problems) const {
   problems.Require(!disc_diameter || (*disc_diameter > 0 && *disc_diameter <= plate_diameter),
                    "disc_diameter", disc_diameter.value_or(0),
                    "must be positive and at most plate_diameter");
-  problems.Require(center_x >= 0 && center_x <= width, "center_x_px", center_x,
-                   "must be within the image");
+  problems.Require(!pictures || (*pictures >= 1 && width % *pictures == 0), "pictures",
+                   pictures.value_or(0), "must be 1 or more, and divide width_px");
+  problems.Require(center_x >= 0 && center_x <= width / std::max(1, num_pictures()), "center_x_px",
+                   center_x, "must be within the image, of a film within its first picture");
   problems.Require(baseline >= 0 && baseline <= height, "baseline_px", baseline,
                    "must be within the image");
 }
@@ -26,7 +29,8 @@ void Frame::Validate(base::Problems& problems) const {
 bool Frame::Knows(int column, int row) const {
   if (!disc_diameter) return true;
   const double axis = baseline - plate_diameter / (2 * pixel_size);  // its row [px]
-  return std::hypot(column + 0.5 - center_x, row + 0.5 - axis) <= *disc_diameter / (2 * pixel_size);
+  return std::hypot(column % picture_width() + 0.5 - center_x, row + 0.5 - axis) <=
+         *disc_diameter / (2 * pixel_size);
 }
 
 }  // namespace talus::imaging

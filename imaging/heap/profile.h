@@ -22,6 +22,7 @@ struct Frame {
   // In a drum only what lies within this disc about its axis is known, and powder elsewhere is not
   // shown [m], > 0.
   std::optional<double> disc_diameter{};
+  std::optional<int> pictures{};  // of a film strip (film_strip.h), side by side, >= 1; else one
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -38,8 +39,13 @@ struct Frame {
           {.dimension = Dimension::kLength,
            .doc = "of a drum, whose diameter is plate_diameter: only what lies within this disc "
                   "about its axis counts; default: all counts"});
+    visit("pictures", self.pictures,
+          {.doc = "of a film: so many pictures of equal width stand side by side, and the plate's "
+                  "centre is that of the first; default: one"});
   }
   void Validate(base::Problems& problems) const;
+  int num_pictures() const { return pictures.value_or(1); }
+  int picture_width() const { return width / num_pictures(); }  // [px]
   // Whether a pixel shows what is known: all do without a disc.
   bool Knows(int column, int row) const;
   bool operator==(const Frame&) const = default;

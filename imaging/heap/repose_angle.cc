@@ -80,6 +80,7 @@ void ReposeOptions::Validate(base::Problems& problems) const {
 
 ReposeAngles MeasureRepose(const GrayImage& image, const Frame& frame,
                            const ReposeOptions& options) {
+  if (frame.num_pictures() > 1) return NoAngles("a film shows another heap in each picture");
   const Outline outline = FindOutline(image, frame);
   if (outline.empty()) return NoAngles("the heap is empty");
   const Outline few = FindOutline(image, frame, kOverhangLevel);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "imaging/formats/images/map_file.h"
+#include "imaging/photos/film.h"
 #include "imaging/photos/measured_runs.h"
 #include "imaging/photos/photo_collection.h"
 #include "imaging/photos/photo_reading.h"
@@ -96,14 +97,30 @@ void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
   result.runs = MeasureRuns(options, placement, collection, result.warnings);
   result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};
   WarnOfViews(result.runs, result.warnings);
-  CompareRuns(result);
+}
+
+Experiment MeasureFilm(const ExperimentOptions& options) {
+  std::vector<Experiment> pictures;
+  for (const FilmedPicture& picture : *options.film) {
+    pictures.push_back(MeasureExperiment(OptionsAt(options, picture)));
+  }
+  return JoinedFilm(pictures);
 }
 
 }  // namespace
 
+void FilmedPicture::Validate(base::Problems& problems) const {
+  problems.Require(!photos.empty() + !runs.empty() + !map.empty() == 1, "",
+                   "needs exactly one of \"photos\", \"runs\" and \"map\"");
+}
+
 void ExperimentOptions::Validate(base::Problems& problems) const {
-  const int sources = !photos.empty() + !runs.empty() + !map.empty();
-  problems.Require(sources == 1, "", "needs exactly one of \"photos\", \"runs\" and \"map\"");
+  const int sources = !photos.empty() + !runs.empty() + !map.empty() + film.has_value();
+  problems.Require(sources == 1, "",
+                   "needs exactly one of \"photos\", \"runs\", \"map\" and \"film\"");
+  problems.Require(!film || !film->empty(), "film", "is empty: give a picture for each time");
+  problems.Require(!frame || !frame->pictures || !map.empty(), "frame.pictures",
+                   "is of a map that shows a whole film: remove it");
   const bool as_wide_as_heap = !scale.empty() && plate_diameter == 0;
   problems.Require(as_wide_as_heap || (plate_diameter > 0 && plate_diameter <= 2), "plate_diameter",
                    plate_diameter, "must be positive and at most 2 m; write \"10 mm\" for 10 mm");
@@ -136,11 +153,14 @@ Experiment MeasureExperiment(const ExperimentOptions& options) {
   options.Validate(problems);
   problems.ThrowIfAny();
   Experiment result;
-  if (options.map.empty()) {
+  if (options.film) {
+    result = MeasureFilm(options);
+  } else if (options.map.empty()) {
     MeasurePhotographs(options, result);
   } else {
     result.aehp = ReadMap(options.map, options.plate_diameter, options.frame);
   }
+  CompareRuns(result);
   result.metrics = DescribeProfile(result.Images(), options.metrics);
   result.warnings = Gathered(result.warnings);
   return result;

@@ -30,17 +30,33 @@ struct PhotoRun {
   }
 };
 
-// Exactly one of `photos`, `runs` and `map` says where the images are.
+// The photographs of one of a film's times: exactly one of these.
+struct FilmedPicture {
+  std::filesystem::path photos;
+  std::vector<PhotoRun> runs;
+  std::filesystem::path map;
+
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    visit("photos", self.photos, {.doc = "folder with the photographs of this time"});
+    visit("runs", self.runs, {.doc = "the photographs of each run, instead of `photos`"});
+    visit("map", self.map, {.doc = "a grey average map (black = powder), instead of photographs"});
+  }
+  void Validate(base::Problems& problems) const;
+};
+
+// Exactly one of `photos`, `runs`, `map` and `film` says where the images are.
 struct ExperimentOptions {
-  std::filesystem::path photos;                   // folder
-  std::string pattern = "run{run}_view{view}.*";  // of the file names in it
-  std::vector<PhotoRun> runs;                     // or the photographs one by one
-  std::filesystem::path map;                      // or the grey average, black = powder
-  int map_heaps = 1;                              // so many heaps the map is the average of, > 0
-  double plate_diameter = 0;                      // [m], > 0; with `scale` 0: as wide as the heap
-  std::string scale;                              // ParseScale: a heap on a table, no plate
-  std::optional<Frame> frame;                     // where the plate is, instead of finding it
-  double tilt = 0;  // of the plate, with `frame` [rad], > 0 if its right end is lower
+  std::filesystem::path photos;                      // folder
+  std::string pattern = "run{run}_view{view}.*";     // of the file names in it
+  std::vector<PhotoRun> runs;                        // or the photographs one by one
+  std::filesystem::path map;                         // or the grey average, black = powder
+  std::optional<std::vector<FilmedPicture>> film{};  // or those of several times of one run
+  int map_heaps = 1;                                 // so many heaps the map is the average of, > 0
+  double plate_diameter = 0;   // [m], > 0; with `scale` 0: as wide as the heap
+  std::string scale;           // ParseScale: a heap on a table, no plate
+  std::optional<Frame> frame;  // where the plate is, instead of finding it
+  double tilt = 0;             // of the plate, with `frame` [rad], > 0 if its right end is lower
   std::optional<double> pixel_size;  // of the profiles [m]; as photographed without it
   std::optional<double> threshold;   // darker than this share of the background is powder, in (0,
                                      // 1); found by Otsu's method without it
@@ -57,6 +73,9 @@ struct ExperimentOptions {
                   "anything"});
     visit("runs", self.runs, {.doc = "the photographs of each run, instead of `photos`"});
     visit("map", self.map, {.doc = "a grey average map (black = powder), instead of photographs"});
+    visit("film", self.film,
+          {.doc = "instead of one image those of several times of a run, first to last: for each "
+                  "its photos, runs or map"});
     visit("map_heaps", self.map_heaps,
           {.doc = "of how many heaps (runs, not views) the map is the average, 1 or more: what is "
                   "not known of the mean heap widens the credible ranges"});
@@ -86,7 +105,11 @@ struct ExperimentOptions {
   }
   void Validate(base::Problems& problems) const;
   // Whether it names images at all.
-  bool HasImages() const { return !photos.empty() || !runs.empty() || !map.empty(); }
+  bool HasImages() const { return !photos.empty() || !runs.empty() || !map.empty() || film; }
+  // Of one run: those of a film, or one.
+  int num_pictures() const {
+    return film ? static_cast<int>(film->size()) : frame ? frame->num_pictures() : 1;
+  }
   LightOptions light() const {
     return {.threshold = threshold, .powder = powder, .table = !scale.empty()};
   }
@@ -121,7 +144,7 @@ struct NoiseFloor {
 };
 
 struct Experiment {
-  Profile aehp;
+  Profile aehp;                           // of a film its strip (film_strip.h), as of each run
   double photo_pixel = 0;                 // pixel size of the photographs [m], 0 for a map
   std::vector<MeasuredRun> runs;          // none for a map
   GrayImage standard_deviation;           // over the runs [grey levels], empty for fewer than two

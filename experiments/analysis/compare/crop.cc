@@ -22,6 +22,10 @@ Box HeapBox(const std::vector<const imaging::Profile*>& profiles) {
       }
     }
   }
+  if (frame.num_pictures() > 1) {
+    left = 0;
+    right = frame.width;
+  }
   const double margin = kMargin * plate;
   const int x0 = std::clamp(static_cast<int>(std::floor(left - margin)), 0, frame.width - 1);
   const int y0 = std::clamp(static_cast<int>(std::floor(top - margin)), 0, frame.height - 1);

@@ -15,7 +15,8 @@ struct Box {
   int height = 0;
 };
 
-// Round the powder of all the profiles and the plate, with a margin; all of one frame.
+// Round the powder of all the profiles and the plate, with a margin; all of one frame. A film's is
+// as wide as its strip.
 Box HeapBox(const std::vector<const imaging::Profile*>& profiles);
 
 imaging::GrayImage Cropped(const imaging::GrayImage& image, const Box& box);

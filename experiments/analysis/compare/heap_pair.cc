@@ -45,7 +45,7 @@ Difference DifferenceOf(const imaging::Profile& first, const imaging::Profile& s
     found.area += column * frame.pixel_size * frame.pixel_size;
     if (column <= largest) continue;
     largest = column;
-    found.most = std::abs(x + 0.5 - frame.center_x) * frame.pixel_size;
+    found.most = std::abs(x % frame.picture_width() + 0.5 - frame.center_x) * frame.pixel_size;
   }
   return found;
 }

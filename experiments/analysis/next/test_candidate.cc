@@ -12,6 +12,7 @@
 #include "experiments/campaign/spec/validate_numbers.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
+#include "imaging/heap/film_strip.h"
 
 namespace talus::analysis {
 namespace {
@@ -148,13 +149,16 @@ std::string WhyNot(const campaign::JointView& view, const TestCandidate& test) {
 
 std::optional<imaging::Frame> FrameOf(const campaign::JointView& view, const TestCandidate& test) {
   constexpr double kMargin = 0.1;  // of the plate diameter, on either side
-  if (test.frame) return test.frame;
-  const rigs::Case rig_case = TypicalOf(view, test);
+  rigs::Case rig_case = TypicalOf(view, test);
+  if (test.frame) {
+    rig_case.frame = test.frame;
+    return rigs::ProfileFrameOf(rig_case);
+  }
   if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) return std::nullopt;
   const auto seen = std::find_if(view.references.begin(), view.references.end(),
                                  [](const campaign::Reference& r) { return r.has_image(); });
   imaging::Frame frame = seen != view.references.end()
-                             ? seen->frame().value()
+                             ? imaging::OnePicture(seen->frame().value())
                              : UsualFrame(rig_case.rig.lifted_tube.plate_diameter,
                                           rigs::EstimateCase(rig_case).mean_diameter);
   frame.plate_diameter = rig_case.rig.lifted_tube.plate_diameter;

@@ -1,6 +1,7 @@
 #include "experiments/analysis/predict/measured_process.h"
 
 #include "base/json/json_reader.h"
+#include "base/text/counted.h"
 #include "experiments/campaign/spec/possible_numbers.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/images/profile_file.h"
@@ -65,6 +66,14 @@ MeasuredProcess ReadMeasured(const std::filesystem::path& path, const PredictedC
     throw base::ConfigError(path.string() +
                             ": is an image, and a scene has none to compare it with; give a case "
                             "of a bulk test");
+  }
+  const auto& camera = predicted.rig_case.rig.camera;
+  const int num_pictures = camera ? camera->num_pictures() : 1;
+  if (measured.profile && measured.profile->frame.num_pictures() != num_pictures) {
+    throw base::ConfigError(path.string() + ": shows " +
+                            base::Counted(measured.profile->frame.num_pictures(), "picture") +
+                            " where the case takes " + std::to_string(num_pictures) +
+                            " (rig.camera.times): give a picture for each time");
   }
   return measured;
 }

@@ -31,6 +31,7 @@
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/rig_list.h"
+#include "imaging/heap/film_strip.h"
 
 namespace talus::analysis {
 namespace {
@@ -80,7 +81,7 @@ class Predictor {
                             .core_time = CoreTime()})) {
     if (!options_.measured.empty()) {
       measured_ = ReadMeasured(options_.measured, case_);
-      if (measured_.profile) case_.rig_case.frame = measured_.profile->frame;
+      if (measured_.profile) case_.rig_case.frame = imaging::OnePicture(measured_.profile->frame);
     }
     if (!case_.scene_text.empty()) {
       parts_.engine = std::make_unique<SceneEngine>(case_.scene_text);

@@ -15,15 +15,17 @@ constexpr double kTopMargin = 0.25;   // of the plate diameter, above the powder
 
 // The bounding box of the experiment's powder above the plate, widened by the margins. A heap that
 // leaves it is so far off that its exact shape does not matter; its metrics are of the whole image.
+// Of a film it is one place in all pictures, by columns of the first.
 imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
   const imaging::Frame& frame = aehp.frame;
   const int bottom = std::clamp(static_cast<int>(std::ceil(frame.baseline)), 1, frame.height);
-  int left = frame.width;
+  int left = frame.picture_width();
   int right = 0;
   int top = bottom - 1;
   for (int y = 0; y < bottom; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      if (aehp.image.at(x, y) == 255) continue;
+    for (int column = 0; column < frame.width; ++column) {
+      if (aehp.image.at(column, y) == 255) continue;
+      const int x = column % frame.picture_width();
       left = std::min(left, x);
       right = std::max(right, x + 1);
       top = std::min(top, y);
@@ -33,7 +35,7 @@ imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
   const double plate = frame.plate_diameter / frame.pixel_size;  // [px]
   const int side = static_cast<int>(std::ceil(kSideMargin * plate));
   left = std::max(0, left - side);
-  right = std::min(frame.width, right + side);
+  right = std::min(frame.picture_width(), right + side);
   top = std::max(0, top - static_cast<int>(std::ceil(kTopMargin * plate)));
   return {.left = left, .top = top, .width = right - left, .height = bottom - top};
 }
@@ -96,22 +98,27 @@ std::optional<double> Reference::Value(const journal::TrialRecord& trial) const 
   return info().Value(*value, angle_);
 }
 
-std::vector<float> Reference::Field(const imaging::GrayImage& profile) const {
-  std::vector<float> field;
-  field.reserve(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height));
-  for (int y = 0; y < region_.height; ++y) {
-    for (int x = 0; x < region_.width; ++x) {
-      const int gray = profile.at(region_.left + x, region_.top + y);
-      field.push_back(static_cast<float>(255 - gray) / 255.0F);
+template <class Body>
+void Reference::ForEachPixel(Body&& body) const {
+  const imaging::Frame& frame = aehp_.profile.frame;
+  for (int y = region_.top; y < region_.top + region_.height; ++y) {
+    for (int start = region_.left; start < frame.width; start += frame.picture_width()) {
+      for (int x = start; x < start + region_.width; ++x) body(x, y);
     }
   }
+}
+
+std::vector<float> Reference::Field(const imaging::GrayImage& profile) const {
+  std::vector<float> field;
+  ForEachPixel(
+      [&](int x, int y) { field.push_back(static_cast<float>(255 - profile.at(x, y)) / 255.0F); });
   return field;
 }
 
 optimizer::FieldObjective Reference::MakeFieldObjective() const {
   if (!has_image_) return {};
   const double pixel_mm = 1e3 * aehp_.profile.frame.pixel_size;
-  optimizer::FieldObjective objective{.width = region_.width,
+  optimizer::FieldObjective objective{.width = region_.width * aehp_.profile.frame.num_pictures(),
                                       .height = region_.height,
                                       .target = Field(aehp_.profile.image),
                                       .sad_scale = pixel_mm * pixel_mm,
@@ -130,13 +137,10 @@ imaging::GrayImage Reference::ImageOf(std::span<const float> field) const {
       .width = aehp_.profile.frame.width, .height = aehp_.profile.frame.height, .pixels = {}};
   image.pixels.assign(aehp_.profile.image.pixels.size(), 255);
   std::size_t i = 0;
-  for (int y = 0; y < region_.height; ++y) {
-    for (int x = 0; x < region_.width; ++x) {
-      const float powder = std::clamp(field[i++], 0.0F, 1.0F);
-      image.at(region_.left + x, region_.top + y) =
-          static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
-    }
-  }
+  ForEachPixel([&](int x, int y) {
+    const float powder = std::clamp(field[i++], 0.0F, 1.0F);
+    image.at(x, y) = static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
+  });
   return image;
 }
 

@@ -29,6 +29,7 @@ class Reference {
   std::optional<imaging::Frame> frame() const {
     return has_image_ ? std::optional(aehp_.profile.frame) : std::nullopt;
   }
+  const imaging::Profile& aehp() const { return aehp_.profile; }  // with an image
   const std::vector<journal::ScalarRecord>& scalars() const { return options_.scalars; }
 
   // Every metric of a trial's profile; none without an image.
@@ -45,13 +46,17 @@ class Reference {
   }  // of Value
 
   // The part of a profile that matters, 1 = powder: where the experiment has powder, with a margin;
-  // never below the plate.
+  // never below the plate. Of a film it is the same part of each picture, side by side: all of them
+  // are one field, whose modes know how the pictures of one run go together.
   std::vector<float> Field(const imaging::GrayImage& profile) const;
   // A whole image with this part, and no powder elsewhere.
   imaging::GrayImage ImageOf(std::span<const float> field) const;
   optimizer::FieldObjective MakeFieldObjective() const;
 
  private:
+  // Calls `body(x, y)` for every pixel of a profile that is part of the field, in its order.
+  template <class Body>
+  void ForEachPixel(Body&& body) const;
   double ValueOfField(std::span<const float> field) const;
   imaging::Measured AngleOf(const imaging::GrayImage& image) const;  // in degrees
 

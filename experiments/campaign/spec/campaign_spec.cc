@@ -11,6 +11,7 @@
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"
+#include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
@@ -283,7 +284,7 @@ rigs::Case CaseOf(const CampaignSpec& spec, const TrialSettings& settings,
   rig_case.gravity = spec.gravity;
   rig_case.rayleigh_fraction = spec.rayleigh_fraction;
   rig_case.seed = settings.seed;
-  rig_case.frame = frame;
+  if (frame) rig_case.frame = imaging::OnePicture(*frame);
   rig_case.num_views = spec.num_views;
   rig_case.threads = spec.threads;
   const optimizer::ParameterSpace space = SpaceOf(spec);

@@ -145,7 +145,8 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems);
 // Pairs that name no body, and those that contradict each other or a parameter.
 void ValidatePairs(const CampaignSpec& spec, base::Problems& problems);
 
-// The case of a trial: `values` of all of the space's parameters, in its order.
+// The case of a trial: `values` of all of the space's parameters, in its order; `frame` that of the
+// experiment's profile, be it one picture or a film's strip.
 struct TrialSettings {
   std::span<const double> values;
   std::uint64_t seed = 0;

@@ -66,6 +66,10 @@ void ValidateDrumImages(const ExperimentSpec& e, const std::string& place,
     return;
   }
   const imaging::ExperimentOptions& images = e.images;
+  problems.Require(
+      !images.film, prefix + "film",
+      "of a drum needs a \"frame\": its pictures are maps in one frame, each an average "
+      "as `talus measure --drum` writes it");
   problems.Require(images.runs.empty(), prefix + "runs",
                    "are of heaps: give a drum's photographs as the folder of one series, "
                    "\"photos\", or as their average, \"map\"");

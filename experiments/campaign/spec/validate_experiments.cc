@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
@@ -32,6 +33,16 @@ void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problem
              "device of its own"
            : "is not the width of the rig, " + std::to_string(1e3 * width) +
                  " mm: the images are of another test, or the experiment needs a rig of its own");
+}
+
+// A film is compared picture by picture.
+void CheckFilm(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
+  if (!e.images.HasImages()) return;
+  const int taken = e.images.num_pictures();
+  const int simulated = e.rig && e.rig->camera ? e.rig->camera->num_pictures() : 1;
+  problems.Require(taken == simulated, place + ".film",
+                   "has " + base::Counted(taken, "picture") + " where rig.camera.times has " +
+                       base::Counted(simulated, "time") + ": give a picture for each time");
 }
 
 // What it is filled with; a drum's photographs show how full it is.
@@ -143,7 +154,10 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
                    "has no effect: it is a drum's; leave it out");
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
-  if (!spec.experiments) return CheckWidth(all.front(), "experiment", problems);
+  if (!spec.experiments) {
+    CheckFilm(all.front(), "experiment", problems);
+    return CheckWidth(all.front(), "experiment", problems);
+  }
   problems.Require(!spec.experiments->empty(), "experiments", "is empty: give one or more");
   std::set<std::string> names;
   for (std::size_t i = 0; i < spec.experiments->size(); ++i) {
@@ -151,6 +165,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
     problems.Require(
         names.insert(all[i].name).second, place + ".name",
         "\"" + all[i].name + "\" stands there twice: results could not tell them apart");
+    CheckFilm(all[i], place, problems);
     CheckWidth(all[i], place, problems);
     if (spec.engine.kind != EngineKind::kTalus) continue;  // a command may measure what it likes
     ValidateMeasured(all[i], ScalarsOf(all[i]), place, problems);

@@ -6,6 +6,7 @@
 #include "engine/scene.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/options/require.h"
+#include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
@@ -38,6 +39,8 @@ void Case::Validate(base::Problems& problems) const {
   RequirePositive(problems, "gravity", gravity);
   problems.Require(rayleigh_fraction > 0 && rayleigh_fraction <= 0.4, "rayleigh_fraction",
                    rayleigh_fraction, "must be in (0, 0.4]");
+  problems.Require(!frame || !frame->pictures, "frame.pictures",
+                   "is not of a case: remove it, and state rig.camera.times");
   problems.RequireFromTo("num_views", num_views, 1, imaging::kMostViews);
   problems.Require(threads >= 1, "threads", threads, "must be at least 1");
   problems.Require(checkpoint_interval >= 0 && std::isfinite(checkpoint_interval),
@@ -61,6 +64,10 @@ void Case::SetMassByFill() {
   if (rig.kind != RigKind::kDrum || !rig.drum.fill) return;
   powder.mass = rig.drum.GrainVolume() * powder.material.density;
   rig.drum.fill.reset();
+}
+
+imaging::Frame ProfileFrameOf(const Case& c) {
+  return imaging::StripOf(c.frame.value(), c.rig.camera ? c.rig.camera->num_pictures() : 1);
 }
 
 PowderSize EstimatePowder(const Case& c) {

@@ -161,6 +161,9 @@ inline int NumViewsOf(const Case& rig_case) {
   return round ? rig_case.num_views : 1;
 }
 
+// The frame of its image, a film strip where a camera takes several pictures. The case has one.
+imaging::Frame ProfileFrameOf(const Case& rig_case);
+
 // What the powder means for the cost, before anything is simulated.
 struct PowderSize {
   std::int64_t num_grains = 0;

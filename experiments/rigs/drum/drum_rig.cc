@@ -81,13 +81,14 @@ class DrumRig : public RememberingRig<DrumMemory> {
                            base::ShortNumber(measured) + " s; raise rig.turns to " +
                            base::ShortNumber(drum.turns * c.rig.camera->LastTime() / measured, 3) +
                            " or more, or take fewer pictures");
-      const double series = c.rig.camera->LastTime() - c.rig.camera->start;
+      const double series = c.rig.camera->LastTime() - c.rig.camera->FirstTime();
       const double turned = drum.speed * drum.diameter / 2 * series;
-      problems.Require(
-          c.rig.camera->frames == 1 || turned > kStill * LargestDiameter(c), "rig.camera.interval",
-          "is so short that nothing moves: from the first picture to the last the "
-          "drum turns by " +
-              base::ShortNumber(1e3 * turned, 2) + " mm, less than a hundredth of a grain");
+      problems.Require(c.rig.camera->num_frames() == 1 || turned > kStill * LargestDiameter(c),
+                       "rig.camera.interval",
+                       "is so short that nothing moves: from the first picture to the last the "
+                       "drum turns by " +
+                           base::ShortNumber(1e3 * turned, 2) +
+                           " mm, less than a hundredth of a grain");
     }
     const double most = kBoxHeight * c.rig.drum.diameter / 2;
     const double filled = FilledHeight(c, VesselOf(c));

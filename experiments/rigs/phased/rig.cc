@@ -136,14 +136,16 @@ double Rig::NextPicture() const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (!case_.rig.camera || !phases_[state_.phase].filmed) return kNever;
   const CameraOptions& camera = *case_.rig.camera;
-  if (state_.camera.num_frames == camera.frames) return kNever;
-  return phase_start() + camera.start + state_.camera.num_frames * camera.interval;
+  const int taken = state_.camera.num_frames;
+  if (taken == camera.num_frames()) return kNever;
+  return phase_start() + camera.BeginOf(taken / camera.frames) +
+         taken % camera.frames * camera.interval;
 }
 
 // At the step that is nearest to its time.
 void Rig::TakeDuePicture() {
   if (simulation_.time() + simulation_.time_step() / 2 < NextPicture()) return;
-  TakePicture(Grains(), case_.frame.value(), state_.camera);
+  TakePicture(Grains(), case_.frame.value(), *case_.rig.camera, state_.camera);
 }
 
 void Rig::Check() {
@@ -190,7 +192,7 @@ void Rig::EndPhase(PhaseEnd reason) {
     throw base::Error(Format(
         "the camera had taken %d of %d pictures when %s ended, after %.4g s: the powder had come "
         "to its end; take them earlier (rig.camera)",
-        state_.camera.num_frames, case_.rig.camera->frames, ended.name.c_str(),
+        state_.camera.num_frames, case_.rig.camera->num_frames(), ended.name.c_str(),
         simulation_.time() - phase_start()));
   }
   record().reason = reason;

@@ -78,6 +78,21 @@ void AddReadings(const std::vector<Reading>& readings, ordered_json& result) {
   }
 }
 
+// Where the picture is, and how it is to be read; of a film also the pictures one by one.
+ordered_json ProfileJson(const Case& c, const CameraMemory& camera) {
+  ordered_json profile = base::ToJson(ProfileFrameOf(c));
+  profile["file"] = "profile.png";
+  profile["num_views"] = NumViewsOf(c);
+  if (!c.rig.camera) return profile;
+  profile["num_frames"] = camera.num_frames;
+  profile["sd_file"] = "profile_sd.png";
+  if (c.rig.camera->num_pictures() == 1) return profile;
+  for (int i = 0; i < c.rig.camera->num_pictures(); ++i) {
+    profile["film"].push_back({{"time_s", c.rig.camera->BeginOf(i)}, {"file", PictureFile(i)}});
+  }
+  return profile;
+}
+
 }  // namespace
 
 // How the last phase ended, and which before it ended at their caps.
@@ -113,20 +128,14 @@ std::string Rig::ResultText(const std::vector<engine::Particle>& grains,
   result["num_grains"] = state_.num_filled;
   for (const auto& [name, count] : Counts(grains)) result["counts"][name] = count;
   std::vector<Reading> readings = Readings(grains);
-  if (case_.rig.camera) readings.push_back(CohesiveIndex(state_.camera, case_.frame.value()));
+  if (case_.rig.camera) {
+    readings.push_back(CohesiveIndex(state_.camera, case_.frame.value(), *case_.rig.camera));
+  }
   AddReadings(readings, result);
   if (const auto regime = RegimeOf(state_.regime)) result["regime"] = RegimeJson(*regime);
   result["conditions"] = CommonConditions(case_, simulation_);
   for (const auto& [name, value] : Conditions()) result["conditions"][name] = value;
-  if (case_.frame) {
-    result["profile"] = base::ToJson(*case_.frame);
-    result["profile"]["file"] = "profile.png";
-    result["profile"]["num_views"] = NumViewsOf(case_);
-    if (case_.rig.camera) {
-      result["profile"]["num_frames"] = state_.camera.num_frames;
-      result["profile"]["sd_file"] = "profile_sd.png";
-    }
-  }
+  if (case_.frame) result["profile"] = ProfileJson(case_, state_.camera);
   result["num_steps"] = simulation_.step();
   result["simulated_time_s"] = simulation_.time();
   result["timing"] = {{"wall_time_s", timing.wall_time},

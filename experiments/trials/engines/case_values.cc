@@ -84,9 +84,6 @@ struct RigValues {
   void operator()(std::string_view key, double value, base::FieldInfo = {}) {
     scalars[prefix + std::string(key)] = base::ExactNumber(value);
   }
-  void operator()(std::string_view key, const std::optional<double>& value, base::FieldInfo = {}) {
-    if (value) (*this)(key, *value);
-  }
   void operator()(std::string_view key, const std::vector<double>& values, base::FieldInfo = {}) {
     scalars[prefix + "num_" + std::string(key)] = std::to_string(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -97,9 +94,9 @@ struct RigValues {
   void operator()(std::string_view key, const Group& group, base::FieldInfo = {}) {
     Group::Visit(group, RigValues{scalars, prefix + std::string(key) + "_"});
   }
-  template <base::Visitable Group>
-  void operator()(std::string_view key, const std::optional<Group>& group, base::FieldInfo = {}) {
-    if (group) (*this)(key, *group);
+  template <class Value>
+  void operator()(std::string_view key, const std::optional<Value>& value, base::FieldInfo = {}) {
+    if (value) (*this)(key, *value);
   }
 };
 

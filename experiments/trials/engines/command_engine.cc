@@ -103,6 +103,10 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
   Measured measured{
       .files = {}, .profile = {}, .num_spheres = spheres.size(), .num_grains = heap.size()};
   if (rig_case.frame) {
+    if (const int num = rigs::ProfileFrameOf(rig_case).num_pictures(); num > 1) {
+      throw base::Error("left spheres, which show one moment of the run; leave an image of its " +
+                        std::to_string(num) + " pictures (rig.camera.times), side by side");
+    }
     measured.profile =
         imaging::ProjectHeap(heap, *rig_case.frame, rigs::NumViewsOf(rig_case)).image;
     base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
@@ -120,7 +124,7 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
         "left an image, but the experiment has numbers only; leave scalars.json or "
         "scalars.csv");
   }
-  const imaging::Frame& frame = *rig_case.frame;
+  const imaging::Frame frame = rigs::ProfileFrameOf(rig_case);
   if (measured.profile.width != frame.width || measured.profile.height != frame.height) {
     throw base::Error("left the image " + file.filename().string() + " of " +
                       std::to_string(measured.profile.width) + " x " +

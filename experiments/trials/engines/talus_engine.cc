@@ -113,8 +113,8 @@ TrialOutput TalusEngine::Collect(const rigs::Case& rig_case, const std::filesyst
                      .note = reason};
   if (!rig_case.frame) return output;
   output.profile = imaging::ReadGrayImage(folder / "profile.png");
-  if (output.profile.width != rig_case.frame->width ||
-      output.profile.height != rig_case.frame->height) {
+  const imaging::Frame frame = rigs::ProfileFrameOf(rig_case);
+  if (output.profile.width != frame.width || output.profile.height != frame.height) {
     throw base::Error("left a profile.png of another size than the experiment's");
   }
   return output;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "experiments/rigs/phased/spheres.h"
+#include "imaging/heap/film_strip.h"
 #include "imaging/spheres/projection.h"
 #include "tests/experiments/rigs/rig_case.h"
 
@@ -64,8 +65,9 @@ TEST(Camera, MeanAndStandardDeviationAreThoseOfEachPixel) {
   EXPECT_EQ(pictures.profile.pixels, (std::vector<std::uint8_t>{255, 191, 128, 0, 0, 0}));
   EXPECT_EQ(pictures.standard_deviation.pixels,
             (std::vector<std::uint8_t>{0, 110, 128, 0, 0, 0}));  // 255 √(3/16), 255 / 2
-  EXPECT_NEAR(CohesiveIndex(memory, frame).value, (std::sqrt(3.0 / 16) + 0.5) * 1e-6 / 0.01, 1e-15);
-  EXPECT_THAT(CohesiveIndex({.num_frames = 1, .runs = {1, 6}}, frame).undefined,
+  EXPECT_NEAR(CohesiveIndex(memory, frame, {}).value, (std::sqrt(3.0 / 16) + 0.5) * 1e-6 / 0.01,
+              1e-15);
+  EXPECT_THAT(CohesiveIndex({.num_frames = 1, .runs = {1, 6}}, frame, {}).undefined,
               HasSubstr("no standard deviation"));
 }
 
@@ -87,7 +89,7 @@ TEST(Camera, PicturesAfterTheEndAreAFailure) {
   Case c = CaseOf(RigKind::kColumnCollapse, 0.5, 0.1, 0.1e-3);
   c.rig.column_collapse = {.length = 0.006, .width = 0.005};
   c.rig.camera = {.frames = 2, .interval = 5};
-  c.rules.heap.max_time = 0.3;
+  c.rules.heap.max_time = 6;
   c.frame = Filmed().frame;
   try {
     Ran(c);
@@ -95,6 +97,70 @@ TEST(Camera, PicturesAfterTheEndAreAFailure) {
   } catch (const base::Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("had taken 1 of 2 pictures when running out ended"));
   }
+}
+
+// Each picture of a film is what a camera sees that begins at its time.
+TEST(Camera, AFilmsPicturesAreThoseOfItsTimes) {
+  Case c = Filmed();
+  c.rig.camera = {.frames = 2, .interval = 0.005, .times = std::vector<double>{0.005, 0.02, 0.045}};
+  const auto film = Ran(c);
+  const Pictures strip = PicturesOf(film->state().camera, *c.frame, *c.rig.camera);
+  EXPECT_EQ(film->state().camera.num_frames, 6);
+  double cohesive = 0;
+  for (int i = 0; i < 3; ++i) {
+    Case still = c;
+    still.rig.camera = {.frames = 2, .interval = 0.005, .start = c.rig.camera->BeginOf(i)};
+    const auto run = Ran(still);
+    const Pictures pictures = PicturesOf(run->state().camera, *c.frame, *still.rig.camera);
+    const auto of = [&](const imaging::GrayImage& image) {
+      return imaging::PictureOf({.image = image, .frame = ProfileFrameOf(c)}, i).image;
+    };
+    EXPECT_EQ(of(strip.profile), pictures.profile);
+    EXPECT_EQ(of(strip.standard_deviation), pictures.standard_deviation);
+    cohesive += Value(still, *run, "cohesive_index_m") / 3;
+  }
+  EXPECT_NEAR(Value(c, *film, "cohesive_index_m"), cohesive, 1e-12);  // rounding
+}
+
+// One time is no film: the same bits as of a camera that starts then.
+TEST(Camera, OneTimeIsTheOnePicture) {
+  Case c = Filmed();
+  c.rig.camera = {.times = std::vector<double>{0.02}};
+  Case still = c;
+  still.rig.camera = {.start = 0.02};
+  const auto film = Ran(c);
+  const auto run = Ran(still);
+  EXPECT_EQ(film->state().camera.runs, run->state().camera.runs);
+  EXPECT_EQ(ProfileFrameOf(c), *c.frame);
+  EXPECT_EQ(film->StateLine(), run->StateLine());
+}
+
+TEST(Camera, AFilmGoesOnFromACheckpoint) {
+  Case c = Filmed();
+  c.rig.camera = {.times = std::vector<double>{0.005, 0.02, 0.045}};
+  const auto whole = Ran(c);
+  auto first = MakeRig(c);
+  while (first->state().camera.num_frames < 2) first->Advance();
+  auto second = RestoreRig(c, first->StateLine(),
+                           engine::Simulation::Restore(first->simulation().Checkpoint()));
+  while (second->Advance()) {
+  }
+  EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
+}
+
+// Beside the edge of its picture powder has the picture's end for a neighbour, which a closing
+// fills up to, and not the light of the next picture.
+TEST(Camera, PicturesOfAFilmAreClosedOneByOne) {
+  const imaging::Frame frame{.width = 4, .height = 1, .pixel_size = 1e-3, .plate_diameter = 0.01};
+  CameraOptions camera{.shows = Shown::kAny, .closing = 3e-3};
+  const auto shown = [&](const CameraMemory& memory) {
+    return PicturesOf(memory, frame, camera).profile.pixels;
+  };
+  EXPECT_EQ(shown({.num_frames = 1, .runs = {0, 2, 1, 1, 0, 1}}),
+            (std::vector<std::uint8_t>{255, 255, 0, 0}));
+  camera.times = std::vector<double>{0, 1};
+  EXPECT_EQ(shown({.num_frames = 2, .runs = {0, 2, 1, 1, 0, 5}}),
+            (std::vector<std::uint8_t>{255, 255, 0, 0, 255, 255, 255, 255}));
 }
 
 }  // namespace camera_test

@@ -1,6 +1,7 @@
 #include "experiments/analysis/report/data/profile_views.h"
 
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "imaging/heap/film_strip.h"
 #include "imaging/heap/outline.h"
 
 namespace talus::analysis {
@@ -23,19 +24,32 @@ OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profi
   return curve;
 }
 
+namespace {
+
+// Of each picture of a film.
+void AddOutlines(const std::string& title, const imaging::Profile& profile, ReportData& data) {
+  const int num_pictures = profile.frame.num_pictures();
+  for (int i = 0; i < num_pictures; ++i) {
+    const std::string which = num_pictures > 1 ? ", picture " + std::to_string(i + 1) : "";
+    data.outlines.push_back(MakeOutline(title + which, imaging::PictureOf(profile, i)));
+  }
+}
+
+}  // namespace
+
 void AddProfileViews(ReportData& data) {
   const ReferenceEvidence& reference = data.evidence.reference;
   const std::vector<ShownTrial> shown = TrialsToShow(data.evidence, data.findings);
   data.measures.push_back(
       {"experiment", reference.has_image() ? "AEHP" : "measured", reference.metrics});
   if (reference.has_image()) {
-    data.outlines.push_back(MakeOutline("experiment (AEHP)", reference.aehp));
+    AddOutlines("experiment (AEHP)", reference.aehp, data);
   }
   for (const ShownTrial& s : shown) {
     const std::string name = "trial " + std::to_string(s.trial->id);
     data.measures.push_back({name, s.why, s.trial->metrics});
     if (const auto profile = data.evidence.profile(s.trial->id)) {
-      data.outlines.push_back(MakeOutline(name + ", " + s.why, *profile));
+      AddOutlines(name + ", " + s.why, *profile, data);
     }
   }
   data.pictures = ProfilePictures(data.evidence, shown);

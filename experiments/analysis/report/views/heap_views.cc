@@ -175,6 +175,10 @@ PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>
   const auto profile = evidence.profile(overlay.trial->id);
   if (grains.empty() || !profile) return overlay;
   const imaging::Frame& frame = evidence.reference.aehp.frame;
+  if (frame.num_pictures() > 1) {
+    absent = "of a film there is no simulated heap but the last";
+    return overlay;
+  }
   const Box box = HeapBox({&evidence.reference.aehp, &*profile});
   const imaging::Camera camera = CameraOf(frame, box);
   overlay.pixel_mm = 1e3 * frame.pixel_size;
