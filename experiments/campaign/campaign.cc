@@ -11,6 +11,7 @@
 #include "base/text/joined.h"
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/remains.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"
@@ -353,13 +354,14 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
       .elapsed_s = Elapsed(),
       .result_json = {}};
   if (finished) {
-    result_ = Conclude(
-        planner_,
-        {.spec = spec_,
-         .campaign = record_,
-         .references = references_,
-         .profile = [this](std::int64_t id) { return StoredProfile(journal_, folder_, id); },
-         .elapsed = Elapsed()});
+    const CampaignEvidence evidence{
+        .spec = spec_,
+        .campaign = record_,
+        .references = references_,
+        .profile = [this](std::int64_t id) { return StoredProfile(journal_, folder_, id); },
+        .elapsed = Elapsed()};
+    result_ = Conclude(planner_, evidence);
+    if (result_) result_->remains = WriteRemains(folder_.root, planner_, evidence);
     if (result_) WriteResult(progress);
   }
   journal_.SetProgress(progress);

@@ -16,6 +16,7 @@
 #include "experiments/rigs/load_case.h"
 #include "experiments/runners/local_runner.h"
 #include "imaging/formats/images/image_file.h"
+#include "imaging/heap/film_strip.h"
 
 namespace talus::campaign {
 
@@ -32,7 +33,9 @@ inline imaging::Frame FakeFrame() {
 }
 
 // A cone whose slope follows μ_r, cut off at a height that follows μ_t; both scatter by the seed.
-inline imaging::GrayImage DrawHeap(double sliding, double rolling, std::uint64_t seed) {
+// `grown`: the share of its height that it has so far.
+inline imaging::GrayImage DrawHeap(double sliding, double rolling, std::uint64_t seed,
+                                   double grown = 1) {
   const imaging::Frame frame = FakeFrame();
   base::Random random(seed, base::Stream("fake heap"));
   const double slope = 0.2 + rolling + 0.01 * random.Normal();
@@ -40,13 +43,24 @@ inline imaging::GrayImage DrawHeap(double sliding, double rolling, std::uint64_t
   imaging::GrayImage image{.width = frame.width, .height = frame.height, .pixels = {}};
   image.pixels.assign(static_cast<std::size_t>(frame.width * frame.height), 255);
   for (int x = 10; x < 110; ++x) {
-    const double height = std::min(cap, slope * (50 - std::abs(x + 0.5 - 60)));
+    const double height = grown * std::min(cap, slope * (50 - std::abs(x + 0.5 - 60)));
     for (int y = 0; y < 76; ++y) {
       const double powder = std::clamp(height - (75 - y), 0.0, 1.0);
       image.at(x, y) = static_cast<std::uint8_t>(std::lround(255 * (1 - powder)));
     }
   }
   return image;
+}
+
+// A film of one heap: as it grows, or the same picture again and again.
+inline imaging::GrayImage DrawFilm(double sliding, double rolling, std::uint64_t seed,
+                                   int num_pictures, bool grows) {
+  std::vector<imaging::GrayImage> pictures;
+  for (int i = 1; i <= num_pictures; ++i) {
+    pictures.push_back(
+        DrawHeap(sliding, rolling, seed, grows ? static_cast<double>(i) / num_pictures : 1));
+  }
+  return imaging::SideBySide(pictures);
 }
 
 // [kg] that falls over the rim: less the more the grains rub.
@@ -66,6 +80,7 @@ struct FakeEngineOptions {
   bool fail_at_low = false;           // no heap below μ_t = 0.3
   bool fail_fast_at_low = false;      // the same, where the tube is lifted fast
   bool fail_once = false;             // every trial's first seed fails
+  bool film_grows = false;            // the pictures of a film are not all the same
   double sleep = 0;                   // of each trial [s]
   bool no_command = false;            // the program is not there
   bool vanish = false;                // every trial's folder is taken away while it runs
@@ -88,7 +103,9 @@ class FakeEngine : public trials::TrialEngine {
     const auto seed = rig_case.seed;
     const double rolling =
         m.rolling_friction + options_.restitution_as_rolling * (0.9 - m.restitution);
-    imaging::WritePng(folder / "drawn.png", DrawHeap(m.sliding_friction, rolling, seed));
+    const int num_pictures = rig_case.frame ? rigs::ProfileFrameOf(rig_case).num_pictures() : 1;
+    imaging::WritePng(folder / "drawn.png", DrawFilm(m.sliding_friction, rolling, seed,
+                                                     num_pictures, options_.film_grows));
     std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
     if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
       script = "sleep 3600\n";

@@ -14,6 +14,7 @@
 #include "experiments/campaign/answer/result_held_out.h"
 #include "experiments/campaign/answer/result_posterior.h"
 #include "experiments/campaign/answer/result_prior.h"
+#include "experiments/campaign/answer/result_remains.h"
 #include "experiments/campaign/answer/result_reused.h"
 #include "experiments/campaign/answer/verdict.h"
 #include "experiments/campaign/plan/stop.h"
@@ -135,6 +136,7 @@ struct Answer {
   std::vector<ResultParameter> parameters{};
   std::vector<ResultExperiment> experiments{};
   std::vector<ResultCandidate> confirmed{};        // the recommended set first
+  std::vector<ResultRemains> remains{};            // maps at the recommended set
   std::vector<std::vector<double>> correlation{};  // between the parameters
   std::string model{};
   std::optional<ResultPosterior> posterior{};  // none while there are too few trials
@@ -146,8 +148,8 @@ struct Answer {
 
   static constexpr base::FieldKey kKeys[] = {{"representative", "representative_sets"}};
   TALUS_FIELDS(name, talus_version, stop, unsettled, objective, objective_unit, verdict,
-               representative, parameters, experiments, confirmed, correlation, model, posterior,
-               held_out, warnings, conditions, cost, reused);
+               representative, parameters, experiments, confirmed, remains, correlation, model,
+               posterior, held_out, warnings, conditions, cost, reused);
 };
 
 // result.json's text, and back.

@@ -20,20 +20,6 @@
 namespace talus::campaign {
 namespace {
 
-std::vector<const journal::TrialRecord*> Confirming(const Planner& planner,
-                                                    const Eigen::VectorXd& candidate,
-                                                    int experiment) {
-  const std::int64_t set = planner.ConfirmSet(candidate);
-  std::vector<const journal::TrialRecord*> trials;
-  for (const journal::TrialRecord& trial : planner.trials()) {
-    if (trial.kind == journal::TrialKind::kConfirm && trial.set == set &&
-        trial.experiment == experiment) {
-      trials.push_back(&trial);
-    }
-  }
-  return trials;
-}
-
 // A metric over the trials that have it.
 base::Sample MetricSample(const std::vector<const journal::TrialRecord*>& trials,
                           std::string_view name) {
@@ -84,7 +70,7 @@ base::PooledScatter ScatterOf(const Planner& planner, const std::vector<Candidat
                               int experiment, std::string_view metric) {
   base::PooledScatter scatter;
   for (const Candidate& candidate : simulated) {
-    scatter.Add(MetricSample(Confirming(planner, candidate.point, experiment), metric));
+    scatter.Add(MetricSample(planner.Confirming(candidate.point, experiment), metric));
   }
   return scatter;
 }
@@ -118,7 +104,7 @@ ResultCandidate CandidateOf(const Planner& planner, const CampaignEvidence& evid
   const Eigen::VectorXd& point = simulated.point;
   ResultCandidate candidate{.role = simulated.role, .values = FreeValues(planner.space(), point)};
   for (std::size_t e = 0; e < evidence.references.size(); ++e) {
-    const auto trials = Confirming(planner, point, static_cast<int>(e));
+    const auto trials = planner.Confirming(point, static_cast<int>(e));
     for (const journal::TrialRecord* trial : trials) candidate.scale_factor = trial->scale_factor;
     candidate.experiments.push_back(ConfirmedOf(trials, evidence, e));
   }

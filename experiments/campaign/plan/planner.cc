@@ -309,6 +309,25 @@ std::optional<double> Planner::NoiseSd(const Eigen::VectorXd& point, int experim
   return model.ObjectiveNoise(point);
 }
 
+std::vector<float> Planner::PredictedField(const Eigen::VectorXd& point, int experiment) {
+  if (!posterior_->CanModel()) return {};
+  const auto& model = posterior_->Model().models()[static_cast<std::size_t>(experiment)];
+  return model.has_image() ? model.MeanImage(point) : std::vector<float>();
+}
+
+std::vector<const journal::TrialRecord*> Planner::Confirming(const Eigen::VectorXd& candidate,
+                                                             int experiment) const {
+  const std::int64_t set = ConfirmSet(candidate);
+  std::vector<const journal::TrialRecord*> trials;
+  for (const journal::TrialRecord& trial : trials_) {
+    if (trial.kind == journal::TrialKind::kConfirm && trial.set == set &&
+        trial.experiment == experiment) {
+      trials.push_back(&trial);
+    }
+  }
+  return trials;
+}
+
 // A program of another version may recommend another set after the same search. What confirmed the
 // former one says nothing of it.
 std::int64_t Planner::ConfirmSet(const Eigen::VectorXd& candidate) const {

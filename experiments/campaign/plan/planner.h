@@ -57,6 +57,10 @@ class Planner {
   // TrialRecord::set of the trials that confirm a candidate: theirs where there are any.
   std::int64_t ConfirmSet(const Eigen::VectorXd& candidate) const;
 
+  // The trials that confirm a candidate by an experiment.
+  std::vector<const journal::TrialRecord*> Confirming(const Eigen::VectorXd& candidate,
+                                                      int experiment) const;
+
   // Strategy::CredibleLevels; the evaluations told so far.
   std::optional<Eigen::VectorXd> CredibleLevels(const Eigen::MatrixXd& points) const {
     return posterior_->CredibleLevels(points);
@@ -65,6 +69,10 @@ class Planner {
   // Noise sd of the objective of one simulation of an experiment there, by the model that answers;
   // nothing without an image or while there are too few trials.
   std::optional<double> NoiseSd(const Eigen::VectorXd& point, int experiment);
+
+  // The mean image of an experiment there by that model, as Reference::ImageOf takes it; empty
+  // where NoiseSd has nothing.
+  std::vector<float> PredictedField(const Eigen::VectorXd& point, int experiment);
 
   const std::vector<journal::TrialRecord>& trials() const { return trials_; }  // by id
   const optimizer::ParameterSpace& space() const { return space_; }

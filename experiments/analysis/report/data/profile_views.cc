@@ -1,6 +1,8 @@
 #include "experiments/analysis/report/data/profile_views.h"
 
+#include "base/files/file.h"
 #include "experiments/analysis/compare/profile_pictures.h"
+#include "imaging/formats/images/image_file.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/heap/outline.h"
 
@@ -35,6 +37,24 @@ void AddOutlines(const std::string& title, const imaging::Profile& profile, Repo
   }
 }
 
+// The campaign's own map of what remains at the recommended set, after those of single trials.
+void AddRemains(ReportData& data) {
+  const Evidence& evidence = data.evidence;
+  if (!evidence.answer) return;
+  for (const campaign::ResultRemains& remains : evidence.answer->remains) {
+    const std::filesystem::path file = evidence.folder / remains.file;
+    if (remains.experiment != evidence.experiments[evidence.experiment]) continue;
+    if (!std::filesystem::exists(file)) continue;  // the report goes without
+    Picture& map = data.pictures.emplace_back();
+    map.png = base::ReadFile(file);
+    const imaging::GrayImage size = imaging::DecodeGrayImage(map.png, file.string());
+    map.width = size.width;
+    map.height = size.height;
+    map.name = "remains_" + file.stem().string();
+    map.title = "What remains at the recommended set";
+  }
+}
+
 }  // namespace
 
 void AddProfileViews(ReportData& data) {
@@ -53,6 +73,7 @@ void AddProfileViews(ReportData& data) {
     }
   }
   data.pictures = ProfilePictures(data.evidence, shown);
+  AddRemains(data);
   data.representative = RepresentativeViews(data.evidence);
   data.film = FilmOf(data.evidence);
   data.overlay = MakeOverlay(data.evidence, shown, data.overlay_absent);
