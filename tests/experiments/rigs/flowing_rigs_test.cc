@@ -105,5 +105,25 @@ TEST(FunnelHeap, ItIsFlatterThanTheLiftedTubesByTenDegreesAtMost) {
   }
 }
 
+// The rim keeps a layer on the plate for the heap to stand on: more stays, as much as fits below
+// the rim at least by half, and it stands higher.
+TEST(FunnelHeap, ARimKeepsALayerThatTheHeapStandsOn) {
+  constexpr double kRim = 0.002;
+  std::vector<double> masses, heights;
+  for (const double rim : {0.0, kRim}) {
+    Case c = CaseOf(RigKind::kFunnelHeap, 0.5, 0.2, 1.2e-3);
+    c.rig.funnel_heap = {
+        .plate_diameter = 0.014, .rim_height = rim, .height = 0.014, .outlet = 0.005};
+    c.filling.kind = FillingKind::kPour;
+    const auto rig = Ran(c);
+    masses.push_back(Value(c, *rig, "mass_on_plate_kg"));
+    heights.push_back(Value(c, *rig, "height_m"));
+  }
+  const double layer = std::numbers::pi / 4 * 0.014 * 0.014 * kRim * 0.55 * kDensity;
+  EXPECT_GT(masses[1] - masses[0], layer / 2);
+  EXPECT_LT(masses[1] - masses[0], 1.5 * layer);
+  EXPECT_GT(heights[1], heights[0] + kRim / 2);
+}
+
 }  // namespace flowing_rigs_test
 }  // namespace talus::rigs
