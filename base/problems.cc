@@ -46,7 +46,7 @@ void Problems::Require(bool ok, std::string_view path, double value, std::string
 }
 
 void Problems::Require(bool ok, std::string_view path, std::string_view message) {
-  if (!ok) Add(path, std::string(message));
+  if (!ok && !known_.contains(FullPath(path))) Add(path, std::string(message));
 }
 
 std::string Problems::Text() const {

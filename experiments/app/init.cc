@@ -35,14 +35,9 @@ std::filesystem::path SeenFrom(const std::filesystem::path& spec,
 }
 
 // How the photographs are read, and what a reader may want to change of it.
-void Say(const std::string& pattern, const imaging::PhotoSet& set, const std::string& unread) {
-  std::cout << imaging::ReadingText(set) << ", read by the pattern \"" << pattern
-            << "\"; name another with --pattern\n";
+void Say(const imaging::PhotoSet& set, const std::string& unread) {
+  std::cout << imaging::ReadingText(set) << " (name another with --pattern)\n";
   if (!unread.empty()) std::cout << "note: " << unread << '\n';
-  if (pattern == "*" && set.runs.front().views.size() > 1) {
-    std::cout << "note: all are taken for views of one heap, as their names tell no heaps apart; "
-                 "several heaps: a folder each\n";
-  }
 }
 
 // Photographs one by one: what their names say of runs, or else views of one heap.
@@ -54,9 +49,7 @@ void AddRuns(const InitArguments& arguments, campaign::SpecAnswers& answers) {
   }
   problems.ThrowIfAny();
   const std::vector<std::filesystem::path> files(arguments.photos.begin(), arguments.photos.end());
-  const std::string pattern =
-      answers.pattern.empty() ? imaging::RecognisePattern(files) : answers.pattern;
-  const imaging::PhotoSet set = imaging::SortPhotos(files, pattern);
+  const imaging::PhotoSet set = imaging::SortPhotos(files, answers.pattern);
   std::size_t matched = 0;
   for (const imaging::PhotoFiles& run : set.runs) {
     imaging::PhotoRun named{.name = run.run, .photos = {}};
@@ -67,11 +60,11 @@ void AddRuns(const InitArguments& arguments, campaign::SpecAnswers& answers) {
     answers.runs.push_back(std::move(named));
   }
   if (matched != files.size()) {
-    throw base::ConfigError("the pattern \"" + pattern + "\" fits " + std::to_string(matched) +
+    throw base::ConfigError("the pattern \"" + set.pattern + "\" fits " + std::to_string(matched) +
                             " of " + std::to_string(files.size()) +
                             " photographs; give one that fits all with --pattern");
   }
-  Say(pattern, set, "");
+  Say(set, "");
 }
 
 void FindPhotographs(const InitArguments& arguments, campaign::SpecAnswers& answers) {
@@ -80,11 +73,10 @@ void FindPhotographs(const InitArguments& arguments, campaign::SpecAnswers& answ
     AddRuns(arguments, answers);
     return;
   }
-  if (answers.pattern.empty())
-    answers.pattern = imaging::RecognisePattern(std::filesystem::path(first));
   const imaging::PhotoSet set = imaging::FindPhotos(first, answers.pattern);
+  answers.pattern = set.pattern;
   std::cout << first << ": ";
-  Say(answers.pattern, set, imaging::UnreadText(first, set));
+  Say(set, imaging::UnreadText(first, set));
   answers.folder = SeenFrom(arguments.out, first);
 }
 

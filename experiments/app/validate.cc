@@ -15,6 +15,7 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/campaign/plan/estimate.h"
+#include "experiments/campaign/spec/drum_images.h"
 #include "experiments/campaign/start.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/load_case.h"
@@ -25,8 +26,11 @@
 namespace talus::app {
 namespace {
 
-void PrintExperiment(const journal::ExperimentRecord& e, const journal::CampaignRecord& record) {
+void PrintExperiment(const journal::ExperimentRecord& e, const campaign::ExperimentSpec& spec,
+                     const journal::CampaignRecord& record) {
+  const std::string reading = campaign::ReadingText(spec);
   std::cout << "  experiment        " << (record.experiments.size() > 1 ? e.name + ": " : "")
+            << reading << (reading.empty() ? "" : "\n                    ")
             << (!e.aehp_png.empty() ? "NEBP " + base::ShortNumber(e.nebp_px) + " px"
                                     : "numbers only");
   if (e.noise_mm2) std::cout << ", noise floor " << base::ShortNumber(*e.noise_mm2) << " mm²";
@@ -81,7 +85,10 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   std::cout << file.path.string() << ": is in order\n";
   PrintSearched(campaign::SearchedParameters(spec), spec);
   if (!with_experiment) std::cout << "  experiment        not looked at (--without-experiment)\n";
-  for (const journal::ExperimentRecord& e : record.experiments) PrintExperiment(e, record);
+  const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
+  for (std::size_t e = 0; e < record.experiments.size(); ++e) {
+    PrintExperiment(record.experiments[e], experiments[e], record);
+  }
   std::cout << std::flush;
   if (spec.engine.kind == campaign::EngineKind::kTalus) {
     const campaign::CampaignEstimate estimate = campaign::EstimateCampaign(spec);
@@ -93,7 +100,6 @@ void ValidateCampaign(const base::JsonFile& file, bool with_experiment) {
   if (const auto warning = campaign::CoresWarning(spec, campaign::NumCores())) {
     std::cout << "  warning: " << *warning << '\n';
   }
-  const std::vector<campaign::ExperimentSpec> experiments = campaign::ExperimentsOf(spec);
   const double finest = std::ranges::min(spec.coarse_graining.Levels());
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {

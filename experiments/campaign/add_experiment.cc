@@ -65,6 +65,8 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   *spec.budget.core_time += taken.core_time;
   record.spec_json = SpecText(spec);
   Write(opened, record, taken);
+  for (const std::string& reading : ReadingTexts({ExperimentsOf(spec).back()}))
+    console.Line(reading);
   if (!taken.trials.empty()) console.Line(TakenOverText(taken));
 }
 

@@ -246,6 +246,7 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
   RequireNewFolder(folder, root);  // another process may have begun one meanwhile
   const std::vector<journal::TrialRecord> reused = CopyReused(reuser, folder, plan);
   WriteCampaign(folder, record, reused, plan.messages);
+  for (const std::string& reading : ReadingTexts(ExperimentsOf(spec))) options.say(reading);
   for (const std::string& message : plan.messages) options.say(message);
 }
 

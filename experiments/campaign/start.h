@@ -28,7 +28,7 @@ struct BeginOptions {
   std::optional<std::string> hold_out{};  // instead of the spec's
   // Former campaigns and designs, whose simulations are told first: reuse.h.
   std::vector<std::filesystem::path> reuse{};
-  // Told what of them is taken, once the folder is there.
+  // Told how photographs are read and what is taken of former trials, once the folder is there.
   std::function<void(const std::string&)> say = [](const std::string&) {};
   // That the campaign simulates with, so that tests can put another in its place.
   std::function<std::unique_ptr<trials::TrialEngine>()> engine{};

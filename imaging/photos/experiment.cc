@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "imaging/formats/images/map_file.h"
 #include "imaging/photos/film.h"
+#include "imaging/photos/heap_breaks.h"
 #include "imaging/photos/measured_runs.h"
 #include "imaging/photos/photo_collection.h"
 #include "imaging/photos/photo_reading.h"
@@ -19,6 +20,14 @@ namespace talus::imaging {
 namespace {
 
 constexpr double kMostPixels = 20000;  // across the plate
+
+// Where nobody has named a pattern that leaves them out.
+void WarnOfUnread(const ExperimentOptions& options, const PhotoSet& set,
+                  std::vector<PhotoWarning>& warnings) {
+  if (!options.runs.empty() || !options.pattern.empty()) return;
+  const std::string unread = UnreadText(options.photos, set);
+  if (!unread.empty()) warnings.push_back({.doubt = PhotoDoubt::kUnread, .reason = unread});
+}
 
 void WarnOfViews(const std::vector<MeasuredRun>& runs, std::vector<PhotoWarning>& warnings) {
   std::vector<double> nebp;
@@ -87,15 +96,20 @@ void CompareRuns(Experiment& result) {
 
 void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
   const PhotoSet set = NamePhotos(options);
+  result.reading = ReadingText(set);
   std::vector<Photo> photos = ReadPhotos(options, set);
   PhotoCollection collection = CollectPhotos(options, set, std::move(photos));
   result.left_out = std::move(collection.left_out);
   result.warnings = std::move(collection.warnings);
+  WarnOfUnread(options, set, result.warnings);
   const Placement placement = Place(options, collection);
   if (placement.hidden_top) result.warnings.push_back({.doubt = PhotoDoubt::kHiddenTop});
   result.photo_pixel = placement.photo_pixel;
   result.runs = MeasureRuns(options, placement, collection, result.warnings);
   result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};
+  for (const MeasuredRun& run : result.runs) {
+    if (auto doubt = DoubtOfOneHeap(run)) result.warnings.push_back(std::move(*doubt));
+  }
   WarnOfViews(result.runs, result.warnings);
 }
 
@@ -125,7 +139,6 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(as_wide_as_heap || (plate_diameter > 0 && plate_diameter <= 2), "plate_diameter",
                    plate_diameter, "must be positive and at most 2 m; write \"10 mm\" for 10 mm");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
-  problems.Require(photos.empty() || !pattern.empty(), "pattern", "must not be empty");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
   problems.Require(
       !pixel_size || (*pixel_size > 0 && (as_wide_as_heap || *pixel_size < plate_diameter / 8)),

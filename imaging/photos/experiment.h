@@ -1,6 +1,7 @@
 // From an experiment's photographs, or a map someone has made of them, to the AEHP.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,8 +48,8 @@ struct FilmedPicture {
 
 // Exactly one of `photos`, `runs`, `map` and `film` says where the images are.
 struct ExperimentOptions {
-  std::filesystem::path photos;                      // folder
-  std::string pattern = "run{run}_view{view}.*";     // of the file names in it
+  std::filesystem::path photos;  // folder
+  std::string pattern;  // of the file names in it, or that `runs` were told by; empty: what fits
   std::vector<PhotoRun> runs;                        // or the photographs one by one
   std::filesystem::path map;                         // or the grey average, black = powder
   std::optional<std::vector<FilmedPicture>> film{};  // or those of several times of one run
@@ -70,7 +71,7 @@ struct ExperimentOptions {
     visit("photos", self.photos, {.doc = "folder with the photographs"});
     visit("pattern", self.pattern,
           {.doc = "file names in `photos`: {run} and {view} stand for numbers or words, * for "
-                  "anything"});
+                  "anything; default: the one that fits"});
     visit("runs", self.runs, {.doc = "the photographs of each run, instead of `photos`"});
     visit("map", self.map, {.doc = "a grey average map (black = powder), instead of photographs"});
     visit("film", self.film,
@@ -124,9 +125,11 @@ struct UnusablePhoto {
 
 struct MeasuredView {
   std::filesystem::path photo;
-  PlatePose plate;      // of this photograph
-  double nebp = 0;      // [px] of the AEHP's frame
-  ReposeAngles angles;  // of this silhouette
+  PlatePose plate;                      // of this photograph
+  double nebp = 0;                      // [px] of the AEHP's frame
+  double step = 0;                      // SAD to the view before it in its run [px], 0 of the first
+  std::optional<std::int64_t> taken{};  // by the camera's clock [s]
+  ReposeAngles angles;                  // of this silhouette
 };
 
 struct MeasuredRun {
@@ -146,6 +149,7 @@ struct NoiseFloor {
 struct Experiment {
   Profile aehp;                           // of a film its strip (film_strip.h), as of each run
   double photo_pixel = 0;                 // pixel size of the photographs [m], 0 for a map
+  std::string reading;                    // how the names were read; empty for a map
   std::vector<MeasuredRun> runs;          // none for a map
   GrayImage standard_deviation;           // over the runs [grey levels], empty for fewer than two
   std::optional<NoiseFloor> noise_floor;  // for two runs or more

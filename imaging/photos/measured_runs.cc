@@ -33,6 +33,7 @@ MeasuredPhoto MeasurePhoto(const ExperimentOptions& options, const Placement& pl
   MeasuredView view{.photo = photo.path,
                     .plate = pose,
                     .nebp = nebp,
+                    .taken = photo.taken,
                     .angles = MeasureRepose(silhouette, placement.frame, options.metrics.repose)};
   std::vector<PhotoWarning> warnings = WarningsOf({.photo = photo.path,
                                                    .silhouette = silhouette,
@@ -62,7 +63,10 @@ std::vector<MeasuredRun> MeasureRuns(const ExperimentOptions& options, const Pla
     const std::size_t run = collection.photos[i].run;
     std::move(measured[i].warnings.begin(), measured[i].warnings.end(),
               std::back_inserter(warnings));
-    runs[run].views.push_back(std::move(measured[i].view));
+    MeasuredView& view = runs[run].views.emplace_back(std::move(measured[i].view));
+    if (!silhouettes[run].empty()) {
+      view.step = Sad(silhouettes[run].back(), measured[i].silhouette);
+    }
     silhouettes[run].push_back(std::move(measured[i].silhouette));
   }
   for (std::size_t run = 0; run < runs.size(); ++run) {

@@ -33,6 +33,7 @@ void Read(const ExperimentOptions& options, std::size_t num_photos, Photo& photo
     photo.width = read.width;
     photo.height = read.height;
     photo.block = read.block;
+    photo.taken = read.taken;
     BacklitPhoto flat = FlattenPhoto(read.image, options.light(), name);
     photo.front_lit = flat.negative;
     photo.overexposed = flat.overexposed;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,16 +19,17 @@ namespace talus::imaging {
 struct Photo {
   std::filesystem::path path;
   std::size_t run = 0;
-  int width = 0;           // of the file [px]; 0: unreadable
-  int height = 0;          // [px]
-  int block = 1;           // as in Photograph; all else is in pixels of its image [px]
-  PlateEdges edges;        // unless the frame or a scale is given
-  TableLine table;         // with a scale
-  bool front_lit = false;  // powder is brighter than its background
-  double overexposed = 0;  // as in BacklitPhoto [-]
-  double light = 0;        // as in BacklitPhoto [grey levels]
-  std::string fault;       // why it cannot be used, with the file's name; "": it can
-  BacklitPhoto flat;       // empty where all of them together would take too much memory
+  int width = 0;                        // of the file [px]; 0: unreadable
+  int height = 0;                       // [px]
+  int block = 1;                        // as in Photograph; all else is in pixels of its image [px]
+  PlateEdges edges;                     // unless the frame or a scale is given
+  TableLine table;                      // with a scale
+  bool front_lit = false;               // powder is brighter than its background
+  double overexposed = 0;               // as in BacklitPhoto [-]
+  double light = 0;                     // as in BacklitPhoto [grey levels]
+  std::optional<std::int64_t> taken{};  // as in DatedImage [s]
+  std::string fault;                    // why it cannot be used, with the file's name; "": it can
+  BacklitPhoto flat;  // empty where all of them together would take too much memory
 };
 
 // All of the set, run by run, each read once; one that cannot be used says so in `fault`.

@@ -147,7 +147,7 @@ std::map<std::string, Views, ByNumber> Group(const std::vector<std::filesystem::
 }
 
 PhotoSet SetOf(const std::map<std::string, Views, ByNumber>& runs, const std::string& pattern) {
-  PhotoSet set;
+  PhotoSet set{.runs = {}, .missing = {}, .pattern = pattern};
   const std::set<std::string, ByNumber> expected = ExpectedViews(runs);
   for (const auto& [run, views] : runs) {
     PhotoFiles& files = set.runs.emplace_back(PhotoFiles{.run = run, .views = {}});
@@ -165,8 +165,8 @@ PhotoSet SetOf(const std::map<std::string, Views, ByNumber>& runs, const std::st
 }
 
 // Views of runs that are given one by one have no names.
-PhotoSet GivenPhotos(const std::vector<PhotoRun>& runs) {
-  PhotoSet set;
+PhotoSet GivenPhotos(const std::vector<PhotoRun>& runs, const std::string& pattern) {
+  PhotoSet set{.runs = {}, .missing = {}, .pattern = pattern};
   std::size_t most = 0;
   for (const PhotoRun& run : runs) most = std::max(most, run.photos.size());
   for (const PhotoRun& run : runs) {
@@ -254,7 +254,8 @@ PhotoSet OfFolder(PhotoSet set, const std::filesystem::path& folder, const std::
 
 }  // namespace
 
-PhotoSet SortPhotos(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
+PhotoSet SortPhotos(const std::vector<std::filesystem::path>& files, const std::string& named) {
+  const std::string pattern = named.empty() ? RecognisePattern(files) : named;
   return SetOf(Group(files, PhotoPattern(pattern)), pattern);
 }
 
@@ -292,8 +293,14 @@ std::string ReadingText(const PhotoSet& set) {
     if (i < kMostNames) names += (i == 0 ? "" : ", ") + base::Printable(set.runs[i].run);
   }
   if (set.runs.size() > kMostNames) names += ", …";
-  return base::Counted(static_cast<long long>(set.runs.size()), "heap") + " (" + names + "), " +
-         base::Counted(static_cast<long long>(views), "photograph");
+  std::string text = base::Counted(static_cast<long long>(set.runs.size()), "heap") + " (" + names +
+                     "), " + base::Counted(static_cast<long long>(views), "photograph");
+  if (set.pattern.empty()) return text;
+  text += ", read by the pattern \"" + set.pattern + "\"";
+  if (views == 1 || PhotoPattern(set.pattern).has_run()) return text;
+  return text +
+         ": all are taken for views of one heap, as their names tell no heaps apart; several "
+         "heaps: a folder each, or, where each has one photograph, the pattern \"{run}.*\"";
 }
 
 std::vector<std::filesystem::path> UnreadImages(const std::filesystem::path& folder,
@@ -330,7 +337,8 @@ std::string UnreadText(const std::filesystem::path& folder, const PhotoSet& set)
          (std::ranges::any_of(unread, IsForeignImage) ? kForeign : "");
 }
 
-PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& pattern) {
+PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& named) {
+  const std::string pattern = named.empty() ? RecognisePattern(folder) : named;
   const auto num_folders = static_cast<int>(std::ranges::count(pattern, '/'));
   std::vector<std::filesystem::path> files;
   if (pattern.ends_with('*') || pattern.ends_with('}')) {
@@ -343,7 +351,7 @@ PhotoSet FindPhotos(const std::filesystem::path& folder, const std::string& patt
 
 PhotoSet NamePhotos(const ExperimentOptions& options) {
   return options.runs.empty() ? FindPhotos(options.photos, options.pattern)
-                              : GivenPhotos(options.runs);
+                              : GivenPhotos(options.runs, options.pattern);
 }
 
 }  // namespace talus::imaging

@@ -27,6 +27,13 @@ std::string Reason(const PhotoWarning& warning) {
   switch (warning.doubt) {
     case PhotoDoubt::kLeftOut:
       return "left out: " + warning.reason;
+    case PhotoDoubt::kUnread:
+      return warning.reason;
+    case PhotoDoubt::kSeveralHeaps:
+      return "begins another heap, it seems: " + warning.reason + " look like " +
+             std::to_string(static_cast<int>(warning.value)) +
+             " heaps and are taken for views of one; give each heap a folder of its own, or names "
+             "such as heap1_01.jpg (docs/imaging.md)";
     case PhotoDoubt::kRunDisagrees:
       return "run " + warning.reason + " differs from the others " + Times(warning.value) +
              " as much as they do: another heap, or one that slid; look at it, or leave it out";

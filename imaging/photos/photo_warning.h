@@ -14,6 +14,9 @@ namespace talus::imaging {
 
 enum class PhotoDoubt {
   kLeftOut,        // not usable; `reason` says why
+  kUnread,         // `reason`: images that the pattern does not fit
+  kSeveralHeaps,   // in one run; value: how many, `photo`: the first of the second, `reason`: the
+                   // sign
   kRunDisagrees,   // `reason`: the run; value: its difference from the others / the usual one [-]
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
@@ -30,7 +33,7 @@ struct PhotoWarning {
   PhotoDoubt doubt = PhotoDoubt::kLeftOut;
   std::filesystem::path photo{};  // empty where it is of all
   double value = 0;               // as the doubt says
-  std::string reason{};           // of kLeftOut, kRunDisagrees and kOtherLight
+  std::string reason{};           // of kLeftOut, kUnread, kSeveralHeaps, kRunDisagrees, kOtherLight
   int num_photos = 1;             // that share the doubt; `photo` and `value` are of the worst
 };
 
@@ -75,6 +78,8 @@ template <>
 struct talus::base::Names<talus::imaging::PhotoDoubt> {
   using enum talus::imaging::PhotoDoubt;
   static constexpr std::array kList{std::pair{"left_out", kLeftOut},
+                                    std::pair{"unread", kUnread},
+                                    std::pair{"several_heaps", kSeveralHeaps},
                                     std::pair{"run_disagrees", kRunDisagrees},
                                     std::pair{"front_lit", kFrontLit},
                                     std::pair{"mixed_light", kMixedLight},

@@ -185,20 +185,24 @@ TEST(Experiment, NothingIsLeft) {
   EXPECT_THAT(ErrorOf(Options("/no/such/folder")), HasSubstr("/no/such/folder"));
 }
 
-// Only a folder's names need one: `talus measure` leaves it empty for a map and for single files.
-TEST(ExperimentOptionsTest, APatternIsAskedForWithAFolderOnly) {
-  ExperimentOptions options;
-  options.plate_diameter = 0.01;
-  options.pattern = "";
-  options.map = "a.png";
-  base::Problems with_map;
-  options.Validate(with_map);
-  EXPECT_TRUE(with_map.empty());
-  options.map = "";
-  options.photos = "a";
-  base::Problems with_folder;
-  options.Validate(with_folder);
-  EXPECT_EQ(with_folder.list().size(), 1u);
+// As `talus init` and `talus measure` do, so that an entry with "photos" alone is enough.
+TEST(ExperimentTest, WithoutAPatternTheOneThatFitsIsTakenAndSaid) {
+  const fs::path folder = EmptyFolder("no_pattern");
+  const GrayImage photo = Triangle(SmallScene());
+  for (const char* name : {"h1/IMG_3.png", "h1/IMG_4.png", "h2/IMG_5.png", "h2/IMG_6.png"}) {
+    fs::create_directories((folder / name).parent_path());
+    WritePng(folder / name, photo);
+  }
+  fs::create_directories(folder / "h2" / "more");
+  WritePng(folder / "h2" / "more" / "IMG_7.png", photo);
+  const Experiment experiment = MeasureExperiment(Options(folder));
+  EXPECT_EQ(experiment.runs.size(), 2u);
+  EXPECT_EQ(experiment.reading, "2 heaps (h1, h2), 4 photographs, read by the pattern \"{run}/*\"");
+  ASSERT_EQ(experiment.warnings.size(), 1u);
+  EXPECT_EQ(WarningText(experiment.warnings[0]), "1 image not read: h2/more/IMG_7.png");
+  ExperimentOptions named = Options(folder);
+  named.pattern = "{run}/*";  // whoever names it knows what it leaves out
+  EXPECT_TRUE(MeasureExperiment(named).warnings.empty());
 }
 
 TEST(ExperimentOptionsTest, BrokenRulesAreReportedTogether) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "imaging/formats/images/exif.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/formats/images/orientation.h"
 #include "tests/imaging/stored_images.h"
@@ -44,15 +45,19 @@ GrayImage Stored(const GrayImage& upright, const Orientation& orientation) {
   return stored;
 }
 
+std::string Number(std::uint32_t value, int size, bool big_endian) {
+  std::string text;
+  for (int i = 0; i < size; ++i) {
+    const int shift = 8 * (big_endian ? size - 1 - i : i);
+    text += static_cast<char>(value >> shift & 255);
+  }
+  return text;
+}
+
 // A TIFF structure with one other tag before the orientation.
 std::string Exif(int orientation, bool big_endian) {
   const auto number = [&](std::uint32_t value, int size) {
-    std::string text;
-    for (int i = 0; i < size; ++i) {
-      const int shift = 8 * (big_endian ? size - 1 - i : i);
-      text += static_cast<char>(value >> shift & 255);
-    }
-    return text;
+    return Number(value, size, big_endian);
   };
   return (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) + number(2, 2) +
          number(0x0100, 2) + number(4, 2) + number(1, 4) + number(640, 4) + number(0x0112, 2) +
@@ -82,6 +87,31 @@ TEST(ImageOrientation, DamagedExifLeavesTheImageAsItIs) {
   }
   EXPECT_EQ(ExifOrientation(Exif(0, true)), kUpright);
   EXPECT_EQ(ExifOrientation(Exif(9, false)), kUpright);
+}
+
+// A structure whose only tag is the place of a second directory, and that one's the time.
+std::string ExifWithTime(bool big_endian) {
+  const auto number = [&](std::uint32_t value, int size) {
+    return Number(value, size, big_endian);
+  };
+  const auto directory = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count,
+                             std::uint32_t value) {
+    return number(1, 2) + number(tag, 2) + number(type, 2) + number(count, 4) + number(value, 4) +
+           number(0, 4);
+  };
+  return (big_endian ? "MM" : "II") + number(42, 2) + number(8, 4) + directory(0x8769, 4, 1, 26) +
+         directory(0x9003, 2, 20, 44) + "2026:01:31 17:05:09";
+}
+
+TEST(ImageOrientation, TimeOfExposureIsReadAndADamagedOneIsNotKnown) {
+  for (const bool big_endian : {false, true}) {
+    const std::string exif = ExifWithTime(big_endian);
+    EXPECT_EQ(ExifTime(exif), 1769879109);  // as `date -u -d "2026-01-31 17:05:09" +%s` says
+    for (std::size_t size = 0; size < exif.size(); ++size) {
+      EXPECT_EQ(ExifTime(exif.substr(0, size)), std::nullopt) << size;
+    }
+  }
+  EXPECT_EQ(ExifTime(Exif(6, true)), std::nullopt);
 }
 
 // With a chunk eXIf after the header, as libpng writes it.

@@ -83,7 +83,8 @@ TEST(PhotoPattern, WhatIsNotReadIsNamed) {
   const std::string pattern = RecognisePattern(folder);
   EXPECT_EQ(pattern, kUsualPattern);
   const PhotoSet set = FindPhotos(folder, pattern);
-  EXPECT_EQ(ReadingText(set), "2 heaps (1, 2), 4 photographs");
+  EXPECT_EQ(ReadingText(set),
+            "2 heaps (1, 2), 4 photographs, read by the pattern \"run{run}_view{view}.*\"");
   EXPECT_EQ(UnreadText(folder, set), "2 images not read: again.JPG, extra/a.png");
   EXPECT_EQ(UnreadText(folder / "extra", FindPhotos(folder / "extra", "*")), "");
 }
@@ -98,7 +99,7 @@ TEST(PhotoPattern, HiddenFilesAreNoPhotographsAndOtherFormatsAreNamed) {
     Touch(folder / name);
   }
   const PhotoSet set = FindPhotos(folder, RecognisePattern(folder));
-  EXPECT_EQ(ReadingText(set), "2 heaps (heap 1, heap 2), 3 photographs");
+  EXPECT_THAT(ReadingText(set), HasSubstr("2 heaps (heap 1, heap 2), 3 photographs"));
   EXPECT_THAT(UnreadText(folder, set),
               HasSubstr("1 image not read: heap 2/IMG_4.HEIC; HEIC, WebP and raw files"));
   const fs::path only = EmptyFolder("heic");
@@ -109,6 +110,18 @@ TEST(PhotoPattern, HiddenFilesAreNoPhotographsAndOtherFormatsAreNamed) {
   } catch (const base::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("convert them to JPEG or PNG"));
   }
+}
+
+// Several heaps in one folder cannot be told from one heap by such names: never silently.
+TEST(PhotoPattern, NamesThatTellNoHeapsApartAreSaidToBeTakenForOneHeap) {
+  const PhotoSet phone = SortPhotos({"IMG_1.jpg", "IMG_2.jpg", "IMG_3.jpg"}, "");
+  EXPECT_EQ(phone.pattern, "*");
+  EXPECT_THAT(ReadingText(phone),
+              HasSubstr("3 photographs, read by the pattern \"*\": all are taken "
+                        "for views of one heap"));
+  const PhotoSet one_each = SortPhotos({"IMG_1.jpg", "IMG_2.jpg"}, "{run}.*");
+  EXPECT_EQ(ReadingText(one_each),
+            "2 heaps (IMG_1, IMG_2), 2 photographs, read by the pattern \"{run}.*\"");
 }
 
 TEST(PhotoPattern, ErrorSaysWhatIsThereAndWhatMayFit) {

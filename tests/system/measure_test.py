@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -80,6 +81,60 @@ class Measure(unittest.TestCase):
             self.assertEqual(done.returncode, 2, (arguments, done.stdout, done.stderr))
             self.assertIn(named, done.stderr)
             self.assertFalse(out.exists(), arguments)
+
+
+class Names(unittest.TestCase):
+    """Photographs as people have them: three heaps with the names that a camera gives."""
+    RUNS, VIEWS = 3, 6
+
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def copy(self, name):
+        for run in range(self.RUNS):
+            for view in range(self.VIEWS):
+                path = self.folder / "photos" / name(run, view)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(PHOTOS / f"run{run + 1:02}_view{view:02}.jpg", path)
+        return self.folder / "photos"
+
+    def test_a_folder_a_heap_is_read_by_measure_init_and_spec_alike(self):
+        photos = self.copy(lambda run, view: f"heap {run}/IMG_20260131_1{run}0{view}11.jpg")
+        read = '3 heaps (heap 0, heap 1, heap 2), 18 photographs, read by the pattern "{run}/*"'
+        measured = run(photos, "--plate-diameter", "10 mm")
+        self.assertEqual(measured.returncode, 0, measured.stderr)
+        self.assertIn(read, measured.stdout)
+        self.assertNotIn("warning", measured.stdout)
+        spec = self.folder / "spec.json"
+        drafted = subprocess.run(
+            [TALUS, "init", photos, "--out", spec, "--plate-diameter", "10 mm", "--tube-diameter", "10 mm", "--mass",
+             "1.6 g", "--lift-velocity", "50 mm/s", "--density", "4386 kg/m3", "--grain-diameter", "0.4 mm"],
+            capture_output=True, text=True)
+        self.assertEqual(drafted.returncode, 0, drafted.stderr)
+        self.assertIn(read, drafted.stdout)
+        text = spec.read_text()
+        self.assertIn('"pattern": "{run}/*",', text)
+        spec.write_text(text.replace('"pattern": "{run}/*",', ""))  # photos alone are enough
+        validated = subprocess.run([TALUS, "validate", spec], capture_output=True, text=True)
+        self.assertEqual(validated.returncode, 0, validated.stderr)
+        self.assertIn(read, validated.stdout)
+
+    def test_several_heaps_in_one_folder_are_never_silently_one(self):
+        named = {
+            "time": (lambda run, view: f"IMG_20260131_1{run}0{view}11.jpg", "taken 55 min after IMG_20260131_100511.jpg"),
+            "plate": (lambda run, view: f"DSC{100 + run * self.VIEWS + view}.JPG", "the plate stands")}
+        for name, says in named.values():
+            photos = self.copy(name)
+            done = run(photos, "--plate-diameter", "10 mm")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("all are taken for views of one heap, as their names tell no heaps apart", done.stdout)
+            self.assertRegex(done.stdout, "begins another heap, it seems: .*the 18 photographs of run 1 look like 3 heaps")
+            self.assertIn(says, done.stdout)
+            shutil.rmtree(photos)
 
 
 unittest.main(argv=sys.argv[:1])

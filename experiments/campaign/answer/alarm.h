@@ -32,6 +32,8 @@ enum class AlarmKind {
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
   kLeftOut,              // from here on photographs of `experiment`, one of them or all
+  kUnread,
+  kSeveralHeaps,
   kRunDisagrees,
   kFrontLit,
   kMixedLight,

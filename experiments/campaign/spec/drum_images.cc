@@ -93,6 +93,21 @@ imaging::Experiment MeasureImages(const ExperimentSpec& e) {
   return experiment;
 }
 
+std::string ReadingText(const ExperimentSpec& e) {
+  const bool has_photos = !e.images.photos.empty() || !e.images.runs.empty();
+  if (!has_photos || ShowsDrum(e)) return "";
+  return imaging::ReadingText(imaging::NamePhotos(e.images));
+}
+
+std::vector<std::string> ReadingTexts(const std::vector<ExperimentSpec>& experiments) {
+  std::vector<std::string> texts;
+  for (const ExperimentSpec& e : experiments) {
+    const std::string reading = ReadingText(e);
+    if (!reading.empty()) texts.push_back("photographs of " + e.name + ": " + reading);
+  }
+  return texts;
+}
+
 void SetDrumDiameters(CampaignSpec& spec) {
   if (spec.experiment && IsDrum(spec.rig)) SetDiameter(*spec.rig, *spec.experiment);
   if (!spec.experiments) return;

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/problems.h"
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -24,6 +25,12 @@ void ValidateDrumImages(const ExperimentSpec& experiment, const std::string& pla
 
 // The experiment of a drum or a heap. Throws ConfigError that names the file and what to do.
 imaging::Experiment MeasureImages(const ExperimentSpec& experiment);
+
+// How the photographs of heaps are read (imaging::ReadingText); empty for a drum, a map, numbers.
+std::string ReadingText(const ExperimentSpec& experiment);
+
+// The same for those that have photographs, each with its name.
+std::vector<std::string> ReadingTexts(const std::vector<ExperimentSpec>& experiments);
 
 // The width of drums' images is their rig's, where it is not given.
 void SetDrumDiameters(CampaignSpec& spec);

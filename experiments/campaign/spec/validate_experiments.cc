@@ -1,6 +1,7 @@
 // What must hold between a campaign's experiments, and between each and its rig.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,9 +20,19 @@
 namespace talus::campaign {
 namespace {
 
+// Whether a value in one of these objects has a problem already: one that could not be read has its
+// default, of which a rule that ties it to others would speak. "" is no object.
+bool HasProblem(const base::Problems& problems, std::initializer_list<std::string> places) {
+  return std::ranges::any_of(problems.list(), [&](const base::Problem& problem) {
+    return std::ranges::any_of(places, [&](const std::string& place) {
+      return !place.empty() && problem.path.starts_with(place + ".");
+    });
+  });
+}
+
 // Images are scaled by the width of plate, drum or box: another one shows another test.
 void CheckWidth(const ExperimentSpec& e, const std::string& place, base::Problems& problems) {
-  if (!e.images.HasImages()) return;
+  if (!e.images.HasImages() || HasProblem(problems, {place, "device", "rig"})) return;
   const rigs::Case rig = RigOf(e);
   const double width = rigs::EntryOf(rig).width(rig);
   const bool tube = rig.rig.kind == rigs::RigKind::kLiftedTube;
@@ -48,6 +59,7 @@ void CheckFilm(const ExperimentSpec& e, const std::string& place, base::Problems
 // What it is filled with; a drum's photographs show how full it is.
 void CheckMass(const CampaignSpec& spec, const ExperimentSpec& e, const std::string& place,
                base::Problems& problems) {
+  if (HasProblem(problems, {place})) return;
   const bool is_searched = IsDrum(e.rig) && spec.parameters && spec.parameters->fill;
   problems.Require(!e.mass || !HasFill(e), place + ".mass",
                    "stands beside rig.fill: give one of the two");

@@ -17,7 +17,6 @@
 #include "experiments/trials/measure/measure_request.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/mass_study.h"
-#include "imaging/photos/photo_set.h"
 
 namespace talus::trials {
 namespace {
@@ -98,7 +97,6 @@ std::vector<imaging::MassRun> MeasureFolder(const MassFolder& folder,
                                             std::ostream& print) {
   imaging::ExperimentOptions of_folder = options;
   of_folder.photos = folder.path;
-  if (options.pattern.empty()) of_folder.pattern = imaging::RecognisePattern(folder.path);
   const imaging::Experiment experiment = imaging::MeasureExperiment(of_folder);
   for (const imaging::PhotoWarning& warning : experiment.warnings) {
     print << "warning: " << folder.path.string() << ": " << imaging::WarningText(warning) << '\n';

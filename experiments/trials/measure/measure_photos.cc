@@ -26,19 +26,19 @@ namespace {
 namespace fs = std::filesystem;
 
 // Photographs named one by one: run and view from their names, or all of them views of one run.
-std::vector<imaging::PhotoRun> GroupPhotos(const std::vector<fs::path>& files,
-                                           const std::string& pattern) {
-  std::vector<imaging::PhotoRun> runs;
-  const imaging::PhotoSet set = imaging::SortPhotos(files, pattern);
+void GroupPhotos(const std::vector<fs::path>& files, imaging::ExperimentOptions& options) {
+  const imaging::PhotoSet set = imaging::SortPhotos(files, options.pattern);
+  options.pattern = set.pattern;
   std::size_t matched = 0;
   for (const imaging::PhotoFiles& run : set.runs) {
     imaging::PhotoRun photos{.name = run.run, .photos = {}};
     for (const imaging::PhotoFile& view : run.views) photos.photos.push_back(view.path);
     matched += photos.photos.size();
-    runs.push_back(std::move(photos));
+    options.runs.push_back(std::move(photos));
   }
-  if (matched == files.size()) return runs;
-  return {{.name = "1", .photos = files}};
+  if (matched == files.size()) return;
+  options.runs = {{.name = "1", .photos = files}};
+  options.pattern = "*";
 }
 
 std::vector<fs::path> InputsOf(const MeasureRequest& request) {
@@ -98,15 +98,8 @@ void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experi
 void PrintSummary(const imaging::Experiment& experiment, const imaging::ExperimentOptions& options,
                   std::ostream& print) {
   const imaging::Frame& frame = experiment.aehp.frame;
-  std::size_t num_views = 0;
-  for (const imaging::MeasuredRun& run : experiment.runs) num_views += run.views.size();
-  if (num_views > 0) {
-    print << "AEHP of " << experiment.runs.size() << " run(s), " << num_views << " photographs";
-    if (!options.photos.empty()) print << " (pattern " << options.pattern << ")";
-    print << '\n';
-  } else {
-    print << "AEHP from a map\n";
-  }
+  print << "AEHP " << (experiment.reading.empty() ? "from a map" : "of " + experiment.reading)
+        << '\n';
   print << (options.scale.empty() ? "  plate "
                                   : "  table, by " + options.scale + ", of which count ")
         << frame.plate_diameter / frame.pixel_size << " px wide, " << frame.pixel_size * 1e6
@@ -179,7 +172,6 @@ void SetSource(const std::vector<fs::path>& inputs, bool is_map,
   }
   if (inputs.size() == 1 && fs::is_directory(inputs.front())) {
     options.photos = inputs.front();
-    if (options.pattern.empty()) options.pattern = imaging::RecognisePattern(inputs.front());
     return;
   }
   for (const fs::path& input : inputs) {
@@ -188,8 +180,7 @@ void SetSource(const std::vector<fs::path>& inputs, bool is_map,
                             ": is a folder among other inputs; give one folder, or photographs "
                             "one by one, or --choose-mass for one folder a mass");
   }
-  options.runs = GroupPhotos(
-      inputs, options.pattern.empty() ? imaging::RecognisePattern(inputs) : options.pattern);
+  GroupPhotos(inputs, options);
 }
 
 void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {

@@ -4,6 +4,7 @@
 // clang-format on
 
 #include "base/error.h"
+#include "imaging/formats/images/exif.h"
 #include "imaging/formats/images/image_codecs.h"
 
 namespace talus::imaging {
@@ -36,14 +37,14 @@ struct JpegReader {
   ~JpegReader() { jpeg_destroy_decompress(&jpeg); }
 };
 
-// The orientation in the first APP1 segment that holds EXIF.
-int OrientationOf(const jpeg_decompress_struct& jpeg) {
+// The first APP1 segment that holds EXIF, behind its name; empty where none does.
+std::string_view ExifOf(const jpeg_decompress_struct& jpeg) {
   constexpr std::string_view kExif("Exif\0\0", 6);
   for (const jpeg_marker_struct* marker = jpeg.marker_list; marker; marker = marker->next) {
     const std::string_view data(reinterpret_cast<const char*>(marker->data), marker->data_length);
-    if (data.starts_with(kExif)) return ExifOrientation(data.substr(kExif.size()));
+    if (data.starts_with(kExif)) return data.substr(kExif.size());
   }
-  return kUpright;
+  return {};
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
                  .height = static_cast<int>(jpeg.output_height),
                  .channels = 1,
                  .bits = 8,
-                 .orientation = OrientationOf(jpeg)};
+                 .orientation = ExifOrientation(ExifOf(jpeg)),
+                 .taken = ExifTime(ExifOf(jpeg))};
   image.Reserve();
   std::vector<JSAMPLE> row(jpeg.output_width);
   while (jpeg.output_scanline < jpeg.output_height) {

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "imaging/formats/images/exif.h"
 #include "imaging/formats/images/image_codecs.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -84,11 +85,13 @@ std::vector<png_byte> ReadInterlaced(PngReader& reader, const RawImage& image, s
 }
 
 // After the whole file is read: the chunk may follow the pixels.
-int OrientationOf(PngReader& reader) {
+void AddExif(PngReader& reader, RawImage& image) {
   png_uint_32 size = 0;
-  png_bytep exif = nullptr;
-  if (png_get_eXIf_1(reader.png, reader.info, &size, &exif) == 0) return kUpright;
-  return ExifOrientation({reinterpret_cast<const char*>(exif), size});
+  png_bytep bytes = nullptr;
+  if (png_get_eXIf_1(reader.png, reader.info, &size, &bytes) == 0) return;
+  const std::string_view exif(reinterpret_cast<const char*>(bytes), size);
+  image.orientation = ExifOrientation(exif);
+  image.taken = ExifTime(exif);
 }
 
 void Append(png_structp png, png_bytep data, png_size_t count) {
@@ -133,7 +136,7 @@ RawImage DecodePng(std::string_view bytes, const std::string& name, double white
            samples, image);
   }
   png_read_end(reader.png, reader.info);
-  image.orientation = OrientationOf(reader);
+  AddExif(reader, image);
   return image;
 }
 

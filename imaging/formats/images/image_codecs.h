@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "imaging/formats/images/orientation.h"
+#include "imaging/gray_image.h"
 
 namespace talus::imaging {
 
@@ -18,12 +21,13 @@ namespace talus::imaging {
 struct RawImage {
   int width = 0;
   int height = 0;
-  int channels = 1;                  // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
-  int bits = 8;                      // 8 or 16
-  int orientation = kUpright;        // how the camera was held, as EXIF numbers it
-  double white = 0;                  // sample of 16 bits that is white; 0: not known
-  std::uint16_t largest = 0;         // sample of 16 bits
-  std::vector<std::uint8_t> gray{};  // empty where white is not known
+  int channels = 1;                     // 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha
+  int bits = 8;                         // 8 or 16
+  int orientation = kUpright;           // how the camera was held, as EXIF numbers it
+  std::optional<std::int64_t> taken{};  // ExifTime
+  double white = 0;                     // sample of 16 bits that is white; 0: not known
+  std::uint16_t largest = 0;            // sample of 16 bits
+  std::vector<std::uint8_t> gray{};     // empty where white is not known
 
   // Samples of 8 bits are 0 … 255, of 16 bits 0 … 65535.
   void AddRow(std::span<const std::uint16_t> row);
@@ -37,6 +41,14 @@ RawImage DecodeTiff(std::string_view bytes, const std::string& name, double whit
 RawImage DecodePgm(std::string_view bytes, const std::string& name, double white);
 RawImage DecodeJpeg(std::string_view bytes, const std::string& name);
 RawImage DecodeBmp(std::string_view bytes, const std::string& name);
+
+// A file of any of these formats as ReadGrayImage has it, and when it was taken by the camera's
+// clock [s]; JPEG and PNG may say it.
+struct DatedImage {
+  GrayImage image;
+  std::optional<std::int64_t> taken{};
+};
+DatedImage ReadDatedImage(const std::filesystem::path& path);
 
 struct ImageSize {
   std::int64_t width = 0;     // [px]

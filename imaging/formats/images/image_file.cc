@@ -32,6 +32,15 @@ double WhiteOf(std::uint16_t largest) {
   return 65535;
 }
 
+DatedImage DecodeDated(std::string_view bytes, const std::string& name) {
+  RawImage raw = Decode(bytes, name, 0);
+  if (raw.bits == 16) raw = Decode(bytes, name, WhiteOf(raw.largest));
+  return {
+      .image = Upright({.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)},
+                       raw.orientation),
+      .taken = raw.taken};
+}
+
 template <class Image>
 void WriteAnyPng(const std::filesystem::path& path, const Image& image) {
   base::WriteFileAtomically(path, EncodePng(image));
@@ -40,15 +49,14 @@ void WriteAnyPng(const std::filesystem::path& path, const Image& image) {
 }  // namespace
 
 GrayImage DecodeGrayImage(std::string_view bytes, const std::string& name) {
-  RawImage raw = Decode(bytes, name, 0);
-  if (raw.bits == 16) raw = Decode(bytes, name, WhiteOf(raw.largest));
-  return Upright({.width = raw.width, .height = raw.height, .pixels = std::move(raw.gray)},
-                 raw.orientation);
+  return DecodeDated(bytes, name).image;
 }
 
-GrayImage ReadGrayImage(const std::filesystem::path& path) {
-  return DecodeGrayImage(base::ReadFile(path), path.string());
+DatedImage ReadDatedImage(const std::filesystem::path& path) {
+  return DecodeDated(base::ReadFile(path), path.string());
 }
+
+GrayImage ReadGrayImage(const std::filesystem::path& path) { return ReadDatedImage(path).image; }
 
 void WritePng(const std::filesystem::path& path, const GrayImage& image) {
   WriteAnyPng(path, image);

@@ -1,54 +1,8 @@
 #include "imaging/formats/images/orientation.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 
 namespace talus::imaging {
-namespace {
-
-constexpr std::uint32_t kOrientationTag = 0x0112;
-constexpr std::uint32_t kShortType = 3;
-constexpr std::size_t kEntrySize = 12;  // tag 2, type 2, count 4, value 4 [bytes]
-
-// Numbers of a TIFF structure, in its byte order; nothing behind its end.
-class TiffBytes {
- public:
-  explicit TiffBytes(std::string_view bytes)
-      : bytes_(bytes), big_endian_(bytes.starts_with(std::string_view("MM\0*", 4))) {}
-
-  bool valid() const { return big_endian_ || bytes_.starts_with(std::string_view("II*\0", 4)); }
-  std::optional<std::uint32_t> Number(std::size_t at, std::size_t size) const {
-    if (at > bytes_.size() || bytes_.size() - at < size) return std::nullopt;
-    std::uint32_t number = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t byte = big_endian_ ? at + i : at + size - 1 - i;
-      number = number << 8 | static_cast<std::uint8_t>(bytes_[byte]);
-    }
-    return number;
-  }
-
- private:
-  std::string_view bytes_;
-  bool big_endian_;
-};
-
-}  // namespace
-
-int ExifOrientation(std::string_view tiff) {
-  const TiffBytes bytes(tiff);
-  const auto directory = bytes.Number(4, 4);
-  if (!bytes.valid() || !directory) return kUpright;
-  const auto count = bytes.Number(*directory, 2);
-  for (std::size_t i = 0; count && i < *count; ++i) {
-    const std::size_t entry = *directory + 2 + i * kEntrySize;
-    if (bytes.Number(entry, 2) != kOrientationTag) continue;
-    const auto value = bytes.Number(entry + 8, 2);
-    const bool known = bytes.Number(entry + 2, 2) == kShortType && value >= 1U && value <= 8U;
-    return known ? static_cast<int>(*value) : kUpright;
-  }
-  return kUpright;
-}
 
 GrayImage Upright(GrayImage stored, int orientation) {
   if (orientation <= kUpright || orientation > 8) return stored;

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "imaging/formats/images/image_file.h"
+#include "imaging/formats/images/image_codecs.h"
 
 namespace talus::imaging {
 namespace {
@@ -38,7 +39,8 @@ GrayImage Reduced(const GrayImage& image, int block) {
 }
 
 Photograph ReadPhotograph(const std::filesystem::path& path) {
-  Photograph photo{.image = ReadGrayImage(path)};
+  DatedImage read = ReadDatedImage(path);
+  Photograph photo{.image = std::move(read.image), .taken = read.taken};
   photo.width = photo.image.width;
   photo.height = photo.image.height;
   photo.block = BlockFor(photo.image);

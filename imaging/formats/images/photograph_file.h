@@ -5,7 +5,9 @@
 // them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "imaging/gray_image.h"
 
@@ -13,9 +15,10 @@ namespace talus::imaging {
 
 struct Photograph {
   GrayImage image;
-  int width = 0;   // of the file, upright [px]
-  int height = 0;  // [px]
-  int block = 1;   // side of the squares [px of the file]
+  int width = 0;                        // of the file, upright [px]
+  int height = 0;                       // [px]
+  int block = 1;                        // side of the squares [px of the file]
+  std::optional<std::int64_t> taken{};  // as in DatedImage [s]
 };
 
 // Throws ConfigError as ReadGrayImage does.
