@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include "base/error.h"
@@ -29,6 +30,7 @@ enum class Asked {
 
 struct Question {
   const char* flag;
+  const char* key;      // in the spec
   const char* words;    // of the question and the help
   const char* example;  // with its unit
   base::Dimension dimension;
@@ -38,22 +40,22 @@ struct Question {
 };
 using enum base::Dimension;
 constexpr Question kQuestions[] = {
-    {"--plate-diameter", "diameter of the plate", "10 mm", kLength, &SpecAnswers::plate_diameter,
-     Asked::kOfHeap, BenchQuantity::kPlateDiameter},
-    {"--tube-diameter", "inner diameter of the tube", "10 mm", kLength, &SpecAnswers::tube_diameter,
-     Asked::kOfHeap, BenchQuantity::kTubeDiameter},
-    {"--lift-velocity", "speed at which the tube is lifted", "10 mm/s", kVelocity,
-     &SpecAnswers::lift_velocity, Asked::kOfHeap, BenchQuantity::kLiftVelocity},
-    {"--mass", "mass filled in", "1.5 g", kMass, &SpecAnswers::mass, Asked::kAlways,
+    {"--plate-diameter", "device.plate_diameter", "diameter of the plate", "10 mm", kLength,
+     &SpecAnswers::plate_diameter, Asked::kOfHeap, BenchQuantity::kPlateDiameter},
+    {"--tube-diameter", "device.tube_inner_diameter", "inner diameter of the tube", "10 mm",
+     kLength, &SpecAnswers::tube_diameter, Asked::kOfHeap, BenchQuantity::kTubeDiameter},
+    {"--lift-velocity", "device.lift_velocity", "speed at which the tube is lifted", "10 mm/s",
+     kVelocity, &SpecAnswers::lift_velocity, Asked::kOfHeap, BenchQuantity::kLiftVelocity},
+    {"--mass", "powder.mass", "mass filled in", "1.5 g", kMass, &SpecAnswers::mass, Asked::kAlways,
      BenchQuantity::kMass},
-    {"--density", "density of the grains", "4400 kg/m^3", kDensity, &SpecAnswers::density,
-     Asked::kAlways, BenchQuantity::kGrainDensity},
-    {"--grain-diameter", "median diameter of the grains", "80 um", kLength,
+    {"--density", "powder.material.density", "density of the grains", "4400 kg/m^3", kDensity,
+     &SpecAnswers::density, Asked::kAlways, BenchQuantity::kGrainDensity},
+    {"--grain-diameter", "powder.sizes.diameter", "median diameter of the grains", "80 um", kLength,
      &SpecAnswers::grain_diameter, Asked::kAlways, BenchQuantity::kGrainDiameter},
-    {"--restitution", "coefficient of restitution of the grains", "0.8", kNone,
-     &SpecAnswers::restitution, Asked::kMayBeOpen},
-    {"--rolling-damping", "rolling damping of the EPSD law", "0.3", kNone,
-     &SpecAnswers::rolling_damping, Asked::kMayBeOpen},
+    {"--restitution", "powder.material.restitution", "coefficient of restitution of the grains",
+     "0.8", kNone, &SpecAnswers::restitution, Asked::kMayBeOpen},
+    {"--rolling-damping", "powder.material.rolling_damping", "rolling damping of the EPSD law",
+     "0.3", kNone, &SpecAnswers::rolling_damping, Asked::kMayBeOpen},
 };
 
 bool IsAsked(const Question& question, const SpecAnswers& answers) {
@@ -204,6 +206,20 @@ bool AskAgain(SpecAnswers& answers) {
     AskTests(answers);
   }
   return static_cast<bool>(std::cin);
+}
+
+std::string ProblemsByFlag(const std::string& problems, const std::string& out) {
+  std::istringstream lines(problems);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(out + ":")) line.erase(0, line.find(' ', out.size()) + 1);
+    for (const Question& question : kQuestions) {
+      const std::string key = std::string(question.key) + ":";
+      if (line.starts_with(key)) line.replace(0, key.size(), std::string(question.flag) + ":");
+    }
+    text += (text.empty() ? "" : "\n") + line;
+  }
+  return text;
 }
 
 std::string AnswerFlags(const SpecAnswers& answers) {

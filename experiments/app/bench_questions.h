@@ -25,6 +25,10 @@ void Complete(campaign::SpecAnswers& answers);
 // All questions once more, of which Enter keeps the answer. False where there is no more input.
 bool AskAgain(campaign::SpecAnswers& answers);
 
+// What is wrong with a spec of these answers, which is no file yet: without the lines of `out`, and
+// with the flag in place of the key that it is the answer of.
+std::string ProblemsByFlag(const std::string& problems, const std::string& out);
+
 // The answers as the flags that would give them again: " --mass '1.5 g' …".
 std::string AnswerFlags(const campaign::SpecAnswers& answers);
 

@@ -104,7 +104,12 @@ std::string NameOf(const InitArguments& arguments) {
 
 std::string CheckedSpec(const campaign::SpecAnswers& answers, const std::filesystem::path& out) {
   std::string text = campaign::DraftSpec(answers);
-  campaign::ReadCampaignSpec(base::ParseJson(text, out.string()));
+  const base::JsonFile file = base::ParseJson(text, out.string());
+  try {
+    campaign::ReadCampaignSpec(file);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(ProblemsByFlag(error.what(), out.string()));
+  }
   return text;
 }
 

@@ -141,7 +141,8 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
   problems.Require(
-      !pixel_size || (*pixel_size > 0 && (as_wide_as_heap || *pixel_size < plate_diameter / 8)),
+      !pixel_size ||
+          (*pixel_size > 0 && (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
       "pixel_size", pixel_size.value_or(0), "must be positive and below an eighth of the plate");
   problems.Require(!pixel_size || *pixel_size >= plate_diameter / kMostPixels, "pixel_size",
                    pixel_size.value_or(0), "must be at least a 20000th of the plate");

@@ -216,6 +216,11 @@ class Progress(unittest.TestCase):
         done = talus("init", photos, "--out", str(out), *flags, "--rolling-damping", "-1")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--rolling-damping: is -1, must be positive", done.stderr)
+        # Nothing is written, so no line of a file is named.
+        done = talus("init", photos, "--out", str(out), *[word.replace("1.602 g", "1.602 kg") for word in flags])
+        self.assertEqual(done.returncode, 2)
+        self.assertTrue(done.stderr.startswith("--mass: is 1.602, in kg"), done.stderr)
+        self.assertIn('write "1.602 g" for grams', done.stderr)
 
     # Their names say which heap each is of; once they made one heap of eighty views.
     def test_photographs_one_by_one_are_runs(self):

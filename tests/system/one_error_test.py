@@ -39,21 +39,23 @@ class OneError(unittest.TestCase):
     def check(self, good, verb, least):
         places = list(quantities(good))
         self.assertGreaterEqual(len(places), least)
+        faults = []
         with tempfile.TemporaryDirectory() as name:
             path = pathlib.Path(name) / "spec.json"
             for steps in places:
                 for bad in ("12 parsec", "1,5 mm", "much", [1]):
                     path.write_text(json.dumps(with_value(good, steps, bad), indent=1))
                     done = subprocess.run([TALUS, *verb, path], capture_output=True, text=True, cwd=name)
-                    self.assertEqual(done.returncode, 2, (steps, bad, done.stderr))
-                    self.assertEqual(len(done.stderr.strip().splitlines()), 1, (steps, bad, done.stderr))
                     where = re.sub(r"\.(\d+)", r"[\1]", ".".join(map(str, steps)))
-                    self.assertIn(where + ":", done.stderr)
+                    lines = done.stderr.strip().splitlines()
+                    if done.returncode != 2 or len(lines) != 1 or where + ":" not in lines[0]:
+                        faults.append(f"{where} = {bad!r}: {done.returncode}\n{done.stderr}")
+        self.assertEqual(faults, [], "\n".join(faults))
 
     def test_of_a_campaign_with_one_test(self):
         good = example("demo/campaign.json")
         good["experiment"]["photos"] = str(SOURCE / "examples/photos/powder_a")
-        self.check(good, ["validate", "--without-experiment"], 12)
+        self.check(good, ["validate", "--without-experiment"], 11)
 
     def test_of_a_campaign_with_two_tests_and_masses_of_their_own(self):
         good = example("demo/two_tests.json")

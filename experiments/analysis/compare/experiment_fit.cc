@@ -170,8 +170,9 @@ std::string FitSentence(const std::vector<FitRow>& rows) {
             base::Listed(missed) + ".";
   }
   if (!open.empty()) {
-    text += (text.empty() ? "" : " ") + std::string("How well ") + base::Listed(open) +
-            (open.size() == 1 ? " is" : " are") + " met is not known.";
+    text += (text.empty() ? "" : " ") +
+            std::string("The few simulations with these values do not tell how well ") +
+            base::Listed(open) + (open.size() == 1 ? " is" : " are") + " met.";
   }
   return text;
 }

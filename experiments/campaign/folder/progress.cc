@@ -42,9 +42,7 @@ std::string ProgressText(const TrialProgress& trial) {
 
 std::string ProgressText(const CampaignProgress& campaign) {
   std::string text = campaign.used;
-  if (campaign.num_confirm > 0) {
-    text += ", then " + std::to_string(campaign.num_confirm) + " to confirm";
-  }
+  if (campaign.num_confirm > 0) text += ", the search has ended and its sets are confirmed";
   text += ", " + std::to_string(campaign.num_running) + " running";
   if (campaign.best) {
     text += ", best " + base::ShortNumber(*campaign.best) + " " + campaign.unit + " (trial " +

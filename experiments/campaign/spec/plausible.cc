@@ -181,7 +181,8 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     const Place place(spec.experiments ? "experiments[" + std::to_string(i) + "]" : "");
     RequirePossible(e.numbers, place(""), problems);
     CheckDensities(e.numbers, spec.powder.material.density, place, problems);
-    if (e.mass) CheckMasses(e.numbers, *e.mass, place, problems);
+    // One that could not be read is 0.
+    if (e.mass && *e.mass > 0) CheckMasses(e.numbers, *e.mass, place, problems);
     rigs::Powder powder = spec.powder;
     powder.mass = MostMass(spec, e);
     const bool own_mass = spec.experiments && (*spec.experiments)[i].mass;

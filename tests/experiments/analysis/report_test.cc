@@ -271,6 +271,27 @@ TEST(NextSteps, ADifferentTestComesFirstWhereACurveIsLeft) {
   EXPECT_TRUE(NextSteps(test::MakeSyntheticCampaign({.num_trials = 12}), {}).empty());  // no model
 }
 
+// `talus next` without --simulate has judged what costs nothing only.
+TEST(NextSteps, ADifferentTestComesFirstWhereNoneHasBeenJudged) {
+  const CandidateView runs{.kind = "more_runs",
+                           .name = "more runs of heap",
+                           .what = "photograph 5 more runs",
+                           .bits = 0.1,
+                           .width = {0.4, 0.4},
+                           .remaining = 0.95,
+                           .apart = {},
+                           .apart_by = {},
+                           .picture = {}};
+  CandidateView wide = runs;
+  wide.kind = "test";
+  wide.bits = kUndefined;
+  const NextTableView table{.width = {0.5, 0.4}, .candidates = {runs, wide}};
+  const std::vector<NextStep> steps =
+      NextSteps(test::MakeSyntheticCampaign({.num_parameters = 2}), table);
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps.front().what, "Add a different kind of test");
+}
+
 TEST(AnswerWords, PowersOfTenAreThoseOfPrint) {
   EXPECT_EQ(WithPowers("γ 3e-05 (90 %: 2.35e-05 to 1e+12)."),
             "γ 3 × 10⁻⁵ (90 %: 2.35 × 10⁻⁵ to 1 × 10¹²).");

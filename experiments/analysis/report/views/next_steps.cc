@@ -207,6 +207,14 @@ void AddCandidates(const Evidence& evidence, const NextTableView& table,
   }
 }
 
+// Where no test has been simulated yet none is in the order, though one of them may narrow most.
+bool HasUnjudgedTestsOnly(const NextTableView& table) {
+  const auto is_test = [](const CandidateView& c) { return c.kind == "test"; };
+  const auto is_judged = [&](const CandidateView& c) { return is_test(c) && !std::isnan(c.bits); };
+  return std::ranges::any_of(table.candidates, is_test) &&
+         std::ranges::none_of(table.candidates, is_judged);
+}
+
 }  // namespace
 
 std::vector<NextStep> NextSteps(const Evidence& evidence,
@@ -215,6 +223,7 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
   const bool has_draws = evidence.answer && evidence.model;
   if (table) {
     AddCandidates(evidence, *table, steps);
+    if (has_draws && HasUnjudgedTestsOnly(*table)) AddSecondTest(evidence, steps);
   } else if (has_draws) {
     for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
       const std::string& name = evidence.parameters[k].range.name;
