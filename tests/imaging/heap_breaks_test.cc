@@ -75,7 +75,7 @@ TEST(HeapBreaks, NumbersThatAreMissingBetweenEquallyManyAreAnotherHeap) {
 
 TEST(HeapBreaks, APlateThatWasPutBackElsewhereIsAnotherHeap) {
   const auto moved = [](int heap, int view, MeasuredView& v) {
-    v.plate.center_x = 320 + 3 * heap + 0.05 * (view % 2);
+    v.plate.center_x = 320 + 3 * heap + 0.05 * (view % 3);
   };
   EXPECT_THAT(TextOf(Heaps(4, 4, moved)), HasSubstr("the plate stands 3 px off"));
 }
