@@ -3,22 +3,13 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text/replaced.h"
 
 namespace talus::base {
 namespace {
 
 // A key or a value that holds a line break would write a line of its own.
-std::string OneLine(std::string_view text) {
-  std::string line;
-  for (const char c : text) {
-    if (c == '\n') {
-      line += "\\x0a";
-    } else {
-      line += c;
-    }
-  }
-  return line;
-}
+std::string OnOneLine(std::string_view text) { return Replaced(text, "\n", "\\x0a"); }
 
 }  // namespace
 
@@ -58,12 +49,12 @@ std::string Problems::Text() const {
   for (std::size_t i = 0; i < list_.size(); ++i) {
     if (i > 0) text << '\n';
     if (!file_.empty()) {
-      text << OneLine(file_) << ':';
+      text << OnOneLine(file_) << ':';
       if (places[i].line > 0) text << places[i].line << ':' << places[i].column << ':';
       text << ' ';
     }
-    if (!paths[i].empty()) text << OneLine(paths[i]) << ": ";
-    text << OneLine(list_[i].message);
+    if (!paths[i].empty()) text << OnOneLine(paths[i]) << ": ";
+    text << OnOneLine(list_[i].message);
   }
   if (num_more_ > 0) text << "\n… and " << num_more_ << " more problems";
   return text.str();

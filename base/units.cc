@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/replaced.h"
 
 namespace talus::base {
 namespace {
@@ -87,20 +88,15 @@ std::string_view Trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-void Replace(std::string& text, std::string_view from, std::string_view to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-}
-
 // "µm" → "um", "kg/m³" and "kg/m3" → "kg/m^3", "mm/sec" → "mm/s": as people type them.
 std::string Canonical(std::string_view unit) {
   std::string name(unit);
-  for (const char* micro : {"µ", "μ"}) Replace(name, micro, "u");
-  for (const auto& [from, to] : {std::pair{"²", "^2"}, {"³", "^3"}}) Replace(name, from, to);
+  for (const char* micro : {"µ", "μ"}) name = Replaced(name, micro, "u");
+  for (const auto& [from, to] : {std::pair{"²", "^2"}, {"³", "^3"}})
+    name = Replaced(name, from, to);
   for (const char* letter : {"m", "s"}) {
     for (const char* power : {"2", "3"}) {
-      Replace(name, std::string(letter) + power, std::string(letter) + "^" + power);
+      name = Replaced(name, std::string(letter) + power, std::string(letter) + "^" + power);
     }
   }
   if (name.ends_with("sec")) name.resize(name.size() - 2);

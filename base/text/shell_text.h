@@ -4,13 +4,13 @@
 #include <string>
 #include <string_view>
 
+#include "base/text/replaced.h"
+
 namespace talus::base {
 
 // In single quotes, as a shell takes any text.
 inline std::string ShellQuoted(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+  return "'" + Replaced(text, "'", "'\\''") + "'";
 }
 
 // One word of a shell: in single quotes where it would not be taken as it is.

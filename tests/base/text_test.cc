@@ -8,6 +8,7 @@
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "base/text/replaced.h"
 
 namespace talus::base {
 namespace text_test {
@@ -38,6 +39,13 @@ TEST(NumberText, WhatPeopleReadHasNoPowersOfTen) {
 TEST(NumberText, FileNumbersSortUpToTenThousand) {
   EXPECT_EQ(FileNumber(7), "0007");
   EXPECT_EQ(FileNumber(12345), "12345");
+}
+
+TEST(Replaced, EverywhereAndWhatIsPutInIsLeftAlone) {
+  EXPECT_EQ(Replaced("m2/m2", "m2", "m^2m2"), "m^2m2/m^2m2");
+  EXPECT_EQ(Replaced("a\n\nb\n", "\n", "\\x0a"), "a\\x0a\\x0ab\\x0a");
+  EXPECT_EQ(Replaced("", "x", "y"), "");
+  EXPECT_EQ(Replaced("x", "x", ""), "");
 }
 
 TEST(Csv, QuotesWhatTheFormatNeedsAndLeavesWhatIsNotFinite) {

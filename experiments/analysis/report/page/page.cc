@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "base/text/markup.h"
+#include "base/text/replaced.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "page_files.h"  // made by talus_embed
 
@@ -11,20 +12,6 @@ namespace {
 
 void Replace(std::string& text, std::string_view what, std::string_view with) {
   text.replace(text.find(what), what.size(), with);
-}
-
-// JSON inside a script element: a `<` could end it.
-std::string EscapedJson(std::string_view json) {
-  std::string escaped;
-  escaped.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<') {
-      escaped += "\\u003c";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace
@@ -49,7 +36,8 @@ std::string ReportPage(const ReportData& data, const PageOptions& options) {
   Replace(page, "{{js}}", scripts);
   Replace(page, "{{echarts}}", page_files::kEchartsMinJs);
   Replace(page, "{{echarts_gl}}", page_files::kEchartsGlMinJs);
-  Replace(page, "{{data}}", EscapedJson(PageJson(data)));
+  // JSON inside a script element: a `<` could end it.
+  Replace(page, "{{data}}", base::Replaced(PageJson(data), "<", "\\u003c"));
   return page;
 }
 
