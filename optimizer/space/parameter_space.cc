@@ -154,6 +154,11 @@ void ParameterSpace::Validate(base::Problems& problems) const {
                    "leave no room: none of 100000 points of the ranges meets them all");
 }
 
+bool ParameterSpace::IsContinuous() const {
+  return candidates.empty() &&
+         std::ranges::all_of(parameters, [](const Parameter& p) { return p.levels.empty(); });
+}
+
 std::vector<int> ParameterSpace::Free() const {
   std::vector<int> free;
   for (std::size_t i = 0; i < parameters.size(); ++i) {

@@ -104,6 +104,9 @@ struct ParameterSpace {
   // Coordinates of those that are searched and not asked for, ascending.
   std::vector<Eigen::Index> Nuisances() const;
 
+  // Whether any point may be evaluated: there are neither levels nor a table.
+  bool IsContinuous() const;
+
   // One value a parameter, the fixed ones among them, in the order of `parameters`.
   std::vector<double> ToNative(const Eigen::VectorXd& unit) const;
   Eigen::VectorXd ToUnit(std::span<const double> native) const;

@@ -87,7 +87,11 @@ void StrategyOptions::Validate(base::Problems& problems) const {
   }
 }
 
-void StrategyOptions::ValidateFor(int num_parameters, base::Problems& problems) const {
+void StrategyOptions::ValidateFor(int num_parameters, bool continuous,
+                                  base::Problems& problems) const {
+  problems.Require(continuous || TakesLists(kind), "kind",
+                   "is a search over continuous parameters: with levels or candidates use "
+                   "\"auto\", \"gp\", \"rbf\", \"lhs\" or \"sobol\"");
   if (kind != StrategyKind::kGrid) return;
   problems.Require(levels.empty() || static_cast<int>(levels.size()) == num_parameters, "levels",
                    "has " + std::to_string(levels.size()) + " numbers for " +
@@ -102,10 +106,7 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options, const Dom
                                        const FieldObjective* field, std::uint64_t seed) {
   base::Problems problems;
   options.Validate(problems);
-  options.ValidateFor(domain.num_parameters, problems);
-  problems.Require(domain.IsContinuous() || TakesLists(options.kind), "kind",
-                   "is a search over continuous parameters: with levels or candidates use "
-                   "\"auto\", \"gp\", \"rbf\", \"lhs\" or \"sobol\"");
+  options.ValidateFor(domain.num_parameters, domain.IsContinuous(), problems);
   problems.ThrowIfAny();
   switch (options.kind) {
     case StrategyKind::kAuto:

@@ -60,8 +60,8 @@ struct StrategyOptions {
   }
   void Validate(base::Problems& problems) const;
 
-  // What only shows once the number of parameters is known.
-  void ValidateFor(int num_parameters, base::Problems& problems) const;
+  // What only shows once the space is known; `continuous`: with neither levels nor candidates.
+  void ValidateFor(int num_parameters, bool continuous, base::Problems& problems) const;
 };
 
 // `field` is given when evaluations bring images; the strategy copies it. Equal arguments and equal

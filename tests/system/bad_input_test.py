@@ -189,7 +189,8 @@ def good_folder(folder):
         {**example("scenes/heap_case.json"),
          "pairs": [{"between": ["powder", "plate"], "sliding_friction": 0.2}]}))
     (folder / "degrees.json").write_text('{"angle_of_repose_1": {"value": 33, "sd": "1 deg"}}')
-    (folder / "candidates.json").write_text('{"candidates": [{"name": "again"}]}')
+    (folder / "levels.json").write_text(json.dumps(
+        {"parameters": [{"name": "rpm", "levels": [10, 20]}], "evaluations": 2, "strategy": {"kind": "grid"}}))
     (folder / "further.json").write_text(
         '{"name": "plate", "mass_fallen": {"value": "21 mg", "sd": "2 mg"}}')
 

@@ -125,20 +125,6 @@ class Progress(unittest.TestCase):
         self.assertEqual(events[-1]["result"],
                          json.loads((self.folder / "out/result.json").read_text()))
 
-    # Each may find the folder empty before the other has begun: the lock decides.
-    def test_of_two_at_once_one_begins_the_campaign(self):
-        out = self.folder / "out"
-        both = [subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"],
-                                 stderr=subprocess.PIPE, text=True) for _ in range(2)]
-        said = [process.communicate(timeout=600)[1] for process in both]
-        self.assertIn(sorted(process.returncode for process in both), ([0, 1], [0, 2]), said)
-        self.assertRegex("".join(said), "holds a campaign already|another process")
-        self.assertEqual(talus("resume", out, "--quiet").returncode, 0)
-        exported = talus("export", out)
-        self.assertEqual(exported.returncode, 0, exported.stderr)
-        trials = json.loads((out / "export/trials.json").read_text())["trials"]
-        self.assertEqual([trial["id"] for trial in trials], list(range(1, 4 + 2 + 1)))
-
     def test_quiet_says_nothing_and_does_the_same(self):
         done = talus("calibrate", str(self.spec), "--out", str(self.folder / "out"), "--quiet")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))

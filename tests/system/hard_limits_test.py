@@ -9,6 +9,8 @@ import sys
 import tempfile
 import unittest
 
+from quick_campaign import PILE, quick_spec
+
 TALUS = sys.argv[1]
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 PROBLEM = SOURCE / "examples/optimize/bowl.json"
@@ -24,12 +26,29 @@ def optimize(command, evaluations=6):
 
 
 class HardLimits(unittest.TestCase):
-    def test_an_answer_that_a_full_device_does_not_take_is_a_failure(self):
-        for arguments in (["--version"], ["help", "card"], ["validate", SOURCE / "examples/demo/two_tests.json"]):
+    def assert_not_taken(self, commands):
+        for arguments in commands:
             with open("/dev/full", "w") as full:
                 done = subprocess.run([TALUS, *arguments], stdout=full, stderr=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, 1, arguments)
             self.assertIn("standard output cannot be written", done.stderr)
+
+    def test_an_answer_that_a_full_device_does_not_take_is_a_failure(self):
+        self.assert_not_taken((["--version"], ["help", "card"],
+                               ["validate", SOURCE / "examples/demo/two_tests.json"]))
+
+    def test_so_is_what_a_campaign_says(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "deck").mkdir()
+            (root / "deck/run.sh").write_text(PILE)
+            (root / "quick.json").write_text(json.dumps(
+                quick_spec(SOURCE, "quick", ["sh", "run.sh"], budget={"simulations": 8})))
+            done = subprocess.run([TALUS, "calibrate", root / "quick.json", "--out", root / "out", "--quiet"],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assert_not_taken((["status", root / "out"], ["card", root / "out"], ["next", root / "out"],
+                                   ["consider", root / "out", "sliding_friction=0.5"]))
 
     def test_a_reader_that_has_gone_is_no_failure(self):
         process = subprocess.Popen([TALUS, "help", "card"], stdout=subprocess.PIPE)

@@ -139,6 +139,28 @@ def check_projection():
     raises(talus.ConfigError, "width", talus.project, numpy.zeros((0, 4)), {**FRAME, "width_px": -1})
 
 
+def check_chance_buffers():
+    """Arrays of any type, shape and order, full of chance: each is taken, or refused in words."""
+    chance = numpy.random.default_rng(4)
+    strategy = talus.Strategy([{"name": "a", "low": 0, "high": 1}], target=numpy.full((8, 9), 255, numpy.uint8))
+    taken = 0
+    for _ in range(400):
+        kind = chance.choice(["u1", "?", "i2", ">i4", "f2", ">f8", "c16", "S3", "M8[s]", "V5"])
+        shape = tuple(chance.integers(0, 9, chance.integers(0, 4))) if chance.random() < 0.7 else (8, 9)
+        size = int(numpy.prod(shape)) * numpy.dtype(kind).itemsize
+        array = numpy.frombuffer(chance.bytes(size), kind).reshape(shape)
+        if array.ndim and chance.random() < 0.5:
+            array = array[..., ::-1]  # its rows run backwards
+        for call in (lambda: talus.project(array, FRAME), lambda: talus.compare(array, array, FRAME),
+                     lambda: strategy.tell({"a": .5}, image=array)):
+            try:
+                call()
+                taken += 1
+            except (talus.ConfigError, ValueError, TypeError):
+                pass
+    assert taken > 5, taken
+
+
 def check_campaign(program, root):
     heap = talus._core.read_image(str(root / "heap/profile.png"))
     assert heap.shape == (80, 120)
@@ -217,6 +239,7 @@ def check_inference_data(campaign):
 check_ask_tell()
 check_images_as_evaluations()
 check_projection()
+check_chance_buffers()
 with tempfile.TemporaryDirectory() as scratch:
     check_simulation(pathlib.Path(scratch))
     check_campaign(sys.argv[1], pathlib.Path(scratch))

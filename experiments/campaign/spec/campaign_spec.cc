@@ -236,7 +236,8 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
     const optimizer::ParameterSpace space = SpaceOf(spec);
     space.Validate(problems);
     problems.Within("strategy", [&] {
-      spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), problems);
+      spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(),
+                                problems);
     });
   }
   problems.ThrowIfAny();

@@ -22,8 +22,9 @@ void OptimizeProblem::Validate(base::Problems& problems) const {
                      "parameters[" + std::to_string(i) + "].name",
                      "must not be \"seed\": the command is given one under that name");
   }
-  problems.Within("strategy",
-                  [&] { strategy.ValidateFor(static_cast<int>(space.Free().size()), problems); });
+  problems.Within("strategy", [&] {
+    strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(), problems);
+  });
   problems.Require(evaluations >= 1, "evaluations", evaluations, "must be at least 1");
   problems.RequireFromTo("workers", workers, 1, 8);
   problems.Require(time_cap > 0, "time_cap", time_cap, "must be positive");

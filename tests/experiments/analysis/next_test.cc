@@ -417,6 +417,17 @@ TEST_F(NextTest, CandidatesComeFromAFile) {
   }
 }
 
+// It would be ranked, simulated and made, and then refused.
+TEST_F(NextTest, ATestThatCouldNotBeAddedSaysWhy) {
+  const JointView view = Run();
+  TestCandidate test{.name = "drum", .rig = rigs::RigOptions{.kind = rigs::RigKind::kDrum}};
+  test.rig->drum.speed = 40;
+  EXPECT_THAT(WhyNot(view, test), HasSubstr("rig.speed: is 40, rad/s is so fast"));
+  const TestCandidate same{.name = view.record.experiments.front().name};
+  EXPECT_THAT(WhyNot(view, same), HasSubstr("is that of an experiment of the campaign"));
+  for (const TestCandidate& usual : UsualTests(view)) EXPECT_EQ(WhyNot(view, usual), "");
+}
+
 TEST_F(NextTest, TooFewTrialsForAPosteriorAreSaid) {
   const fs::path folder = Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]},
     "budget": {"simulations": 3}, "confirm": {"candidates": 0}, "workers": 1)");

@@ -159,6 +159,20 @@ TEST_F(AddExperimentTest, AJournalThatIsMadeAnewKnowsWhatItsTrialsHaveCost) {
   EXPECT_EQ(cost(), before);
 }
 
+// 600 trials were spent on a number that none of them left.
+TEST_F(AddExperimentTest, ANumberThatTheEngineDoesNotLeaveStopsTheSearchAtItsFirstTrial) {
+  const fs::path folder = Ended();
+  Add(folder, Write(TwoExperiments::FastLift("23 mg")), {.core_time = 10});
+  try {
+    RunFake(folder, {.no_numbers = true});
+    ADD_FAILURE() << "it went on";
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("leaves no number"));
+  }
+  const auto after = Trials(folder);
+  EXPECT_EQ(std::ranges::count(after, 1, &journal::TrialRecord::experiment), 1);
+}
+
 TEST_F(AddExperimentTest, WhatCannotBeAddedChangesNothing) {
   const fs::path folder = Ended();
   const std::string spec =
