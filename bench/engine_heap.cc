@@ -1,11 +1,11 @@
 // engine_heap [--spheres N] [--ratio D/d] [--sliding MU] [--rolling MU] [--seed N] [--threads N]
 //   [--modulus Y] [--settle T] [--lift T] [--speed V] [--rest T] [--data FILE] [--csv FILE]
-//   [--rayleigh F] [--share S]
+//   [--rayleigh F] [--share S] [--restitution E] [--elastic-limit 0|1]
 // The whole lifted-tube problem of bench/peers/README.md: fill and settle 0.08 s, lift 0.20 s at
 // 0.05 m/s, rest 0.22 s, steps of 0.15 Rayleigh times, unless told otherwise. Prints the time each
 // part took, and the heap, which
 // --csv writes. --data writes the start for LAMMPS and LIGGGHTS; --share runs only that share of
-// each part.
+// each part; --elastic-limit 1 bounds friction by the elastic normal force (T4).
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -57,6 +57,8 @@ void Run(std::map<std::string, std::string> options) {
   take("--sliding", heap.sliding_friction);
   take("--rolling", heap.rolling_friction);
   take("--modulus", heap.youngs_modulus);
+  take("--restitution", heap.restitution);
+  take("--elastic-limit", heap.coulomb_limit);
   take("--settle", heap.settle_time);
   take("--lift", heap.lift_time);
   take("--speed", heap.lift_speed);

@@ -55,6 +55,8 @@ struct PeerHeap {
   double sliding_friction = 0.5;
   double rolling_friction = 0.1;
   double youngs_modulus = 26.25e6;  // [Pa]
+  double restitution = 0.9;
+  engine::CoulombLimit coulomb_limit = engine::CoulombLimit::kTotalForce;
   double settle_time = 0.08;        // [s]
   double lift_time = 0.20;          // [s]
   double lift_speed = 0.05;         // [m/s]
@@ -68,6 +70,8 @@ struct PeerHeap {
     scene.materials[0].sliding_friction = sliding_friction;
     scene.materials[0].rolling_friction = rolling_friction;
     scene.materials[0].youngs_modulus = youngs_modulus;
+    scene.materials[0].restitution = restitution;
+    scene.models.coulomb_limit = coulomb_limit;
     scene.num_threads = num_threads;
     scene.rayleigh_fraction = rayleigh_fraction;
     std::get<engine::OpenCylinder>(scene.walls[0].shape).length = 0.06;

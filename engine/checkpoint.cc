@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 6;  // raised with every change of what is written
+constexpr std::uint32_t kVersion = 7;  // raised with every change of what is written
 
 struct Head {
   char magic[8] = {'t', 'a', 'l', 'u', 's', '-', 'c', 'k'};
@@ -104,6 +104,12 @@ void VisitPairs(Archive& archive, List& pairs) {
   }
 }
 
+// Field by field: what stands between the fields is left to chance.
+template <class Archive>
+void VisitModels(Archive& archive, ContactModels& models) {
+  ContactModels::Visit(models, [&](const char*, auto& value, base::FieldInfo) { archive(value); });
+}
+
 template <class Archive>
 void VisitParticles(Archive& archive, ParticleStore& particles) {
   archive(particles.num);
@@ -139,7 +145,7 @@ template <class Archive>
 void VisitState(Archive& archive, SimulationState& state) {
   archive(state.materials);
   VisitPairs(archive, state.pairs);
-  archive(state.models);
+  VisitModels(archive, state.models);
   archive(state.gravity);
   archive(state.gravity_turns);
   archive(state.dt);

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "engine/kernel/shapes.h"
+#include "engine/laws/scalar_law.h"
 #include "engine/simulation_state.h"
 
 namespace talus::engine {
@@ -11,21 +12,6 @@ namespace {
 
 Vector<double> ToVector(const Vec3& a) { return {a.x, a.y, a.z}; }
 Vec3 ToVec3(const Vector<double>& a) { return {a.x, a.y, a.z}; }
-
-using ScalarLaw = Response<double> (*)(const PairConstants&, const Contact<double>&, const double&,
-                                       History<double>&);
-
-template <class Normal, class... Rollings>
-ScalarLaw PickRolling(int rolling, LawList<Rollings...>) {
-  const ScalarLaw list[] = {&Respond<Normal, Rollings, double>...};
-  return list[rolling];
-}
-template <class... Normals>
-ScalarLaw PickLaw(const ContactModels& models, LawList<Normals...>) {
-  const int rolling = static_cast<int>(models.rolling);
-  const ScalarLaw list[] = {PickRolling<Normals>(rolling, RollingLaws{})...};
-  return list[static_cast<int>(models.adhesion)];
-}
 
 Body<double> BodyOf(const ParticleStore& p, std::int64_t i) {
   return {p.Radius(i), p.InverseMass(i), p.InverseInertia(i), ToVector(p.Velocity(i)),
@@ -122,7 +108,7 @@ std::vector<Particle> SimulationState::FullStep() {
 }
 
 std::vector<WallLoad> SimulationState::WallLoads() const {
-  const ScalarLaw law = PickLaw(models, NormalLaws{});
+  const ScalarLaw law = PickLaw(models);
   std::vector<WallLoad> loads(walls.size());
   for (const Chunk& chunk : list.chunks()) {
     for (const PairRun& run : chunk.runs) {
@@ -139,7 +125,7 @@ void SimulationState::WeighPresses() {
   const std::vector<Press>& presses = walls.presses();
   press_loads.assign(presses.size(), 0);
   if (presses.empty()) return;
-  const ScalarLaw law = PickLaw(models, NormalLaws{});
+  const ScalarLaw law = PickLaw(models);
   for (const Chunk& chunk : list.chunks()) {
     for (const PairRun& run : chunk.runs) {
       for (std::size_t k = 0; k < presses.size(); ++k) {
@@ -151,7 +137,7 @@ void SimulationState::WeighPresses() {
 }
 
 std::vector<ContactInfo> SimulationState::Contacts() const {
-  const ScalarLaw law = PickLaw(models, NormalLaws{});
+  const ScalarLaw law = PickLaw(models);
   std::vector<ContactInfo> result;
   for (const Chunk& chunk : list.chunks()) {
     for (const PairRun& run : chunk.runs) {

@@ -56,7 +56,7 @@ StepView SimulationState::View() {
 }
 
 ForcesFunction SimulationState::Forces() const {
-  return kernels->forces[static_cast<int>(models.adhesion)][static_cast<int>(models.rolling)];
+  return kernels->forces[RowOf(models)][static_cast<int>(models.rolling)];
 }
 
 void SimulationState::SetThreads(int num_threads) {

@@ -7,7 +7,7 @@ namespace talus::engine::TALUS_TARGET {
 
 // A part costs the same however many of its lanes are in reach, and in a flowing powder that is
 // about half of them.
-template <class NormalLaw, class RollingLaw>
+template <class Law>
 class Batch {
  public:
   TALUS_INLINE Batch(const StepView& step, const PanelView& panel, const KernelConstants& constants)
@@ -34,7 +34,7 @@ class Batch {
     }
     const Pairs pairs = LoadPairs(step_, constants_.adhesion_gap, first_, second_,
                                   Floats::Iota() < Floats(static_cast<float>(num_)));
-    SphereForces<NormalLaw, RollingLaw>(step_, panel_, constants_.law, pairs, *this);
+    SphereForces<Law>(step_, panel_, constants_.law, pairs, *this);
     const int done = count();
     num_ -= done;
     for (int k = 0; k < num_; ++k) {
@@ -52,7 +52,7 @@ class Batch {
     for (int k = 0; k < count(); ++k) {
       for (int c = 0; c < 3; ++c) {
         rows[c][k] = places_[k].block->spring[c][places_[k].lane];
-        if (RollingLaw::kHasMoment) rows[3 + c][k] = places_[k].block->moment[c][places_[k].lane];
+        if (Law::Rolling::kHasMoment) rows[3 + c][k] = places_[k].block->moment[c][places_[k].lane];
       }
     }
     h = {{Floats::Load(rows[0]), Floats::Load(rows[1]), Floats::Load(rows[2])},

@@ -27,15 +27,15 @@ TALUS_INLINE FloatMask MayBeClose(const StepView& step, const SingleConstants& c
   return part.valid & (Dot(offset, offset) < reach * reach);
 }
 
-template <class NormalLaw, class RollingLaw>
+template <class Law>
 TALUS_INLINE void SpherePart(const StepView& step, const PanelView& panel,
                              const KernelConstants& constants, const Part& part,
-                             Batch<NormalLaw, RollingLaw>& batch) {
+                             Batch<Law>& batch) {
   const unsigned touching = (part.touching >> part.lane) & part.mask();
   if (__builtin_popcount(touching) > kFewLanes) {
     const Pairs pairs =
         LoadPairs(step, constants.adhesion_gap, part.first(), part.second(), part.valid);
-    SphereForces<NormalLaw, RollingLaw>(step, panel, constants.law, pairs, part);
+    SphereForces<Law>(step, panel, constants.law, pairs, part);
     return;
   }
   const unsigned close = Bits(MayBeClose(step, constants.law, part));
@@ -65,7 +65,7 @@ TALUS_INLINE Nearby LoadNearby(const StepView& step, double adhesion_gap, const 
   return {p, nearest, velocity, overlap, overlap > Lanes(-adhesion_gap)};
 }
 
-template <class NormalLaw, class RollingLaw, bool kAny>
+template <class Law, bool kAny>
 TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
                            const KernelConstants& constants, const WallView& wall,
                            const Part& part) {
@@ -86,8 +86,7 @@ TALUS_INLINE void WallPart(const StepView& step, const PanelView& panel,
   const Contact<Floats> contact = MakeContact(Narrow(a.nearest.normal, b.nearest.normal),
                                               per_length * Narrow(a.overlap, b.overlap), i.radius,
                                               i.radius * i.angular_velocity, i, j);
-  const Response<Floats> on_i =
-      Answer<NormalLaw, RollingLaw>(constants.law, step, contact, active, part);
+  const Response<Floats> on_i = Answer<Law>(constants.law, step, contact, active, part);
   AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, part.first(),
                    panel.begin);
 }
@@ -106,13 +105,13 @@ TALUS_INLINE Part PartAt(const PanelView& panel, const PairRun& run, std::int64_
 }
 
 // Not inlined: scenes without such walls must not pay for them.
-template <class NormalLaw, class RollingLaw>
+template <class Law>
 [[gnu::noinline]] void AnyWallPart(const StepView& step, const PanelView& panel, Place place) {
   const PairRun& run = *place.run;
   KernelConstants constants = step.constants[run.constants];
   constants.law.keeps_spring = false;  // between spheres only
-  WallPart<NormalLaw, RollingLaw, true>(step, panel, constants, step.walls[run.wall],
-                                        PartAt(panel, run, place.block, place.lane));
+  WallPart<Law, true>(step, panel, constants, step.walls[run.wall],
+                      PartAt(panel, run, place.block, place.lane));
 }
 
 // Asks for what the sweep will come to soon. A panel's pairs reach `window` particles beyond their
@@ -151,7 +150,7 @@ class Ahead {
   std::int64_t next_row_;
 };
 
-template <class NormalLaw, class RollingLaw>
+template <class Law>
 void Forces(const StepView& step, const PanelView& panel) {
   Ahead ahead(step, panel);
   for (std::int64_t r = 0; r < panel.num_runs; ++r) {
@@ -159,7 +158,7 @@ void Forces(const StepView& step, const PanelView& panel) {
     KernelConstants constants = step.constants[run.constants];
     constants.law.keeps_spring = constants.law.keeps_spring && run.wall < 0;
     const std::int64_t num_blocks = (run.num_pairs + kBlock - 1) / kBlock;
-    Batch<NormalLaw, RollingLaw> batch(step, panel, constants);
+    Batch<Law> batch(step, panel, constants);
     for (std::int64_t b = 0; b < num_blocks; ++b) {
       const std::int64_t at = run.first_block + b;
       ahead.Block(panel.blocks + at + 3);
@@ -167,14 +166,14 @@ void Forces(const StepView& step, const PanelView& panel) {
       for (int lane = 0; lane < kBlock; lane += Floats::kWidth) {
         const Part part = PartAt(panel, run, b, lane);
         if (run.wall < 0) {
-          SpherePart<NormalLaw, RollingLaw>(step, panel, constants, part, batch);
+          SpherePart<Law>(step, panel, constants, part, batch);
           continue;
         }
         const WallView& wall = step.walls[run.wall];
         if (wall.turns || wall.kind >= ShapeKind::kAnnulus) {
-          AnyWallPart<NormalLaw, RollingLaw>(step, panel, {&panel.runs[r], b, lane});
+          AnyWallPart<Law>(step, panel, {&panel.runs[r], b, lane});
         } else {
-          WallPart<NormalLaw, RollingLaw, false>(step, panel, constants, wall, part);
+          WallPart<Law, false>(step, panel, constants, wall, part);
         }
       }
     }

@@ -148,7 +148,7 @@ using ForcesFunction = void (*)(const StepView&, const PanelView&);
 struct KernelTable {
   const char* name;
   int width;  // doubles in a vector
-  ForcesFunction forces[kNumNormalLaws][kNumRollingLaws];
+  ForcesFunction forces[kNumLawRows][kNumRollingLaws];
   MotionCheck (*integrate)(const StepView&, const PanelView&, const Overhang*, std::int64_t);
   // The single rows and spots of particles [begin, end), whole blocks, from their motion.
   void (*round_motion)(const StepView&, std::int64_t begin, std::int64_t end);

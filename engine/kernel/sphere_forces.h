@@ -6,18 +6,18 @@
 namespace talus::engine::TALUS_TARGET {
 
 // What `memory` remembers goes through the law; it may be a Part or a Batch.
-template <class NormalLaw, class RollingLaw, class Memory>
+template <class Law, class Memory>
 TALUS_INLINE Response<Floats> Answer(const SingleConstants& constants, const StepView& step,
                                      const Contact<Floats>& contact, FloatMask active,
                                      const Memory& memory) {
   History<Floats> history;
   memory.Load(history);
   const Floats dt(step.scales.time_step);
-  const Response<Floats> response = Respond<NormalLaw, RollingLaw>(constants, contact, dt, history);
+  const Response<Floats> response = Respond<Law>(constants, contact, dt, history);
   const FloatMask touches = active & (contact.overlap > Floats(0.0f));
   history.spring = OrZero(touches, history.spring);
   history.moment = OrZero(touches, history.moment);
-  memory.Store(history, RollingLaw::kHasMoment);
+  memory.Store(history, Law::Rolling::kHasMoment);
   memory.SetTouching(Bits(touches));
   return {OrZero(active, response.force), OrZero(active, response.lever),
           OrZero(active, response.rolling)};
@@ -65,7 +65,7 @@ TALUS_INLINE Pairs LoadPairs(const StepView& step, double adhesion_gap, const st
           valid & Join(a.reached, b.reached)};
 }
 
-template <class NormalLaw, class RollingLaw, class Memory>
+template <class Law, class Memory>
 TALUS_INLINE void SphereForces(const StepView& step, const PanelView& panel,
                                const SingleConstants& constants, const Pairs& pairs,
                                const Memory& memory) {
@@ -77,8 +77,7 @@ TALUS_INLINE void SphereForces(const StepView& step, const PanelView& panel,
   const Contact<Floats> contact =
       MakeContact(inverse * pairs.offset, pairs.shortfall / (radii + pairs.square * inverse),
                   i.radius * j.radius / radii, surface, i, j);
-  const Response<Floats> on_i =
-      Answer<NormalLaw, RollingLaw>(constants, step, contact, pairs.active, memory);
+  const Response<Floats> on_i = Answer<Law>(constants, step, contact, pairs.active, memory);
   AddToRows<false>(on_i.force, i.radius * on_i.lever + on_i.rolling, panel.forces, memory.first(),
                    panel.begin);
   AddToRows<true>(on_i.force, on_i.rolling - j.radius * on_i.lever, panel.forces, memory.second(),

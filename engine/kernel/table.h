@@ -7,22 +7,21 @@
 
 namespace talus::engine::TALUS_TARGET {
 
-// One row of the table for each normal law, one column for each rolling law.
-template <class Normal, class... Rollings>
-constexpr void FillRow(ForcesFunction* row, LawList<Rollings...>) {
-  ((*row++ = Forces<Normal, Rollings>), ...);
+template <class... Row>
+constexpr void FillRow(ForcesFunction* row, LawList<Row...>) {
+  ((*row++ = Forces<Row>), ...);
 }
-template <class... Normals>
-constexpr void FillRows(KernelTable& table, LawList<Normals...>) {
+template <class... Rows>
+constexpr void FillRows(KernelTable& table, LawList<Rows...>) {
   int row = 0;
-  (FillRow<Normals>(table.forces[row++], RollingLaws{}), ...);
+  (FillRow(table.forces[row++], Rows{}), ...);
 }
 
 constexpr KernelTable MakeTable(const char* name) {
   KernelTable table{};
   table.name = name;
   table.width = Lanes::kWidth;
-  FillRows(table, NormalLaws{});
+  FillRows(table, LawRows{});
   table.integrate = Integrate;
   table.round_motion = RoundMotion;
   table.search = Search;

@@ -1,7 +1,6 @@
-// Hertz–Mindlin: stiffness, damping and Coulomb's limit of a contact, N1–N5 and T1–T2.
+// Hertz: the area, stiffness and damping of a contact, N1–N5.
 //
-//   s = √(R*δ)     k_n = (4/3) Y* s     k_t = 8 G* s
-//   F_n = k_n δ + η_n u_n               F_t = k_t δ_t + η_t u_t,   |F_t| ≤ μ_t |F_n|
+//   s = √(R*δ)     k_n = (4/3) Y* s     F_n = k_n δ + η_n u_n
 //
 // F_n is not clamped at zero: e is exact only with the short pull before separation.
 #pragma once
@@ -39,28 +38,6 @@ TALUS_INLINE V HertzForce(const PairConstantsOf<T>& p, const Contact<V>& c,
                           const ContactArea<V>& area) {  // N5
   const V damping = V(p.normal_damping) * area.root_s * c.root_m_star;
   return V(p.normal_stiffness) * area.s * c.overlap + damping * c.closing_speed;
-}
-
-// The friction on i is minus the result. Advances the spring (K4) and shortens it when the contact
-// slides (T2), unless it is kept (A7).
-template <class V, class T>
-TALUS_INLINE Vector<V> Friction(const PairConstantsOf<T>& p, const Contact<V>& c,
-                                const ContactArea<V>& area, const V& limiting, const V& dt,
-                                Vector<V>& spring) {
-  spring = spring + dt * c.sliding;
-  spring = spring - Dot(spring, c.normal) * c.normal;
-  const V stiffness = V(p.shear_stiffness) * area.s;
-  const Vector<V> dashpot = (V(p.tangential_damping) * area.root_s * c.root_m_star) * c.sliding;
-  const Vector<V> trial = stiffness * spring + dashpot;  // T1
-  const V square = Dot(trial, trial);
-  const V limit = V(p.sliding_friction) * Abs(limiting);
-  const auto slides = square > limit * limit;
-  const V scale = Select(slides, limit * Rsqrt(square), V(1.0));
-  const Vector<V> force = scale * trial;
-  if (p.keeps_spring) return force;
-  const V compliance = area.inverse_s * V(p.shear_compliance);
-  spring = Select(slides, compliance * (force - dashpot), spring);
-  return force;
 }
 
 }  // namespace talus::engine

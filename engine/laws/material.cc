@@ -24,6 +24,11 @@ void ContactModels::Validate(base::Problems& problems) const {
                    "full_mobilisation_damping", full_mobilisation_damping, "must be in [0, 1]");
   problems.Require(adhesion_cutoff > 0 && adhesion_cutoff < 1, "adhesion_cutoff", adhesion_cutoff,
                    "must be in (0, 1)");
+  if (coulomb_limit == CoulombLimit::kElasticForce && adhesion != Adhesion::kNone) {
+    problems.Add("coulomb_limit",
+                 "elastic_force is a law without adhesion: set adhesion to none, or "
+                 "leave total_force");
+  }
 }
 
 }  // namespace talus::engine

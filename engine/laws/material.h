@@ -56,6 +56,10 @@ constexpr JkrRollingLimit LastOf(JkrRollingLimit) { return JkrRollingLimit::kFro
 enum class JkrSlidingSpring { kKept, kShortened };
 constexpr JkrSlidingSpring LastOf(JkrSlidingSpring) { return JkrSlidingSpring::kShortened; }
 
+// Which normal force bounds friction: all of it (T2), or its elastic part (T4).
+enum class CoulombLimit { kTotalForce, kElasticForce };
+constexpr CoulombLimit LastOf(CoulombLimit) { return CoulombLimit::kElasticForce; }
+
 // Which laws act between all bodies of a scene.
 struct ContactModels {
   Adhesion adhesion = Adhesion::kNone;
@@ -65,6 +69,7 @@ struct ContactModels {
   double adhesion_cutoff = 0.1;  // C [-], in (0, 1): DMT force at which the gap range ends (A2)
   JkrRollingLimit jkr_rolling_limit = JkrRollingLimit::kNetForce;
   JkrSlidingSpring jkr_sliding_spring = JkrSlidingSpring::kKept;
+  CoulombLimit coulomb_limit = CoulombLimit::kTotalForce;
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -83,6 +88,10 @@ struct ContactModels {
     visit("jkr_sliding_spring", self.jkr_sliding_spring,
           {.doc = "kept, as published: between spheres the tangential spring grows on while it "
                   "slides; shortened: to its limit, as against walls"});
+    visit(
+        "coulomb_limit", self.coulomb_limit,
+        {.doc = "what times mu_t bounds friction: total_force, as published, spring and dashpot of "
+                "the normal force; elastic_force, its spring alone, without adhesion"});
   }
   void Validate(base::Problems& problems) const;
 };

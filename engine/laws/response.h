@@ -1,6 +1,7 @@
 // The whole answer of a contact: what force and torques the two bodies feel.
 #pragma once
 
+#include "engine/laws/friction_laws.h"
 #include "engine/laws/normal_laws.h"
 #include "engine/laws/rolling_laws.h"
 
@@ -13,16 +14,24 @@ struct Response {
   Vector<V> rolling;  // T_r: on i, opposite on j [N m] (R5)
 };
 
+// What acts in a contact, as one type that the kernels are made for.
+template <class NormalLaw, class FrictionLaw, class RollingLaw>
+struct Laws {
+  using Normal = NormalLaw;
+  using Friction = FrictionLaw;
+  using Rolling = RollingLaw;
+};
+
 // Advances the history by dt and gives the forces now. In the gap (δ ≤ 0) only adhesion acts, and
 // the history is zero.
-template <class NormalLaw, class RollingLaw, class V, class T>
+template <class Law, class V, class T>
 TALUS_INLINE Response<V> Respond(const PairConstantsOf<T>& p, const Contact<V>& c, const V& dt,
                                  History<V>& history) {
   const ContactArea<V> area = MakeContactArea(c);
-  const NormalForce<V> normal = NormalLaw::Force(p, c, area);
-  Vector<V> tangential = Friction(p, c, area, normal.friction, dt, history.spring);
+  const NormalForce<V> normal = Law::Normal::Force(p, c, area);
+  Vector<V> tangential = Law::Friction::Force(p, c, area, normal.friction, dt, history.spring);
   const RollingState<V> rolling_state{c, area, normal.rolling, dt};
-  Vector<V> rolling = RollingLaw::Torque(p, rolling_state, history.moment);
+  Vector<V> rolling = Law::Rolling::Torque(p, rolling_state, history.moment);
 
   const auto touches = c.overlap > V(0.0);
   tangential = OrZero(touches, tangential);

@@ -54,6 +54,10 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
          << " J/m2 is used at this scale factor for " << CardNumber(card.surface_energy_given)
          << " J/m2 of the powder.\n";
   }
+  if (card.models.coulomb_limit == engine::CoulombLimit::kElasticForce) {
+    text << mark << "Friction was bounded by the elastic normal force alone (docs/physics.md, T4); "
+         << "most codes bound it by spring and dashpot.\n";
+  }
   for (const std::string& note : card.notes)
     text << mark << "Warning: " << base::OneLine(note) << '\n';
   return text.str();

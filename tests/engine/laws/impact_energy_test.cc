@@ -213,21 +213,13 @@ struct StepBound {
 };
 constexpr StepBound kSteps[] = {{0.05, 1e-4}, {0.15, 1e-3}, {0.30, 8e-3}};
 
-using Case = std::tuple<Target, Adhesion, Rolling>;
-class AnyImpact : public ::testing::TestWithParam<Case> {};
-
-// JKR with its published spring between spheres (A7) is the exception: see the next test.
-TEST_P(AnyImpact, LosesEnergyWhereItIsDampedAndGainsNoneWhereNot) {
-  const auto [target, adhesion, rolling] = GetParam();
+void ExpectNoGain(Target target, const ContactModels& models) {
   for (const StepBound& step : kSteps) {
     for (const double restitution : {0.1, 0.5, 0.8, 1.0}) {
-      const Outcome outcome =
-          OutcomeOf({.target = target,
-                     .models = {.adhesion = adhesion,
-                                .rolling = rolling,
-                                .jkr_sliding_spring = JkrSlidingSpring::kShortened},
-                     .restitution = restitution,
-                     .rayleigh_fraction = step.rayleigh_fraction});
+      const Outcome outcome = OutcomeOf({.target = target,
+                                         .models = models,
+                                         .restitution = restitution,
+                                         .rayleigh_fraction = step.rayleigh_fraction});
       EXPECT_GE(outcome.num_hits, 36);  // half of them; others miss an edge or are still there
       EXPECT_LE(outcome.gain, restitution < 1 ? 0 : step.undamped_gain)
           << "e " << restitution << ", " << outcome.worst.degrees << " deg, mu "
@@ -236,14 +228,60 @@ TEST_P(AnyImpact, LosesEnergyWhereItIsDampedAndGainsNoneWhereNot) {
     }
   }
 }
+
+const auto kEveryBody = Values(Target::kSphere, Target::kPlane, Target::kMovingPlane,
+                               Target::kDiscEdge, Target::kRectangleEdge, Target::kHoleEdge,
+                               Target::kRim, Target::kInside, Target::kOutside, Target::kHopper);
+const auto kEveryRolling =
+    Values(Rolling::kNone, Rolling::kConstant, Rolling::kViscous, Rolling::kEpsd, Rolling::kEpsd2);
+
+using Case = std::tuple<Target, Adhesion, Rolling>;
+class AnyImpact : public ::testing::TestWithParam<Case> {};
+
+// JKR with its published spring between spheres (A7) is the exception: see the last test.
+TEST_P(AnyImpact, LosesEnergyWhereItIsDampedAndGainsNoneWhereNot) {
+  const auto [target, adhesion, rolling] = GetParam();
+  ExpectNoGain(target, {.adhesion = adhesion,
+                        .rolling = rolling,
+                        .jkr_sliding_spring = JkrSlidingSpring::kShortened});
+}
 INSTANTIATE_TEST_SUITE_P(EveryBodyAndLaw, AnyImpact,
-                         Combine(Values(Target::kSphere, Target::kPlane, Target::kMovingPlane,
-                                        Target::kDiscEdge, Target::kRectangleEdge,
-                                        Target::kHoleEdge, Target::kRim, Target::kInside,
-                                        Target::kOutside, Target::kHopper),
+                         Combine(kEveryBody,
                                  Values(Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr),
-                                 Values(Rolling::kNone, Rolling::kConstant, Rolling::kViscous,
-                                        Rolling::kEpsd, Rolling::kEpsd2)));
+                                 kEveryRolling));
+
+// Of forms that are asked for by name.
+using FormCase = std::tuple<Target, ContactModels>;
+class ImpactOfOtherForm : public ::testing::TestWithParam<FormCase> {};
+
+TEST_P(ImpactOfOtherForm, LosesEnergyWhereItIsDampedAndGainsNoneWhereNot) {
+  const auto& [target, models] = GetParam();
+  ExpectNoGain(target, models);
+}
+
+std::vector<ContactModels> ElasticLimits() {
+  std::vector<ContactModels> list;
+  for (const Rolling rolling :
+       {Rolling::kNone, Rolling::kConstant, Rolling::kViscous, Rolling::kEpsd, Rolling::kEpsd2}) {
+    list.push_back({.rolling = rolling, .coulomb_limit = CoulombLimit::kElasticForce});
+  }
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(ElasticLimit, ImpactOfOtherForm,
+                         Combine(kEveryBody, ::testing::ValuesIn(ElasticLimits())));
+
+std::vector<ContactModels> OtherRolling() {
+  std::vector<ContactModels> list{{.rolling = Rolling::kEpsd, .full_mobilisation_damping = 1}};
+  for (const Rolling rolling : {Rolling::kConstant, Rolling::kEpsd}) {
+    list.push_back({.adhesion = Adhesion::kJkr,
+                    .rolling = rolling,
+                    .jkr_rolling_limit = JkrRollingLimit::kFromPullOff,
+                    .jkr_sliding_spring = JkrSlidingSpring::kShortened});
+  }
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(Rolling, ImpactOfOtherForm,
+                         Combine(kEveryBody, ::testing::ValuesIn(OtherRolling())));
 
 // A spring that is kept while it slides gives back what friction took: 20 % of the energy of an
 // undamped impact at μ 1, nothing of one with e 0.8 (docs/physics.md, 5).

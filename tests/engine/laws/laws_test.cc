@@ -141,7 +141,7 @@ TEST(Jkr, KeptSpringsGrowWhileTheySlide) {
     History<double> history{};
     Response<double> response{};
     for (int step = 0; step < 1000; ++step) {
-      response = Respond<JkrAdhesion, NoRolling>(p, c, dt, history);
+      response = Respond<Laws<JkrAdhesion, TotalForceLimit, NoRolling>>(p, c, dt, history);
     }
     const ContactArea<double> area = MakeContactArea(c);
     const double limit = m.sliding_friction * JkrAdhesion::Force(p, c, area).friction;

@@ -2,27 +2,11 @@
 // double precision, for grains from a micrometre to a centimetre.
 #include <gtest/gtest.h>
 
-#include "engine/laws/law_list.h"
+#include "engine/laws/scalar_law.h"
 #include "tests/engine/scenes.h"
 
 namespace talus::engine {
 namespace precision_test {
-
-using Law = Response<double> (*)(const PairConstants&, const Contact<double>&, const double&,
-                                 History<double>&);
-
-template <class Normal>
-Law PickRolling(Rolling rolling) {
-  const Law list[] = {Respond<Normal, NoRolling>, Respond<Normal, ConstantRolling>,
-                      Respond<Normal, ViscousRolling>, Respond<Normal, EpsdRolling>};
-  return list[static_cast<int>(rolling)];
-}
-
-Law PickLaw(const ContactModels& models) {
-  if (models.adhesion == Adhesion::kDmt) return PickRolling<DmtAdhesion>(models.rolling);
-  if (models.adhesion == Adhesion::kJkr) return PickRolling<JkrAdhesion>(models.rolling);
-  return PickRolling<NoAdhesion>(models.rolling);
-}
 
 Vector<double> Plain(const Vec3& a) { return {a.x, a.y, a.z}; }
 Vec3 Back(const Vector<double>& a) { return {a.x, a.y, a.z}; }
@@ -78,7 +62,7 @@ class Reference {
   std::vector<Particle> spheres_;
   Material material_;
   PairConstants pair_;
-  Law law_;
+  ScalarLaw law_;
   double dt_;
   History<double> history_{};
 };
