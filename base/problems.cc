@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/text/replaced.h"
+#include "base/replaced.h"
 
 namespace talus::base {
 namespace {

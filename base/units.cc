@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/text/replaced.h"
+#include "base/replaced.h"
 
 namespace talus::base {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/text/replaced.h"
+#include "base/replaced.h"
 
 namespace talus::base {
 

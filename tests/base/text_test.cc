@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/replaced.h"
 #include "base/text/csv.h"
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
-#include "base/text/replaced.h"
 
 namespace talus::base {
 namespace text_test {

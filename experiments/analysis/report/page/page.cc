@@ -2,8 +2,8 @@
 
 #include <string_view>
 
+#include "base/replaced.h"
 #include "base/text/markup.h"
-#include "base/text/replaced.h"
 #include "experiments/analysis/report/charts/colors.h"
 #include "page_files.h"  // made by talus_embed
 
