@@ -55,7 +55,7 @@ def photograph(grains, plate_mm, angle, path):
 def measure(options, folder, truth, name, seed):
     """The entry of `experiments`: photographs of so many runs, and the mass that falls with its standard error."""
     plate_mm, masses = TESTS[name], []
-    photos = folder / name.replace(" ", "_")
+    photos = (folder / name.replace(" ", "_")).resolve()
     for i in range(options.runs):
         place = photos / f"simulated{i + 1}"
         place.mkdir(parents=True, exist_ok=True)
