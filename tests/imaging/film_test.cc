@@ -12,6 +12,7 @@
 #include "imaging/heap/difference_map.h"
 #include "imaging/heap/film_strip.h"
 #include "imaging/heap/metrics.h"
+#include "tests/imaging/photo_folder.h"
 
 namespace talus::imaging {
 namespace film_test {
@@ -57,15 +58,6 @@ ExperimentOptions FilmOf(std::vector<std::filesystem::path> maps) {
     options.film->back().map = std::move(map);
   }
   return options;
-}
-
-std::string ErrorOf(const ExperimentOptions& options) {
-  try {
-    MeasureExperiment(options);
-  } catch (const base::ConfigError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Film, AStripHoldsItsPicturesAndOnePictureIsNoStrip) {
