@@ -420,7 +420,8 @@ TEST_F(NextTest, CandidatesComeFromAFile) {
 // It would be ranked, simulated and made, and then refused.
 TEST_F(NextTest, ATestThatCouldNotBeAddedSaysWhy) {
   const JointView view = Run();
-  TestCandidate test{.name = "drum", .rig = rigs::RigOptions{.kind = rigs::RigKind::kDrum}};
+  TestCandidate test{.name = "drum"};
+  test.rig.emplace().kind = rigs::RigKind::kDrum;
   test.rig->drum.speed = 40;
   EXPECT_THAT(WhyNot(view, test), HasSubstr("rig.speed: is 40, rad/s is so fast"));
   const TestCandidate same{.name = view.record.experiments.front().name};
