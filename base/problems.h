@@ -37,8 +37,11 @@ class Problems {
   // Adds a problem with the value at `path`, taken relative to the enclosing Within.
   void Add(std::string_view path, std::string message);
 
-  // Adds "is VALUE, RULE" unless `ok`; state what must hold, so that NaN fails too. Says nothing of
-  // a value that has a problem already: one that could not be read still has its default.
+  // The same of a value that could not be read. What has its default meanwhile breaks no rule.
+  void AddUnread(std::string_view path, std::string message);
+
+  // Adds "is VALUE, RULE" unless `ok`, or unless the value could not be read; state what must hold,
+  // so that NaN fails too.
   void Require(bool ok, std::string_view path, double value, std::string_view rule);
   void Require(bool ok, std::string_view path, std::string_view message);
 
@@ -78,7 +81,7 @@ class Problems {
   FindPlaces places_;
   std::string prefix_;
   std::vector<Problem> list_;
-  std::unordered_set<std::string> known_;  // paths that have a problem
+  std::unordered_set<std::string> unread_;  // paths
   std::size_t num_more_ = 0;
 };
 

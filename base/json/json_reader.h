@@ -40,7 +40,7 @@ class JsonReader {
     known_.emplace_back(key);
     const auto found = object_.find(std::string(key));
     if (found == object_.end()) {
-      context_.problems.Require(!info.required, key, "is missing");
+      if (info.required) context_.problems.AddUnread(key, "is missing");
       return;
     }
     context_.problems.Within(key, [&] { Read(*found, field, info); });
@@ -60,7 +60,7 @@ class JsonReader {
  private:
   using json = nlohmann::json;
 
-  void Expect(const char* what) { context_.problems.Add("", std::string("must be ") + what); }
+  void Expect(const char* what) { context_.problems.AddUnread("", std::string("must be ") + what); }
 
   void Read(const json& value, bool& field, const FieldInfo&) {
     if (!value.is_boolean()) return Expect("true or false");
@@ -78,9 +78,9 @@ class JsonReader {
       field = static_cast<T>(value.get<std::int64_t>());
       return;
     }
-    context_.problems.Add("", "must be a whole number from " +
-                                  std::to_string(std::numeric_limits<T>::min()) + " to " +
-                                  std::to_string(std::numeric_limits<T>::max()));
+    context_.problems.AddUnread("", "must be a whole number from " +
+                                        std::to_string(std::numeric_limits<T>::min()) + " to " +
+                                        std::to_string(std::numeric_limits<T>::max()));
   }
   void Read(const json& value, double& field, const FieldInfo& info) {
     if (value.is_number()) {
@@ -89,7 +89,7 @@ class JsonReader {
       try {
         field = ParseQuantity(value.get_ref<const std::string&>(), info.dimension);
       } catch (const ConfigError& error) {
-        context_.problems.Add("", error.what());
+        context_.problems.AddUnread("", error.what());
       }
     } else {
       Expect("a number, or a text with a unit");
@@ -125,7 +125,7 @@ class JsonReader {
       }
     }
     const std::string all = "must be one of \"" + Joined(NamesOf<T>(), "\", \"") + "\"";
-    context_.problems.Add("", RemedyOf<T>(value).value_or(all));
+    context_.problems.AddUnread("", RemedyOf<T>(value).value_or(all));
   }
   // What to write in place of a name that is no longer one.
   template <NamedEnum T>

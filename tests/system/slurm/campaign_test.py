@@ -4,6 +4,7 @@ table of the local runner with one worker, also when its process is killed five 
 its node fails while it is dead, and when its jobs are cancelled with Ctrl-C; so does a campaign of two
 experiments. Trials that are proposed together are one job array, and Slurm is not asked more than once
 in 5 s. A trial of two MPI ranks gets two tasks."""
+import contextlib
 import csv
 import json
 import os
@@ -21,6 +22,7 @@ cluster = source / "tests/system/slurm/one_node_cluster"
 # A cone of spheres whose height follows the parameters: an engine that takes a few milliseconds.
 # It waits while there is a file `hold` beside the campaign.
 DECK = """echo run >>runs
+echo $$ >pid
 while [ -e ../../../hold ]; do sleep 0.1; done
 awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} -v seed={{ seed }} 'BEGIN {
   print "x,y,z,r"
@@ -136,10 +138,14 @@ def slurm(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def lose_node():
+def lose_node(trials):
+    """The node fails, and comes back without the processes of `trials`, which Slurm may leave running for a while."""
     node = slurm("hostname", "-s").strip()
     slurm("scontrol", "update", "nodename=" + node, "state=down", "reason=test")
     wait_for(lambda: not slurm("squeue", "--me", "--noheader", "--states=running,completing"))
+    for pid in trials.glob("*/pid"):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(int(pid.read_text()), signal.SIGKILL)
     # Resuming is refused as long as the node's last state is being dealt with, and also when it has
     # come back by itself: what counts is the state it is in.
     def is_back():
@@ -155,7 +161,7 @@ def run_twice(root, name, interrupt, runner):
     folder, out = root / name, root / name / "out"
     path = spec(folder, runner, num_trials=6, workers=2)
     process = start_held(folder, out, "calibrate", path, "--out", out)
-    interrupt(process)
+    interrupt(process, out / "trials")
     (folder / "hold").unlink()
     run("resume", out)
     runs = [(out / f"trials/{trial:04}/runs").read_text() for trial in range(1, 7)]
@@ -163,13 +169,13 @@ def run_twice(root, name, interrupt, runner):
     return table(out)
 
 
-def die_and_lose_node(process):
+def die_and_lose_node(process, trials):
     process.send_signal(signal.SIGKILL)
     process.wait()
-    lose_node()
+    lose_node(trials)
 
 
-def press_ctrl_c_twice(process):
+def press_ctrl_c_twice(process, _):
     process.send_signal(signal.SIGINT)
     time.sleep(0.7)
     process.send_signal(signal.SIGINT)
