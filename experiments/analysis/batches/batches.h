@@ -78,9 +78,10 @@ struct BatchPictures {
 struct BatchVerdict {
   std::string batch{};
   bool is_found = false;
-  std::string text{};  // "no difference found", or what differs
+  double pictures_by_chance = 1;  // of all photographs together (ChanceTogether); 1 without any
+  std::string text{};             // "no difference found", or what differs
 
-  TALUS_FIELDS(batch, is_found, text);
+  TALUS_FIELDS(batch, is_found, pictures_by_chance, text);
 };
 
 struct BatchComparison {
@@ -112,6 +113,11 @@ struct PermutationTest {
 };
 PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
                         const std::vector<imaging::GrayImage>& second, std::uint64_t seed);
+
+// The probability of several independent tests together, by Fisher's method: −2 Σ ln p follows χ²
+// of 2 n degrees of freedom. That of one is its own; each by itself would claim more by chance the
+// more there are. `probabilities` in (0, 1].
+double ChanceTogether(const std::vector<double>& probabilities);
 
 // The verdict on a batch that is not the first, by all else that the comparison holds.
 BatchVerdict VerdictOf(const BatchComparison& comparison, std::size_t batch);

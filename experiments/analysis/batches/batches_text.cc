@@ -33,7 +33,28 @@ std::string PicturesText(const BatchPictures& p) {
          " arrangements)";
 }
 
+// The photographs of `batch` that were compared.
+std::vector<BatchPictures> ComparedPictures(const BatchComparison& c, const std::string& batch) {
+  std::vector<BatchPictures> compared;
+  for (const BatchPictures& p : c.pictures) {
+    if (p.batch == batch && p.absent.empty()) compared.push_back(p);
+  }
+  return compared;
+}
+
 }  // namespace
+
+double ChanceTogether(const std::vector<double>& probabilities) {
+  double half = 0;  // of χ²
+  for (const double p : probabilities) half -= std::log(p);
+  double term = std::exp(-half);
+  double sum = 0;
+  for (std::size_t i = 0; i < probabilities.size(); ++i) {
+    sum += term;
+    term *= half / static_cast<double>(i + 1);
+  }
+  return probabilities.empty() ? 1 : std::min(sum, 1.0);
+}
 
 BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
   std::string found;
@@ -45,13 +66,21 @@ BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
     }
     if (found.empty()) add("the parameters together, none of them by itself");
   }
-  for (const BatchPictures& p : c.pictures) {
-    if (p.batch != c.batches[batch] || !p.absent.empty() || p.probability >= kBeyondChance)
-      continue;
-    add("the photographs of " + p.experiment);
+  const std::vector<BatchPictures> pictures = ComparedPictures(c, c.batches[batch]);
+  std::vector<double> chances;
+  for (const BatchPictures& p : pictures) chances.push_back(p.probability);
+  const double chance = ChanceTogether(chances);
+  if (chance < kBeyondChance) {
+    std::string which;
+    for (const BatchPictures& p : pictures) {
+      if (p.probability >= kBeyondChance) continue;
+      which += (which.empty() ? "the photographs of " : ", the photographs of ") + p.experiment;
+    }
+    add(which.empty() ? "the photographs together, those of no test by themselves" : which);
   }
   return {.batch = c.batches[batch],
           .is_found = !found.empty(),
+          .pictures_by_chance = chance,
           .text = found.empty() ? "no difference found" : "differs: " + found};
 }
 
@@ -69,6 +98,10 @@ std::string BatchesText(const BatchComparison& c) {
     if (c.parameters.size() > 1) text += "    " + TogetherText(c.together[b - 1]) + "\n";
     for (const BatchPictures& p : c.pictures) {
       if (p.batch == c.batches[b]) text += "    " + p.experiment + "  " + PicturesText(p) + "\n";
+    }
+    if (ComparedPictures(c, c.batches[b]).size() > 1) {
+      text += "    all photographs together  " +
+              ShortNumber(c.verdicts[b - 1].pictures_by_chance, 2) + " by chance\n";
     }
   }
   return text;

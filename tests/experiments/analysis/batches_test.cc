@@ -51,6 +51,40 @@ TEST(Permute, ManyRunsAreDealtOutByChance) {
 // Draws along a valley of sd 1 and across it of sd 0.1. One that is moved by 0.25 across lies
 // inside ± 1.64 sd of either parameter, and at the level 1 - exp(-2.5² / 2) = 0.956 of both; three
 // standard errors of 4000 draws are 0.01, and the sample's covariance adds as much.
+// By hand: χ² of 4 degrees of freedom is beyond x with probability (1 + x/2) e^(−x/2).
+TEST(ChanceTogether, IsFishersAndThatOfOneTestItsOwn) {
+  EXPECT_EQ(ChanceTogether({}), 1);
+  EXPECT_NEAR(ChanceTogether({0.3}), 0.3, 1e-15);
+  EXPECT_NEAR(ChanceTogether({0.3, 0.05}), 0.015 * (1 - std::log(0.015)), 1e-15);
+  EXPECT_EQ(ChanceTogether({1, 1, 1}), 1);
+}
+
+// 2000 pairs of equal batches with three tests: 5 ± 1.5 % (three standard errors) are below 5 %;
+// each test by itself would claim 14 %.
+TEST(ChanceTogether, ClaimsNoMoreTheMoreTestsThereAre) {
+  int claimed = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    base::Random random(1, base::Stream("equal batches"), i);
+    claimed += ChanceTogether({random.Uniform(), random.Uniform(), random.Uniform()}) < 0.05;
+  }
+  EXPECT_NEAR(claimed, 100, 30);
+}
+
+BatchComparison WithPictures(double heap, double wide_plate) {
+  BatchComparison c{.batches = {"first", "second"}};
+  c.together = {{.batch = "second"}};
+  c.pictures = {{.batch = "second", .experiment = "heap", .probability = heap},
+                {.batch = "second", .experiment = "wide plate", .probability = wide_plate}};
+  return c;
+}
+
+TEST(VerdictOf, PicturesOfAllTestsAreJudgedTogether) {
+  EXPECT_FALSE(VerdictOf(WithPictures(0.3, 0.048), 1).is_found);
+  EXPECT_EQ(VerdictOf(WithPictures(0.3, 0.008), 1).text, "differs: the photographs of wide plate");
+  EXPECT_EQ(VerdictOf(WithPictures(0.06, 0.06), 1).text,
+            "differs: the photographs together, those of no test by themselves");
+}
+
 TEST(LevelOfNone, AShiftAcrossAValleyIsSeenInBothParametersTogether) {
   base::Random random(1, base::Stream("valley"), 0);
   Eigen::MatrixXd draws(4000, 2);
