@@ -38,7 +38,7 @@ struct PooledScatter {
     degrees += group.count - 1;
     squares += (group.count - 1) * group.variance;
   }
-  // Of the mean of so many; NaN where no group has two values.
+  // Standard error of the mean of so many; NaN where no group has two values.
   double StandardError(int count) const {
     return degrees == 0 ? std::numeric_limits<double>::quiet_NaN()
                         : std::sqrt(squares / degrees / count);

@@ -107,7 +107,7 @@ struct ExperimentOptions {
   void Validate(base::Problems& problems) const;
   // Whether it names images at all.
   bool HasImages() const { return !photos.empty() || !runs.empty() || !map.empty() || film; }
-  // Of one run: those of a film, or one.
+  // Pictures of one run: those of a film, or one.
   int num_pictures() const {
     return film ? static_cast<int>(film->size()) : frame ? frame->num_pictures() : 1;
   }

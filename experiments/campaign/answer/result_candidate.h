@@ -19,7 +19,7 @@ inline double OrZero(double error) { return std::isfinite(error) ? error : 0; } 
 struct ResultScalar {
   std::string name{};
   double mean = kNotKnown;
-  // Of that mean, by the scatter within all sets that were simulated again; not known where each
+  // The mean's, by the scatter within all sets that were simulated again; not known where each
   // has one trial.
   double standard_error = kNotKnown;
   int degrees = 0;  // of freedom that the standard error has; 0: not known
@@ -35,7 +35,7 @@ struct ResultConfirmed {
   double mean = kNotKnown;            // of the objective
   double standard_error = kNotKnown;  // of that mean; not known for one trial
   std::optional<double> sad_mm2{};    // mean SAD of the trials, whatever the objective
-  // Of that mean, and its degrees of freedom, as of ResultScalar.
+  // The mean's standard error and its degrees of freedom, as ResultScalar has them.
   std::optional<double> sad_standard_error{};
   int degrees = 0;
   std::optional<double> profile_sad_mm2{};  // SAD of their mean profile

@@ -15,7 +15,7 @@ constexpr double kTopMargin = 0.25;   // of the plate diameter, above the powder
 
 // The bounding box of the experiment's powder above the plate, widened by the margins. A heap that
 // leaves it is so far off that its exact shape does not matter; its metrics are of the whole image.
-// Of a film it is one place in all pictures, by columns of the first.
+// All pictures of a film have it at one place, by columns of the first.
 imaging::Region RegionThatMatters(const imaging::Profile& aehp) {
   const imaging::Frame& frame = aehp.frame;
   const int bottom = std::clamp(static_cast<int>(std::ceil(frame.baseline)), 1, frame.height);

@@ -308,7 +308,7 @@ const ObservableInfo* FindObservable(std::string_view metric);
 // "kg/m3" of "tapped_density_kg_per_m3", "-" of a ratio and of what is not in the table.
 std::string UnitOfObservable(std::string_view metric);
 
-// Of a name in results, in its unit there; any number where it is not in the table.
+// Bounds of a name in results, in its unit there; any number where it is not in the table.
 Bounds BoundsOf(std::string_view metric);
 
 // A number that a run has given.

@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(EveryBodyAndLaw, AnyImpact,
                                  Values(Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr),
                                  kEveryRolling));
 
-// Of forms that are asked for by name.
+// The forms of a law that are asked for by name.
 using FormCase = std::tuple<Target, ContactModels>;
 class ImpactOfOtherForm : public ::testing::TestWithParam<FormCase> {};
 

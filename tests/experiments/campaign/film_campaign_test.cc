@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class FilmCampaign : public CampaignFixture {
  protected:
-  // Of `num_pictures`, or of one without a film.
+  // The folder of a campaign with a film of `num_pictures`, or with one picture and no film.
   fs::path BeginFilm(const std::string& name, int num_pictures, bool grows,
                      const std::string& more) const {
     const fs::path in = scratch_.path() / (name + "_in");
@@ -126,7 +126,7 @@ TEST_F(FilmCampaign, AJournalThatIsLostIsMadeAnew) {
   EXPECT_EQ(TrialTable(folder), table);
 }
 
-// Of one image there is one map; where nothing is confirmed it is of what the model predicts.
+// One image has one map, of what the model predicts where nothing is confirmed.
 TEST_F(CampaignFixture, WhatRemainsIsPredictedWhereNothingIsConfirmed) {
   const fs::path folder =
       Begin(R"(, "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)");

@@ -68,7 +68,7 @@ TEST(FilmReference, AnImageComesBackFromItsField) {
   EXPECT_EQ(film.ImageOf(film.Field(image)), image);
 }
 
-// Of 40 columns that are higher by 4 and by 6 px, 0.04 mm² each.
+// 40 columns are higher by 4 and by 6 px, 0.04 mm² each.
 TEST(FilmReference, TheObjectiveIsTheSumOverThePictures) {
   const Reference film(Film({Step(30), Step(20)}), {});
   const imaging::GrayImage image = Film({Step(34), Step(26)}).image;

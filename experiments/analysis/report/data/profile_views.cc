@@ -28,7 +28,7 @@ OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profi
 
 namespace {
 
-// Of each picture of a film.
+// Adds an outline for each picture of a film.
 void AddOutlines(const std::string& title, const imaging::Profile& profile, ReportData& data) {
   const int num_pictures = profile.frame.num_pictures();
   for (int i = 0; i < num_pictures; ++i) {
