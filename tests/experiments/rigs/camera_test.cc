@@ -44,17 +44,21 @@ TEST(Camera, TheProfileIsTheMeanOfSilhouettesWhileThePowderMoves) {
   EXPECT_GT(Value(c, *filmed, "cohesive_index_m"), 0);
 }
 
-TEST(Camera, ASeriesGoesOnFromACheckpoint) {
-  const Case c = Filmed();
-  const auto whole = Ran(c);
+// What the camera has seen where the run is interrupted after the second frame and goes on.
+CameraMemory SeenWithABreak(const Case& c) {
   auto first = MakeRig(c);
   while (first->state().camera.num_frames < 2) first->Advance();
   auto second = RestoreRig(c, first->StateLine(),
                            engine::Simulation::Restore(first->simulation().Checkpoint()));
   while (second->Advance()) {
   }
-  EXPECT_EQ(second->state().camera.num_frames, 4);
-  EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
+  return second->state().camera;
+}
+
+TEST(Camera, ASeriesGoesOnFromACheckpoint) {
+  const CameraMemory seen = SeenWithABreak(Filmed());
+  EXPECT_EQ(seen.num_frames, 4);
+  EXPECT_EQ(seen.runs, Ran(Filmed())->state().camera.runs);
 }
 
 // In four frames the six pixels of a row showed powder in none, one, two, four, four and four.
@@ -138,14 +142,7 @@ TEST(Camera, OneTimeIsTheOnePicture) {
 TEST(Camera, AFilmGoesOnFromACheckpoint) {
   Case c = Filmed();
   c.rig.camera = {.times = std::vector<double>{0.005, 0.02, 0.045}};
-  const auto whole = Ran(c);
-  auto first = MakeRig(c);
-  while (first->state().camera.num_frames < 2) first->Advance();
-  auto second = RestoreRig(c, first->StateLine(),
-                           engine::Simulation::Restore(first->simulation().Checkpoint()));
-  while (second->Advance()) {
-  }
-  EXPECT_EQ(second->state().camera.runs, whole->state().camera.runs);
+  EXPECT_EQ(SeenWithABreak(c).runs, Ran(c)->state().camera.runs);
 }
 
 // Beside the edge of its picture powder has the picture's end for a neighbour, which a closing
