@@ -20,8 +20,10 @@ std::string Problems::FullPath(std::string_view path) const {
 }
 
 void Problems::Add(std::string_view path, std::string message) {
+  std::string full = FullPath(path);
+  known_.insert(full);
   if (list_.size() < kMostShown) {
-    list_.push_back({FullPath(path), std::move(message)});
+    list_.push_back({std::move(full), std::move(message)});
   } else {
     ++num_more_;
   }
@@ -33,7 +35,7 @@ void Problems::AddUnread(std::string_view path, std::string message) {
 }
 
 void Problems::Require(bool ok, std::string_view path, double value, std::string_view rule) {
-  if (ok || unread_.contains(FullPath(path))) return;
+  if (ok || known_.contains(FullPath(path))) return;
   std::ostringstream text;
   text << "is " << value << ", " << rule;
   Add(path, text.str());

@@ -40,9 +40,11 @@ class Problems {
   // The same of a value that could not be read. What has its default meanwhile breaks no rule.
   void AddUnread(std::string_view path, std::string message);
 
-  // Adds "is VALUE, RULE" unless `ok`, or unless the value could not be read; state what must hold,
-  // so that NaN fails too.
+  // Adds "is VALUE, RULE" unless `ok`; state what must hold, so that NaN fails too. Says nothing of
+  // a value that has a problem already: one rule of a number that is broken is enough.
   void Require(bool ok, std::string_view path, double value, std::string_view rule);
+  // The same in words, which may speak of several parts of what stands there: said of all but what
+  // could not be read.
   void Require(bool ok, std::string_view path, std::string_view message);
 
   // A whole number from `low` to `high`, both included; nothing is asked of one that is not given.
@@ -81,7 +83,8 @@ class Problems {
   FindPlaces places_;
   std::string prefix_;
   std::vector<Problem> list_;
-  std::unordered_set<std::string> unread_;  // paths
+  std::unordered_set<std::string> known_;   // paths that have a problem
+  std::unordered_set<std::string> unread_;  // those of them that could not be read
   std::size_t num_more_ = 0;
 };
 
