@@ -47,7 +47,8 @@ void CheckScale(double median, Photo& photo) {
   text.precision(4);
   text << photo.path.string() << ": its plate is " << photo.edges.width
        << " px wide, that of the other photographs " << median
-       << " px; all must be taken at one scale: take it again, give the plate's place with "
+       << " px: powder clings to its side, or they are not all at one scale; take it again, give "
+          "the plate's place with "
           "\"frame\", or leave it out";
   photo.fault = text.str();
 }
