@@ -68,7 +68,7 @@ def with_goal(options, twin, half_width):
 
 
 def main():
-    parser = arguments(powders=20)
+    parser = arguments(powders=math.inf)
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("observable")
     parser.add_argument("--unit", default="", help="of the observable in results, such as deg")

@@ -18,6 +18,7 @@ parameters' share, and what told the number. The last lines count.
 wide, and a test that tells its sets apart should have a larger share of parameters.
 """
 import json
+import math
 
 from twin import arguments, device, finished, run, truth_of
 
@@ -88,7 +89,7 @@ def judge(options, campaign, name, process, value):
 
 
 def main():
-    parser = arguments(powders=20)
+    parser = arguments(powders=math.inf)
     parser.add_argument("--budget", type=float, default=60)
     parser.add_argument("--draws", type=int, default=12)
     parser.add_argument("--seeds", type=int, default=3)
@@ -96,11 +97,11 @@ def main():
     parser.add_argument("--valley", type=int, default=0, metavar="N")
     options = parser.parse_args()
     rows = {}
-    for twin in finished(options.folder, options.first, options.last):
+    for i, twin in enumerate(finished(options.folder, options.first, options.last)):
         number, truth = truth_of(twin)
         print(f"{twin.name} truth " + " ".join(f"{v:.3g}" for v in truth.values()), flush=True)
         asked = [("both", name) for name in PROCESSES]
-        if number < options.first + options.valley:
+        if i < options.valley:
             asked += [("heap", name) for name in ("drum", *WIDE)]
         values = {}
         for campaign, name in asked:

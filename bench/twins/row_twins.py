@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""row_twins.py TALUS FOLDER [--first N] [--last N]: do two campaigns in a row find what one campaign of both tests finds?
+"""row_twins.py TALUS FOLDER [--first N] [--last N]: do two campaigns in a row find what one campaign of both tests
+finds?
 
-FOLDER is that of dem_twins.py. For each of its powders from --first to --last the campaign with the heap alone comes first; the second has the
-wide plate alone, with the first one's posterior as prior and the rest of the joint campaign's budget. It is compared with
-the campaign of both tests. The yardstick is the joint campaign once more, of the same measurements with another seed: no
-campaign in a row can be nearer than that. One line a powder: the distance of the two recommended sets in half ranges of
-the joint campaign, the larger one of the parameters, the volume of the joint 90 % region over the joint campaign's, and the
-credible level of the truth; of the second campaign, then of the joint one once more.
+FOLDER is that of dem_twins.py. For each of its powders from --first to --last, or all, the campaign with the heap alone
+comes first; the second has the wide plate alone, with the first one's posterior as prior and the rest of the joint
+campaign's budget. It is compared with the campaign of both tests. The yardstick is the joint campaign once more, of the
+same measurements with another seed: no campaign in a row can be nearer than that. One line a powder: the distance of
+the two recommended sets in half ranges of the joint campaign, the larger one of the parameters, the volume of the joint
+90 % region over the joint campaign's, and the credible level of the truth; of the second campaign, then of the joint
+one once more.
 """
 import json
 import math
@@ -59,7 +61,7 @@ def summary(name, rows):
 
 
 def main():
-    options = arguments(powders=20).parse_args()
+    options = arguments(powders=math.inf).parse_args()
     rows = {"second": [], "again": []}
     for twin in finished(options.folder, options.first, options.last):
         _, truth = truth_of(twin)

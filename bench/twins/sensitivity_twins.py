@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""sensitivity_twins.py TALUS FOLDER [--first N] [--last N] [--campaign both] [--scale-factor F] [--replicates N]: does a campaign with another
-fixed value find the answer that `talus sensitivity` foretells?
+"""sensitivity_twins.py TALUS FOLDER [--first N] [--last N] [--campaign both] [--scale-factor F]
+[--replicates N]: does a campaign with another fixed value find the answer that `talus sensitivity` foretells?
 
 FOLDER is that of dem_twins.py. Each of its campaigns is asked what a restitution of 0.6 in place of 0.9, and a
 friction between powder and plate of 0.8 of what its answer has, would move the answer to. Then a campaign with that
@@ -11,6 +11,7 @@ One line a powder and move: the shifts foretold and found of each parameter in h
 within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise.
 """
 import json
+import math
 
 from twin import arguments, finished, run
 
@@ -51,7 +52,7 @@ def is_right(a, b):
 
 
 def main():
-    parser = arguments(powders=20)
+    parser = arguments(powders=math.inf)
     parser.add_argument("--campaign", default="both")
     parser.add_argument("--scale-factor", type=float)
     parser.add_argument("--replicates", type=int, default=16)

@@ -13,7 +13,8 @@ from PIL import Image
 
 
 def arguments(powders=None, core_time=None):
-    """A parser of TALUS FOLDER; of --first and --last, the latter `powders` by default; of --core-time in seconds."""
+    """A parser of TALUS FOLDER; of --first and --last, the latter `powders` by default (infinite: all); of --core-time in
+    seconds."""
     parser = argparse.ArgumentParser()
     parser.add_argument("talus")
     parser.add_argument("folder", type=pathlib.Path)

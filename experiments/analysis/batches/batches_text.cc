@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/text/csv.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
@@ -57,31 +58,29 @@ double ChanceTogether(const std::vector<double>& probabilities) {
 }
 
 BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
-  std::string found;
-  const auto add = [&](const std::string& what) { found += (found.empty() ? "" : ", ") + what; };
+  std::vector<std::string> found;
   if (c.together[batch - 1].is_found) {
     for (const BatchParameter& p : c.parameters) {
       if (!p.differences[batch - 1].is_found) continue;
-      add(p.name + " by " + ShortNumber(p.differences[batch - 1].range.median));
+      found.push_back(p.name + " by " + ShortNumber(p.differences[batch - 1].range.median));
     }
-    if (found.empty()) add("the parameters together, none of them by itself");
+    if (found.empty()) found.push_back("the parameters together, none of them by itself");
   }
-  const std::vector<BatchPictures> pictures = ComparedPictures(c, c.batches[batch]);
   std::vector<double> chances;
-  for (const BatchPictures& p : pictures) chances.push_back(p.probability);
+  std::vector<std::string> apart;
+  for (const BatchPictures& p : ComparedPictures(c, c.batches[batch])) {
+    chances.push_back(p.probability);
+    if (p.probability < kBeyondChance) apart.push_back("the photographs of " + p.experiment);
+  }
   const double chance = ChanceTogether(chances);
   if (chance < kBeyondChance) {
-    std::string which;
-    for (const BatchPictures& p : pictures) {
-      if (p.probability >= kBeyondChance) continue;
-      which += (which.empty() ? "the photographs of " : ", the photographs of ") + p.experiment;
-    }
-    add(which.empty() ? "the photographs together, those of no test by themselves" : which);
+    if (apart.empty()) apart.push_back("the photographs together, those of no test by themselves");
+    found.insert(found.end(), apart.begin(), apart.end());
   }
   return {.batch = c.batches[batch],
           .is_found = !found.empty(),
           .pictures_by_chance = chance,
-          .text = found.empty() ? "no difference found" : "differs: " + found};
+          .text = found.empty() ? "no difference found" : "differs: " + base::Joined(found, ", ")};
 }
 
 std::string BatchesText(const BatchComparison& c) {
