@@ -21,20 +21,32 @@ double Integral(double degrees, double theta) {
   return sum * step / 3;
 }
 
+double Known(double degrees) { return std::clamp(degrees, 1.0, kLikeNormal); }
+
+// P(|T| ≤ √ν tan θ).
+double ShareAt(double nu, double theta) {
+  const double scale =
+      2 * std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
+  return scale * Integral(nu, theta);
+}
+
 }  // namespace
 
 double StudentFactor(double degrees, double share) {
   constexpr int kHalvings = 50;
-  const double nu = std::clamp(degrees, 1.0, kLikeNormal);
-  const double scale =
-      2 * std::exp(std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2)) / std::sqrt(std::numbers::pi);
+  const double nu = Known(degrees);
   double low = 0;
   double high = std::numbers::pi / 2;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;
-    (scale * Integral(nu, middle) < share ? low : high) = middle;
+    (ShareAt(nu, middle) < share ? low : high) = middle;
   }
   return std::sqrt(nu) * std::tan((low + high) / 2);
+}
+
+double StudentShare(double degrees, double t) {
+  const double nu = Known(degrees);
+  return std::min(ShareAt(nu, std::atan(t / std::sqrt(nu))), 1.0);
 }
 
 }  // namespace talus::base

@@ -12,4 +12,7 @@ namespace talus::base {
 // t for `share` p in (0, 1) and `degrees` ν >= 1, infinity among them.
 double StudentFactor(double degrees, double share);
 
+// Its inverse: P(|T| ≤ t), t >= 0.
+double StudentShare(double degrees, double t);
+
 }  // namespace talus::base

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--first N] [--last N] [--campaigns N]: is a prediction
-narrowed as `talus next --for` expects?
+"""goal_twins.py TALUS FOLDER CASE OBSERVABLE [--first N] [--last N] [--campaigns N] [--heap-alone]: is a prediction
+narrowed as `talus next --for` expects, and what does a campaign save that ends by it?
 
 FOLDER is that of dem_twins.py, CASE a bulk test whose OBSERVABLE is to be predicted (examples/rigs/spreading.json
 packing_fraction). For each powder from --first to --last the campaign with the heap alone is
@@ -10,6 +10,9 @@ Two of them are means over few draws, so the last line compares the sums over al
 
 --campaigns: of the first N powders the campaign with both tests runs again with this goal, to be known to 1.2 times what the
 first one left, and a line says its core time over that one's, and why it ended.
+
+--heap-alone: only that, with the campaigns of the heap alone: of a process that goes alike along the heap's valley the goal does
+not need all parameters.
 """
 import json
 import math
@@ -56,15 +59,28 @@ def core_hours(folder):
     return json.loads((folder / "result.json").read_text())["cost"]["core_hours"]
 
 
-def with_goal(options, twin, half_width):
+def with_goal(options, twin, campaign, half_width):
     """Core time of a campaign that ends by its goal, over that of the one without, and why it ended."""
-    spec = json.loads((twin / "enough.json").read_text())
+    spec = json.loads((twin / f"{campaign}.json").read_text())
     spec["goal"] = {"case": str(options.case.resolve()), "observable": options.observable,
                     "half_width": f"{half_width} {options.unit}".strip()}
-    (twin / "goal.json").write_text(json.dumps(spec))
-    run(options.talus, "calibrate", twin / "goal.json", "--out", twin / "goal", "--quiet")
-    stop = json.loads((twin / "goal" / "result.json").read_text())["stop"]["text"]
-    return core_hours(twin / "goal") / core_hours(twin / "enough"), stop
+    place = twin / f"{campaign}_goal_{options.case.stem}"
+    place.with_suffix(".json").write_text(json.dumps(spec))
+    shutil.rmtree(place, ignore_errors=True)
+    run(options.talus, "calibrate", place.with_suffix(".json"), "--out", place, "--quiet")
+    stop = json.loads((place / "result.json").read_text())["stop"]["text"]
+    share = core_hours(place) / core_hours(twin / campaign)
+    print(f"{twin.name}: with the goal {share:.2f} of the core time: {stop}", flush=True)
+    return share
+
+
+def of_heap_alone(options):
+    shares = []
+    for twin in finished(options.folder, options.first, options.last):
+        left = table(options, twin / "heap")["goal"]["half_width_90"]
+        shares.append(with_goal(options, twin, "heap", SLACK * left))
+    print(f"{len(shares)} powders: at most half of the core time in {sum(s <= 0.5 for s in shares)}, "
+          f"mean {sum(shares) / len(shares):.2f}")
 
 
 def main():
@@ -73,7 +89,10 @@ def main():
     parser.add_argument("observable")
     parser.add_argument("--unit", default="", help="of the observable in results, such as deg")
     parser.add_argument("--campaigns", type=int, default=0, metavar="N")
+    parser.add_argument("--heap-alone", action="store_true")
     options = parser.parse_args()
+    if options.heap_alone:
+        return of_heap_alone(options)
     rows = []
     for twin in finished(options.folder, options.first, options.last):
         now, then, core_time = expected(options, twin)
@@ -83,8 +102,7 @@ def main():
         print(f"{twin.name}: now ± {now:.3g}, expected ± {then:.3g}, realised ± {left:.3g}; ratio {left / then:.2f}",
               flush=True)
         if len(rows) <= options.campaigns:
-            share, why = with_goal(options, twin, SLACK * left)
-            print(f"{twin.name}: with the goal {share:.2f} of the core time: {why}", flush=True)
+            with_goal(options, twin, "enough", SLACK * left)
     ratios = [left / then for _, then, left in rows]
     within = sum(1 / WITHIN <= r <= WITHIN for r in ratios)
     print(f"{len(rows)} powders: within a factor {WITHIN} in {within}, geometric mean of the ratios "

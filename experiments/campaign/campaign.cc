@@ -8,15 +8,14 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/text/joined.h"
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/remains.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/start.h"
-#include "experiments/trials/simulate/run_log.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::campaign {
@@ -24,32 +23,6 @@ namespace {
 
 constexpr int kMostReruns = 3;        // of a trial that others keep ending
 constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and the clock
-
-// Ended from outside: says nothing of the parameters, and may go better next time.
-bool WasEndedByOthers(const runners::FinishedJob& job) {
-  return job.end == runners::JobEnd::kPreempted || job.end == runners::JobEnd::kNodeFailure ||
-         (job.end == runners::JobEnd::kExit && job.exit_status == base::kExitInterrupted);
-}
-
-// "ended with exit status 1: last lines of its log"
-std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder) {
-  const std::string log = trials::LastLogLines(folder);
-  return job.reason + (log.empty() ? "" : ": " + log);
-}
-
-// A number that the engine does not leave at all is the set-up's fault: no other trial would have
-// it.
-void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
-                    const std::vector<journal::MetricRecord>& left) {
-  const std::string names = base::Joined(left, "\", \"", &journal::MetricRecord::name);
-  for (const journal::ScalarRecord& measured : reference.scalars()) {
-    if (std::ranges::any_of(left, [&](const auto& l) { return l.name == measured.name; })) continue;
-    throw base::Error(
-        "trial " + std::to_string(trial.id) + " leaves no \"" + measured.name +
-        "\", which was measured; it leaves " + (names.empty() ? "no number" : "\"" + names + "\"") +
-        ". Let the engine leave it under this name (docs/foreign_engines.md) and `talus resume`");
-  }
-}
 
 }  // namespace
 
@@ -390,29 +363,9 @@ void Campaign::NoteBest(const journal::TrialRecord& trial) {
 }
 
 void Campaign::Report(const journal::TrialRecord& trial) {
-  std::vector<std::string> names;
-  for (const journal::ParameterRecord& parameter : record_.parameters) {
-    names.push_back(parameter.name);
-  }
-  const journal::ExperimentRecord& experiment =
-      record_.experiments[static_cast<std::size_t>(trial.experiment)];
-  std::vector<NumberProgress> numbers;
-  for (const journal::ScalarRecord& measured : experiment.scalars) {
-    if (const auto value = trial.Metric(measured.name)) numbers.push_back({measured.name, *value});
-  }
-  console_.Trial({.trial = trial.id,
-                  .kind = trial.kind,
-                  .status = trial.status,
-                  .parameters = std::move(names),
-                  .values = trial.native,
-                  .scale_factor = trial.scale_factor,
-                  .experiment = experiment.name,
-                  .objective = ReferenceOf(trial).Value(trial),
-                  .unit = std::string(journal::InfoOf(spec_.objective).unit),
-                  .numbers = std::move(numbers),
-                  .best = best_ && best_->second == trial.id,
-                  .reason = trial.reason,
-                  .duration = trial.duration_s});
+  TrialProgress progress = ProgressOf(trial, record_, ReferenceOf(trial), spec_.objective);
+  progress.best = best_ && best_->second == trial.id;
+  console_.Trial(progress);
 }
 
 void Campaign::ShowStatus() {

@@ -24,6 +24,15 @@ TEST(StudentFactor, IsWhatTheTablesHave) {
   EXPECT_NEAR(StudentFactor(std::numeric_limits<double>::infinity(), 0.99), 2.576, 1e-3);
 }
 
+TEST(StudentShare, IsTheInverse) {
+  for (const double degrees : {1.0, 4.0, 30.0, std::numeric_limits<double>::infinity()}) {
+    for (const double share : {0.1, 0.9, 0.999}) {
+      EXPECT_NEAR(StudentShare(degrees, StudentFactor(degrees, share)), share, 1e-9);
+    }
+    EXPECT_EQ(StudentShare(degrees, 0), 0);
+  }
+}
+
 TEST(PooledScatter, IsThatWithinGroupsWhateverTheirMeans) {
   PooledScatter scatter;
   EXPECT_TRUE(std::isnan(scatter.StandardError(3)));

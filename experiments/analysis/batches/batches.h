@@ -1,9 +1,9 @@
 // Batches of a powder, calibrated by campaigns of the same kind: do they differ, and in what?
 //
 // Each is set against the first. The posteriors are independent, so draws of the two in pairs give
-// draws of the difference. Photographs are compared without any model by a permutation test: were
-// the runs dealt out to the two batches by chance, how often would the mean profiles differ as
-// much?
+// draws of the difference. What was measured is compared without any model, too. Photographs by a
+// permutation test: were the runs dealt out to the two batches by chance, how often would the mean
+// profiles differ as much? Numbers by their standard errors.
 #pragma once
 
 #include <Eigen/Core>
@@ -74,14 +74,27 @@ struct BatchPictures {
   TALUS_FIELDS(batch, experiment, absent, sad_mm2, probability, num_arrangements);
 };
 
+// A number that an experiment has measured in both batches, less that of the first batch.
+struct BatchNumber {
+  std::string batch{};
+  std::string experiment{};
+  std::string name{};         // with the unit: "mass_fallen_kg"
+  double difference = 0;      // in that unit
+  double standard_error = 0;  // of it, > 0
+  double probability = 1;     // of one as large by chance
+
+  static constexpr base::FieldKey kKeys[] = {{"probability", "probability_by_chance"}};
+  TALUS_FIELDS(batch, experiment, name, difference, standard_error, probability);
+};
+
 // Whether a batch differs from the first, in words.
 struct BatchVerdict {
   std::string batch{};
   bool is_found = false;
-  double pictures_by_chance = 1;  // of all photographs together (ChanceTogether); 1 without any
+  double measured_by_chance = 1;  // of all photographs and numbers together; 1 without any
   std::string text{};             // "no difference found", or what differs
 
-  TALUS_FIELDS(batch, is_found, pictures_by_chance, text);
+  TALUS_FIELDS(batch, is_found, measured_by_chance, text);
 };
 
 struct BatchComparison {
@@ -89,9 +102,10 @@ struct BatchComparison {
   std::vector<BatchParameter> parameters{};
   std::vector<BatchTogether> together{};  // of all but the first batch
   std::vector<BatchPictures> pictures{};
+  std::vector<BatchNumber> numbers{};
   std::vector<BatchVerdict> verdicts{};  // of all but the first batch
 
-  TALUS_FIELDS(batches, parameters, together, pictures, verdicts);
+  TALUS_FIELDS(batches, parameters, together, pictures, numbers, verdicts);
 };
 
 // At least two folders. `matters` is the difference that counts of a parameter, by name and as text
@@ -119,8 +133,18 @@ PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
 // more there are. `probabilities` in (0, 1].
 double ChanceTogether(const std::vector<double>& probabilities);
 
-// The verdict on a batch that is not the first, by all else that the comparison holds.
+// That a number's difference is as large by chance, by Student's t: a standard error is known as
+// well as so many runs in the two batches tell it, and exactly where it is not of runs (two or
+// fewer).
+double ChanceOf(double difference, double standard_error, int num_runs);
+
+// The verdict on a batch that is not the first, by all else that the comparison holds. Photographs
+// and numbers of one test are of the same heaps: the least of their m chances counts m times
+// (Bonferroni). Tests are independent, and their chances taken together.
 BatchVerdict VerdictOf(const BatchComparison& comparison, std::size_t batch);
+bool IsBeyondChance(double probability);
+// How many photographs and numbers of a batch were compared.
+int NumMeasured(const BatchComparison& comparison, const std::string& batch);
 std::string BatchesText(const BatchComparison& comparison);
 std::string BatchesCsv(const BatchComparison& comparison);  // a batch and parameter a line
 // A parameter over the batches, for quality control: the first one's 90 % as a band, and dashed

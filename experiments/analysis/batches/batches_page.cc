@@ -21,7 +21,9 @@ std::string Verdicts(const BatchComparison& c) {
     list += "<li><strong>" + base::MarkupText(c.batches[b]) +
             "</strong>: " + base::MarkupText(c.verdicts[b - 1].text) +
             " (of all parameters together no difference has the credible level " +
-            base::ShortNumber(c.together[b - 1].level, 2) + ")</li>\n";
+            base::ShortNumber(c.together[b - 1].level, 2) +
+            "; all that was measured together differs so by chance with " + "probability " +
+            base::ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + ")</li>\n";
   }
   return list + "</ul>\n";
 }
@@ -74,6 +76,19 @@ std::string PictureTable(const BatchComparison& c) {
   return table + "</table>\n";
 }
 
+std::string NumberTable(const BatchComparison& c) {
+  std::string table =
+      "<table>" +
+      HtmlRow({"batch", "experiment", "number", "difference", "probability by chance"}, "th");
+  for (const BatchNumber& n : c.numbers) {
+    table +=
+        HtmlRow({n.batch, n.experiment, n.name,
+                 base::ShortNumber(n.difference) + " ± " + base::ShortNumber(n.standard_error, 2),
+                 base::ShortNumber(n.probability, 2)});
+  }
+  return table + "</table>\n";
+}
+
 }  // namespace
 
 std::string BatchesPage(const BatchComparison& c) {
@@ -84,6 +99,10 @@ std::string BatchesPage(const BatchComparison& c) {
   if (!c.pictures.empty()) {
     sections += HtmlSection("photographs", "Photographs",
                             "<div class=\"scroll\">" + PictureTable(c) + "</div>\n");
+  }
+  if (!c.numbers.empty()) {
+    sections += HtmlSection("numbers", "Numbers measured",
+                            "<div class=\"scroll\">" + NumberTable(c) + "</div>\n");
   }
   return PageText({.kind = "Batches",
                    .title = std::to_string(c.batches.size()) + " batches of a powder",

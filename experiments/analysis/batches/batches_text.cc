@@ -12,8 +12,6 @@ namespace {
 
 using base::ShortNumber;
 
-constexpr double kBeyondChance = 0.05;
-
 std::string RangeText(const BatchRange& range, const std::string& unit) {
   return ShortNumber(range.median) + " (90 % in " + ShortNumber(range.low) + " … " +
          ShortNumber(range.high) + ")" + (unit.empty() ? "" : " " + unit);
@@ -27,61 +25,19 @@ std::string TogetherText(const BatchTogether& together) {
 
 std::string PicturesText(const BatchPictures& p) {
   if (!p.absent.empty()) return "not compared: " + p.absent;
-  const bool differ = p.probability < kBeyondChance;
+  const bool differ = IsBeyondChance(p.probability);
   return ShortNumber(p.sad_mm2) + " mm² between the mean profiles, " +
          (differ ? "beyond" : "within") + " the scatter of the runs (" +
          ShortNumber(p.probability, 2) + " by chance, " + std::to_string(p.num_arrangements) +
          " arrangements)";
 }
 
-// The photographs of `batch` that were compared.
-std::vector<BatchPictures> ComparedPictures(const BatchComparison& c, const std::string& batch) {
-  std::vector<BatchPictures> compared;
-  for (const BatchPictures& p : c.pictures) {
-    if (p.batch == batch && p.absent.empty()) compared.push_back(p);
-  }
-  return compared;
+std::string NumberText(const BatchNumber& n) {
+  return n.experiment + "  " + n.name + " differs by " + ShortNumber(n.difference) + " ± " +
+         ShortNumber(n.standard_error, 2) + ", " + ShortNumber(n.probability, 2) + " by chance";
 }
 
 }  // namespace
-
-double ChanceTogether(const std::vector<double>& probabilities) {
-  double half = 0;  // of χ²
-  for (const double p : probabilities) half -= std::log(p);
-  double term = std::exp(-half);
-  double sum = 0;
-  for (std::size_t i = 0; i < probabilities.size(); ++i) {
-    sum += term;
-    term *= half / static_cast<double>(i + 1);
-  }
-  return probabilities.empty() ? 1 : std::min(sum, 1.0);
-}
-
-BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
-  std::vector<std::string> found;
-  if (c.together[batch - 1].is_found) {
-    for (const BatchParameter& p : c.parameters) {
-      if (!p.differences[batch - 1].is_found) continue;
-      found.push_back(p.name + " by " + ShortNumber(p.differences[batch - 1].range.median));
-    }
-    if (found.empty()) found.push_back("the parameters together, none of them by itself");
-  }
-  std::vector<double> chances;
-  std::vector<std::string> apart;
-  for (const BatchPictures& p : ComparedPictures(c, c.batches[batch])) {
-    chances.push_back(p.probability);
-    if (p.probability < kBeyondChance) apart.push_back("the photographs of " + p.experiment);
-  }
-  const double chance = ChanceTogether(chances);
-  if (chance < kBeyondChance) {
-    if (apart.empty()) apart.push_back("the photographs together, those of no test by themselves");
-    found.insert(found.end(), apart.begin(), apart.end());
-  }
-  return {.batch = c.batches[batch],
-          .is_found = !found.empty(),
-          .pictures_by_chance = chance,
-          .text = found.empty() ? "no difference found" : "differs: " + base::Joined(found, ", ")};
-}
 
 std::string BatchesText(const BatchComparison& c) {
   std::string text = "compared with " + c.batches.front() + "\n";
@@ -98,9 +54,12 @@ std::string BatchesText(const BatchComparison& c) {
     for (const BatchPictures& p : c.pictures) {
       if (p.batch == c.batches[b]) text += "    " + p.experiment + "  " + PicturesText(p) + "\n";
     }
-    if (ComparedPictures(c, c.batches[b]).size() > 1) {
-      text += "    all photographs together  " +
-              ShortNumber(c.verdicts[b - 1].pictures_by_chance, 2) + " by chance\n";
+    for (const BatchNumber& n : c.numbers) {
+      if (n.batch == c.batches[b]) text += "    " + NumberText(n) + "\n";
+    }
+    if (NumMeasured(c, c.batches[b]) > 1) {
+      text += "    all that was measured together  " +
+              ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + " by chance\n";
     }
   }
   return text;

@@ -168,11 +168,17 @@ AlignedRuns Align(const journal::ExperimentRecord& a, const imaging::Frame& fram
   return {OnCanvas(a, frame_a, half_width, height), OnCanvas(b, frame_b, half_width, height)};
 }
 
+using Experiments = std::vector<journal::ExperimentRecord>;
+
+Experiments::const_iterator ExperimentNamed(const Experiments& all, const std::string& name) {
+  return std::ranges::find(all, name, &journal::ExperimentRecord::name);
+}
+
 BatchPictures ComparePictures(const Batch& first, const Batch& batch, std::size_t e) {
   const journal::ExperimentRecord& a = first.view.record.experiments[e];
   BatchPictures pictures{.batch = batch.view.folder.root.string(), .experiment = a.name};
-  const auto& others = batch.view.record.experiments;
-  const auto found = std::ranges::find(others, a.name, &journal::ExperimentRecord::name);
+  const Experiments& others = batch.view.record.experiments;
+  const auto found = ExperimentNamed(others, a.name);
   if (found == others.end()) {
     pictures.absent = "the batch has no experiment of this name";
     return pictures;
@@ -195,6 +201,28 @@ BatchPictures ComparePictures(const Batch& first, const Batch& batch, std::size_
   pictures.probability = test.probability;
   pictures.num_arrangements = test.num_arrangements;
   return pictures;
+}
+
+// The numbers that both have measured in the first batch's experiment `e`.
+void CompareNumbers(const Batch& first, const Batch& batch, std::size_t e,
+                    std::vector<BatchNumber>& numbers) {
+  const journal::ExperimentRecord& a = first.view.record.experiments[e];
+  const Experiments& others = batch.view.record.experiments;
+  const auto b = ExperimentNamed(others, a.name);
+  if (b == others.end()) return;
+  for (const journal::ScalarRecord& of_first : a.scalars) {
+    const auto found = std::ranges::find(b->scalars, of_first.name, &journal::ScalarRecord::name);
+    if (found == b->scalars.end()) continue;
+    BatchNumber number{
+        .batch = batch.view.folder.root.string(),
+        .experiment = a.name,
+        .name = of_first.name,
+        .difference = found->value - of_first.value,
+        .standard_error = std::hypot(found->standard_error, of_first.standard_error)};
+    number.probability =
+        ChanceOf(number.difference, number.standard_error, a.num_heaps + b->num_heaps);
+    numbers.push_back(std::move(number));
+  }
 }
 
 double BinomialUpTo(std::size_t n, std::size_t k, double most) {
@@ -287,6 +315,7 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
   for (std::size_t b = 1; b < batches.size(); ++b) {
     comparison.together.push_back(TogetherOf(batches.front(), batches[b]));
     for (std::size_t e = 0; e < batches.front().view.record.experiments.size(); ++e) {
+      CompareNumbers(batches.front(), batches[b], e, comparison.numbers);
       if (!batches.front().view.references[e].has_image()) continue;
       comparison.pictures.push_back(ComparePictures(batches.front(), batches[b], e));
     }

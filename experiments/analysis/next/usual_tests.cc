@@ -85,6 +85,40 @@ std::vector<double> StressesFor(const campaign::CampaignSpec& spec, std::vector<
   return stresses;
 }
 
+// Of the grains as they are simulated first, with the largest scale factor.
+double LargestSimulated(const campaign::CampaignSpec& spec) {
+  rigs::Case c;
+  c.powder = spec.powder;
+  c.coarse_graining.scale_factor = spec.coarse_graining.Levels().front();
+  return rigs::LargestDiameter(c);
+}
+
+// An orifice that coarse grains pass, too, under a cylinder as wide as its filling is high; a plate
+// that a heap of some 30 degrees overflows, with funnel and height in the proportions of ISO 4324;
+// a drum four times as wide as deep, two fifths full. Times are those of seconds, not minutes.
+void AddFlows(const campaign::CampaignSpec& spec, double volume,
+              std::vector<TestCandidate>& tests) {
+  const double grain = LargestSimulated(spec);
+  rigs::RigOptions flow = Of(rigs::RigKind::kOrificeFlow);
+  flow.orifice_flow.diameter = UpToMillimetre(std::cbrt(4 * volume / std::numbers::pi));
+  flow.orifice_flow.orifice = std::min(UpToMillimetre(6 * grain), 0.6 * flow.orifice_flow.diameter);
+  rigs::RigOptions heap = Of(rigs::RigKind::kFunnelHeap);
+  heap.funnel_heap.plate_diameter = UpToMillimetre(std::cbrt(12 * volume));
+  heap.funnel_heap.outlet =
+      UpToMillimetre(std::max(0.1 * heap.funnel_heap.plate_diameter, 4 * grain));
+  heap.funnel_heap.height = 0.75 * heap.funnel_heap.plate_diameter;
+  rigs::RigOptions drum = Of(rigs::RigKind::kDrum);
+  drum.drum.diameter = UpToMillimetre(std::cbrt(40 * volume / std::numbers::pi));
+  drum.drum.width = drum.drum.diameter / 4;
+  drum.drum.speed = 30 * rigs::kRpm;
+  drum.drum.start_turns = 0.25;
+  drum.drum.turns = 0.25;
+  const rigs::FillingRule pour{.kind = rigs::FillingKind::kPour};
+  tests.push_back({.name = "orifice flow", .rig = flow, .filling = rigs::FillingRule{}});
+  tests.push_back({.name = "funnel heap", .rig = heap, .filling = pour});
+  tests.push_back({.name = "drum, 30 rpm", .rig = drum, .filling = rigs::FillingRule{}});
+}
+
 // Cylinder as high as wide; column twice as high as long; box five times as long as high; shear
 // cell a quarter wider than high.
 void AddVessels(const campaign::CampaignSpec& spec, std::vector<TestCandidate>& tests) {
@@ -108,6 +142,7 @@ void AddVessels(const campaign::CampaignSpec& spec, std::vector<TestCandidate>& 
   tests.push_back({.name = "column collapse", .rig = column, .filling = dense});
   tests.push_back({.name = "tilting box", .rig = box, .filling = dense});
   tests.push_back({.name = "shear cell", .rig = cell, .filling = dense});
+  AddFlows(spec, volume, tests);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "base/text/shell_text.h"
+#include "experiments/analysis/predict/as_before.h"
 #include "experiments/analysis/predict/draws.h"
 #include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/one_set.h"
@@ -38,30 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using campaign::JointView;
-
-constexpr const char* kSceneTest = "scene";
-
-// `options` with what an earlier call for this file had, where it has ended.
-PredictOptions AsBefore(const JointView& view, PredictOptions options) {
-  const fs::path root =
-      PredictFolder(view.folder.root) / base::FileWord(options.file.stem().string());
-  const auto design = campaign::ReadRecordFile<PredictionDesign>(root / "design.json");
-  const fs::path file = root / "prediction.json";
-  if (!design || !fs::exists(file)) return options;
-  const auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
-  if (before.draws.empty() || before.by != PredictedBy::kPosterior) return options;
-  options.num_draws = design->num_draws;
-  const auto stage =
-      std::ranges::find(design->stages, before.scale_factor, &PredictionStage::scale_factor);
-  options.num_seeds = stage == design->stages.end()  // written before there were stages
-                          ? before.num_runs / static_cast<int>(before.draws.size())
-                          : stage->num_seeds;
-  const nlohmann::json given = base::ReadJsonFile(options.file).root;
-  const bool states =
-      given.contains("coarse_graining") && given["coarse_graining"].contains("scale_factor");
-  if (before.test != kSceneTest && !states) options.scale_factors = {before.scale_factor};
-  return options;
-}
 
 // One call's work on DIR/predict/NAME.
 class Predictor {

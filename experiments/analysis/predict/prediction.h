@@ -19,6 +19,7 @@ enum class PredictedBy {
 };
 constexpr PredictedBy LastOf(PredictedBy) { return PredictedBy::kSet; }
 
+inline constexpr const char* kSceneTest = "scene";  // in place of a rig's kind
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // A number that was measured on the real process, beside the prediction of it.

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "base/error.h"
+#include "base/files/file.h"
 #include "base/random.h"
 #include "tests/experiments/campaign_fixture.h"
 
@@ -48,9 +50,6 @@ TEST(Permute, ManyRunsAreDealtOutByChance) {
   EXPECT_EQ(Permute(Heaps(0.4, 10, 1), Heaps(0.4, 10, 50), 1).num_arrangements, 5000);
 }
 
-// Draws along a valley of sd 1 and across it of sd 0.1. One that is moved by 0.25 across lies
-// inside ± 1.64 sd of either parameter, and at the level 1 - exp(-2.5² / 2) = 0.956 of both; three
-// standard errors of 4000 draws are 0.01, and the sample's covariance adds as much.
 // By hand: χ² of 4 degrees of freedom is beyond x with probability (1 + x/2) e^(−x/2).
 TEST(ChanceTogether, IsFishersAndThatOfOneTestItsOwn) {
   EXPECT_EQ(ChanceTogether({}), 1);
@@ -82,9 +81,34 @@ TEST(VerdictOf, PicturesOfAllTestsAreJudgedTogether) {
   EXPECT_FALSE(VerdictOf(WithPictures(0.3, 0.048), 1).is_found);
   EXPECT_EQ(VerdictOf(WithPictures(0.3, 0.008), 1).text, "differs: the photographs of wide plate");
   EXPECT_EQ(VerdictOf(WithPictures(0.06, 0.06), 1).text,
-            "differs: the photographs together, those of no test by themselves");
+            "differs: what was measured together, nothing of it by itself");
 }
 
+// Three standard errors: 0.27 % where they are known exactly, 4.0 % by Student's t of 4 degrees of
+// freedom where three runs in each batch tell them (tables).
+TEST(ChanceOf, FewRunsKnowTheirErrorBadly) {
+  EXPECT_NEAR(ChanceOf(-0.3, 0.1, 1), 0.0027, 1e-5);
+  EXPECT_NEAR(ChanceOf(0.3, 0.1, 6), 0.0399, 1e-4);
+  EXPECT_EQ(ChanceOf(0, 0.1, 6), 1);
+  EXPECT_GT(ChanceOf(1e3, 0.1, 1), 0);  // whose logarithm is taken
+}
+
+TEST(VerdictOf, ANumberIsJudgedWithThePhotographsOfItsHeaps) {
+  BatchComparison c = WithPictures(0.5, 0.03);
+  c.numbers = {{.batch = "second", .experiment = "wide plate", .name = "mass_fallen_kg"}};
+  c.numbers[0].probability = 0.004;  // twice that of the test, with the heap's 0.5: 2.6 %
+  const BatchVerdict apart = VerdictOf(c, 1);
+  EXPECT_EQ(apart.text, "differs: the photographs of wide plate, mass_fallen_kg of wide plate");
+  EXPECT_NEAR(apart.measured_by_chance, 0.004 * (1 - std::log(0.004)), 1e-12);
+  c.numbers[0].probability =
+      0.9;  // the photographs' 0.03 counts twice, and is 13.5 % with the heap's
+  EXPECT_NEAR(VerdictOf(c, 1).measured_by_chance, 0.03 * (1 - std::log(0.03)), 1e-12);
+  EXPECT_FALSE(VerdictOf(c, 1).is_found);
+}
+
+// Draws along a valley of sd 1 and across it of sd 0.1. One that is moved by 0.25 across lies
+// inside ± 1.64 sd of either parameter, and at the level 1 - exp(-2.5² / 2) = 0.956 of both; three
+// standard errors of 4000 draws are 0.01, and the sample's covariance adds as much.
 TEST(LevelOfNone, AShiftAcrossAValleyIsSeenInBothParametersTogether) {
   base::Random random(1, base::Stream("valley"), 0);
   Eigen::MatrixXd draws(4000, 2);
@@ -106,12 +130,21 @@ int Count(const std::string& text, const std::string& part) {
 
 class BatchesTest : public campaign::CampaignFixture {
  protected:
-  // A campaign that has met a heap of these.
-  fs::path Run(const std::string& name, double sliding) const {
+  // A campaign that has met a heap of these, from which so much has fallen.
+  fs::path Run(const std::string& name, double sliding, const std::string& fallen = "23 mg") const {
     const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / (name + "_in"),
                                                   R"(, "budget": {"simulations": 24},
         "confirm": {"candidates": 0}, "workers": 1)");
     imaging::WritePng(spec.parent_path() / "map.png", campaign::DrawHeap(sliding, 0.2, 12345));
+    std::string text = base::ReadFile(spec);
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    replace(R"("experiment": {)",
+            R"("experiments": [{"name": "heap", "mass_fallen": {"sd": "1 mg", "value": ")" +
+                fallen + R"("}, )");
+    replace(R"("10 mm"}},)", R"("10 mm"}}],)");
+    std::ofstream(spec) << text;
     campaign::BeginCampaign(spec, scratch_.path() / name);
     campaign::RunFake(scratch_.path() / name, {});
     return scratch_.path() / name;
@@ -146,6 +179,18 @@ TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
   const std::string page = BatchesPage(c);
   EXPECT_THAT(page, HasSubstr("differs: sliding_friction by 0."));
   EXPECT_EQ(Count(page, "<svg"), 2);  // a chart a parameter
+}
+
+// 23 ± 1 and 28 ± 1 mg: 5 ± 1.41, which chance alone makes once in 2500.
+TEST_F(BatchesTest, WhatWasWeighedIsComparedToo) {
+  const BatchComparison c = CompareBatches({Run("first", 0.4), Run("other", 0.4, "28 mg")}, {});
+  ASSERT_EQ(c.numbers.size(), 1u);
+  EXPECT_NEAR(c.numbers[0].difference, 5e-6, 1e-12);
+  EXPECT_NEAR(c.numbers[0].standard_error, std::sqrt(2) * 1e-6, 1e-12);
+  EXPECT_NEAR(c.numbers[0].probability, 4e-4, 1e-5);
+  EXPECT_THAT(c.verdicts[0].text, HasSubstr("mass_fallen_kg of heap"));
+  EXPECT_THAT(BatchesText(c), HasSubstr("mass_fallen_kg differs by 5e-06 ± 1.4e-06"));
+  EXPECT_THAT(BatchesPage(c), HasSubstr("Numbers measured"));
 }
 
 TEST_F(BatchesTest, OtherParametersAreRefused) {

@@ -122,7 +122,7 @@ TEST_F(DesignTest, ACampaignThatBeginsLaterTakesThemOver) {
 
 TEST_F(DesignTest, UsualTestsStandForThoseThatAreNotNamed) {
   const DesignSpec design = LoadDesignSpec(Write(kPowder));
-  ASSERT_EQ(design.candidates.size(), 8u);
+  ASSERT_EQ(design.candidates.size(), 11u);
   EXPECT_EQ(design.candidates[0].name, "heap");
   EXPECT_EQ(design.candidates[1].name, "wide plate, 5 cm/s");
 }

@@ -69,13 +69,13 @@ class NextTest : public campaign::CampaignFixture {
 TEST_F(NextTest, RanksWhatTrialsAlreadyTellAndAsksForTheOthers) {
   const JointView view = Run();
   const NextTable table = Rank(view, UsualTests(view), false);
-  for (const char* name :
-       {"more runs of heap", "more simulations of heap", "mass on the plate of heap",
-        "wide plate, 5 cm/s", "wide plate, 20 cm/s", "rough plate", "tapped density",
-        "column collapse", "tilting box", "shear cell"}) {
+  for (const char* name : {"more runs of heap", "more simulations of heap",
+                           "mass on the plate of heap", "wide plate, 5 cm/s", "wide plate, 20 cm/s",
+                           "rough plate", "tapped density", "column collapse", "tilting box",
+                           "shear cell", "orifice flow", "funnel heap", "drum, 30 rpm"}) {
     EXPECT_GE(Find(table, name).num_simulations, 0);
   }
-  ASSERT_EQ(table.candidates.size(), 10u);  // the finest grains are the true ones already
+  ASSERT_EQ(table.candidates.size(), 13u);  // the finest grains are the true ones already
   const NextCandidate& mass = Find(table, "mass on the plate of heap");
   const NextCandidate& runs = Find(table, "more runs of heap");
   EXPECT_GT(mass.learning->bits, runs.learning->bits);

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/student_factor.h"
+#include "base/text/joined.h"
+#include "base/text/number_text.h"
+#include "experiments/analysis/batches/batches.h"
+
+namespace talus::analysis {
+namespace {
+
+// What was measured by one test on the same heaps.
+struct MeasuredTest {
+  std::string experiment;
+  std::vector<double> chances{};
+  std::vector<std::string> apart{};  // that is beyond chance by itself
+
+  void Add(double chance, const std::string& what) {
+    chances.push_back(chance);
+    if (IsBeyondChance(chance)) apart.push_back(what);
+  }
+  double Chance() const {
+    return std::min(1.0, static_cast<double>(chances.size()) * std::ranges::min(chances));
+  }
+};
+
+std::vector<MeasuredTest> MeasuredTests(const BatchComparison& c, const std::string& batch) {
+  std::vector<MeasuredTest> tests;
+  const auto test = [&](const std::string& experiment) -> MeasuredTest& {
+    const auto found = std::ranges::find(tests, experiment, &MeasuredTest::experiment);
+    return found != tests.end() ? *found : tests.emplace_back(MeasuredTest{experiment});
+  };
+  for (const BatchPictures& p : c.pictures) {
+    if (p.batch != batch || !p.absent.empty()) continue;
+    test(p.experiment).Add(p.probability, "the photographs of " + p.experiment);
+  }
+  for (const BatchNumber& n : c.numbers) {
+    if (n.batch == batch) test(n.experiment).Add(n.probability, n.name + " of " + n.experiment);
+  }
+  return tests;
+}
+
+std::vector<std::string> ParametersApart(const BatchComparison& c, std::size_t batch) {
+  std::vector<std::string> apart;
+  if (!c.together[batch - 1].is_found) return apart;
+  for (const BatchParameter& p : c.parameters) {
+    const BatchDifference& d = p.differences[batch - 1];
+    if (d.is_found) apart.push_back(p.name + " by " + base::ShortNumber(d.range.median));
+  }
+  if (apart.empty()) apart.push_back("the parameters together, none of them by itself");
+  return apart;
+}
+
+}  // namespace
+
+bool IsBeyondChance(double probability) {
+  constexpr double kBeyondChance = 0.05;
+  return probability < kBeyondChance;
+}
+
+double ChanceTogether(const std::vector<double>& probabilities) {
+  double half = 0;  // of χ²
+  for (const double p : probabilities) half -= std::log(p);
+  double term = std::exp(-half);
+  double sum = 0;
+  for (std::size_t i = 0; i < probabilities.size(); ++i) {
+    sum += term;
+    term *= half / static_cast<double>(i + 1);
+  }
+  return probabilities.empty() ? 1 : std::min(sum, 1.0);
+}
+
+double ChanceOf(double difference, double standard_error, int num_runs) {
+  // Student's tail is a difference of shares near 1, no better than its integral.
+  constexpr double kLeast = 1e-9;
+  const double degrees = num_runs > 2 ? num_runs - 2 : std::numeric_limits<double>::infinity();
+  return std::max(kLeast, 1 - base::StudentShare(degrees, std::abs(difference) / standard_error));
+}
+
+BatchVerdict VerdictOf(const BatchComparison& c, std::size_t batch) {
+  std::vector<std::string> found = ParametersApart(c, batch);
+  std::vector<double> chances;
+  std::vector<std::string> apart;
+  for (const MeasuredTest& test : MeasuredTests(c, c.batches[batch])) {
+    chances.push_back(test.Chance());
+    apart.insert(apart.end(), test.apart.begin(), test.apart.end());
+  }
+  const double chance = ChanceTogether(chances);
+  if (IsBeyondChance(chance)) {
+    if (apart.empty()) apart.push_back("what was measured together, nothing of it by itself");
+    found.insert(found.end(), apart.begin(), apart.end());
+  }
+  return {.batch = c.batches[batch],
+          .is_found = !found.empty(),
+          .measured_by_chance = chance,
+          .text = found.empty() ? "no difference found" : "differs: " + base::Joined(found, ", ")};
+}
+
+int NumMeasured(const BatchComparison& c, const std::string& batch) {
+  int count = 0;
+  for (const MeasuredTest& test : MeasuredTests(c, batch)) {
+    count += static_cast<int>(test.chances.size());
+  }
+  return count;
+}
+
+}  // namespace talus::analysis

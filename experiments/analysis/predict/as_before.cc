@@ -1,0 +1,34 @@
+#include "experiments/analysis/predict/as_before.h"
+
+#include <algorithm>
+
+#include "base/files/file.h"
+#include "base/json/json_file.h"
+#include "base/text/name.h"
+#include "experiments/analysis/predict/prediction.h"
+#include "experiments/analysis/predict/prediction_design.h"
+#include "experiments/campaign/folder/record_file.h"
+
+namespace talus::analysis {
+
+PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options) {
+  namespace fs = std::filesystem;
+  const fs::path root =
+      PredictFolder(view.folder.root) / base::FileWord(options.file.stem().string());
+  const auto design = campaign::ReadRecordFile<PredictionDesign>(root / "design.json");
+  const fs::path file = root / "prediction.json";
+  if (!design || !fs::exists(file)) return options;
+  const auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
+  if (before.draws.empty() || before.by != PredictedBy::kPosterior) return options;
+  options.num_draws = design->num_draws;
+  const auto stage =
+      std::ranges::find(design->stages, before.scale_factor, &PredictionStage::scale_factor);
+  if (stage != design->stages.end()) options.num_seeds = stage->num_seeds;
+  const nlohmann::json given = base::ReadJsonFile(options.file).root;
+  const bool states =
+      given.contains("coarse_graining") && given["coarse_graining"].contains("scale_factor");
+  if (before.test != kSceneTest && !states) options.scale_factors = {before.scale_factor};
+  return options;
+}
+
+}  // namespace talus::analysis

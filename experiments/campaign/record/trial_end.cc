@@ -1,0 +1,57 @@
+#include "experiments/campaign/record/trial_end.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text/joined.h"
+#include "experiments/trials/engines/trial_engine.h"
+
+namespace talus::campaign {
+
+bool WasEndedByOthers(const runners::FinishedJob& job) {
+  return job.end == runners::JobEnd::kPreempted || job.end == runners::JobEnd::kNodeFailure ||
+         (job.end == runners::JobEnd::kExit && job.exit_status == base::kExitInterrupted);
+}
+
+std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder) {
+  const std::string log = trials::LastLogLines(folder);
+  return job.reason + (log.empty() ? "" : ": " + log);
+}
+
+void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
+                    const std::vector<journal::MetricRecord>& left) {
+  const std::string names = base::Joined(left, "\", \"", &journal::MetricRecord::name);
+  for (const journal::ScalarRecord& measured : reference.scalars()) {
+    if (std::ranges::any_of(left, [&](const auto& l) { return l.name == measured.name; })) continue;
+    throw base::Error(
+        "trial " + std::to_string(trial.id) + " leaves no \"" + measured.name +
+        "\", which was measured; it leaves " + (names.empty() ? "no number" : "\"" + names + "\"") +
+        ". Let the engine leave it under this name (docs/foreign_engines.md) and `talus resume`");
+  }
+}
+
+TrialProgress ProgressOf(const journal::TrialRecord& trial, const journal::CampaignRecord& campaign,
+                         const Reference& reference, journal::Objective objective) {
+  TrialProgress progress{
+      .trial = trial.id,
+      .kind = trial.kind,
+      .status = trial.status,
+      .values = trial.native,
+      .scale_factor = trial.scale_factor,
+      .experiment = campaign.experiments[static_cast<std::size_t>(trial.experiment)].name,
+      .objective = reference.Value(trial),
+      .unit = std::string(journal::InfoOf(objective).unit),
+      .reason = trial.reason,
+      .duration = trial.duration_s};
+  for (const journal::ParameterRecord& parameter : campaign.parameters) {
+    progress.parameters.push_back(parameter.name);
+  }
+  for (const journal::ScalarRecord& measured : reference.scalars()) {
+    if (const auto value = trial.Metric(measured.name)) {
+      progress.numbers.push_back({measured.name, *value});
+    }
+  }
+  return progress;
+}
+
+}  // namespace talus::campaign

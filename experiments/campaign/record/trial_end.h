@@ -1,0 +1,30 @@
+// What is made of a trial when it has ended.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/folder/progress.h"
+#include "experiments/campaign/record/reference.h"
+#include "experiments/journal/records.h"
+#include "experiments/runners/runner.h"
+
+namespace talus::campaign {
+
+// Ended from outside: says nothing of the parameters, and may go better next time.
+bool WasEndedByOthers(const runners::FinishedJob& job);
+
+// "ended with exit status 1: last lines of its log"
+std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder);
+
+// A number that the engine does not leave at all is the set-up's fault: no other trial would have
+// it. Throws base::Error.
+void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,
+                    const std::vector<journal::MetricRecord>& left);
+
+// All of it but whether it is the best so far.
+TrialProgress ProgressOf(const journal::TrialRecord& trial, const journal::CampaignRecord& campaign,
+                         const Reference& reference, journal::Objective objective);
+
+}  // namespace talus::campaign
