@@ -97,7 +97,7 @@ add_library(talus_test_options INTERFACE)
 target_include_directories(talus_test_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_definitions(talus_test_options INTERFACE TALUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   TALUS_BINARY_DIR="${PROJECT_BINARY_DIR}")
-target_compile_options(talus_test_options INTERFACE $<$<NOT:$<BOOL:${TALUS_SANITIZE}>>:-O1;-g0>
+target_compile_options(talus_test_options INTERFACE $<$<NOT:$<BOOL:${TALUS_SANITIZE}>>:-Og;-g0>
   -Wno-array-bounds -Wno-maybe-uninitialized -Wno-restrict -Wno-stringop-overflow)
 
 # The suites of a test's file as a filter of GoogleTest, parameterised ones included. A file without is an error:
