@@ -6,6 +6,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/batches/batches.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::analysis {
 namespace {
@@ -36,7 +37,8 @@ std::vector<MeasuredTest> MeasuredTests(const BatchComparison& c, const std::str
     test(p.experiment).Add(p.probability, "the photographs of " + p.experiment);
   }
   for (const BatchNumber& n : c.numbers) {
-    if (n.batch == batch) test(n.experiment).Add(n.probability, n.name + " of " + n.experiment);
+    if (n.batch == batch)
+      test(n.experiment).Add(n.probability, rigs::SpokenName(n.name) + " of " + n.experiment);
   }
   return tests;
 }

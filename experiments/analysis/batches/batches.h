@@ -146,6 +146,7 @@ bool IsBeyondChance(double probability);
 // How many photographs and numbers of a batch were compared.
 int NumMeasured(const BatchComparison& comparison, const std::string& batch);
 std::string BatchesText(const BatchComparison& comparison);
+std::string DifferenceText(const BatchNumber& number);      // "-5 ± 1.4 mg"
 std::string BatchesCsv(const BatchComparison& comparison);  // a batch and parameter a line
 // A parameter over the batches, for quality control: the first one's 90 % as a band, and dashed
 // what would matter either way.

@@ -6,6 +6,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/analysis/report/page/plain_page.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::analysis {
 namespace {
@@ -22,7 +23,7 @@ std::string Verdicts(const BatchComparison& c) {
             "</strong>: " + base::MarkupText(c.verdicts[b - 1].text) +
             " (of all parameters together no difference has the credible level " +
             base::ShortNumber(c.together[b - 1].level, 2) +
-            "; all that was measured together differs so by chance with " + "probability " +
+            "; all that was measured together differs so by chance with probability " +
             base::ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + ")</li>\n";
   }
   return list + "</ul>\n";
@@ -81,10 +82,8 @@ std::string NumberTable(const BatchComparison& c) {
       "<table>" +
       HtmlRow({"batch", "experiment", "number", "difference", "probability by chance"}, "th");
   for (const BatchNumber& n : c.numbers) {
-    table +=
-        HtmlRow({n.batch, n.experiment, n.name,
-                 base::ShortNumber(n.difference) + " ± " + base::ShortNumber(n.standard_error, 2),
-                 base::ShortNumber(n.probability, 2)});
+    table += HtmlRow({n.batch, n.experiment, rigs::SpokenName(n.name), DifferenceText(n),
+                      base::ShortNumber(n.probability, 2)});
   }
   return table + "</table>\n";
 }

@@ -6,6 +6,8 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
+#include "experiments/rigs/observables/observable.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::analysis {
 namespace {
@@ -33,11 +35,18 @@ std::string PicturesText(const BatchPictures& p) {
 }
 
 std::string NumberText(const BatchNumber& n) {
-  return n.experiment + "  " + n.name + " differs by " + ShortNumber(n.difference) + " ± " +
-         ShortNumber(n.standard_error, 2) + ", " + ShortNumber(n.probability, 2) + " by chance";
+  return n.experiment + "  " + rigs::SpokenName(n.name) + " differs by " + DifferenceText(n) +
+         ", " + ShortNumber(n.probability, 2) + " by chance";
 }
 
 }  // namespace
+
+std::string DifferenceText(const BatchNumber& n) {
+  const rigs::ShownUnit unit = rigs::ShownUnitOf(rigs::UnitOfObservable(n.name));
+  return ShortNumber(unit.per_unit * n.difference) + " ± " +
+         ShortNumber(unit.per_unit * n.standard_error, 2) +
+         (unit.text.empty() ? "" : " " + unit.text);
+}
 
 std::string BatchesText(const BatchComparison& c) {
   std::string text = "compared with " + c.batches.front() + "\n";

@@ -98,7 +98,7 @@ TEST(VerdictOf, ANumberIsJudgedWithThePhotographsOfItsHeaps) {
   c.numbers = {{.batch = "second", .experiment = "wide plate", .name = "mass_fallen_kg"}};
   c.numbers[0].probability = 0.004;  // twice that of the test, with the heap's 0.5: 2.6 %
   const BatchVerdict apart = VerdictOf(c, 1);
-  EXPECT_EQ(apart.text, "differs: the photographs of wide plate, mass_fallen_kg of wide plate");
+  EXPECT_EQ(apart.text, "differs: the photographs of wide plate, mass fallen of wide plate");
   EXPECT_NEAR(apart.measured_by_chance, 0.004 * (1 - std::log(0.004)), 1e-12);
   c.numbers[0].probability =
       0.9;  // the photographs' 0.03 counts twice, and is 13.5 % with the heap's
@@ -181,15 +181,15 @@ TEST_F(BatchesTest, AShiftedBatchIsFoundAndAnEqualOneIsNot) {
   EXPECT_EQ(Count(page, "<svg"), 2);  // a chart a parameter
 }
 
-// 23 ± 1 and 28 ± 1 mg: 5 ± 1.41, which chance alone makes once in 2500.
+// 28 ± 1 and 23 ± 1 mg: -5 ± 1.41, which chance alone makes once in 2500.
 TEST_F(BatchesTest, WhatWasWeighedIsComparedToo) {
-  const BatchComparison c = CompareBatches({Run("first", 0.4), Run("other", 0.4, "28 mg")}, {});
+  const BatchComparison c = CompareBatches({Run("first", 0.4, "28 mg"), Run("other", 0.4)}, {});
   ASSERT_EQ(c.numbers.size(), 1u);
-  EXPECT_NEAR(c.numbers[0].difference, 5e-6, 1e-12);
+  EXPECT_NEAR(c.numbers[0].difference, -5e-6, 1e-12);
   EXPECT_NEAR(c.numbers[0].standard_error, std::sqrt(2) * 1e-6, 1e-12);
   EXPECT_NEAR(c.numbers[0].probability, 4e-4, 1e-5);
-  EXPECT_THAT(c.verdicts[0].text, HasSubstr("mass_fallen_kg of heap"));
-  EXPECT_THAT(BatchesText(c), HasSubstr("mass_fallen_kg differs by 5e-06 ± 1.4e-06"));
+  EXPECT_THAT(c.verdicts[0].text, HasSubstr("mass fallen of heap"));
+  EXPECT_THAT(BatchesText(c), HasSubstr("mass fallen differs by -5 ± 1.4 mg"));
   EXPECT_THAT(BatchesPage(c), HasSubstr("Numbers measured"));
 }
 
