@@ -94,8 +94,9 @@ double LargestSimulated(const campaign::CampaignSpec& spec) {
 }
 
 // An orifice that coarse grains pass, too, under a cylinder as wide as its filling is high; a plate
-// that a heap of some 30 degrees overflows, with funnel and height in the proportions of ISO 4324;
-// a drum four times as wide as deep, two fifths full. Times are those of seconds, not minutes.
+// that a heap of some 30 degrees overflows, with funnel and height in the proportions of ISO 4324
+// and a rim that keeps the lowest layer, as grains that rebound from a bare plate leave none; a
+// drum four times as wide as deep, two fifths full. Times are those of seconds, not minutes.
 void AddFlows(const campaign::CampaignSpec& spec, double volume,
               std::vector<TestCandidate>& tests) {
   const double grain = LargestSimulated(spec);
@@ -107,6 +108,7 @@ void AddFlows(const campaign::CampaignSpec& spec, double volume,
   heap.funnel_heap.outlet =
       UpToMillimetre(std::max(0.1 * heap.funnel_heap.plate_diameter, 4 * grain));
   heap.funnel_heap.height = 0.75 * heap.funnel_heap.plate_diameter;
+  heap.funnel_heap.rim_height = grain;
   rigs::RigOptions drum = Of(rigs::RigKind::kDrum);
   drum.drum.diameter = UpToMillimetre(std::cbrt(40 * volume / std::numbers::pi));
   drum.drum.width = drum.drum.diameter / 4;
