@@ -133,7 +133,7 @@ PermutationTest Permute(const std::vector<imaging::GrayImage>& first,
 // more there are. `probabilities` in (0, 1].
 double ChanceTogether(const std::vector<double>& probabilities);
 
-// That a number's difference is as large by chance, by Student's t: a standard error is known as
+// The chance that a number's difference is as large, by Student's t: a standard error is known as
 // well as so many runs in the two batches tell it, and exactly where it is not of runs (two or
 // fewer).
 double ChanceOf(double difference, double standard_error, int num_runs);

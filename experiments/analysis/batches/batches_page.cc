@@ -93,15 +93,12 @@ std::string NumberTable(const BatchComparison& c) {
 std::string BatchesPage(const BatchComparison& c) {
   std::string sections = HtmlSection("verdicts", "Do they differ?", Verdicts(c));
   sections += HtmlSection("charts", "Parameters over the batches", Charts(c));
-  sections += HtmlSection("differences", "Differences",
-                          "<div class=\"scroll\">" + DifferenceTable(c) + "</div>\n");
+  sections += HtmlSection("differences", "Differences", HtmlScrolling(DifferenceTable(c)));
   if (!c.pictures.empty()) {
-    sections += HtmlSection("photographs", "Photographs",
-                            "<div class=\"scroll\">" + PictureTable(c) + "</div>\n");
+    sections += HtmlSection("photographs", "Photographs", HtmlScrolling(PictureTable(c)));
   }
   if (!c.numbers.empty()) {
-    sections += HtmlSection("numbers", "Numbers measured",
-                            "<div class=\"scroll\">" + NumberTable(c) + "</div>\n");
+    sections += HtmlSection("numbers", "Numbers measured", HtmlScrolling(NumberTable(c)));
   }
   return PageText({.kind = "Batches",
                    .title = std::to_string(c.batches.size()) + " batches of a powder",

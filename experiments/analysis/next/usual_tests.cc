@@ -75,6 +75,19 @@ rigs::RigOptions Of(rigs::RigKind kind) {
 
 double UpToMillimetre(double length) { return 1e-3 * std::ceil(1e3 * length); }
 
+double BulkVolume(const rigs::Powder& powder) {
+  constexpr double kPacked = 0.6;  // solid fraction
+  return powder.mass / (kPacked * powder.material.density);
+}
+
+// Diameter of a cylinder that so much powder fills as high as it is wide.
+double CylinderFor(double volume) {
+  return UpToMillimetre(std::cbrt(4 * volume / std::numbers::pi));
+}
+
+const rigs::FillingRule kPoured{.kind = rigs::FillingKind::kPour};
+const rigs::FillingRule kDense{};
+
 // Stresses that hard grains are tested under, or as much of them as these bear.
 std::vector<double> StressesFor(const campaign::CampaignSpec& spec, std::vector<double> stresses) {
   rigs::Case c;
@@ -85,7 +98,7 @@ std::vector<double> StressesFor(const campaign::CampaignSpec& spec, std::vector<
   return stresses;
 }
 
-// Of the grains as they are simulated first, with the largest scale factor.
+// The largest grain as a test is simulated first, with the largest scale factor.
 double LargestSimulated(const campaign::CampaignSpec& spec) {
   rigs::Case c;
   c.powder = spec.powder;
@@ -101,7 +114,7 @@ void AddFlows(const campaign::CampaignSpec& spec, double volume,
               std::vector<TestCandidate>& tests) {
   const double grain = LargestSimulated(spec);
   rigs::RigOptions flow = Of(rigs::RigKind::kOrificeFlow);
-  flow.orifice_flow.diameter = UpToMillimetre(std::cbrt(4 * volume / std::numbers::pi));
+  flow.orifice_flow.diameter = CylinderFor(volume);
   flow.orifice_flow.orifice = std::min(UpToMillimetre(6 * grain), 0.6 * flow.orifice_flow.diameter);
   rigs::RigOptions heap = Of(rigs::RigKind::kFunnelHeap);
   heap.funnel_heap.plate_diameter = UpToMillimetre(std::cbrt(12 * volume));
@@ -115,20 +128,17 @@ void AddFlows(const campaign::CampaignSpec& spec, double volume,
   drum.drum.speed = 30 * rigs::kRpm;
   drum.drum.start_turns = 0.25;
   drum.drum.turns = 0.25;
-  const rigs::FillingRule pour{.kind = rigs::FillingKind::kPour};
-  tests.push_back({.name = "orifice flow", .rig = flow, .filling = rigs::FillingRule{}});
-  tests.push_back({.name = "funnel heap", .rig = heap, .filling = pour});
-  tests.push_back({.name = "drum, 30 rpm", .rig = drum, .filling = rigs::FillingRule{}});
+  tests.push_back({.name = "orifice flow", .rig = flow, .filling = kDense});
+  tests.push_back({.name = "funnel heap", .rig = heap, .filling = kPoured});
+  tests.push_back({.name = "drum, 30 rpm", .rig = drum, .filling = kDense});
 }
 
 // Cylinder as high as wide; column twice as high as long; box five times as long as high; shear
 // cell a quarter wider than high.
-void AddVessels(const campaign::CampaignSpec& spec, std::vector<TestCandidate>& tests) {
-  const rigs::Powder& powder = spec.powder;
-  constexpr double kPacked = 0.6;  // solid fraction
-  const double volume = powder.mass / (kPacked * powder.material.density);
+void AddVessels(const campaign::CampaignSpec& spec, double volume,
+                std::vector<TestCandidate>& tests) {
   rigs::RigOptions tapped = Of(rigs::RigKind::kTappedDensity);
-  tapped.tapped_density.diameter = UpToMillimetre(std::cbrt(4 * volume / std::numbers::pi));
+  tapped.tapped_density.diameter = CylinderFor(volume);
   rigs::RigOptions column = Of(rigs::RigKind::kColumnCollapse);
   column.column_collapse.length = UpToMillimetre(std::cbrt(volume / 2));
   column.column_collapse.width = column.column_collapse.length;
@@ -138,13 +148,10 @@ void AddVessels(const campaign::CampaignSpec& spec, std::vector<TestCandidate>& 
   rigs::RigOptions cell = Of(rigs::RigKind::kShearCell);
   cell.shear_cell.diameter = UpToMillimetre(std::cbrt(5 * volume / std::numbers::pi));
   cell.shear_cell.stresses = StressesFor(spec, cell.shear_cell.stresses);
-  const rigs::FillingRule pour{.kind = rigs::FillingKind::kPour};
-  const rigs::FillingRule dense{};
-  tests.push_back({.name = "tapped density", .rig = tapped, .filling = pour});
-  tests.push_back({.name = "column collapse", .rig = column, .filling = dense});
-  tests.push_back({.name = "tilting box", .rig = box, .filling = dense});
-  tests.push_back({.name = "shear cell", .rig = cell, .filling = dense});
-  AddFlows(spec, volume, tests);
+  tests.push_back({.name = "tapped density", .rig = tapped, .filling = kPoured});
+  tests.push_back({.name = "column collapse", .rig = column, .filling = kDense});
+  tests.push_back({.name = "tilting box", .rig = box, .filling = kDense});
+  tests.push_back({.name = "shear cell", .rig = cell, .filling = kDense});
 }
 
 }  // namespace
@@ -152,7 +159,9 @@ void AddVessels(const campaign::CampaignSpec& spec, std::vector<TestCandidate>& 
 std::vector<TestCandidate> UsualTests(const campaign::JointView& view) {
   std::vector<TestCandidate> tests;
   AddPlates(view, tests);
-  AddVessels(view.spec, tests);
+  const double volume = BulkVolume(view.spec.powder);
+  AddVessels(view.spec, volume, tests);
+  AddFlows(view.spec, volume, tests);
   std::erase_if(tests, [&](const TestCandidate& test) { return IsMade(view, test); });
   return tests;
 }

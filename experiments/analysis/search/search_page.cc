@@ -197,8 +197,7 @@ std::string SearchPage(const SearchFolder& search) {
   const std::string sections =
       HtmlSection("answer", "Answer", Answer(search)) +
       HtmlSection("charts", "Values", Charts(SearchFigures(search))) +
-      HtmlSection("evaluations", "Evaluations",
-                  "<div class=\"scroll\">" + EvaluationTable(search) + "</div>\n");
+      HtmlSection("evaluations", "Evaluations", HtmlScrolling(EvaluationTable(search)));
   return PageText({.kind = "Search report",
                    .title = search.name,
                    .standing = Standing(search),

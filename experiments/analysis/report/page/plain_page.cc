@@ -14,6 +14,10 @@ std::string HtmlRow(const std::vector<std::string>& cells, const char* tag) {
   return row + "</tr>\n";
 }
 
+std::string HtmlScrolling(const std::string& table) {
+  return "<div class=\"scroll\">" + table + "</div>\n";
+}
+
 std::string HtmlSection(const std::string& id, const std::string& title,
                         const std::string& content) {
   return "<section id=\"" + id + "\"><h2>" + title + "</h2>\n<div class=\"card\">\n" + content +

@@ -10,6 +10,9 @@ namespace talus::analysis {
 // <tr> with these texts, which are escaped; `tag` is td or th.
 std::string HtmlRow(const std::vector<std::string>& cells, const char* tag = "td");
 
+// A table, as HTML, that may be wider than the page.
+std::string HtmlScrolling(const std::string& table);
+
 // `content` is HTML.
 std::string HtmlSection(const std::string& id, const std::string& title,
                         const std::string& content);
