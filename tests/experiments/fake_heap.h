@@ -88,9 +88,10 @@ struct FakeEngineOptions {
   bool no_numbers = false;            // the masses and densities are not there
   bool undefined = false;             // … or have no value
   double restitution_as_rolling = 0;  // a lower restitution acts as so many times more μ_r
-  double mass_scatter = 1e-6;         // of the mass fallen, from seed to seed [kg]
-  double density_scatter = 4;         // of the tapped density, from seed to seed [kg/m³]
-  double density_by_scale = 0;        // that it gains for each 1 of the scale factor [kg/m³]
+  double restitution_times_rolling = 0;  // a loss of 1 acts as so many times μ_r more
+  double mass_scatter = 1e-6;            // of the mass fallen, from seed to seed [kg]
+  double density_scatter = 4;            // of the tapped density, from seed to seed [kg/m³]
+  double density_by_scale = 0;           // that it gains for each 1 of the scale factor [kg/m³]
 };
 
 class FakeEngine : public trials::TrialEngine {
@@ -102,7 +103,9 @@ class FakeEngine : public trials::TrialEngine {
     const engine::Material& m = rig_case.powder.material;
     const auto seed = rig_case.seed;
     const double rolling =
-        m.rolling_friction + options_.restitution_as_rolling * (0.9 - m.restitution);
+        m.rolling_friction + (options_.restitution_as_rolling +
+                              options_.restitution_times_rolling * m.rolling_friction) *
+                                 (0.9 - m.restitution);
     const int num_pictures = rig_case.frame ? rigs::ProfileFrameOf(rig_case).num_pictures() : 1;
     imaging::WritePng(folder / "drawn.png", DrawFilm(m.sliding_friction, rolling, seed,
                                                      num_pictures, options_.film_grows));

@@ -14,19 +14,23 @@ namespace {
 namespace fs = std::filesystem;
 
 // A name that says what is in it, without the blanks and slashes of units.
-std::string FolderName(const Move* move) {
-  if (move == nullptr) return "as_recommended";
+std::string FolderName(const MovedSet& set) {
+  std::string text = set.move == nullptr ? "as_recommended" : set.move->name + "-" + set.move->to;
+  if (set.point) {
+    text += "_at";
+    for (const double x : *set.point) text += "_" + base::ShortNumber(x, 6);
+  }
   std::string name;
-  for (const char c : move->name + "-" + move->to) {
+  for (const char c : text) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_';
     name += plain ? c : '-';
   }
   return name;
 }
 
-fs::path FolderOf(const SensitivitySetting& setting, const Move* move, int experiment,
+fs::path FolderOf(const SensitivitySetting& setting, const MovedSet& set, int experiment,
                   int replicate) {
-  return SensitivityFolder(setting.view.folder.root) / FolderName(move) /
+  return SensitivityFolder(setting.view.folder.root) / FolderName(set) /
          ("experiment_" + std::to_string(experiment + 1)) / base::FileNumber(replicate + 1);
 }
 
@@ -49,23 +53,23 @@ fs::path SensitivityFolder(const fs::path& campaign) {
   return fs::absolute(campaign) / "sensitivity";
 }
 
-rigs::Case MovedCase(const SensitivitySetting& setting, const Move* move, int experiment,
+rigs::Case MovedCase(const SensitivitySetting& setting, const MovedSet& set, int experiment,
                      int replicate) {
   const campaign::JointView& view = setting.view;
   rigs::Case rig_case = campaign::CaseOf(
       view.spec,
-      {.values = view.space.ToNative(setting.point),
+      {.values = view.space.ToNative(set.point.value_or(setting.point)),
        .seed = campaign::DesignSeed(view.spec.seed, static_cast<std::size_t>(replicate)),
        .scale_factor = setting.scale_factor,
        .experiment = experiment},
       view.references[static_cast<std::size_t>(experiment)].frame());
-  if (move != nullptr) move->apply(rig_case);
+  if (set.move != nullptr) set.move->apply(rig_case);
   return rig_case;
 }
 
 bool ActsOn(const SensitivitySetting& setting, const Move& move, int experiment) {
-  return !rigs::IsSameRun(MovedCase(setting, nullptr, experiment, 0),
-                          MovedCase(setting, &move, experiment, 0));
+  return !rigs::IsSameRun(MovedCase(setting, {}, experiment, 0),
+                          MovedCase(setting, {.move = &move}, experiment, 0));
 }
 
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
@@ -74,8 +78,8 @@ void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& se
     for (const int e : setting.view.Answered()) {
       if (set.move != nullptr && !ActsOn(setting, *set.move, e)) continue;
       for (int i = 0; i < set.replicates; ++i) {
-        cases.push_back({.folder = FolderOf(setting, set.move, e, i),
-                         .rig_case = MovedCase(setting, set.move, e, i)});
+        cases.push_back(
+            {.folder = FolderOf(setting, set, e, i), .rig_case = MovedCase(setting, set, e, i)});
       }
     }
   }
@@ -94,11 +98,11 @@ MovedOutputs OutputsOf(const SensitivitySetting& setting, const MovedSet& set,
   const optimizer::ExperimentModel& model = setting.posterior.models()[answered];
   MovedOutputs made{.outputs = Eigen::MatrixXd(0, model.num_outputs())};
   for (int i = 0; i < set.replicates; ++i) {
-    const fs::path folder = FolderOf(setting, set.move, experiment, i);
+    const fs::path folder = FolderOf(setting, set, experiment, i);
     try {
       if (!setting.parts.engine->IsComplete(folder)) throw base::Error("did not end well");
       const trials::TrialOutput output =
-          setting.parts.engine->Collect(MovedCase(setting, set.move, experiment, i), folder);
+          setting.parts.engine->Collect(MovedCase(setting, set, experiment, i), folder);
       made.core_time += output.cpu_time;
       std::vector<float> field;
       if (reference.has_image()) field = reference.Field(output.profile);

@@ -1,9 +1,10 @@
-// The simulations of a sensitivity study: the recommended set as it is and with one fixed thing
-// moved, with common seeds, in DIR/sensitivity.
+// The simulations of a sensitivity study: a set as it is and with one fixed thing moved, with
+// common seeds, in DIR/sensitivity.
 #pragma once
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "experiments/analysis/sensitivity/moves.h"
@@ -27,11 +28,12 @@ std::filesystem::path SensitivityFolder(const std::filesystem::path& campaign);
 // So many simulations of each experiment; `move` null: as recommended.
 struct MovedSet {
   const Move* move = nullptr;
+  std::optional<Eigen::VectorXd> point{};  // in place of the recommended one, unit cube
   int replicates = 0;
 };
 
-// An experiment's case with the move; `experiment` is the campaign's index.
-rigs::Case MovedCase(const SensitivitySetting& setting, const Move* move, int experiment,
+// An experiment's case with the set's move at its point; `experiment` is the campaign's index.
+rigs::Case MovedCase(const SensitivitySetting& setting, const MovedSet& set, int experiment,
                      int replicate);
 
 // Whether the move changes the experiment at all: a drum knows no lift.

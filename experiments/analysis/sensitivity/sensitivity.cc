@@ -7,6 +7,7 @@
 #include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/sensitivity/fixed_point.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/plan/core_time.h"
@@ -16,6 +17,9 @@
 namespace talus::analysis {
 
 constexpr double kSure = 2;  // standard errors
+// Half ranges: a shift of the outputs is taken to be the same so far about the set that it was
+// simulated at.
+constexpr double kNear = 0.5;
 
 bool AnswerShift::Exceeds() const {
   return std::abs(half_ranges) > 1 && std::abs(half_ranges) > kSure * half_ranges_error;
@@ -94,7 +98,7 @@ class Study {
                  .point = answer_.point,
                  .scale_factor = FactorOf(view, options),
                  .parts = options.parts},
-        moves_(MovesOf(view, options, MovedCase(setting_, nullptr, view.Answered().front(), 0))) {}
+        moves_(MovesOf(view, options, MovedCase(setting_, {}, view.Answered().front(), 0))) {}
 
   SensitivityTable Run() {
     response_ = optimizer::ResponseToMeasured(setting_.posterior,
@@ -105,6 +109,7 @@ class Study {
          replicates *= 2) {
       if (!Round(replicates, table)) break;
     }
+    for (std::size_t i = 0; i < moves_.size(); ++i) Follow(moves_[i], table.moves[i]);
     CountAll(table);
     std::stable_sort(table.moves.begin(), table.moves.end(),
                      [](const FixedMove& a, const FixedMove& b) {
@@ -120,6 +125,7 @@ class Study {
 
  private:
   static constexpr int kDraws = 1000;
+  static constexpr int kMostFollowed = 2;
 
   static double FactorOf(const JointView& view, const SensitivityOptions& options) {
     const std::vector<double> levels = view.spec.coarse_graining.Levels();
@@ -179,7 +185,7 @@ class Study {
     }
     for (const int e : view_.Answered()) {
       if (unknown.why_not.empty()) {
-        unknown.why_not = WhyNotMoved(move, MovedCase(setting_, nullptr, e, 0));
+        unknown.why_not = WhyNotMoved(move, MovedCase(setting_, {}, e, 0));
       }
     }
     return unknown;
@@ -226,11 +232,24 @@ class Study {
   }
 
   void Judge(const MovedSet& set, FixedMove& move) const {
-    std::vector<Shift> shifts;
     move.replicates = set.replicates;
     move.num_failed = 0;
     move.outputs.clear();
+    const std::optional<std::vector<Shift>> shifts =
+        ShiftsBy(set, base_, move.num_failed, move.why_not);
+    if (!shifts) return;
     for (std::size_t e = 0; e < base_.size(); ++e) {
+      if (ActsOn(setting_, *set.move, view_.Answered()[e])) AddOutputs(e, (*shifts)[e], move);
+    }
+    move.answer = AnswerWith(PointWith(*shifts), *shifts);
+  }
+
+  // By experiment; none where one has no simulation that succeeded, which `why_not` then says.
+  std::optional<std::vector<Shift>> ShiftsBy(const MovedSet& set,
+                                             const std::vector<MovedOutputs>& base, int& num_failed,
+                                             std::string& why_not) const {
+    std::vector<Shift> shifts;
+    for (std::size_t e = 0; e < base.size(); ++e) {
       const optimizer::ExperimentModel& model = setting_.posterior.models()[e];
       if (!ActsOn(setting_, *set.move, view_.Answered()[e])) {
         const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.num_outputs());
@@ -238,16 +257,15 @@ class Study {
         continue;
       }
       const MovedOutputs made = OutputsOf(setting_, set, e);
-      move.num_failed += made.num_failed;
-      if (made.outputs.rows() == 0) {
-        move.why_not = "none of its simulations of \"" + NameOf(e) + "\" succeeded";
-        return;
+      num_failed += made.num_failed;
+      if (made.outputs.rows() == 0 || base[e].outputs.rows() == 0) {
+        why_not = "none of its simulations of \"" + NameOf(e) + "\" succeeded";
+        return std::nullopt;
       }
       shifts.push_back(
-          ShiftOf(made.outputs, base_[e].outputs, model.NoiseAt(setting_.scale_factor)));
-      AddOutputs(e, shifts.back(), move);
+          ShiftOf(made.outputs, base[e].outputs, model.NoiseAt(setting_.scale_factor)));
     }
-    move.answer = AnswerWith(shifts);
+    return shifts;
   }
 
   void AddOutputs(std::size_t e, const Shift& shift, FixedMove& move) const {
@@ -272,23 +290,94 @@ class Study {
     }
   }
 
-  std::vector<AnswerShift> AnswerWith(const std::vector<Shift>& shifts) const {
+  // A shift depends on the set. Where the answer goes far, the shift is simulated anew at the
+  // answer foretold, until it leads to where it was simulated.
+  void Follow(const Move& move, FixedMove& foretold) {
+    if (!foretold.why_not.empty()) return;
+    const Eigen::VectorXd half = HalfRanges();
+    FixedPoint fixed_point(half);
+    Eigen::VectorXd at = setting_.point;
+    Eigen::VectorXd next = at;
+    for (std::size_t i = 0; i < foretold.answer.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      next[k] += half[k] * foretold.answer[i].half_ranges;
+    }
+    next = fixed_point.Next(at, next);
+    while (foretold.num_followed < kMostFollowed && IsFar(next - at, foretold)) {
+      at = next;
+      const std::optional<std::vector<Shift>> shifts = ShiftsAt(at, move, foretold);
+      if (!shifts)
+        return;  // nothing stands there: the shift at the recommended set is what is known
+      ++foretold.num_followed;
+      next = fixed_point.Next(at, PointWith(*shifts)).cwiseMax(0).cwiseMin(1);
+      foretold.answer = AnswerWith(next, *shifts);
+    }
+  }
+
+  Eigen::VectorXd HalfRanges() const {
+    Eigen::VectorXd half(answer_.point.size());
+    for (Eigen::Index k = 0; k < half.size(); ++k) {
+      const auto& range = answer_.credible[static_cast<std::size_t>(k)];
+      half[k] = (range.high - range.low) / 2;
+    }
+    return half;
+  }
+
+  bool IsFar(const Eigen::VectorXd& step, const FixedMove& foretold) const {
+    const Eigen::VectorXd half_ranges = step.cwiseQuotient(HalfRanges()).cwiseAbs();
+    for (std::size_t i = 0; i < foretold.answer.size(); ++i) {
+      if (half_ranges[static_cast<Eigen::Index>(i)] >
+          std::max(kNear, kSure * foretold.answer[i].half_ranges_error)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::optional<std::vector<Shift>> ShiftsAt(const Eigen::VectorXd& point, const Move& move,
+                                             const FixedMove& foretold) {
+    const MovedSet base{.point = point, .replicates = foretold.replicates};
+    const MovedSet moved{.move = &move, .point = point, .replicates = foretold.replicates};
+    if (options_.tell) {
+      options_.tell(base::Counted(2 * base.replicates, "simulation") +
+                    " each at the answer foretold for " + move.name);
+    }
+    RunMoved(setting_, {base, moved});
+    std::vector<MovedOutputs> without;
+    for (std::size_t e = 0; e < base_.size(); ++e) {
+      without.push_back(OutputsOf(setting_, base, e));
+      followed_.push_back(without.back());
+      if (ActsOn(setting_, move, view_.Answered()[e])) {
+        followed_.push_back(OutputsOf(setting_, moved, e));
+      }
+    }
+    int num_failed = 0;
+    std::string why_not;
+    return ShiftsBy(moved, without, num_failed, why_not);
+  }
+
+  Eigen::VectorXd PointWith(const std::vector<Shift>& shifts) const {
     std::vector<Eigen::VectorXd> less;
+    for (const Shift& shift : shifts) less.emplace_back(-shift.mean);
+    return strategy_->PointIfMeasured(less);
+  }
+
+  std::vector<AnswerShift> AnswerWith(const Eigen::VectorXd& point,
+                                      const std::vector<Shift>& shifts) const {
     Eigen::VectorXd variance(response_.cols());
     Eigen::Index left = 0;
     for (const Shift& shift : shifts) {
-      less.emplace_back(-shift.mean);
       variance.segment(left, shift.variance.size()) = shift.variance;
       left += shift.variance.size();
     }
-    const Eigen::VectorXd point = strategy_->PointIfMeasured(less);
     const Eigen::VectorXd error = (response_.cwiseAbs2() * variance).cwiseSqrt();
+    const Eigen::VectorXd halves = HalfRanges();
     const std::vector<int> free = view_.space.Free();
     std::vector<AnswerShift> answer;
     for (std::size_t i = 0; i < free.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       const optimizer::Parameter& p = view_.space.parameters[static_cast<std::size_t>(free[i])];
-      const double half = (answer_.credible[i].high - answer_.credible[i].low) / 2;
+      const double half = halves[k];
       answer.push_back({.parameter = p.name,
                         .from = p.ToNative(answer_.point[k]),
                         .to = p.ToNative(point[k]),
@@ -307,6 +396,7 @@ class Study {
       table.core_time += made.core_time;
     };
     for (const MovedOutputs& made : base_) count(made);
+    for (const MovedOutputs& made : followed_) count(made);
     for (std::size_t i = 0; i < moves_.size(); ++i) {
       const MovedSet set{.move = &moves_[i], .replicates = table.moves[i].replicates};
       for (std::size_t e = 0; e < view_.Answered().size(); ++e) {
@@ -322,7 +412,8 @@ class Study {
   SensitivitySetting setting_;
   std::vector<Move> moves_;
   Eigen::MatrixXd response_;
-  std::vector<MovedOutputs> base_{};  // of the experiments, as recommended
+  std::vector<MovedOutputs> base_{};      // of the experiments, as recommended
+  std::vector<MovedOutputs> followed_{};  // at answers foretold
 };
 
 }  // namespace

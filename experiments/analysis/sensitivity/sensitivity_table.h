@@ -46,11 +46,12 @@ struct FixedMove {
   std::string to{};
   int replicates = 0;     // simulations of each experiment
   int num_failed = 0;     // of these
+  int num_followed = 0;   // how often the shift was simulated anew at the answer foretold
   std::string why_not{};  // why nothing is known; else empty
   std::vector<OutputShift> outputs{};
   std::vector<AnswerShift> answer{};
 
-  TALUS_FIELDS(name, from, to, replicates, num_failed, why_not, outputs, answer);
+  TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, why_not, outputs, answer);
   bool Exceeds() const;  // any parameter
   bool IsTold() const;   // all parameters
   double MostHalfRanges() const;

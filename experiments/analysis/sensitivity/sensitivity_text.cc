@@ -96,6 +96,9 @@ std::string SensitivityText(const SensitivityTable& table) {
     text += "            answer " + AnswerText(move) + "\n            shifts " +
             OutputsText(move, many) + "; " + base::Counted(move.replicates, "simulation");
     if (move.num_failed > 0) text += ", " + std::to_string(move.num_failed) + " failed";
+    if (move.num_followed > 0) {
+      text += "; anew at the answer foretold, " + base::Counted(move.num_followed, "time");
+    }
     text += "\n";
   }
   text +=

@@ -87,6 +87,23 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
               HasSubstr("ALARM  restitution 0.6 in place of 0.9 would move rolling_friction"));
 }
 
+// μ_r (1 + 2 (0.9 - e)) = 0.2: the shift is 0.12 at μ_r = 0.2, which would lead to 0.08, and 0.075
+// at the answer, 0.125.
+TEST_F(SensitivityTest, AShiftThatDependsOnTheSetIsTheOneAtTheAnswer) {
+  constexpr campaign::FakeEngineOptions kStretched{.restitution_times_rolling = 2};
+  folder_ = Begin(kBudget);
+  campaign::RunFake(folder_, kStretched);
+  const SensitivityTable table =
+      Find(campaign::ReadJointView(folder_), {{"restitution", "0.6"}}, kStretched);
+  const FixedMove& move = Move(table, "restitution");
+  EXPECT_GE(move.num_followed, 1);
+  const AnswerShift& rolling = Of(move, "rolling_friction");
+  // As above, the answer's own error included.
+  EXPECT_NEAR(rolling.to, rolling.from / 1.6, 0.02);
+  EXPECT_THAT(SensitivityText(table), HasSubstr("; anew at the answer foretold, "));
+  EXPECT_GT(table.num_simulations, 3 * move.replicates);
+}
+
 // The answer is foretold without a campaign; one that is told of the other value finds it.
 TEST_F(SensitivityTest, CampaignWithTheOtherValueFindsWhatIsForetold) {
   const JointView view = Run();
