@@ -38,14 +38,14 @@ imaging::Profile DrawHeap(const std::vector<double>& set, std::uint64_t seed) {
   const double power = 1 + 0.9 * cohesion + 0.03 * random.Normal();
   const double radius = 0.5 * frame.plate_diameter / frame.pixel_size;
   const double shift = 0.8 * random.Normal();
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      const double across = std::abs(x + 0.5 - frame.center_x - shift) / radius;
-      const double top = 0.8 * slope * radius * (1 - std::pow(std::min(across, 1.0), power));
+  for (int x = 0; x < frame.width; ++x) {
+    const double across = std::abs(x + 0.5 - frame.center_x - shift) / radius;
+    if (across >= 1) continue;
+    const double top = 0.8 * slope * radius * (1 - std::pow(across, power));
+    for (int y = 0; y < frame.baseline; ++y) {
       const double above = frame.baseline - y - 0.5 - top;  // of the outline [px]
-      const bool on_plate = y < frame.baseline && across < 1;
       const double gray = std::clamp(127.5 + 127.5 * above / 4, 0.0, 255.0);
-      if (on_plate) profile.image.at(x, y) = static_cast<std::uint8_t>(gray);
+      profile.image.at(x, y) = static_cast<std::uint8_t>(gray);
     }
   }
   return profile;

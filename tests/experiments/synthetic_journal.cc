@@ -113,7 +113,7 @@ void WriteSyntheticJournal(const analysis::Evidence& evidence,
     record.scale_factor = t.scale_factor;
     record.finish_order = t.id;
     record.started_utc = "2026-01-31T12:00:00Z";
-    journal.Start({&record, 1});
+    journal.Start({&record, 1}, base::Outlives::kProgram);
     record.status = t.state;
     record.reason = t.reason;
     record.duration_s = t.seconds;
