@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """dem_twins.py TALUS FOLDER [--first N] [--last N] [--core-time S] [--parameters 2|3] [--runs N]
-[--diameter MM] [--mass G] [--model-error E] [--campaigns A,B,…] [--other-plate] [--drawn N]: calibrates virtual
-powders whose true parameters are known.
+[--diameter MM] [--mass G] [--model-error E] [--campaigns A,B,…] [--other-plate] [--unknown] [--drawn N]: calibrates
+virtual powders whose true parameters are known.
 
 Each powder has sliding and rolling friction, with --parameters 3 surface energy (JKR), too, drawn at random in the
 searched ranges. Three heaps of it, or --runs, are simulated at true grain size with seeds of their own, and so are as
@@ -13,6 +13,8 @@ Campaigns of the same core time:
   single        the heap alone, at scale factor 1 only
   extrapolated  the heap alone at 3, 2 and 1.5, what is wanted at 1 (--diameter 0.33: ten grains across at 3)
   smallest      the heap alone at 1.5, the smallest of these
+  nuisances     both tests, restitution, rolling damping and the plate pair's friction searched as nuisances
+  typical       both tests, these three fixed in the middle of their ranges
 
 One line a powder and campaign: the credible level of the truth (0.9 or less is inside the joint 90 % region), the
 region's share of what is searched, the distance of the recommended set in widths of the ranges, and the alarms.
@@ -24,6 +26,9 @@ size, 0.1 s each with all that goes on round it. For what asks how campaigns han
 
 --other-plate gives the real wide plate a friction of its own that the campaigns know nothing of: those with
 both tests should raise an alarm, and only they run.
+
+--unknown draws restitution, rolling damping and the friction between powder and plate at random, too, in the ranges that
+the campaigns `nuisances` and `typical` know them by. With it a campaign of another name takes the usual values for them.
 """
 import json
 import random
@@ -35,8 +40,11 @@ from twin import arguments, credible_level, device, drawn_engine, mean_heap, run
 
 RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
+UNKNOWN = {"restitution": (0.3, 0.95), "rolling_damping": (0.05, 0.6), "plate_pair_sliding_friction": (0.1, 0.9)}
 LEVELS = {"heap": {"scale_factors": [1.4, 1]}, "both": {"scale_factors": [1.4, 1]}, "single": {"scale_factors": [1]},
-          "extrapolated": {"scale_factors": [3, 2, 1.5], "target": 1}, "smallest": {"scale_factors": [1.5]}}
+          "extrapolated": {"scale_factors": [3, 2, 1.5], "target": 1}, "smallest": {"scale_factors": [1.5]},
+          "nuisances": {"scale_factors": [1.4, 1]}, "typical": {"scale_factors": [1.4, 1]}}
+BOTH_TESTS = ("both", "nuisances", "typical")
 MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
             "rolling_damping": 0.3}
 POWDER = {"material": MATERIAL, "sizes": {"kind": "mono"}}
@@ -54,9 +62,17 @@ def drawn(_, case, place):
     return place / "heap.png", json.loads((place / "scalars.json").read_text())["mass_fallen_kg"]
 
 
+def with_values(values):
+    """Powder and pairs of a case or spec that have these values of parameters."""
+    pair = values.get("plate_pair_sliding_friction")
+    material = {k: v for k, v in values.items() if k != "plate_pair_sliding_friction"}
+    return {"powder": {**POWDER, "material": {**MATERIAL, **material}},
+            **({"pairs": [{"between": ["powder", "plate"], "sliding_friction": pair}]} if pair else {})}
+
+
 def measure(options, folder, truth, plate_mm, seed, plate=None):
     """The mean image of so many heaps, and the mass that falls with its standard error [kg]."""
-    case = {"powder": {**POWDER, "material": {**MATERIAL, **truth}}, "models": MODELS}
+    case = {**with_values(truth), "models": MODELS}
     if plate:
         case["device"] = {**device(plate_mm), "plate_material": plate}
     return mean_heap(options.talus, folder, case, plate_mm, seed, options.runs, drawn if options.drawn else simulated)
@@ -68,6 +84,10 @@ def calibrate(options, folder, name, experiments, seed, truth):
             "parameters": {k: {"min": a, "max": b} for k, (a, b) in RANGES.items()},
             "budget": {"core_time": f"{options.core_time} s"}, "confirm": {"candidates": 0},
             "next": {"share": 0}, "posterior": {"model_error": options.model_error}}
+    if name == "nuisances":
+        spec["parameters"] |= {k: {"min": a, "max": b, "nuisance": True} for k, (a, b) in UNKNOWN.items()}
+    if name == "typical":
+        spec |= with_values({k: (a + b) / 2 for k, (a, b) in UNKNOWN.items()})
     if options.drawn:
         spec |= {"engine": drawn_engine(), "coarse_graining": {"scale_factor": 1},
                  "budget": {"simulations": options.drawn * len(experiments)}}
@@ -75,7 +95,7 @@ def calibrate(options, folder, name, experiments, seed, truth):
     run(options.talus, "calibrate", folder / f"{name}.json", "--out", folder / name, "--quiet")
     result = json.loads((folder / name / "result.json").read_text())
     off = [(p["value"] - truth[p["name"]]) / (RANGES[p["name"]][1] - RANGES[p["name"]][0])
-           for p in result["parameters"]]
+           for p in result["parameters"] if p["name"] in RANGES]
     level = credible_level(options.talus, folder / name, truth)
     volume = result["posterior"]["region_90_volume_fraction"]
     alarms = [w["experiment"] for w in result["warnings"] if w["kind"] in ("implausible", "disagree")]
@@ -91,6 +111,7 @@ def main():
     parser.add_argument("--model-error", type=float, default=1, metavar="E")
     parser.add_argument("--campaigns", default="heap,both")
     parser.add_argument("--other-plate", action="store_true")
+    parser.add_argument("--unknown", action="store_true")
     parser.add_argument("--drawn", type=int, metavar="N")
     options = parser.parse_args()
     wanted = ["both"] if options.other_plate else options.campaigns.split(",")
@@ -104,14 +125,15 @@ def main():
         draw = random.Random(twin)
         truth = {k: draw.uniform(a, b) for k, (a, b) in RANGES.items()}
         folder = options.folder / f"twin{twin:02}"
+        hidden = {k: draw.uniform(a, b) for k, (a, b) in UNKNOWN.items()} if options.unknown else {}
         plate = {"sliding_friction": 0.15, "rolling_friction": 0.02} if options.other_plate else None
-        heap, _ = measure(options, folder, truth, 10, 1000 * twin)
+        heap, _ = measure(options, folder, truth | hidden, 10, 1000 * twin)
         experiments = [{"name": "heap", **heap}]
-        if "both" in wanted:
-            wide, fallen = measure(options, folder, truth, 30, 1000 * twin + 500, plate)
+        if set(BOTH_TESTS) & set(wanted):
+            wide, fallen = measure(options, folder, truth | hidden, 30, 1000 * twin + 500, plate)
             experiments.append({"name": "wide plate", **wide, "device": device(30), "mass_fallen": fallen})
         for name in wanted:
-            tests = experiments if name == "both" else experiments[:1]
+            tests = experiments if name in BOTH_TESTS else experiments[:1]
             done = calibrate(options, folder, name, tests, twin, truth)
             tallies.setdefault(name, []).append(done)
             print(f"twin {twin} truth " + " ".join(f"{v:.3g}" for v in truth.values()) +
