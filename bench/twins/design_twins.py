@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""design_twins.py TALUS FOLDER: do campaigns leave the ranges that `talus design` expects before any test is made?
+"""design_twins.py TALUS FOLDER [--first N] [--last N] [--one-plan]: do campaigns leave the ranges that `talus
+design` expects before any test is made?
 
 FOLDER is that of dem_twins.py. For each of its powders a plan with both tests, as long as nothing is measured, says what
 they are expected to leave together; the campaign with both tests tells what they left. What a plan expects is the mean
 over all sets that are searched, the same for every powder but for its seed, and what one of them leaves may be far from
-it: the last line compares the means over all powders, too.
+it: the last line compares the means over all powders, too. --one-plan makes the plan of the first powder only, and holds
+all of them against it.
 """
 import json
 import math
@@ -41,10 +43,15 @@ def realised(twin):
 
 
 def main():
-    options = arguments().parse_args()
+    parser = arguments(powders=math.inf)
+    parser.add_argument("--one-plan", action="store_true")
+    options = parser.parse_args()
     rows = []
-    for twin in finished(options.folder):
-        then, now = expected(options, twin), realised(twin)
+    then = None
+    for twin in finished(options.folder, options.first, options.last):
+        if not (then and options.one_plan):
+            then = expected(options, twin)
+        now = realised(twin)
         ratio = math.prod(now[k] / then[k] for k in then) ** (1 / len(then))
         rows.append((then, now, ratio))
         print(f"{twin.name}: expected " + ", ".join(f"{k} {v:.3f}" for k, v in then.items()) + "; left "

@@ -8,7 +8,8 @@ value, the same data, seed and core time finds its own answer. A friction of the
 it cannot be fixed: the second campaign has the number that the first one's answer makes of it, and so has the move.
 
 One line a powder and move: the shifts foretold and found of each parameter in half ranges, and whether the two are
-within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise.
+within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise. The last line
+has how many of the answers found lie in the ranges foretold, too, and the mean distance of the two.
 """
 import json
 import math
@@ -28,7 +29,7 @@ def foretold(options, folder, name, value):
     if options.scale_factor:
         extra += ["--scale-factor", options.scale_factor]
     move = json.loads(run(options.talus, "sensitivity", folder, f"{name}={value}", *extra, "--json"))["moves"][0]
-    return {a["parameter"]: (a["shift_in_half_ranges"], a["shift_error_in_half_ranges"]) for a in move["answer"]}
+    return {a["parameter"]: a for a in move["answer"]}
 
 
 def found(options, twin, name, value, now):
@@ -43,7 +44,7 @@ def found(options, twin, name, value, now):
     if not (place / "result.json").exists():
         run(options.talus, "calibrate", place.with_suffix(".json"), "--out", place, "--quiet")
     then = parameters(place)
-    return {k: (then[k]["value"] - p["value"]) / ((p["credible_90_high"] - p["credible_90_low"]) / 2)
+    return {k: (then[k]["value"], (then[k]["value"] - p["value"]) / ((p["credible_90_high"] - p["credible_90_low"]) / 2))
             for k, p in now.items()}
 
 
@@ -58,6 +59,7 @@ def main():
     parser.add_argument("--replicates", type=int, default=16)
     options = parser.parse_args()
     right, count = 0, 0
+    inside, distances = [], []
     for twin in finished(options.folder, options.first, options.last):
         first = twin / options.campaign
         now = parameters(first)
@@ -66,13 +68,18 @@ def main():
         for name, value in moves.items():
             told = foretold(options, first, name, value)
             is_found = found(options, twin, name, value, now)
-            agree = all(is_right(told[k][0], is_found[k]) for k in now)
+            shift = {k: told[k]["shift_in_half_ranges"] for k in now}
+            agree = all(is_right(shift[k], is_found[k][1]) for k in now)
+            inside += [told[k]["credible_90_low"] <= is_found[k][0] <= told[k]["credible_90_high"] for k in now]
+            distances += [abs(shift[k] - is_found[k][1]) for k in now]
             right += agree
             count += 1
             print(f"{twin.name} {name} {value:.4g}: " + "; ".join(
-                f"{k} foretold {told[k][0]:+.2f} ± {told[k][1]:.2f}, found {is_found[k]:+.2f}" for k in now) +
-                f" half ranges{'' if agree else ', apart'}", flush=True)
-    print(f"{right} of {count} within a factor of {FACTOR}, or both below {SMALL} of the half range")
+                f"{k} foretold {shift[k]:+.2f} ± {told[k]['shift_error_in_half_ranges']:.2f}, "
+                f"found {is_found[k][1]:+.2f}" for k in now) + f" half ranges{'' if agree else ', apart'}", flush=True)
+    print(f"{right} of {count} within a factor of {FACTOR}, or both below {SMALL} of the half range; "
+          f"{sum(inside)} of {len(inside)} found in the range foretold; mean distance "
+          f"{sum(distances) / len(distances):.2f} half ranges")
 
 
 main()

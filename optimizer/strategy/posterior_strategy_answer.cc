@@ -16,6 +16,12 @@
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
+namespace {
+
+constexpr int kAnswerDraws = 2000;
+constexpr double kRegionMass = 0.9;
+
+}  // namespace
 
 std::vector<double> PosteriorStrategy::UnlearntScaleFactors() const {
   constexpr int kEnough = 2;
@@ -64,9 +70,8 @@ void PosteriorStrategy::AddPrior(PosteriorSummary& summary) const {
 }
 
 void PosteriorStrategy::Summarise(Answer& answer) {
-  constexpr int kDraws = 2000;
   const Posterior& posterior = Model();
-  PosteriorSummary summary{.draws = Sample().Draws(kDraws, options_.seed),
+  PosteriorSummary summary{.draws = Sample().Draws(kAnswerDraws, options_.seed),
                            .region_volume = AskedSample().RegionVolume(),
                            .branches = FindBranches(Asked(), AskedSample(), options_.seed),
                            .temper = posterior.temper(),
@@ -92,7 +97,7 @@ Answer PosteriorStrategy::Recommend() {
   Answer answer;
   Summarise(answer);
   const PosteriorSummary& summary = *answer.posterior;
-  answer.credible = AskedRanges(summary.draws, domain_.nuisances, 0.9);
+  answer.credible = AskedRanges(summary.draws, domain_.nuisances, kRegionMass);
   answer.correlation = RankCorrelation(summary.draws);
   for (int i = 0; i < kMostTied; ++i) {
     answer.tied.push_back(summary.draws.row(i * summary.draws.rows() / kMostTied));
@@ -126,12 +131,14 @@ Answer PosteriorStrategy::Recommend() {
   return answer;
 }
 
-Eigen::VectorXd PosteriorStrategy::PointIfMeasured(const std::vector<Eigen::VectorXd>& more) {
+AnswerIfMeasured PosteriorStrategy::IfMeasured(const std::vector<Eigen::VectorXd>& more) {
   const Posterior moved = WithMeasuredMoved(Model(), more);
   const PosteriorSample joint = SampleOf(moved);
   const AskedDensity asked([&](const Eigen::MatrixXd& points) { return moved.LogDensity(points); },
                            domain_, joint, options_.seed);
-  return FindBranches(asked, asked.Sample(joint), options_.seed).front().point;
+  return {.point = FindBranches(asked, asked.Sample(joint), options_.seed).front().point,
+          .credible = AskedRanges(joint.Draws(kAnswerDraws, options_.seed), domain_.nuisances,
+                                  kRegionMass)};
 }
 
 std::optional<Eigen::VectorXd> PosteriorStrategy::CredibleLevels(const Eigen::MatrixXd& points) {

@@ -39,11 +39,22 @@ class MeasuredShift : public ::testing::Test {
 
 TEST_F(MeasuredShift, PointFollowsWhatIsMeasured) {
   ASSERT_TRUE(strategy_.CanModel());
-  const double now = strategy_.PointIfMeasured({Eigen::VectorXd::Zero(1)})[0];
+  const double now = strategy_.IfMeasured({Eigen::VectorXd::Zero(1)}).point[0];
   EXPECT_EQ(now, strategy_.Recommend().point[0]);
   // The model's error and the draws leave 0.02.
-  EXPECT_NEAR(strategy_.PointIfMeasured({Move(1)})[0], now + 1 / kSlope, 0.02);
-  EXPECT_NEAR(strategy_.PointIfMeasured({Move(-1)})[0], now - 1 / kSlope, 0.02);
+  EXPECT_NEAR(strategy_.IfMeasured({Move(1)}).point[0], now + 1 / kSlope, 0.02);
+  EXPECT_NEAR(strategy_.IfMeasured({Move(-1)}).point[0], now - 1 / kSlope, 0.02);
+}
+
+TEST_F(MeasuredShift, RangesFollowIt) {
+  const std::vector<Range> now = strategy_.Recommend().credible;
+  const std::vector<Range> same = strategy_.IfMeasured({Eigen::VectorXd::Zero(1)}).credible;
+  ASSERT_EQ(same.size(), 1u);
+  EXPECT_EQ(same[0].low, now[0].low);
+  EXPECT_EQ(same[0].high, now[0].high);
+  const Range moved = strategy_.IfMeasured({Move(1)}).credible[0];
+  EXPECT_NEAR(moved.low, now[0].low + 1 / kSlope, 0.02);  // as above
+  EXPECT_NEAR(moved.high, now[0].high + 1 / kSlope, 0.02);
 }
 
 TEST_F(MeasuredShift, ResponseIsTheInverseSlope) {

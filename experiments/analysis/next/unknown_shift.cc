@@ -4,25 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/analysis/sensitivity/shift.h"
+
 namespace talus::analysis {
 namespace {
-
-// The mean of an output over the rows that have it.
-struct ColumnMean {
-  double value = 0;
-  double count = 0;
-};
-
-ColumnMean MeanOfColumn(const Eigen::MatrixXd& rows, Eigen::Index k) {
-  ColumnMean mean;
-  for (const double value : rows.col(k)) {
-    if (!std::isfinite(value)) continue;
-    mean.value += value;
-    ++mean.count;
-  }
-  if (mean.count > 0) mean.value /= mean.count;
-  return mean;
-}
 
 // The 99.9 % quantile of χ² with so many degrees of freedom, by Wilson and Hilferty.
 double MostByChance(double degrees) {
@@ -63,18 +48,9 @@ Eigen::VectorXd PooledVariance(const std::vector<Eigen::MatrixXd>& sets) {
 }
 
 Eigen::VectorXd ShiftBeyondChance(const MovedRows& rows) {
-  const Eigen::Index num_outputs = rows.noise.size();
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(num_outputs);
-  Eigen::VectorXd by_chance = Eigen::VectorXd::Zero(num_outputs);
-  for (Eigen::Index k = 0; k < num_outputs; ++k) {
-    const ColumnMean with = MeanOfColumn(rows.moved, k);
-    const ColumnMean without = MeanOfColumn(rows.base, k);
-    if (with.count == 0 || without.count == 0) continue;
-    shift[k] = with.value - without.value;
-    by_chance[k] = rows.noise[k] * (1 / with.count + 1 / without.count);
-  }
+  auto [shift, by_chance] = ShiftOf(rows.moved, rows.base, rows.noise);
   JudgeTogether(by_chance.head(rows.num_modes), shift.head(rows.num_modes));
-  for (Eigen::Index k = rows.num_modes; k < num_outputs; ++k) {
+  for (Eigen::Index k = rows.num_modes; k < shift.size(); ++k) {
     JudgeTogether(by_chance.segment(k, 1), shift.segment(k, 1));
   }
   return shift;

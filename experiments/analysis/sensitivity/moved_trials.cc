@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/run_cases.h"
@@ -13,19 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name that says what is in it, without the blanks and slashes of units.
 std::string FolderName(const MovedSet& set) {
-  std::string text = set.move == nullptr ? "as_recommended" : set.move->name + "-" + set.move->to;
+  std::string name = set.move == nullptr ? "as recommended" : set.move->name + " " + set.move->to;
   if (set.point) {
-    text += "_at";
-    for (const double x : *set.point) text += "_" + base::ShortNumber(x, 6);
+    name += " at";
+    for (const double x : *set.point) name += " " + base::ShortNumber(x, 6);
   }
-  std::string name;
-  for (const char c : text) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_';
-    name += plain ? c : '-';
-  }
-  return name;
+  return base::FileWord(name);
 }
 
 fs::path FolderOf(const SensitivitySetting& setting, const MovedSet& set, int experiment,

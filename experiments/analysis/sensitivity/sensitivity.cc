@@ -9,6 +9,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/sensitivity/fixed_point.h"
 #include "experiments/analysis/sensitivity/moved_trials.h"
+#include "experiments/analysis/sensitivity/shift.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/trials/engines/template_folder.h"
@@ -44,47 +45,6 @@ double FixedMove::MostHalfRanges() const {
 namespace {
 
 using campaign::JointView;
-
-// The shift of an experiment's outputs, and the variance that chance gives it.
-struct Shift {
-  Eigen::VectorXd mean;
-  Eigen::VectorXd variance;
-};
-
-struct Mean {
-  Eigen::VectorXd value;
-  Eigen::VectorXd count;
-};
-
-// Moments of each output over the simulations that have it.
-Mean MeanOf(const Eigen::MatrixXd& outputs) {
-  Mean mean{.value = Eigen::VectorXd::Zero(outputs.cols()),
-            .count = Eigen::VectorXd::Zero(outputs.cols())};
-  for (Eigen::Index k = 0; k < outputs.cols(); ++k) {
-    for (const double value : outputs.col(k)) {
-      if (!std::isfinite(value)) continue;
-      mean.value[k] += value;
-      ++mean.count[k];
-    }
-    if (mean.count[k] > 0) mean.value[k] /= mean.count[k];
-  }
-  return mean;
-}
-
-// An output that is undefined with or without the move says nothing of it.
-Shift ShiftOf(const Eigen::MatrixXd& moved, const Eigen::MatrixXd& base,
-              const Eigen::VectorXd& noise) {
-  const Mean with = MeanOf(moved);
-  const Mean without = MeanOf(base);
-  Shift shift{.mean = Eigen::VectorXd::Zero(noise.size()),
-              .variance = Eigen::VectorXd::Zero(noise.size())};
-  for (Eigen::Index k = 0; k < noise.size(); ++k) {
-    if (with.count[k] == 0 || without.count[k] == 0) continue;
-    shift.mean[k] = with.value[k] - without.value[k];
-    shift.variance[k] = noise[k] * (1 / with.count[k] + 1 / without.count[k]);
-  }
-  return shift;
-}
 
 class Study {
  public:
@@ -241,7 +201,7 @@ class Study {
     for (std::size_t e = 0; e < base_.size(); ++e) {
       if (ActsOn(setting_, *set.move, view_.Answered()[e])) AddOutputs(e, (*shifts)[e], move);
     }
-    move.answer = AnswerWith(PointWith(*shifts), *shifts);
+    move.answer = ShiftsOfAnswer(With(*shifts), *shifts);
   }
 
   // By experiment; none where one has no simulation that succeeded, which `why_not` then says.
@@ -309,8 +269,10 @@ class Study {
       if (!shifts)
         return;  // nothing stands there: the shift at the recommended set is what is known
       ++foretold.num_followed;
-      next = fixed_point.Next(at, PointWith(*shifts)).cwiseMax(0).cwiseMin(1);
-      foretold.answer = AnswerWith(next, *shifts);
+      optimizer::AnswerIfMeasured answer = With(*shifts);
+      next = fixed_point.Next(at, answer.point).cwiseMax(0).cwiseMin(1);
+      answer.point = next;
+      foretold.answer = ShiftsOfAnswer(answer, *shifts);
     }
   }
 
@@ -356,14 +318,14 @@ class Study {
     return ShiftsBy(moved, without, num_failed, why_not);
   }
 
-  Eigen::VectorXd PointWith(const std::vector<Shift>& shifts) const {
+  optimizer::AnswerIfMeasured With(const std::vector<Shift>& shifts) const {
     std::vector<Eigen::VectorXd> less;
     for (const Shift& shift : shifts) less.emplace_back(-shift.mean);
-    return strategy_->PointIfMeasured(less);
+    return strategy_->IfMeasured(less);
   }
 
-  std::vector<AnswerShift> AnswerWith(const Eigen::VectorXd& point,
-                                      const std::vector<Shift>& shifts) const {
+  std::vector<AnswerShift> ShiftsOfAnswer(const optimizer::AnswerIfMeasured& found,
+                                          const std::vector<Shift>& shifts) const {
     Eigen::VectorXd variance(response_.cols());
     Eigen::Index left = 0;
     for (const Shift& shift : shifts) {
@@ -380,11 +342,13 @@ class Study {
       const double half = halves[k];
       answer.push_back({.parameter = p.name,
                         .from = p.ToNative(answer_.point[k]),
-                        .to = p.ToNative(point[k]),
-                        .standard_error = (p.ToNative(std::min(1.0, point[k] + error[k])) -
-                                           p.ToNative(std::max(0.0, point[k] - error[k]))) /
+                        .to = p.ToNative(found.point[k]),
+                        .standard_error = (p.ToNative(std::min(1.0, found.point[k] + error[k])) -
+                                           p.ToNative(std::max(0.0, found.point[k] - error[k]))) /
                                           2,
-                        .half_ranges = (point[k] - answer_.point[k]) / half,
+                        .low = p.ToNative(found.credible[i].low),
+                        .high = p.ToNative(found.credible[i].high),
+                        .half_ranges = (found.point[k] - answer_.point[k]) / half,
                         .half_ranges_error = error[k] / half});
     }
     return answer;

@@ -27,13 +27,17 @@ struct AnswerShift {
   std::string parameter{};
   double from = 0;
   double to = 0;
-  double standard_error = 0;  // of `to`
-  double half_ranges = 0;     // the shift over half of the stated range [-], on the searched scale
+  double standard_error = 0;  // of `to`, by chance in the shift
+  double low = 0;             // the 90 % range would be
+  double high = 0;
+  double half_ranges = 0;  // the shift over half of the stated range [-], on the searched scale
   double half_ranges_error = 0;
 
   static constexpr base::FieldKey kKeys[] = {{"half_ranges", "shift_in_half_ranges"},
-                                             {"half_ranges_error", "shift_error_in_half_ranges"}};
-  TALUS_FIELDS(parameter, from, to, standard_error, half_ranges, half_ranges_error);
+                                             {"half_ranges_error", "shift_error_in_half_ranges"},
+                                             {"low", "credible_90_low"},
+                                             {"high", "credible_90_high"}};
+  TALUS_FIELDS(parameter, from, to, standard_error, low, high, half_ranges, half_ranges_error);
   // Beyond half of the range, and not by chance.
   bool Exceeds() const;
   // Whether more simulations would not change what Exceeds says.

@@ -23,6 +23,10 @@ std::string PlusMinus(double value, double error) {
   return ShortNumber(value, 3) + " ± " + ShortNumber(error, 1);
 }
 
+std::string RangeText(double low, double high) {
+  return " (" + ShortNumber(low, 3) + " to " + ShortNumber(high, 3) + ")";
+}
+
 std::string MoveText(const FixedMove& move) {
   return move.name + " " + move.to + " in place of " + move.from;
 }
@@ -38,6 +42,7 @@ std::string OutputsText(const FixedMove& move, bool many_experiments) {
 std::string AnswerText(const FixedMove& move) {
   return base::Joined(move.answer, ", ", [](const AnswerShift& shift) {
     return shift.parameter + " " + PlusMinus(shift.to, shift.standard_error) +
+           RangeText(shift.low, shift.high) +
            (shift.Exceeds()  ? " (!)"
             : shift.IsTold() ? ""
                              : " (?)");
@@ -55,8 +60,7 @@ bool HasSeveralExperiments(const SensitivityTable& table) {
 
 std::string HeadText(const SensitivityTable& table) {
   const auto one = [](const SensitivityParameter& p) {
-    return p.name + " " + base::WithUnit(p.value, p.unit, 3) + " (" + ShortNumber(p.low, 3) +
-           " to " + ShortNumber(p.high, 3) + ")";
+    return p.name + " " + base::WithUnit(p.value, p.unit, 3) + RangeText(p.low, p.high);
   };
   std::string text = "  as it stands      " + base::Joined(table.parameters, ", ", one);
   text += "\n  simulated         " + base::Counted(table.num_simulations, "simulation") +

@@ -77,6 +77,12 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
   EXPECT_GT(rolling.standard_error, 0.001);
   EXPECT_LT(rolling.standard_error, 0.015);
   EXPECT_TRUE(rolling.Exceeds());
+  // The range moves with the answer. The surrogate has fewer trials there, so that it may be wider.
+  const SensitivityParameter& now = table.parameters[1];
+  EXPECT_LT(rolling.low, rolling.to);
+  EXPECT_GT(rolling.high, rolling.to);
+  EXPECT_GT(rolling.high - rolling.low, 0.5 * (now.high - now.low));
+  EXPECT_LT(rolling.high - rolling.low, 4 * (now.high - now.low));
   const AnswerShift& sliding = Of(move, "sliding_friction");
   EXPECT_NEAR(sliding.to, sliding.from, 0.03);
   EXPECT_FALSE(sliding.Exceeds());

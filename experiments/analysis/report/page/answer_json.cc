@@ -176,6 +176,8 @@ PageValue SensitivityJson(const SensitivityView& view) {
   const auto shift = [](const AnswerShift& s) {
     return PageValue{{"to", NumberJson(s.to)},
                      {"error", NumberJson(s.standard_error)},
+                     {"low", NumberJson(s.low)},
+                     {"high", NumberJson(s.high)},
                      {"exceeds", s.Exceeds()},
                      {"told", s.IsTold()}};
   };

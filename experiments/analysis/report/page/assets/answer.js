@@ -180,7 +180,8 @@ function nextTable() {
 function sensitivity() {
   const s = D.sensitivity;
   if (!s) return null;
-  const cell = (p, a) => !a ? "?" : formatUnit(a.to, p.unit) + " ± " + format(a.error, 1) + (a.exceeds ? " !" : a.told ? "" : " ?");
+  const cell = (p, a) => !a ? "?" : formatUnit(a.to, p.unit) + " ± " + format(a.error, 1) +
+    " (" + format(a.low, 2) + " to " + format(a.high, 2) + ")" + (a.exceeds ? " !" : a.told ? "" : " ?");
   return element("div", {class: "card", id: "sensitivity"}, element("h3", {}, "What the answer owes to what was held fixed"),
     s.outdated ? element("p", {class: "note"}, "Trials have ended since: run talus sensitivity again.") : null,
     element("ul", {class: "plain"}, s.alarms.map((line) => element("li", {}, line + "."))),
@@ -188,8 +189,8 @@ function sensitivity() {
         ...D.parameters.map((p, k) => ({title: p.symbol, unit: "now " + formatUnit(D.headline.values[k].value, p.unit)}))],
       s.moves.map((m) => [m.name + " " + m.to + " in place of " + m.from + (m.why_not ? ": not known, " + m.why_not : ""),
         ...D.parameters.map((p, k) => cell(p, m.answer[k]))])),
-    element("p", {class: "note"}, "Simulated at scale factor " + s.scale_factor + ", with the standard error of that. !: beyond " +
-      "half of the stated range. ?: not told from the noise."));
+    element("p", {class: "note"}, "Simulated at scale factor " + s.scale_factor + ", with the standard error of that, and the 90 % range " +
+      "that would be left. !: beyond half of the stated range. ?: not told from the noise."));
 }
 
 // Heaps of sets that fit equally, side by side; of one set alone, its heap.

@@ -1,0 +1,32 @@
+#include "experiments/analysis/sensitivity/shift.h"
+
+#include <cmath>
+
+namespace talus::analysis {
+
+ColumnMean MeanOfColumn(const Eigen::MatrixXd& outputs, Eigen::Index k) {
+  ColumnMean mean;
+  for (const double value : outputs.col(k)) {
+    if (!std::isfinite(value)) continue;
+    mean.value += value;
+    ++mean.count;
+  }
+  if (mean.count > 0) mean.value /= mean.count;
+  return mean;
+}
+
+Shift ShiftOf(const Eigen::MatrixXd& moved, const Eigen::MatrixXd& base,
+              const Eigen::VectorXd& noise) {
+  Shift shift{.mean = Eigen::VectorXd::Zero(noise.size()),
+              .variance = Eigen::VectorXd::Zero(noise.size())};
+  for (Eigen::Index k = 0; k < noise.size(); ++k) {
+    const ColumnMean with = MeanOfColumn(moved, k);
+    const ColumnMean without = MeanOfColumn(base, k);
+    if (with.count == 0 || without.count == 0) continue;
+    shift.mean[k] = with.value - without.value;
+    shift.variance[k] = noise[k] * (1 / with.count + 1 / without.count);
+  }
+  return shift;
+}
+
+}  // namespace talus::analysis
