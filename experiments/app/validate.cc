@@ -150,7 +150,7 @@ void ValidateCommandCase(const base::JsonFile& file, bool) {
 }
 
 // What a file is: by a key that only it has. The order matters: a campaign has a powder, too,
-// and a problem of a table has candidates.
+// a problem of a table has candidates, and what is to be searched without data is a plan.
 struct ValidatedKind {
   const char* key;
   void (*validate)(const base::JsonFile& file, bool with_experiment);
@@ -159,8 +159,8 @@ constexpr ValidatedKind kKinds[] = {
     {"evaluations", &ValidateProblem},  {"candidates", &ValidateDesign},
     {"budget", &ValidateCampaign},      {"experiment", &ValidateCampaign},
     {"experiments", &ValidateCampaign}, {"engine", &ValidateCommandCase},
-    {"powder", &ValidateHeap},          {"materials", &ValidateScene},
-    {"target", &ValidateProblem}};
+    {"target", &ValidateProblem},       {"parameters", &ValidateDesign},
+    {"powder", &ValidateHeap},          {"materials", &ValidateScene}};
 
 void Validate(const std::string& path, bool with_experiment) {
   const base::JsonFile file = base::ReadJsonFile(path);
@@ -184,7 +184,8 @@ void AddValidateCommand(CLI::App& app) {
       "validate", "Every problem of a spec at once, or what its campaign will cost");
   command
       ->add_option("SPEC", arguments->path,
-                   "a campaign, a case or scene for simulate, or a problem for optimize")
+                   "a campaign, a plan for design, a case or scene for simulate, or a problem for "
+                   "optimize")
       ->required();
   command->add_flag("--without-experiment", arguments->without_experiment,
                     "do not look at the photographs, which may not be taken yet");

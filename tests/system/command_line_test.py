@@ -311,6 +311,12 @@ class Progress(unittest.TestCase):
             done = talus("validate", str(SOURCE / "examples" / name))
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertIn(says, done.stdout)
+        plan = self.folder / "plan.json"
+        plan.write_text(json.dumps({k: v for k, v in json.loads(self.spec.read_text()).items()
+                                    if k in ("powder", "device", "parameters")}))
+        done = talus("validate", str(plan))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"is a plan for `talus design` in order\n  candidates        \d+\n")
 
     def test_a_table_of_candidates_may_come_from_a_spreadsheet(self):
         (self.folder / "runs.csv").write_bytes(b"\xef\xbb\xbfa,b\n1,2\n3,4\n")  # with a byte order mark

@@ -70,8 +70,9 @@ bool ActsOn(const SensitivitySetting& setting, const Move& move, int experiment)
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
   std::vector<campaign::FolderCase> cases;
   for (const MovedSet& set : sets) {
+    const Move* acting = set.move != nullptr ? set.move : set.beside;
     for (const int e : setting.view.Answered()) {
-      if (set.move != nullptr && !ActsOn(setting, *set.move, e)) continue;
+      if (acting != nullptr && !ActsOn(setting, *acting, e)) continue;
       for (int i = 0; i < set.replicates; ++i) {
         cases.push_back(
             {.folder = FolderOf(setting, set, e, i), .rig_case = MovedCase(setting, set, e, i)});

@@ -28,6 +28,7 @@ std::filesystem::path SensitivityFolder(const std::filesystem::path& campaign);
 // So many simulations of each experiment; `move` null: as recommended.
 struct MovedSet {
   const Move* move = nullptr;
+  const Move* beside = nullptr;            // only where this one acts; null: in every experiment
   std::optional<Eigen::VectorXd> point{};  // in place of the recommended one, unit cube
   int replicates = 0;
 };

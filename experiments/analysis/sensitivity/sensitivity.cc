@@ -266,8 +266,8 @@ class Study {
     while (foretold.num_followed < kMostFollowed && IsFar(next - at, foretold)) {
       at = next;
       const std::optional<std::vector<Shift>> shifts = ShiftsAt(at, move, foretold);
-      if (!shifts)
-        return;  // nothing stands there: the shift at the recommended set is what is known
+      // Nothing stands there: the shift at the last set is what is known.
+      if (!shifts) return;
       ++foretold.num_followed;
       optimizer::AnswerIfMeasured answer = With(*shifts);
       next = fixed_point.Next(at, answer.point).cwiseMax(0).cwiseMin(1);
@@ -298,20 +298,19 @@ class Study {
 
   std::optional<std::vector<Shift>> ShiftsAt(const Eigen::VectorXd& point, const Move& move,
                                              const FixedMove& foretold) {
-    const MovedSet base{.point = point, .replicates = foretold.replicates};
+    const MovedSet base{.beside = &move, .point = point, .replicates = foretold.replicates};
     const MovedSet moved{.move = &move, .point = point, .replicates = foretold.replicates};
     if (options_.tell) {
       options_.tell(base::Counted(2 * base.replicates, "simulation") +
                     " each at the answer foretold for " + move.name);
     }
     RunMoved(setting_, {base, moved});
-    std::vector<MovedOutputs> without;
+    std::vector<MovedOutputs> without(base_.size());
     for (std::size_t e = 0; e < base_.size(); ++e) {
-      without.push_back(OutputsOf(setting_, base, e));
-      followed_.push_back(without.back());
-      if (ActsOn(setting_, move, view_.Answered()[e])) {
-        followed_.push_back(OutputsOf(setting_, moved, e));
-      }
+      if (!ActsOn(setting_, move, view_.Answered()[e])) continue;
+      without[e] = OutputsOf(setting_, base, e);
+      followed_.push_back(without[e]);
+      followed_.push_back(OutputsOf(setting_, moved, e));
     }
     int num_failed = 0;
     std::string why_not;
