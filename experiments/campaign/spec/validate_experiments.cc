@@ -152,7 +152,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
   problems.Require(!spec.experiment || !spec.experiments, "experiments",
                    "stands beside experiment: give one of the two");
   CheckHoldOut(spec, problems);
-  if (!spec.experiment && !spec.experiments) return;
+  if (spec.experiment.has_value() == spec.experiments.has_value()) return;
   const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string place = spec.experiments ? "experiments[" + std::to_string(i) + "]" : "";
