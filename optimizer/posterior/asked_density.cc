@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/random.h"
+#include "optimizer/designs/r_sequence.h"
 #include "optimizer/outputs/mirrored_normals.h"
 
 namespace talus::optimizer {
@@ -16,6 +17,7 @@ namespace {
 constexpr Eigen::Index kNodes = 48;   // half of them round the regression; a multiple of 4
 constexpr double kWider = 1.3;        // w
 constexpr int kDraws = 1000;          // of a sample of what is asked for
+constexpr int kEven = 500;            // points that tell a region's volume to some 3 % of it
 constexpr Eigen::Index kBlock = 200;  // points whose nodes are evaluated at a time
 constexpr double kLeast = 1e-8;  // variance: coordinates that are tied or hardly move have some
 
@@ -123,15 +125,39 @@ Eigen::VectorXd AskedDensity::WithTypicalNuisances(const Eigen::VectorXd& point)
   return typical;
 }
 
-// The volume of a draw is ∫ da over the share of the posterior that it stands for: 1 / (M p(a)).
+// From even points in the box of the region's draws. A sum of 1 / p(a) over the draws would be off
+// by as much as the nodes miss.
+double AskedDensity::RegionVolume(const PosteriorSample& sample) const {
+  Eigen::VectorXd low = Eigen::VectorXd::Ones(sample.points.cols());
+  Eigen::VectorXd high = Eigen::VectorXd::Zero(sample.points.cols());
+  for (Eigen::Index i = 0; i < sample.points.rows(); ++i) {
+    if (sample.log_density[i] < sample.region_log_density) continue;
+    low = low.cwiseMin(sample.points.row(i).transpose());
+    high = high.cwiseMax(sample.points.row(i).transpose());
+  }
+  const Eigen::VectorXd size = high - low;
+  const Eigen::MatrixXd even = RSequence(kEven, static_cast<int>(asked_.size()), seed_);
+  Eigen::MatrixXd points = Eigen::MatrixXd::Zero(kEven, sample.points.cols());
+  for (std::size_t k = 0; k < asked_.size(); ++k) {
+    const Eigen::Index at = asked_[k];
+    points.col(at) = (low[at] + size[at] * even.col(static_cast<Eigen::Index>(k)).array()).matrix();
+  }
+  const double share =
+      (LogDensity(points).array() >= sample.region_log_density).cast<double>().mean();
+  return share * size(asked_).prod();
+}
+
+// Each draw of the region stands for as much of its volume as another.
 PosteriorSample AskedDensity::Sample(const PosteriorSample& joint) const {
   if (domain_.nuisances.empty()) return joint;
   PosteriorSample sample;
   sample.points = joint.Draws(kDraws, seed_);
   sample.log_density = LogDensity(sample.points);
   sample.weight = Eigen::VectorXd::Constant(kDraws, 1.0 / kDraws);
-  sample.volume = (joint.LogIntegral() - sample.log_density.array()).exp() / kDraws;
   sample.SetRegion();
+  const auto inside = (sample.log_density.array() >= sample.region_log_density).count();
+  sample.volume =
+      Eigen::VectorXd::Constant(kDraws, RegionVolume(sample) / static_cast<double>(inside));
   return sample;
 }
 
