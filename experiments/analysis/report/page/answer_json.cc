@@ -174,12 +174,9 @@ PageValue PredictionJson(const PredictionView& view) {
 
 PageValue SensitivityJson(const SensitivityView& view) {
   const auto shift = [](const AnswerShift& s) {
-    return PageValue{{"to", NumberJson(s.to)},
-                     {"error", NumberJson(s.standard_error)},
-                     {"low", NumberJson(s.low)},
-                     {"high", NumberJson(s.high)},
-                     {"exceeds", s.Exceeds()},
-                     {"told", s.IsTold()}};
+    return PageValue{{"to", NumberJson(s.to)},   {"error", NumberJson(s.standard_error)},
+                     {"low", NumberJson(s.low)}, {"high", NumberJson(s.high)},
+                     {"exceeds", s.Exceeds()},   {"told", s.IsTold()}};
   };
   const auto move = [&](const FixedMove& m) {
     return PageValue{{"name", m.name},
