@@ -64,10 +64,6 @@ double PosteriorSample::RegionVolume() const {
   return std::min(1.0, (log_density.array() >= region_log_density).select(volume, 0).sum());
 }
 
-double PosteriorSample::LogIntegral() const {
-  return LogSumExp(log_density.array() + volume.array().log());
-}
-
 Eigen::MatrixXd PosteriorSample::Draws(int count, std::uint64_t seed) const {
   base::Random random(seed, base::Stream("equally likely draws"));
   return points(Resample(weight, count, random), Eigen::all);

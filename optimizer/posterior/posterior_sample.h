@@ -31,8 +31,6 @@ struct PosteriorSample {
   // Share of the posterior where the density is higher than this.
   double CredibleLevel(double log_density) const;
   double RegionVolume() const;
-  // ln ∫ exp(log_density) over the cube.
-  double LogIntegral() const;
   // Equally likely draws.
   Eigen::MatrixXd Draws(int count, std::uint64_t seed) const;
 };

@@ -58,6 +58,7 @@ class Study {
                  .point = answer_.point,
                  .scale_factor = FactorOf(view, options),
                  .parts = options.parts},
+        half_ranges_(HalfRanges(answer_)),
         moves_(MovesOf(view, options, MovedCase(setting_, {}, view.Answered().front(), 0))) {}
 
   SensitivityTable Run() {
@@ -86,6 +87,15 @@ class Study {
  private:
   static constexpr int kDraws = 1000;
   static constexpr int kMostFollowed = 2;
+
+  static Eigen::VectorXd HalfRanges(const optimizer::Answer& answer) {
+    Eigen::VectorXd half(answer.point.size());
+    for (Eigen::Index k = 0; k < half.size(); ++k) {
+      const optimizer::Range& range = answer.credible[static_cast<std::size_t>(k)];
+      half[k] = (range.high - range.low) / 2;
+    }
+    return half;
+  }
 
   static double FactorOf(const JointView& view, const SensitivityOptions& options) {
     const std::vector<double> levels = view.spec.coarse_graining.Levels();
@@ -254,13 +264,12 @@ class Study {
   // answer foretold, until it leads to where it was simulated.
   void Follow(const Move& move, FixedMove& foretold) {
     if (!foretold.why_not.empty()) return;
-    const Eigen::VectorXd half = HalfRanges();
-    FixedPoint fixed_point(half);
+    FixedPoint fixed_point(half_ranges_);
     Eigen::VectorXd at = setting_.point;
     Eigen::VectorXd next = at;
     for (std::size_t i = 0; i < foretold.answer.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      next[k] += half[k] * foretold.answer[i].half_ranges;
+      next[k] += half_ranges_[k] * foretold.answer[i].half_ranges;
     }
     next = fixed_point.Next(at, next);
     while (foretold.num_followed < kMostFollowed && IsFar(next - at, foretold)) {
@@ -276,17 +285,8 @@ class Study {
     }
   }
 
-  Eigen::VectorXd HalfRanges() const {
-    Eigen::VectorXd half(answer_.point.size());
-    for (Eigen::Index k = 0; k < half.size(); ++k) {
-      const auto& range = answer_.credible[static_cast<std::size_t>(k)];
-      half[k] = (range.high - range.low) / 2;
-    }
-    return half;
-  }
-
   bool IsFar(const Eigen::VectorXd& step, const FixedMove& foretold) const {
-    const Eigen::VectorXd half_ranges = step.cwiseQuotient(HalfRanges()).cwiseAbs();
+    const Eigen::VectorXd half_ranges = step.cwiseQuotient(half_ranges_).cwiseAbs();
     for (std::size_t i = 0; i < foretold.answer.size(); ++i) {
       if (half_ranges[static_cast<Eigen::Index>(i)] >
           std::max(kNear, kSure * foretold.answer[i].half_ranges_error)) {
@@ -332,13 +332,12 @@ class Study {
       left += shift.variance.size();
     }
     const Eigen::VectorXd error = (response_.cwiseAbs2() * variance).cwiseSqrt();
-    const Eigen::VectorXd halves = HalfRanges();
     const std::vector<int> free = view_.space.Free();
     std::vector<AnswerShift> answer;
     for (std::size_t i = 0; i < free.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       const optimizer::Parameter& p = view_.space.parameters[static_cast<std::size_t>(free[i])];
-      const double half = halves[k];
+      const double half = half_ranges_[k];
       answer.push_back({.parameter = p.name,
                         .from = p.ToNative(answer_.point[k]),
                         .to = p.ToNative(found.point[k]),
@@ -373,6 +372,7 @@ class Study {
   std::unique_ptr<optimizer::PosteriorStrategy> strategy_;
   optimizer::Answer answer_;
   SensitivitySetting setting_;
+  Eigen::VectorXd half_ranges_;  // of the stated ranges, unit cube
   std::vector<Move> moves_;
   Eigen::MatrixXd response_;
   std::vector<MovedOutputs> base_{};      // of the experiments, as recommended
