@@ -36,19 +36,16 @@ import random
 import numpy
 
 from drawn_heap import draw
-from twin import arguments, credible_level, device, drawn_engine, mean_heap, run, simulated
+from twin import EPSD, MATERIAL, RANGES, arguments, credible_level, device, drawn_engine, mean_heap, run, simulated
 
-RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}
 SURFACE_ENERGY = (2e-3, 20e-3)  # [J/m^2]: granular Bond numbers 0.2 to 2
 UNKNOWN = {"restitution": (0.3, 0.95), "rolling_damping": (0.05, 0.6), "plate_pair_sliding_friction": (0.1, 0.9)}
 LEVELS = {"heap": {"scale_factors": [1.4, 1]}, "both": {"scale_factors": [1.4, 1]}, "single": {"scale_factors": [1]},
           "extrapolated": {"scale_factors": [3, 2, 1.5], "target": 1}, "smallest": {"scale_factors": [1.5]},
           "nuisances": {"scale_factors": [1.4, 1]}, "typical": {"scale_factors": [1.4, 1]}}
 BOTH_TESTS = ("both", "nuisances", "typical")
-MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
-            "rolling_damping": 0.3}
 POWDER = {"material": MATERIAL, "sizes": {"kind": "mono"}}
-MODELS = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
+MODELS = dict(EPSD)
 
 
 def drawn(_, case, place):
@@ -75,7 +72,8 @@ def measure(options, folder, truth, plate_mm, seed, plate=None):
     case = {**with_values(truth), "models": MODELS}
     if plate:
         case["device"] = {**device(plate_mm), "plate_material": plate}
-    return mean_heap(options.talus, folder, case, plate_mm, seed, options.runs, drawn if options.drawn else simulated)
+    return mean_heap(options.talus, folder, case, plate_mm, seed, options.runs, options.diameter,
+                     drawn if options.drawn else simulated)
 
 
 def calibrate(options, folder, name, experiments, seed, truth):

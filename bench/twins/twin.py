@@ -11,6 +11,11 @@ import sys
 import numpy
 from PIL import Image
 
+RANGES = {"sliding_friction": (0.1, 0.9), "rolling_friction": (0.02, 0.6)}  # searched, and drawn from
+MATERIAL = {"density": 4386, "youngs_modulus": "26.25 MPa", "poisson_ratio": 0.342, "restitution": 0.9,
+            "rolling_damping": 0.3}
+EPSD = {"adhesion": "none", "rolling": "epsd", "full_mobilisation_damping": 0}
+
 
 def arguments(powders=None, core_time=None):
     """A parser of TALUS FOLDER; of --first and --last, the latter `powders` by default (infinite: all); of --core-time in
@@ -82,9 +87,10 @@ def simulated(talus, case, place):
     return place / "profile.png", json.loads((place / "result.json").read_text())["observables"]["mass_fallen_kg"]
 
 
-def mean_heap(talus, folder, case, plate_mm, seed, runs, heap=simulated):
+def mean_heap(talus, folder, case, plate_mm, seed, runs, diameter, heap=simulated):
     """A heap's entry of `experiments`, its mean image, and the mass that falls with its standard error [kg]. `case`
-    has powder and contact models; one grain is the least error of a mass. `heap` makes one (`simulated`)."""
+    has powder and contact models; one grain of this diameter [mm] is the least error of a mass. `heap` makes one
+    (`simulated`)."""
     images, masses = [], []
     for i in range(runs):
         place = folder / f"plate{plate_mm}_run{i + 1}"
@@ -95,8 +101,7 @@ def mean_heap(talus, folder, case, plate_mm, seed, runs, heap=simulated):
         masses.append(mass)
     name = f"plate{plate_mm}.png"
     Image.fromarray(numpy.rint(numpy.mean(images, axis=0)).astype("uint8")).save(folder / name)
-    diameter = float(case["powder"]["sizes"]["diameter"].removesuffix(" mm")) * 1e-3
-    grain = case["powder"]["material"]["density"] * math.pi / 6 * diameter**3
+    grain = case["powder"]["material"]["density"] * math.pi / 6 * (1e-3 * diameter) ** 3
     error = max(numpy.std(masses, ddof=1), grain) / runs**0.5
     entry = {"map": name, "map_heaps": runs, "plate_diameter": f"{plate_mm} mm", "frame": frame(plate_mm)}
     return entry, {"value": f"{numpy.mean(masses)} kg", "sd": f"{error} kg"}

@@ -49,6 +49,13 @@ std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
   return pair;
 }
 
+// At most this share of the values of each column lies below.
+Eigen::VectorXd Quantiles(Eigen::MatrixXd values, double share) {
+  const auto at = static_cast<Eigen::Index>(share * static_cast<double>(values.rows() - 1) + 0.5);
+  for (auto column : values.colwise()) std::ranges::sort(column);
+  return values.row(at).transpose();
+}
+
 }  // namespace
 
 double HalfWidth90(const Eigen::VectorXd& values) {
@@ -67,6 +74,8 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   const auto& [goal, nuisances] = aim;
   const bool has_goal = goal.size() > 0;
   ExpectedLearning learning{.bits = 0, .width = CredibleWidths90(draws, nuisances)};
+  learning.narrow = learning.width;
+  learning.wide = learning.width;
   if (has_goal) learning.goal_half_width = HalfWidth90(goal);
   if (measurement.mean.cols() == 0) return learning;
   const Eigen::MatrixXd z = Standardised(measurement);
@@ -74,18 +83,21 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   std::tie(learning.first, learning.second) = MostApart(z);
   base::Random random(seed, base::Stream("measurements to come"));
   const Eigen::Index count = std::min(kTruths, draws.rows());
-  learning.width.setZero();
+  Eigen::MatrixXd widths(count, draws.cols());
   if (has_goal) learning.goal_half_width = 0;
   for (Eigen::Index t = 0; t < count; ++t) {
     Eigen::RowVectorXd seen = z.row(t * draws.rows() / count);
     for (double& value : seen) value += random.Normal();
     const Eigen::VectorXd weights = Weights(z, seen);
-    learning.width +=
-        CredibleWidths90(Resampled(draws, weights), nuisances) / static_cast<double>(count);
+    widths.row(t) = CredibleWidths90(Resampled(draws, weights), nuisances).transpose();
     if (!has_goal) continue;
     learning.goal_half_width +=
         HalfWidth90(Resampled(goal, weights).col(0)) / static_cast<double>(count);
   }
+  constexpr double kTenth = 0.1;
+  learning.width = widths.colwise().mean().transpose();
+  learning.narrow = Quantiles(widths, kTenth);
+  learning.wide = Quantiles(widths, 1 - kTenth);
   return learning;
 }
 

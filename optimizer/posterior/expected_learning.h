@@ -16,8 +16,12 @@ struct PredictedMeasurement {
 };
 
 struct ExpectedLearning {
-  double bits = 0;        // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
-  Eigen::VectorXd width;  // of each parameter's 90 % range (AskedRanges) afterwards, unit cube
+  double bits = 0;  // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
+  // Of each parameter's 90 % range (AskedRanges) afterwards, unit cube: the mean over the sets that
+  // may be true, and what a tenth of these leave less of, and a tenth more.
+  Eigen::VectorXd width;
+  Eigen::VectorXd narrow{};
+  Eigen::VectorXd wide{};
   double goal_half_width =
       std::numeric_limits<double>::quiet_NaN();  // of the goal's 90 %, expected
   // Two draws that it separates most, rows.

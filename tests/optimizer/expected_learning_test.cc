@@ -22,6 +22,8 @@ TEST(ExpectedLearning, NothingMeasuredTeachesNothing) {
       Learn(Even(500), {.mean = Eigen::MatrixXd(500, 0), .variance = {}}, 1);
   EXPECT_EQ(learning.bits, 0);
   EXPECT_GT(learning.width.minCoeff(), 0.9);
+  EXPECT_EQ(learning.narrow, learning.width);
+  EXPECT_EQ(learning.wide, learning.width);
 }
 
 TEST(ExpectedLearning, BitsAreThoseOfALinearGaussianMeasurement) {
@@ -43,6 +45,22 @@ TEST(ExpectedLearning, NarrowsWhatItMeasuresAndNothingElse) {
   EXPECT_GT(learning.width[0], 3.5 * sd);
   EXPECT_LT(learning.width[0], 5.5 * sd);
   EXPECT_GT(learning.width[1], 0.85);
+}
+
+// x⁴ has a slope of 4 at 1, and below 0.4 less than an error in all: what it leaves hangs on the
+// set.
+TEST(ExpectedLearning, SaysHowFarTheRangesHangOnTheSet) {
+  const Eigen::MatrixXd draws = Even(2000);
+  const double sd = 0.03;
+  const ExpectedLearning learning = Learn(
+      draws,
+      {.mean = draws.col(0).array().pow(4), .variance = Eigen::VectorXd::Constant(1, sd * sd)}, 1);
+  EXPECT_LT(learning.narrow[0],
+            5.5 * sd / 2);  // a tenth of the sets: x above 0.9, slopes above 2.9
+  EXPECT_GT(learning.wide[0], 0.4);
+  EXPECT_LT(learning.narrow[0], learning.width[0]);
+  EXPECT_GT(learning.wide[0], learning.width[0]);
+  EXPECT_GT(learning.narrow[1], 0.8);  // the other parameter is not measured, whatever the set
 }
 
 // A number that only the second parameter moves is narrowed by what measures that one: for a wide

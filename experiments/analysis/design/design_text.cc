@@ -33,8 +33,8 @@ std::string ChoicesText(const DesignTable& table, const std::vector<DesignChoice
     char bits[16];
     std::snprintf(bits, sizeof bits, "%5.2f", choices[i].learning.bits);
     text += std::string(bits) + " bits  " + NamesOf(table, choices[i]) +
-            "\n            expected to leave " +
-            WidthsText(table.tests, choices[i].learning.width) + "\n";
+            "\n            expected to leave " + SpreadText(table.tests, choices[i].learning) +
+            "\n";
   }
   return text;
 }
@@ -120,10 +120,14 @@ std::string DesignJson(const DesignTable& table) {
       for (const std::size_t t : choice.tests) {
         entry["tests"].push_back(table.tests.candidates[t].name);
       }
-      for (std::size_t i = 0; i < table.tests.parameters.size(); ++i) {
-        entry["width_90"][table.tests.parameters[i].name] =
-            choice.learning.width[static_cast<Eigen::Index>(i)];
-      }
+      const auto add = [&](const char* key, const Eigen::VectorXd& width) {
+        for (std::size_t i = 0; i < table.tests.parameters.size(); ++i) {
+          entry[key][table.tests.parameters[i].name] = width[static_cast<Eigen::Index>(i)];
+        }
+      };
+      add("width_90", choice.learning.width);
+      add("width_90_low", choice.learning.narrow);
+      add("width_90_high", choice.learning.wide);
       json["choices"].push_back(std::move(entry));
     }
   }

@@ -152,6 +152,15 @@ std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width) {
   return text;
 }
 
+std::string SpreadText(const NextTable& table, const optimizer::ExpectedLearning& learning) {
+  return base::JoinedUpTo(table.parameters.size(), ", ", [&](std::size_t i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    return table.parameters[i].name + " " + WidthText(table, i, learning.width[at]) + " (" +
+           WidthText(table, i, learning.narrow[at]) + " … " +
+           WidthText(table, i, learning.wide[at]) + ")";
+  });
+}
+
 std::string NextText(const NextTable& table) {
   std::string text = table.goal ? GoalText(*table.goal) : "";
   text += "width of the joint 90 % ranges now: " + WidthsText(table, table.width) + "\n";

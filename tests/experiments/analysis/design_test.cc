@@ -16,6 +16,7 @@ namespace talus::analysis {
 namespace design_test {
 
 using campaign::FakeEngine;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -76,6 +77,14 @@ TEST_F(DesignTest, RangesAreThoseThatTheMeasurementsLeave) {
   EXPECT_LT(both.width[0], 0.3);
   const std::string text = DesignText(table, ViewOf(design, scratch_.path()), design.candidates);
   EXPECT_THAT(text, HasSubstr("heap + tapped density"));
+  EXPECT_THAT(text,
+              ContainsRegex("leave sliding_friction 0\\.[0-9]+ \\(0\\.[0-9]+ … 0\\.[0-9]+\\), "));
+  const auto json = nlohmann::json::parse(DesignJson(table)).at("choices").back();
+  const auto width = [&](const char* key) {
+    return json.at(key).at("sliding_friction").get<double>();
+  };
+  EXPECT_LE(width("width_90_low"), width("width_90"));
+  EXPECT_LT(width("width_90"), width("width_90_high"));
   EXPECT_THAT(text, HasSubstr("3 runs of 0.5 g"));
   EXPECT_THAT(text, HasSubstr("tapped density: diameter 10 mm"));
 }
