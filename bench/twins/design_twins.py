@@ -5,8 +5,8 @@ design` expects before any test is made?
 FOLDER is that of dem_twins.py. For each of its powders a plan with both tests, as long as nothing is measured, says what
 they are expected to leave together; the campaign with both tests tells what they left. What a plan expects is the mean
 over all sets that are searched, the same for every powder but for its seed, and what one of them leaves may be far from
-it: the last line compares the means over all powders, too. --one-plan makes the plan of the first powder only, and holds
-all of them against it.
+it: the last lines compare the means over all powders, too, and count the ranges between what the plan says of the tenths of
+the sets that leave least and most. --one-plan makes the plan of the first powder only, and holds all of them against it.
 """
 import json
 import math
@@ -27,13 +27,14 @@ def candidate(experiment):
 
 
 def expected(options, twin):
-    """Widths of the joint 90 % ranges after both tests, in shares of the searched."""
+    """Widths of the joint 90 % ranges after both tests, in shares of the searched: mean, low and high."""
     spec = json.loads((twin / "both.json").read_text())
     plan = {k: spec[k] for k in KEYS if k in spec}
     plan["candidates"] = [candidate(e) for e in spec["experiments"]]
     (twin / "plan.json").write_text(json.dumps(plan))
     told = json.loads(run(options.talus, "design", twin / "plan.json", "--out", twin / "plan", "--json"))
-    return next(c["width_90"] for c in told["choices"] if len(c["tests"]) == len(plan["candidates"]))
+    both = next(c for c in told["choices"] if len(c["tests"]) == len(plan["candidates"]))
+    return both["width_90"], both["width_90_low"], both["width_90_high"]
 
 
 def realised(twin):
@@ -48,14 +49,17 @@ def main():
     options = parser.parse_args()
     rows = []
     then = None
+    between = 0
     for twin in finished(options.folder, options.first, options.last):
         if not (then and options.one_plan):
-            then = expected(options, twin)
+            then, low, high = expected(options, twin)
         now = realised(twin)
         ratio = math.prod(now[k] / then[k] for k in then) ** (1 / len(then))
         rows.append((then, now, ratio))
+        between += sum(low[k] <= now[k] <= high[k] for k in then)
         print(f"{twin.name}: expected " + ", ".join(f"{k} {v:.3f}" for k, v in then.items()) + "; left "
               + ", ".join(f"{k} {now[k]:.3f}" for k in then) + f"; ratio {ratio:.2f}", flush=True)
+    print(f"{between} of {sum(len(t) for t, _, _ in rows)} ranges lie between the tenths")
     within = sum(1 / WITHIN <= ratio <= WITHIN for _, _, ratio in rows)
     print(f"{len(rows)} powders: within a factor {WITHIN} in {within}; means left over means expected "
           + ", ".join(f"{k} {sum(n[k] for _, n, _ in rows) / sum(t[k] for t, _, _ in rows):.2f}" for k in rows[0][0]))

@@ -12,7 +12,7 @@ namespace talus::analysis {
 
 struct Ground {
   const campaign::JointView& view;
-  double temper = 1;       // the posterior's
+  double temper = 1;       // of all variances: the posterior's
   Eigen::MatrixXd draws;   // equally likely, one a row
   double model_error = 1;  // PosteriorOptions
   Eigen::VectorXd goal{};  // what a prediction gives at each draw; empty: the parameters count
