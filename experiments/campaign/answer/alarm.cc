@@ -36,6 +36,12 @@ std::string WorseThanPredictedText(const Alarm& a) {
          ResumeCommand(kMoreSimulations) + ")";
 }
 
+// Coarse grains may miss what true ones would meet.
+std::string FinerText(double scale_factor) {
+  return ", and grains " + base::ShortNumber(scale_factor) +
+         " times as large as yours may be what misses it: try a smaller scale factor";
+}
+
 // "… misses the shape of "drum" by 5.1 times the noise floor, 11 % of the powder's area"
 std::string MissesText(const Alarm& a) {
   std::string text = "the recommended set misses ";
@@ -49,15 +55,17 @@ std::string MissesText(const Alarm& a) {
       text += (a.value ? ", " : "") + base::InPercent(*a.share) + " % of the powder's area";
     }
   }
+  const std::string finer = a.scale_factor ? FinerText(*a.scale_factor) : "";
   if (a.kind == AlarmKind::kSearchMisses) {
     return text + ", and the search is not done: " + a.reason.value_or("") +
            "; more simulations come before any doubt of the contact law, the plate or the set-up "
            "(" +
-           ResumeCommand(kMoreSimulations) + ")";
+           ResumeCommand(kMoreSimulations) + ")" + finer;
   }
   return text +
          ": nothing stands on this answer before the contact law, the plate and the set-up "
-         "are checked";
+         "are checked" +
+         finer;
 }
 
 }  // namespace

@@ -171,6 +171,7 @@ std::vector<Alarm> MissAlarms(const Answer& answer) {
     if (!fit.number.empty()) alarm.number = fit.number;
     if (std::isfinite(fit.off)) alarm.value = fit.off;
     if (std::isfinite(fit.share)) alarm.share = fit.share;
+    if (answer.conditions.scale_factor > 1) alarm.scale_factor = answer.conditions.scale_factor;
     alarms.push_back(alarm);
   }
   return alarms;

@@ -116,6 +116,18 @@ TEST_F(MissedImage, IsOfTheSearchWhereTheRegionIsStillTheSurrogates) {
   EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
 }
 
+// A heap of grains twice as large may miss what true ones would meet; true ones have no such
+// excuse.
+TEST_F(MissedImage, MayBeOfCoarseGrains) {
+  const auto has_finer = HasSubstr("grains 2 times as large as yours may be what misses it");
+  EXPECT_THAT(AlarmText(OnlyAlarm()), testing::Not(HasSubstr("as large as yours")));
+  answer_.conditions.scale_factor = 2;
+  EXPECT_THAT(AlarmText(OnlyAlarm()), has_finer);
+  AddEnd(1.2);
+  EXPECT_EQ(OnlyAlarm().kind, AlarmKind::kSearchMisses);
+  EXPECT_THAT(AlarmText(OnlyAlarm()), has_finer);
+}
+
 // What is shown as fitting equally is held to the same bounds as the recommended set.
 TEST(Misses, ASetThatWasSimulatedAgainIsJudgedByItsImageAndItsNumbers) {
   Answer answer = ConfirmedAt(4);
