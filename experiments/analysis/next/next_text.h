@@ -9,7 +9,8 @@ namespace talus::analysis {
 
 // "sliding_friction 0.12, surface_energy × 3": widths in the unit cube, as people read them.
 std::string WidthsText(const NextTable& table, const Eigen::VectorXd& width);
-// "sliding_friction 0.12 (0.05 … 0.3)": with what a tenth of the sets leave less of, and a tenth more.
+// "sliding_friction 0.12 (0.05 … 0.3)": with what a tenth of the sets leave less of, and a tenth
+// more.
 std::string SpreadText(const NextTable& table, const optimizer::ExpectedLearning& learning);
 
 std::string NextText(const NextTable& table);
