@@ -23,7 +23,7 @@ from importlib.machinery import SourceFileLoader
 import numpy
 from PIL import Image, ImageDraw
 
-from optima import ROOT, spec
+from optima import ROOT, case, spec
 
 render_heap = SourceFileLoader("render_heap", str(ROOT / "scripts" / "render_heap")).load_module()
 RUNS = 3
@@ -55,16 +55,14 @@ def photograph(grains, plate_mm, azimuth):
 def measure(options, folder, name, truth, seed):
     """Photographs three heaps; their bulk densities in the tube [kg/m^3]."""
     (folder / PHOTOS[name]).mkdir(parents=True, exist_ok=True)
-    campaign = spec(options.powder)
     densities = []
     for i in range(RUNS):
         place = folder / f"{PHOTOS[name]}_run{i + 1}"
-        case = {k: campaign[k] for k in ("models", "filling")}
-        case |= {"powder": campaign["powder"] | {"material": campaign["powder"]["material"] | truth},
-                 "device": campaign["device"] | {"plate_diameter": f"{PLATES[name]} mm"},
-                 "coarse_graining": {"scale_factor": options.true}, "seed": seed + i}
         if not (place / "result.json").exists():
-            place.with_suffix(".json").write_text(json.dumps(case, indent=1))
+            one = case(options.powder, truth.values(), options.true, seed + i, None)
+            one["device"]["plate_diameter"] = f"{PLATES[name]} mm"
+            del one["frame"]  # it is photographed here
+            place.with_suffix(".json").write_text(json.dumps(one, indent=1))
             subprocess.run([options.talus, "simulate", place.with_suffix(".json"), "--out", place, "--quiet"], check=True)
             grains = 1e3 * numpy.array(render_heap.read_spheres(place / "heap.vtp"))
             for view in range(VIEWS):
@@ -99,6 +97,9 @@ def tell(options, campaign, truth):
     level = json.loads(considered)["credible_level"]
     ranges = ", ".join(f"{p['name']} {p['value']:.3g} ({p['credible_90_low']:.3g} … {p['credible_90_high']:.3g})"
                        for p in result["parameters"])
+    if level is None:
+        print(f"  {campaign.name}: too few simulations for a region", flush=True)
+        return False
     print(f"  {campaign.name}: level {level:.3f}, volume {result['posterior']['region_90_volume_fraction']:.3f}; {ranges}; "
           f"alarms {sorted({w['kind'] for w in result['warnings']})}", flush=True)
     return level <= 0.9

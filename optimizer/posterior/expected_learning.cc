@@ -49,23 +49,25 @@ std::pair<Eigen::Index, Eigen::Index> MostApart(const Eigen::MatrixXd& z) {
   return pair;
 }
 
-// At most this share of the values of each column lies below.
-Eigen::VectorXd Quantiles(Eigen::MatrixXd values, double share) {
-  const auto at = static_cast<Eigen::Index>(share * static_cast<double>(values.rows() - 1) + 0.5);
+// Each column in ascending order.
+Eigen::MatrixXd Sorted(Eigen::MatrixXd values) {
   for (auto column : values.colwise()) std::ranges::sort(column);
-  return values.row(at).transpose();
+  return values;
+}
+
+// Of each sorted column: the value that this share lies below.
+Eigen::VectorXd QuantileOf(const Eigen::MatrixXd& sorted, double share) {
+  const auto at = static_cast<Eigen::Index>(share * static_cast<double>(sorted.rows() - 1) + 0.5);
+  return sorted.row(at).transpose();
 }
 
 }  // namespace
 
 double HalfWidth90(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  std::ranges::sort(sorted);
   constexpr double kConfidence = 0.9;
-  const auto at = [&](double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
-  };
-  return 0.5 * (at(0.5 + 0.5 * kConfidence) - at(0.5 - 0.5 * kConfidence));
+  const Eigen::MatrixXd sorted = Sorted(values);
+  return 0.5 * (QuantileOf(sorted, 0.5 + 0.5 * kConfidence)[0] -
+                QuantileOf(sorted, 0.5 - 0.5 * kConfidence)[0]);
 }
 
 ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement& measurement,
@@ -96,8 +98,9 @@ ExpectedLearning Learn(const Eigen::MatrixXd& draws, const PredictedMeasurement&
   }
   constexpr double kTenth = 0.1;
   learning.width = widths.colwise().mean().transpose();
-  learning.narrow = Quantiles(widths, kTenth);
-  learning.wide = Quantiles(widths, 1 - kTenth);
+  const Eigen::MatrixXd sorted = Sorted(widths);
+  learning.narrow = QuantileOf(sorted, kTenth);
+  learning.wide = QuantileOf(sorted, 1 - kTenth);
   return learning;
 }
 

@@ -20,21 +20,9 @@ using optimizer::ExperimentModel;
 
 constexpr int kHoldOutDraws = 400;
 
-// What a number cannot fall below, by what was measured and simulated of it: nothing weighs less
-// than nothing, but a surrogate may say so.
-double LeastOf(const JointView& view, int experiment, std::size_t s) {
-  const auto is_below_zero = [&](const optimizer::Observation& o) {
-    return o.experiment == experiment && !o.failed && o.scalars[s] < 0;
-  };
-  const bool can_be =
-      view.record.experiments[static_cast<std::size_t>(experiment)].scalars[s].value < 0 ||
-      std::ranges::any_of(view.observations, is_below_zero);
-  return can_be ? -std::numeric_limits<double>::infinity() : 0;
-}
-
 // Draws of what would be measured: the simulated mean, its uncertainty and the measurement's error.
 PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::Moments& at,
-                         double least, std::uint64_t seed) {
+                         std::uint64_t seed) {
   base::Random random(seed, base::Stream("held out"));
   std::vector<double> draws;
   for (Eigen::Index i = 0; i < at.mean.size(); ++i) {
@@ -42,8 +30,8 @@ PredictedNumber NumberOf(const journal::ScalarRecord& scalar, const optimizer::M
   }
   std::sort(draws.begin(), draws.end());
   const auto quantile = [&](double share) {
-    return std::max(least,
-                    draws[static_cast<std::size_t>(share * static_cast<double>(draws.size() - 1))]);
+    const auto rank = static_cast<std::size_t>(share * static_cast<double>(draws.size() - 1));
+    return rigs::Possible(scalar.name, draws[rank]);
   };
   const double mean = at.mean.mean();
   const double variance = (at.mean.array() - mean).square().mean() + at.sd.array().square().mean();
@@ -115,8 +103,7 @@ HeldOut HoldOut(const JointView& view, const std::string& name) {
   const auto scalars = model.Scalars(draws);
   const auto& measured = view.record.experiments[static_cast<std::size_t>(held)].scalars;
   for (std::size_t s = 0; s < scalars.size(); ++s) {
-    predicted.numbers.push_back(
-        NumberOf(measured[s], scalars[s], LeastOf(view, held, s), view.spec.seed));
+    predicted.numbers.push_back(NumberOf(measured[s], scalars[s], view.spec.seed));
   }
   return result;
 }
