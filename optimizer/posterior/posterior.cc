@@ -129,6 +129,9 @@ std::vector<OutputMoments> Posterior::Outputs(const Eigen::MatrixXd& points) con
   for (const ExperimentModel& model : models_) {
     outputs.push_back(NumCounted(model) == 0 ? OutputMoments{} : model.Outputs(points));
   }
+  for (std::size_t e = 0; e < shifts_.size(); ++e) {
+    if (NumCounted(models_[e]) > 0) outputs[e].mean += shifts_[e](points);
+  }
   return outputs;
 }
 

@@ -3,15 +3,18 @@
 //   ln p(x | data) = ln p(x) - Σ ln sₖ(x) - ½ ρ(M(x)/T) + const,   M = rᵀ R⁻¹ r  joint_misfit.h
 //
 // r residuals of the K outputs in standard deviations s (experiment_model.h: the experiment's own
-// error, model error and the surrogate's, which is inflated in r and not in -Σ ln s). R and T come
-// from leave-one-out residuals of all experiments together, so that two tests are not added as if
-// independent. The prior p(x) (prior.h) counts as it is given: T is the surrogates'.
+// error, model error and the surrogate's, which is inflated in r, and counts three quarters in -Σ
+// ln s). R and T come from leave-one-out residuals of all experiments together, so that two tests
+// are not added as if independent. The prior p(x) (prior.h) counts as it is given: T is the
+// surrogates'.
 //
 // An experiment of weight w counts as its likelihood to the power w: √w r and w ln s.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "optimizer/posterior/experiment_model.h"
@@ -20,6 +23,9 @@
 #include "optimizer/space/domain.h"
 
 namespace talus::optimizer {
+
+// How much more the simulations of an experiment show: of each output a column, one set a row.
+using ShiftBySet = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& points)>;
 
 class Posterior {
  public:
@@ -34,6 +40,8 @@ class Posterior {
   // The same from the outputs there, one element an experiment, without the prior.
   Eigen::VectorXd LogDensity(const std::vector<OutputMoments>& outputs, double softness = 1) const;
   std::vector<OutputMoments> Outputs(const Eigen::MatrixXd& points) const;
+  // From now on in the density; a shift for each experiment.
+  void ShiftOutputs(std::vector<ShiftBySet> shifts) { shifts_ = std::move(shifts); }
 
   // By importance sampling from an even start, and from the prior where there is one, refined where
   // the weights are [cappe2004]: the posterior may be curved and have several branches.
@@ -57,6 +65,7 @@ class Posterior {
   std::vector<ExperimentModel> models_;
   JointMisfit misfit_;
   Prior prior_;
+  std::vector<ShiftBySet> shifts_{};  // empty: none
 };
 
 }  // namespace talus::optimizer

@@ -37,8 +37,8 @@ struct PosteriorStrategyOptions {
   std::uint64_t seed = 1;
 };
 
-// What Recommend would say of other measurements; unit cube.
-struct AnswerIfMeasured {
+// What Recommend would say of other simulations; unit cube.
+struct AnswerIfShifted {
   Eigen::VectorXd point{};
   std::vector<Range> credible{};  // 90 %, as Answer::credible
 };
@@ -64,9 +64,9 @@ class PosteriorStrategy : public Strategy {
   // The objective of an experiment with an image by the model that Recommend answers with, at the
   // target scale factor: one point a row.
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment);
-  // Recommend's point and ranges had the experiments measured so much more of each output, a vector
-  // of outputs for each; wants CanModel.
-  AnswerIfMeasured IfMeasured(const std::vector<Eigen::VectorXd>& more);
+  // Recommend's point and ranges had every simulation shown so much more, a shift for each
+  // experiment: what a systematic error of the simulations does to the answer. Wants CanModel.
+  AnswerIfShifted IfShifted(std::vector<ShiftBySet> shifts);
   // Model and sample of all that was told.
   const Posterior& Model();
   const PosteriorSample& Sample();

@@ -7,7 +7,6 @@
 #include "base/text/counted.h"
 #include "optimizer/posterior/branches.h"
 #include "optimizer/posterior/credible_ranges.h"
-#include "optimizer/posterior/measured_shift.h"
 #include "optimizer/posterior/sample_statistics.h"
 #include "optimizer/posterior/sobol_indices.h"
 #include "optimizer/search/describe_minimum.h"
@@ -131,8 +130,9 @@ Answer PosteriorStrategy::Recommend() {
   return answer;
 }
 
-AnswerIfMeasured PosteriorStrategy::IfMeasured(const std::vector<Eigen::VectorXd>& more) {
-  const Posterior moved = WithMeasuredMoved(Model(), more);
+AnswerIfShifted PosteriorStrategy::IfShifted(std::vector<ShiftBySet> shifts) {
+  Posterior moved = Model();
+  moved.ShiftOutputs(std::move(shifts));
   const PosteriorSample joint = SampleOf(moved);
   const AskedDensity asked([&](const Eigen::MatrixXd& points) { return moved.LogDensity(points); },
                            domain_, joint, options_.seed);

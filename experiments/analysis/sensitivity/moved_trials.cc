@@ -1,11 +1,10 @@
 #include "experiments/analysis/sensitivity/moved_trials.h"
 
-#include <limits>
-
 #include "base/error.h"
 #include "base/text/name.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/design_folder.h"
+#include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 
@@ -29,17 +28,41 @@ fs::path FolderOf(const SensitivitySetting& setting, const MovedSet& set, int ex
          ("experiment_" + std::to_string(experiment + 1)) / base::FileNumber(replicate + 1);
 }
 
-// The numbers that the experiment has measured, in its order.
-std::vector<double> NumbersOf(const campaign::Reference& reference,
-                              const trials::TrialOutput& output) {
-  std::vector<double> numbers;
-  for (const journal::ScalarRecord& wanted : reference.scalars()) {
-    numbers.push_back(std::numeric_limits<double>::quiet_NaN());
-    for (const journal::MetricRecord& metric : output.scalars) {
-      if (metric.name == wanted.name && metric.undefined.empty()) numbers.back() = metric.value;
-    }
+struct Simulated {
+  optimizer::Observation observation;
+  bool has_ended = false;  // well
+  double core_time = 0;    // [s]
+};
+
+Simulated ReadSimulated(const SensitivitySetting& setting, const MovedSet& set, int experiment,
+                        int replicate) {
+  const campaign::Reference& reference =
+      setting.view.references[static_cast<std::size_t>(experiment)];
+  const Eigen::VectorXd point = set.point.value_or(setting.point);
+  const fs::path folder = FolderOf(setting, set, experiment, replicate);
+  journal::TrialRecord trial;
+  trial.unit = {point.begin(), point.end()};
+  trial.experiment = experiment;
+  trial.scale_factor = setting.scale_factor;
+  trial.status = journal::TrialStatus::kFailed;
+  std::vector<float> field;
+  try {
+    if (!setting.parts.engine->IsComplete(folder)) throw base::Error("did not end well");
+    const trials::TrialOutput output =
+        setting.parts.engine->Collect(MovedCase(setting, set, experiment, replicate), folder);
+    if (reference.has_image()) field = reference.Field(output.profile);
+    trial.metrics = reference.Measure(output.profile);
+    trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
+    trial.num_steps = output.num_steps;
+    trial.num_particles = output.num_particles;
+    trial.cpu_s = output.cpu_time;
+    trial.status = journal::TrialStatus::kOk;
+  } catch (const base::Error&) {
+    // It says nothing of the shift; the table counts it.
   }
-  return numbers;
+  return {.observation = campaign::ObservationOf(trial, reference, std::move(field)),
+          .has_ended = trial.status == journal::TrialStatus::kOk,
+          .core_time = trial.cpu_s};
 }
 
 }  // namespace
@@ -88,27 +111,31 @@ void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& se
 
 MovedOutputs OutputsOf(const SensitivitySetting& setting, const MovedSet& set,
                        std::size_t answered) {
-  const int experiment = setting.view.Answered()[answered];
-  const campaign::Reference& reference =
-      setting.view.references[static_cast<std::size_t>(experiment)];
   const optimizer::ExperimentModel& model = setting.posterior.models()[answered];
   MovedOutputs made{.outputs = Eigen::MatrixXd(0, model.num_outputs())};
   for (int i = 0; i < set.replicates; ++i) {
-    const fs::path folder = FolderOf(setting, set, experiment, i);
-    try {
-      if (!setting.parts.engine->IsComplete(folder)) throw base::Error("did not end well");
-      const trials::TrialOutput output =
-          setting.parts.engine->Collect(MovedCase(setting, set, experiment, i), folder);
-      made.core_time += output.cpu_time;
-      std::vector<float> field;
-      if (reference.has_image()) field = reference.Field(output.profile);
-      made.outputs.conservativeResize(made.outputs.rows() + 1, Eigen::NoChange);
-      made.outputs.bottomRows(1) = model.OutputsOf(field, NumbersOf(reference, output)).transpose();
-    } catch (const base::Error&) {
-      ++made.num_failed;  // it says nothing of the shift; the table counts it
+    const Simulated simulated = ReadSimulated(setting, set, setting.view.Answered()[answered], i);
+    made.core_time += simulated.core_time;
+    if (!simulated.has_ended) {
+      ++made.num_failed;
+      continue;
     }
+    const optimizer::Observation& seen = simulated.observation;
+    made.outputs.conservativeResize(made.outputs.rows() + 1, Eigen::NoChange);
+    made.outputs.bottomRows(1) = model.OutputsOf(seen.field, seen.scalars).transpose();
   }
   return made;
+}
+
+std::vector<optimizer::Observation> ObservationsOf(const SensitivitySetting& setting,
+                                                   const MovedSet& set, std::size_t answered) {
+  std::vector<optimizer::Observation> observations;
+  for (int i = 0; i < set.replicates; ++i) {
+    observations.push_back(
+        ReadSimulated(setting, set, setting.view.Answered()[answered], i).observation);
+    observations.back().experiment = static_cast<int>(answered);
+  }
+  return observations;
 }
 
 }  // namespace talus::analysis

@@ -10,6 +10,7 @@
 #include "experiments/analysis/sensitivity/moves.h"
 #include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/campaign.h"
+#include "optimizer/observation.h"
 #include "optimizer/posterior/posterior.h"
 
 namespace talus::analysis {
@@ -52,5 +53,9 @@ struct MovedOutputs {
 // `answered` is the index of the experiment among the posterior's.
 MovedOutputs OutputsOf(const SensitivitySetting& setting, const MovedSet& set,
                        std::size_t answered);
+
+// The same as a strategy is told of them, those that failed included; of a set without a move.
+std::vector<optimizer::Observation> ObservationsOf(const SensitivitySetting& setting,
+                                                   const MovedSet& set, std::size_t answered);
 
 }  // namespace talus::analysis

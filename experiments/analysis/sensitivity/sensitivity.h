@@ -2,9 +2,9 @@
 //
 // One thing is moved at the recommended set, every experiment is simulated with it, and the shift δ
 // of the outputs is what all simulations would show more: the answer is made anew, from the trials
-// that there are, as if the experiments had measured so much less (measured_shift.h). Replicates
-// are doubled until it is told from the noise whether the answer moves beyond half of a range. An
-// answer that moves far is looked for where its own shift leads to it: x = A(y - δ(x)).
+// that there are. Replicates are doubled until it is told from the noise whether the answer moves
+// beyond half of a range. Where it moves far, the set is simulated there, too, with the move and
+// without, and the answer made anew of both shifts (shift_field.h) and of what was shown without.
 #pragma once
 
 #include <functional>

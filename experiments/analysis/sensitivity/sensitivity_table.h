@@ -9,6 +9,8 @@
 
 namespace talus::analysis {
 
+inline constexpr double kSure = 2;  // standard errors that are not chance
+
 // How far a move shifts what an experiment shows.
 struct OutputShift {
   std::string experiment{};
@@ -48,14 +50,16 @@ struct FixedMove {
   std::string name{};
   std::string from{};
   std::string to{};
-  int replicates = 0;     // simulations of each experiment
-  int num_failed = 0;     // of these
-  int num_followed = 0;   // how often the shift was simulated anew at the answer foretold
-  std::string why_not{};  // why nothing is known; else empty
+  int replicates = 0;              // simulations of each experiment
+  int num_failed = 0;              // of these
+  int num_followed = 0;            // how often the shift was simulated anew at the answer foretold
+  std::string why_not{};           // why nothing is known; else empty
+  std::string why_not_followed{};  // why the answer is not simulated where it was foretold last
   std::vector<OutputShift> outputs{};
   std::vector<AnswerShift> answer{};
 
-  TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, why_not, outputs, answer);
+  TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, why_not, why_not_followed,
+               outputs, answer);
   bool Exceeds() const;  // any parameter
   bool IsTold() const;   // all parameters
   double MostHalfRanges() const;

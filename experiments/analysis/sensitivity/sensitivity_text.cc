@@ -103,6 +103,9 @@ std::string SensitivityText(const SensitivityTable& table) {
     if (move.num_followed > 0) {
       text += "; anew at the answer foretold, " + base::Counted(move.num_followed, "time");
     }
+    if (!move.why_not_followed.empty()) {
+      text += "; at the answer foretold last " + move.why_not_followed;
+    }
     text += "\n";
   }
   text +=

@@ -1,0 +1,105 @@
+#include "experiments/analysis/sensitivity/follow.h"
+
+#include <algorithm>
+
+#include "base/text/counted.h"
+
+namespace talus::analysis {
+namespace {
+
+constexpr int kMostFollowed = 4;
+// Half ranges: a shift of the outputs is taken to be the same so far about the set that it was
+// simulated at.
+constexpr double kNear = 0.5;
+
+// The recommended set, or another, without the move and with it.
+MovedSet Without(const Move& move, const std::optional<Eigen::VectorXd>& point, int replicates) {
+  if (!point) return {.replicates = BaseReplicates(replicates)};
+  return {.beside = &move, .point = point, .replicates = replicates};
+}
+
+MovedSet With(const Move& move, const std::optional<Eigen::VectorXd>& point, int replicates) {
+  return {.move = &move, .point = point, .replicates = replicates};
+}
+
+}  // namespace
+
+void Follower::Follow(const Move& move, FixedMove& foretold) {
+  if (!foretold.why_not.empty()) return;
+  std::vector<Eigen::VectorXd> points{setting_.point};
+  Eigen::VectorXd next = stated_.Shifted(foretold.answer);
+  std::optional<Foreteller> informed;
+  while (foretold.num_followed < kMostFollowed && IsFar(next, points, foretold)) {
+    if (!informed) informed.emplace(ForetellerOf(setting_.view));
+    points.push_back(next);
+    Simulate(move, next, foretold.replicates, *informed);
+    const std::vector<ShiftField> shifts = FieldsOf(move, points, informed->posterior(), foretold);
+    if (shifts.empty()) return;
+    ++foretold.num_followed;
+    const Foretold anew = informed->With(shifts);
+    next = anew.answer.point;
+    foretold.answer = stated_.ShiftsTo(anew);
+  }
+}
+
+// From all that was simulated.
+bool Follower::IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::VectorXd>& points,
+                     const FixedMove& foretold) const {
+  return std::ranges::all_of(points, [&](const Eigen::VectorXd& at) {
+    const Eigen::VectorXd half_ranges = (next - at).cwiseQuotient(stated_.half_ranges).cwiseAbs();
+    for (std::size_t i = 0; i < foretold.answer.size(); ++i) {
+      const double error = foretold.answer[i].half_ranges_error;
+      if (half_ranges[static_cast<Eigen::Index>(i)] > std::max(kNear, kSure * error)) return true;
+    }
+    return false;
+  });
+}
+
+void Follower::Simulate(const Move& move, const Eigen::VectorXd& point, int replicates,
+                        Foreteller& informed) {
+  const MovedSet without = Without(move, point, replicates);
+  const MovedSet with = With(move, point, replicates);
+  if (options_.tell) {
+    options_.tell(base::Counted(2 * replicates, "simulation") +
+                  " each at the answer foretold for " + move.name);
+  }
+  RunMoved(setting_, {without, with});
+  const std::vector<int> answered = setting_.view.Answered();
+  for (std::size_t e = 0; e < answered.size(); ++e) {
+    if (!ActsOn(setting_, move, answered[e])) continue;
+    informed.Tell(ObservationsOf(setting_, without, e));
+    simulated_.push_back(OutputsOf(setting_, without, e));
+    simulated_.push_back(OutputsOf(setting_, with, e));
+  }
+}
+
+// In outputs of the posterior, from all simulations of the move at these sets, the first of which
+// is the recommended one. Empty where a set has none that succeeded, which the move then says.
+std::vector<ShiftField> Follower::FieldsOf(const Move& move,
+                                           const std::vector<Eigen::VectorXd>& points,
+                                           const optimizer::Posterior& posterior,
+                                           FixedMove& foretold) const {
+  const SensitivitySetting setting{.view = setting_.view,
+                                   .posterior = posterior,
+                                   .point = setting_.point,
+                                   .scale_factor = setting_.scale_factor,
+                                   .parts = setting_.parts};
+  const std::vector<int> answered = setting.view.Answered();
+  std::vector<ShiftField> fields(answered.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::optional<Eigen::VectorXd> other = i > 0 ? std::optional(points[i]) : std::nullopt;
+    std::vector<MovedOutputs> without(answered.size());
+    for (std::size_t e = 0; e < answered.size(); ++e) {
+      if (!ActsOn(setting, move, answered[e])) continue;
+      without[e] = OutputsOf(setting, Without(move, other, foretold.replicates), e);
+    }
+    const MoveShifts found =
+        ShiftsBetween(setting, without, With(move, other, foretold.replicates));
+    foretold.why_not_followed = found.why_not;
+    if (!found.why_not.empty()) return {};
+    for (std::size_t e = 0; e < fields.size(); ++e) fields[e].Add(points[i], found.shifts[e]);
+  }
+  return fields;
+}
+
+}  // namespace talus::analysis

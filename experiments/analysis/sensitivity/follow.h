@@ -1,0 +1,48 @@
+// A move followed to where the answer goes with it.
+//
+// A shift depends on the set. Where the answer goes far, the set is simulated there, too, with the
+// move and without, until it stays near one of the sets simulated. What they show without the move
+// is told to a posterior of this move's own: a campaign knows least of the sets that did not fit.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "experiments/analysis/sensitivity/move_shifts.h"
+#include "experiments/analysis/sensitivity/sensitivity.h"
+#include "experiments/analysis/sensitivity/stated_answer.h"
+
+namespace talus::analysis {
+
+// So many simulations as recommended for those of a move: common to all moves, more of them pay.
+constexpr int BaseReplicates(int replicates) { return 2 * replicates; }
+
+class Follower {
+ public:
+  // All outlive it.
+  Follower(const SensitivitySetting& setting, const StatedAnswer& stated,
+           const SensitivityOptions& options)
+      : setting_(setting), stated_(stated), options_(options) {}
+
+  // From the answer foretold by simulations of the move at the recommended set.
+  void Follow(const Move& move, FixedMove& foretold);
+
+  // What was simulated for it.
+  const std::vector<MovedOutputs>& simulated() const { return simulated_; }
+
+ private:
+  bool IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::VectorXd>& points,
+             const FixedMove& foretold) const;
+  void Simulate(const Move& move, const Eigen::VectorXd& point, int replicates,
+                Foreteller& informed);
+  std::vector<ShiftField> FieldsOf(const Move& move, const std::vector<Eigen::VectorXd>& points,
+                                   const optimizer::Posterior& posterior,
+                                   FixedMove& foretold) const;
+
+  const SensitivitySetting& setting_;
+  const StatedAnswer& stated_;
+  const SensitivityOptions& options_;
+  std::vector<MovedOutputs> simulated_{};
+};
+
+}  // namespace talus::analysis

@@ -1,0 +1,28 @@
+// The campaign's answer as it stands, against which those foretold are set.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "experiments/analysis/sensitivity/foreteller.h"
+#include "experiments/analysis/sensitivity/sensitivity_table.h"
+#include "optimizer/space/parameter_space.h"
+
+namespace talus::analysis {
+
+struct StatedAnswer {
+  const optimizer::ParameterSpace& space;
+  Eigen::VectorXd point;        // recommended, unit cube
+  Eigen::VectorXd half_ranges;  // of the stated ranges, unit cube
+
+  // A parameter that is searched each.
+  std::vector<AnswerShift> ShiftsTo(const Foretold& foretold) const;
+  // Where those shifts lead, unit cube.
+  Eigen::VectorXd Shifted(const std::vector<AnswerShift>& shifts) const;
+};
+
+// `space` outlives it.
+StatedAnswer StatedAnswerOf(const optimizer::ParameterSpace& space,
+                            const optimizer::Answer& answer);
+
+}  // namespace talus::analysis
