@@ -13,7 +13,12 @@ double CompressionSlope(const ScalarTarget& target) {
   return 1 / std::sqrt(scale * scale + target.value * target.value);
 }
 
-constexpr double kOfMany = 2;  // SurrogateCaution of many evaluations
+constexpr double kOfMany = 1.2;  // SurrogateCaution of many evaluations
+
+// The outputs tell of the same few parameters, and a surrogate that is unsure of one is unsure of
+// all: counted one by one, a set of which little is known would pass for unlikely. The share by
+// which truths are likeliest (bench/optimizers/RECORD.md).
+constexpr double kUnsure = 0.75;
 
 }  // namespace
 
@@ -129,7 +134,7 @@ OutputMisfit ExperimentModel::MisfitOf(const OutputMoments& outputs, double caut
     const Eigen::ArrayXd cautious = caution * caution * variance + open[k];
     misfit.share.array() += (1 - open[k] / cautious) / num_outputs();
     misfit.residual.col(k) = (measured_[k] - outputs.mean.col(k).array()) / cautious.sqrt();
-    misfit.log_sd.array() += 0.5 * (variance + open[k]).log();
+    misfit.log_sd.array() += 0.5 * (std::log(open[k]) + kUnsure * (variance / open[k]).log1p());
   }
   return misfit;
 }

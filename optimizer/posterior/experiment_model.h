@@ -28,8 +28,9 @@ double SurrogateCaution(double num_finest);
 struct OutputMisfit {
   Eigen::MatrixXd residual;  // (measured - predicted mean) / sd, one output a column; sd with the
                              // surrogate's part inflated
-  Eigen::VectorXd log_sd;    // Σ ln sd over the outputs, not inflated
-  Eigen::VectorXd share;     // of the surrogate in the inflated variances, mean over the outputs
+  Eigen::VectorXd log_sd;  // Σ ln sd over the outputs, not inflated; what the surrogate adds to it
+                           // counts three quarters
+  Eigen::VectorXd share;   // of the surrogate in the inflated variances, mean over the outputs
 };
 
 // The surrogate's mean and variance of the outputs at the target scale factor, one point a row, one

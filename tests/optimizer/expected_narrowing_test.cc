@@ -34,7 +34,8 @@ struct Line {
 };
 
 // All densities of x are of one shape, as wide as √(λ c² V + B): where λ is 0 only B is left. The
-// 400 draws tell a width within 5 %, and a drawn error has a slope of its own.
+// 400 draws tell a width within 5 %, and a drawn error has a slope of its own: what eight samples
+// find scatters by 0.06, their mean by 0.02.
 TEST(ExpectedNarrowing, ASurrogateThatIsSureLeavesTheMeasurementsError) {
   const Line line;
   const Posterior posterior = line.Make();
@@ -46,7 +47,13 @@ TEST(ExpectedNarrowing, ASurrogateThatIsSureLeavesTheMeasurementsError) {
   const std::vector<SurrogateAhead> sure{{.left = Eigen::VectorXd::Zero(1)}};
   const double expected = 1 - std::sqrt(b / (c * c * v + b));
   ASSERT_GT(expected, 0.2);
-  EXPECT_NEAR(ExpectedNarrowing(posterior, draws, 1).Of({0}, sure)[0], expected, 0.1);
+  constexpr int kSamples = 8;
+  double found = 0;
+  for (std::uint64_t seed = 1; seed <= kSamples; ++seed) {
+    const Eigen::MatrixXd drawn = posterior.Sample(line.domain, 3000, 1, seed).Draws(400, seed);
+    found += ExpectedNarrowing(posterior, drawn, seed).Of({0}, sure)[0] / kSamples;
+  }
+  EXPECT_NEAR(found, expected, 0.06);
   // What the output does not know stays as it is.
   EXPECT_LT(ExpectedNarrowing(posterior, draws, 1).Of({1}, sure)[0], 0.1);
 }

@@ -42,6 +42,11 @@ std::string FinerText(double scale_factor) {
          " times as large as yours may be what misses it: try a smaller scale factor";
 }
 
+// What may keep a set that fits away, the first in a list of suspects.
+std::string PriorOf(const Alarm& a) {
+  return a.parameter ? "the prior of " + *a.parameter + ", " : "";
+}
+
 // "… misses the shape of "drum" by 5.1 times the noise floor, 11 % of the powder's area"
 std::string MissesText(const Alarm& a) {
   std::string text = "the recommended set misses ";
@@ -62,10 +67,8 @@ std::string MissesText(const Alarm& a) {
            "(" +
            ResumeCommand(kMoreSimulations) + ")" + finer;
   }
-  return text +
-         ": nothing stands on this answer before the contact law, the plate and the set-up "
-         "are checked" +
-         finer;
+  return text + ": nothing stands on this answer before " + PriorOf(a) +
+         "the contact law, the plate and the set-up are checked" + finer;
 }
 
 }  // namespace
@@ -82,8 +85,7 @@ std::string AlarmText(const Alarm& a) {
                                  a.experiment.value_or(""));
     case AlarmKind::kImplausible:
       return "no set fits " + experiment + ": the recommended one is " + value +
-             " standard deviations off; " +
-             (a.parameter ? "the prior of " + *a.parameter + ", " : "") +
+             " standard deviations off; " + PriorOf(a) +
              "the contact law, the plate material or the set-up is wrong";
     case AlarmKind::kDisagree:
       return "the experiments disagree: each is met by sets that the others rule out (tension " +

@@ -168,6 +168,7 @@ std::vector<Alarm> MissAlarms(const Answer& answer) {
     Alarm alarm{.kind = fault ? AlarmKind::kSearchMisses : AlarmKind::kMisses,
                 .experiment = fit.experiment,
                 .reason = fault};
+    if (!fault) alarm.parameter = HeldByItsPrior(answer);
     if (!fit.number.empty()) alarm.number = fit.number;
     if (std::isfinite(fit.off)) alarm.value = fit.off;
     if (std::isfinite(fit.share)) alarm.share = fit.share;

@@ -100,10 +100,11 @@ TEST_F(PredictTest, SeveralScaleFactorsTellTheOneThatTheAnswerIsFor) {
   double rolling = 0;
   for (const PredictedDraw& draw : p.draws) rolling += draw.weight * draw.values[1];
   // At 1.5 alone it is 20 kg/m³ more. As the shift may bend between the scale factors, 12 of these
-  // are taken away, and the interval allows for the rest.
+  // are taken away, and the interval allows for the rest, but for the mean's own error: 4 from run
+  // to run, three runs a draw, of 12 draws.
   const double truth = 1550 - 350 * rolling;
   EXPECT_NEAR(density.mean, truth, 12);
-  EXPECT_LT(density.low, truth);
+  EXPECT_LT(density.low, truth + 4 / std::sqrt(3 * 12));
   const std::string text = PredictionText(p, view_->record.parameters);
   EXPECT_THAT(text, HasSubstr("scale factors 2 and 1.5: 48 of 48 runs"));
   EXPECT_THAT(text, HasSubstr("at scale factor 1 by a surrogate, which misses a draw left out by"));

