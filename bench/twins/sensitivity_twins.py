@@ -8,8 +8,10 @@ value, the same data, seed and core time finds its own answer. A friction of the
 it cannot be fixed: the second campaign has the number that the first one's answer makes of it, and so has the move.
 
 One line a powder and move: the shifts foretold and found of each parameter in half ranges, and whether the two are
-within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise. The last line
-has how many of the answers found lie in the ranges foretold, too, and the mean distance of the two.
+within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise. Where no set
+fits with the moved value the second campaign's answer is one of many that are as bad: the line says so, and what was
+foretold of it. The last lines have how many of the answers found lie in the ranges foretold, too, and the mean distance of
+the two, of all moves and of those with which a set fits.
 """
 import json
 import math
@@ -18,6 +20,7 @@ from twin import arguments, finished, run
 
 FACTOR = 1.5
 SMALL = 0.25  # half ranges
+IMPLAUSIBLE = 3  # standard deviations
 
 
 def parameters(folder):
@@ -28,8 +31,7 @@ def foretold(options, folder, name, value):
     extra = ["--replicates", options.replicates]
     if options.scale_factor:
         extra += ["--scale-factor", options.scale_factor]
-    move = json.loads(run(options.talus, "sensitivity", folder, f"{name}={value}", *extra, "--json"))["moves"][0]
-    return {a["parameter"]: a for a in move["answer"]}
+    return json.loads(run(options.talus, "sensitivity", folder, f"{name}={value}", *extra, "--json"))["moves"][0]
 
 
 def found(options, twin, name, value, now):
@@ -48,6 +50,11 @@ def found(options, twin, name, value, now):
             for k, p in now.items()}
 
 
+def fits(place):
+    warnings = json.loads((place / "result.json").read_text())["warnings"]
+    return not {"implausible", "disagree", "misses"} & {w["kind"] for w in warnings}
+
+
 def is_right(a, b):
     return max(abs(a), abs(b)) < SMALL or (a * b > 0 and 1 / FACTOR <= a / b <= FACTOR)
 
@@ -58,8 +65,7 @@ def main():
     parser.add_argument("--scale-factor", type=float)
     parser.add_argument("--replicates", type=int, default=16)
     options = parser.parse_args()
-    right, count = 0, 0
-    inside, distances = [], []
+    rows = []
     for twin in finished(options.folder, options.first, options.last):
         first = twin / options.campaign
         now = parameters(first)
@@ -67,19 +73,30 @@ def main():
                  "plate_pair_sliding_friction": round(0.8 * now["sliding_friction"]["value"], 6)}
         for name, value in moves.items():
             told = foretold(options, first, name, value)
+            answer = {a["parameter"]: a for a in told["answer"]}
             is_found = found(options, twin, name, value, now)
-            shift = {k: told[k]["shift_in_half_ranges"] for k in now}
-            agree = all(is_right(shift[k], is_found[k][1]) for k in now)
-            inside += [told[k]["credible_90_low"] <= is_found[k][0] <= told[k]["credible_90_high"] for k in now]
-            distances += [abs(shift[k] - is_found[k][1]) for k in now]
-            right += agree
-            count += 1
+            shift = {k: answer[k]["shift_in_half_ranges"] for k in now}
+            rows.append({"right": all(is_right(shift[k], is_found[k][1]) for k in now),
+                         "inside": [answer[k]["credible_90_low"] <= is_found[k][0] <= answer[k]["credible_90_high"] for k in now],
+                         "distance": [abs(shift[k] - is_found[k][1]) for k in now],
+                         "fits": fits(twin / f"{options.campaign}_{name}"),
+                         "told_to_fit": told["implausibility_sd"] <= IMPLAUSIBLE})
+            row = rows[-1]
             print(f"{twin.name} {name} {value:.4g}: " + "; ".join(
-                f"{k} foretold {shift[k]:+.2f} ± {told[k]['shift_error_in_half_ranges']:.2f}, "
-                f"found {is_found[k][1]:+.2f}" for k in now) + f" half ranges{'' if agree else ', apart'}", flush=True)
-    print(f"{right} of {count} within a factor of {FACTOR}, or both below {SMALL} of the half range; "
-          f"{sum(inside)} of {len(inside)} found in the range foretold; mean distance "
-          f"{sum(distances) / len(distances):.2f} half ranges")
+                f"{k} foretold {shift[k]:+.2f} ± {answer[k]['shift_error_in_half_ranges']:.2f}, "
+                f"found {is_found[k][1]:+.2f}" for k in now) + f" half ranges{'' if row['right'] else ', apart'}"
+                + ("" if row["fits"] else ", nothing fits with it") + ("" if row["told_to_fit"] else ", as foretold"), flush=True)
+    summary("all", rows)
+    summary("with a set that fits", [row for row in rows if row["fits"]])
+
+
+def summary(which, rows):
+    inside = [one for row in rows for one in row["inside"]]
+    distances = [one for row in rows for one in row["distance"]]
+    if rows:
+        print(f"{which}: {sum(row['right'] for row in rows)} of {len(rows)} within a factor of {FACTOR}, or both below "
+              f"{SMALL} of the half range; {sum(inside)} of {len(inside)} found in the range foretold; mean distance "
+              f"{sum(distances) / len(distances):.2f} half ranges")
 
 
 main()

@@ -41,6 +41,7 @@ struct PosteriorStrategyOptions {
 struct AnswerIfShifted {
   Eigen::VectorXd point{};
   std::vector<Range> credible{};  // 90 %, as Answer::credible
+  double implausibility = 0;      // Posterior::Implausibility of the point, the largest [sd]
 };
 
 class PosteriorStrategy : public Strategy {
@@ -66,7 +67,7 @@ class PosteriorStrategy : public Strategy {
   std::optional<Moments> Predict(const Eigen::MatrixXd& points, int experiment);
   // Recommend's point and ranges had every simulation shown so much more, a shift for each
   // experiment: what a systematic error of the simulations does to the answer. Wants CanModel.
-  AnswerIfShifted IfShifted(std::vector<ShiftBySet> shifts);
+  AnswerIfShifted IfShifted(const std::vector<ShiftBySet>& shifts);
   // Model and sample of all that was told.
   const Posterior& Model();
   const PosteriorSample& Sample();

@@ -130,15 +130,22 @@ Answer PosteriorStrategy::Recommend() {
   return answer;
 }
 
-AnswerIfShifted PosteriorStrategy::IfShifted(std::vector<ShiftBySet> shifts) {
+AnswerIfShifted PosteriorStrategy::IfShifted(const std::vector<ShiftBySet>& shifts) {
   Posterior moved = Model();
-  moved.ShiftOutputs(std::move(shifts));
+  moved.ShiftOutputs(shifts);
   const PosteriorSample joint = SampleOf(moved);
   const AskedDensity asked([&](const Eigen::MatrixXd& points) { return moved.LogDensity(points); },
                            domain_, joint, options_.seed);
-  return {.point = FindBranches(asked, asked.Sample(joint), options_.seed).front().point,
-          .credible = AskedRanges(joint.Draws(kAnswerDraws, options_.seed), domain_.nuisances,
-                                  kRegionMass)};
+  AnswerIfShifted answer{
+      .point = FindBranches(asked, asked.Sample(joint), options_.seed).front().point,
+      .credible =
+          AskedRanges(joint.Draws(kAnswerDraws, options_.seed), domain_.nuisances, kRegionMass)};
+  // What fits with the shift there fits without where so much less was measured.
+  for (std::size_t e = 0; e < shifts.size(); ++e) {
+    moved.models()[e].MoveMeasured(-shifts[e](answer.point.transpose()).transpose());
+    answer.implausibility = std::max(answer.implausibility, moved.Implausibility(e, answer.point));
+  }
+  return answer;
 }
 
 std::optional<Eigen::VectorXd> PosteriorStrategy::CredibleLevels(const Eigen::MatrixXd& points) {

@@ -38,7 +38,7 @@ void Follower::Follow(const Move& move, FixedMove& foretold) {
     ++foretold.num_followed;
     const Foretold anew = informed->With(shifts);
     next = anew.answer.point;
-    foretold.answer = stated_.ShiftsTo(anew);
+    stated_.Compare(anew, foretold);
   }
 }
 

@@ -23,7 +23,7 @@ Foretold Foreteller::With(const std::vector<ShiftField>& shifts) {
     variance.segment(left, shift.variance().size()) = shift.variance();
     left += shift.variance().size();
   }
-  return {.answer = strategy_->IfShifted(std::move(more)),
+  return {.answer = strategy_->IfShifted(more),
           .standard_error = (response_.cwiseAbs2() * variance).cwiseSqrt()};
 }
 

@@ -9,6 +9,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/sensitivity/follow.h"
 #include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/trials/engines/template_folder.h"
 
@@ -33,6 +34,8 @@ double FixedMove::MostHalfRanges() const {
   for (const AnswerShift& shift : answer) most = std::max(most, std::abs(shift.half_ranges));
   return most;
 }
+
+bool FixedMove::FitsNoSet() const { return implausibility > campaign::kImplausible; }
 
 namespace {
 
@@ -183,7 +186,7 @@ class Study {
     for (std::size_t e = 0; e < base_.size(); ++e) {
       if (ActsOn(setting_, *set.move, view_.Answered()[e])) AddOutputs(e, found.shifts[e], move);
     }
-    move.answer = stated_.ShiftsTo(foreteller_.With(Everywhere(setting_.point, found.shifts)));
+    stated_.Compare(foreteller_.With(Everywhere(setting_.point, found.shifts)), move);
   }
 
   void AddOutputs(std::size_t e, const Shift& shift, FixedMove& move) const {

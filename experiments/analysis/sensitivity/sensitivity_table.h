@@ -57,12 +57,15 @@ struct FixedMove {
   std::string why_not_followed{};  // why the answer is not simulated where it was foretold last
   std::vector<OutputShift> outputs{};
   std::vector<AnswerShift> answer{};
+  double implausibility = 0;  // of that answer, the largest of the experiments' [sd]
 
+  static constexpr base::FieldKey kKeys[] = {{"implausibility", "implausibility_sd"}};
   TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, why_not, why_not_followed,
-               outputs, answer);
+               outputs, answer, implausibility);
   bool Exceeds() const;  // any parameter
   bool IsTold() const;   // all parameters
   double MostHalfRanges() const;
+  bool FitsNoSet() const;  // as `implausible` alarms count it
 };
 
 struct SensitivityParameter {

@@ -81,8 +81,9 @@ std::vector<std::string> SensitivityAlarms(const SensitivityTable& table) {
       alarms.push_back(MoveText(move) + " would move " + shift.parameter + " from " +
                        ShortNumber(shift.from, 3) + " to " +
                        PlusMinus(shift.to, shift.standard_error) +
-                       ", beyond half of its stated range: make sure of " + move.name +
-                       ", or add a test that tells it");
+                       ", beyond half of its stated range" +
+                       (move.FitsNoSet() ? ", though no set fits with it" : "") +
+                       ": make sure of " + move.name + ", or add a test that tells it");
     }
   }
   return alarms;
@@ -105,6 +106,10 @@ std::string SensitivityText(const SensitivityTable& table) {
     }
     if (!move.why_not_followed.empty()) {
       text += "; at the answer foretold last " + move.why_not_followed;
+    }
+    if (move.FitsNoSet()) {
+      text += "\n            no set fits with it: the answer is " +
+              PlainNumber(move.implausibility, 2) + " standard deviations off";
     }
     text += "\n";
   }

@@ -15,26 +15,27 @@ StatedAnswer StatedAnswerOf(const optimizer::ParameterSpace& space,
   return stated;
 }
 
-std::vector<AnswerShift> StatedAnswer::ShiftsTo(const Foretold& foretold) const {
+void StatedAnswer::Compare(const Foretold& foretold, FixedMove& move) const {
   const optimizer::AnswerIfShifted& found = foretold.answer;
   const Eigen::VectorXd& error = foretold.standard_error;
   const std::vector<int> free = space.Free();
-  std::vector<AnswerShift> shifts;
+  move.implausibility = found.implausibility;
+  move.answer.clear();
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const optimizer::Parameter& p = space.parameters[static_cast<std::size_t>(free[i])];
-    shifts.push_back({.parameter = p.name,
-                      .from = p.ToNative(point[k]),
-                      .to = p.ToNative(found.point[k]),
-                      .standard_error = (p.ToNative(std::min(1.0, found.point[k] + error[k])) -
-                                         p.ToNative(std::max(0.0, found.point[k] - error[k]))) /
-                                        2,
-                      .low = p.ToNative(found.credible[i].low),
-                      .high = p.ToNative(found.credible[i].high),
-                      .half_ranges = (found.point[k] - point[k]) / half_ranges[k],
-                      .half_ranges_error = error[k] / half_ranges[k]});
+    move.answer.push_back(
+        {.parameter = p.name,
+         .from = p.ToNative(point[k]),
+         .to = p.ToNative(found.point[k]),
+         .standard_error = (p.ToNative(std::min(1.0, found.point[k] + error[k])) -
+                            p.ToNative(std::max(0.0, found.point[k] - error[k]))) /
+                           2,
+         .low = p.ToNative(found.credible[i].low),
+         .high = p.ToNative(found.credible[i].high),
+         .half_ranges = (found.point[k] - point[k]) / half_ranges[k],
+         .half_ranges_error = error[k] / half_ranges[k]});
   }
-  return shifts;
 }
 
 Eigen::VectorXd StatedAnswer::Shifted(const std::vector<AnswerShift>& shifts) const {

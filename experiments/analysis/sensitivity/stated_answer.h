@@ -15,8 +15,8 @@ struct StatedAnswer {
   Eigen::VectorXd point;        // recommended, unit cube
   Eigen::VectorXd half_ranges;  // of the stated ranges, unit cube
 
-  // A parameter that is searched each.
-  std::vector<AnswerShift> ShiftsTo(const Foretold& foretold) const;
+  // Writes down where the move leads, of each parameter that is searched, and how it fits there.
+  void Compare(const Foretold& foretold, FixedMove& move) const;
   // Where those shifts lead, unit cube.
   Eigen::VectorXd Shifted(const std::vector<AnswerShift>& shifts) const;
 };

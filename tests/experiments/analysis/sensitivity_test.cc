@@ -86,6 +86,7 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
   const AnswerShift& sliding = Of(move, "sliding_friction");
   EXPECT_NEAR(sliding.to, sliding.from, 0.03);
   EXPECT_FALSE(sliding.Exceeds());
+  EXPECT_FALSE(move.FitsNoSet());
   ASSERT_EQ(move.outputs.size(), 1u);
   EXPECT_GT(move.outputs[0].shift, 2 * move.outputs[0].noise);
   ASSERT_EQ(SensitivityAlarms(table).size(), 1u);
@@ -160,6 +161,18 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   EXPECT_THAT(ErrorOf(view, "restitution", "0.9"), HasSubstr("in the campaign already"));
   EXPECT_THAT(ErrorOf(view, "restitution", "1.5"), HasSubstr("must be in (0, 1]"));
   EXPECT_THAT(ErrorOf(view, "restitutoin", "0.5"), HasSubstr("did you mean \"restitution\"?"));
+}
+
+// μ_r + 1.2 is beyond all that is searched.
+TEST_F(SensitivityTest, AValueThatNoSetFitsWithIsSaid) {
+  constexpr campaign::FakeEngineOptions kFar{.restitution_as_rolling = 4};
+  folder_ = Begin(kBudget);
+  campaign::RunFake(folder_, kFar);
+  const SensitivityTable table =
+      Find(campaign::ReadJointView(folder_), {{"restitution", "0.6"}}, kFar);
+  EXPECT_TRUE(Move(table, "restitution").FitsNoSet());
+  EXPECT_THAT(SensitivityText(table), HasSubstr("no set fits with it: the answer is "));
+  EXPECT_THAT(SensitivityText(table), HasSubstr("half of its stated range, though no set fits"));
 }
 
 TEST_F(SensitivityTest, SimulationsAreRunOnce) {

@@ -183,6 +183,7 @@ PageValue SensitivityJson(const SensitivityView& view) {
                      {"from", m.from},
                      {"to", m.to},
                      {"why_not", m.why_not},
+                     {"fits_no_set", m.FitsNoSet()},
                      {"answer", ListJson(m.answer, shift)}};
   };
   return {{"outdated", view.is_outdated},

@@ -187,7 +187,8 @@ function sensitivity() {
     element("ul", {class: "plain"}, s.alarms.map((line) => element("li", {}, line + "."))),
     table("Answers with one fixed thing moved", [{title: "Moved", text: true, wide: true},
         ...D.parameters.map((p, k) => ({title: p.symbol, unit: "now " + formatUnit(D.headline.values[k].value, p.unit)}))],
-      s.moves.map((m) => [m.name + " " + m.to + " in place of " + m.from + (m.why_not ? ": not known, " + m.why_not : ""),
+      s.moves.map((m) => [m.name + " " + m.to + " in place of " + m.from + (m.why_not ? ": not known, " + m.why_not : "") +
+          (m.fits_no_set ? ": no set fits with it" : ""),
         ...D.parameters.map((p, k) => cell(p, m.answer[k]))])),
     element("p", {class: "note"}, "Simulated at scale factor " + s.scale_factor + ", with the standard error of that, and the 90 % range " +
       "that would be left. !: beyond half of the stated range. ?: not told from the noise."));
