@@ -17,7 +17,7 @@ constexpr double kOfMany = 1.2;  // SurrogateCaution of many evaluations
 
 // The outputs tell of the same few parameters, and a surrogate that is unsure of one is unsure of
 // all: counted one by one, a set of which little is known would pass for unlikely. The share by
-// which truths are likeliest (bench/optimizers/RECORD.md).
+// which truths are likeliest (bench/RECORD.md).
 constexpr double kUnsure = 0.75;
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace talus::analysis {
 namespace {
 
-constexpr int kMostFollowed = 4;
+constexpr int kMostFollowed = 6;
 // Half ranges: a shift of the outputs is taken to be the same so far about the set that it was
 // simulated at.
 constexpr double kNear = 0.5;
@@ -40,6 +40,7 @@ void Follower::Follow(const Move& move, FixedMove& foretold) {
     next = anew.answer.point;
     stated_.Compare(anew, foretold);
   }
+  foretold.moves_still = IsFar(next, points, foretold);
 }
 
 // From all that was simulated.

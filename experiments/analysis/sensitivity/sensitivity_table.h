@@ -53,6 +53,7 @@ struct FixedMove {
   int replicates = 0;              // simulations of each experiment
   int num_failed = 0;              // of these
   int num_followed = 0;            // how often the shift was simulated anew at the answer foretold
+  bool moves_still = false;        // the answer, after the last of these
   std::string why_not{};           // why nothing is known; else empty
   std::string why_not_followed{};  // why the answer is not simulated where it was foretold last
   std::vector<OutputShift> outputs{};
@@ -60,8 +61,8 @@ struct FixedMove {
   double implausibility = 0;  // of that answer, the largest of the experiments' [sd]
 
   static constexpr base::FieldKey kKeys[] = {{"implausibility", "implausibility_sd"}};
-  TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, why_not, why_not_followed,
-               outputs, answer, implausibility);
+  TALUS_FIELDS(name, from, to, replicates, num_failed, num_followed, moves_still, why_not,
+               why_not_followed, outputs, answer, implausibility);
   bool Exceeds() const;  // any parameter
   bool IsTold() const;   // all parameters
   double MostHalfRanges() const;

@@ -102,7 +102,8 @@ std::string SensitivityText(const SensitivityTable& table) {
             OutputsText(move, many) + "; " + base::Counted(move.replicates, "simulation");
     if (move.num_failed > 0) text += ", " + std::to_string(move.num_failed) + " failed";
     if (move.num_followed > 0) {
-      text += "; anew at the answer foretold, " + base::Counted(move.num_followed, "time");
+      text += "; anew at the answer foretold, " + base::Counted(move.num_followed, "time") +
+              (move.moves_still ? ", and it moves still" : "");
     }
     if (!move.why_not_followed.empty()) {
       text += "; at the answer foretold last " + move.why_not_followed;
