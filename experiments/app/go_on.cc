@@ -113,6 +113,7 @@ void FindSensitivityWithin(double share, const std::filesystem::path& folder,
               << ": talus sensitivity " << base::ShellWord(folder.string()) << std::endl;
     return;
   }
+  options.most_followed_core_time = allowed - takes;
   const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
   analysis::WriteSensitivity(table, view.folder.root);
   if (tell.json) {

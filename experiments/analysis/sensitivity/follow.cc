@@ -30,11 +30,18 @@ void Follower::Follow(const Move& move, FixedMove& foretold) {
   Eigen::VectorXd next = stated_.Shifted(foretold.answer);
   std::optional<Foreteller> informed;
   while (foretold.num_followed < kMostFollowed && IsFar(next, points, foretold)) {
+    const std::vector<MovedSet> sets{Without(move, next, foretold.replicates),
+                                     With(move, next, foretold.replicates)};
+    core_time_ += CoreTimeOf(setting_, sets);
+    if (core_time_ > options_.most_followed_core_time) {
+      foretold.why_not_followed = "no more processor time is allowed";
+      break;
+    }
     if (!informed) informed.emplace(ForetellerOf(setting_.view));
     points.push_back(next);
-    Simulate(move, next, foretold.replicates, *informed);
+    Simulate(move, sets, *informed);
     const std::vector<ShiftField> shifts = FieldsOf(move, points, informed->posterior(), foretold);
-    if (shifts.empty()) return;
+    if (shifts.empty()) break;
     ++foretold.num_followed;
     const Foretold anew = informed->With(shifts);
     next = anew.answer.point;
@@ -56,21 +63,18 @@ bool Follower::IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::Vecto
   });
 }
 
-void Follower::Simulate(const Move& move, const Eigen::VectorXd& point, int replicates,
-                        Foreteller& informed) {
-  const MovedSet without = Without(move, point, replicates);
-  const MovedSet with = With(move, point, replicates);
+// `sets`: without the move and with it.
+void Follower::Simulate(const Move& move, const std::vector<MovedSet>& sets, Foreteller& informed) {
   if (options_.tell) {
-    options_.tell(base::Counted(2 * replicates, "simulation") +
+    options_.tell(base::Counted(2 * sets.front().replicates, "simulation") +
                   " each at the answer foretold for " + move.name);
   }
-  RunMoved(setting_, {without, with});
+  RunMoved(setting_, sets);
   const std::vector<int> answered = setting_.view.Answered();
   for (std::size_t e = 0; e < answered.size(); ++e) {
     if (!ActsOn(setting_, move, answered[e])) continue;
-    informed.Tell(ObservationsOf(setting_, without, e));
-    simulated_.push_back(OutputsOf(setting_, without, e));
-    simulated_.push_back(OutputsOf(setting_, with, e));
+    informed.Tell(ObservationsOf(setting_, sets.front(), e));
+    for (const MovedSet& set : sets) simulated_.push_back(OutputsOf(setting_, set, e));
   }
 }
 

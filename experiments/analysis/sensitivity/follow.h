@@ -33,8 +33,7 @@ class Follower {
  private:
   bool IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::VectorXd>& points,
              const FixedMove& foretold) const;
-  void Simulate(const Move& move, const Eigen::VectorXd& point, int replicates,
-                Foreteller& informed);
+  void Simulate(const Move& move, const std::vector<MovedSet>& sets, Foreteller& informed);
   std::vector<ShiftField> FieldsOf(const Move& move, const std::vector<Eigen::VectorXd>& points,
                                    const optimizer::Posterior& posterior,
                                    FixedMove& foretold) const;
@@ -43,6 +42,7 @@ class Follower {
   const StatedAnswer& stated_;
   const SensitivityOptions& options_;
   std::vector<MovedOutputs> simulated_{};
+  double core_time_ = 0;  // of these, as estimated [s]
 };
 
 }  // namespace talus::analysis

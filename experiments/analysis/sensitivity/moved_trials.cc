@@ -5,6 +5,7 @@
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
+#include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 
@@ -26,6 +27,18 @@ fs::path FolderOf(const SensitivitySetting& setting, const MovedSet& set, int ex
                   int replicate) {
   return SensitivityFolder(setting.view.folder.root) / FolderName(set) /
          ("experiment_" + std::to_string(experiment + 1)) / base::FileNumber(replicate + 1);
+}
+
+// Of each set those that are simulated for it.
+template <class Body>
+void ForEachExperiment(const SensitivitySetting& setting, const std::vector<MovedSet>& sets,
+                       Body&& body) {
+  for (const MovedSet& set : sets) {
+    const Move* acting = set.move != nullptr ? set.move : set.beside;
+    for (const int e : setting.view.Answered()) {
+      if (acting == nullptr || ActsOn(setting, *acting, e)) body(set, e);
+    }
+  }
 }
 
 struct Simulated {
@@ -90,18 +103,24 @@ bool ActsOn(const SensitivitySetting& setting, const Move& move, int experiment)
                           MovedCase(setting, {.move = &move}, experiment, 0));
 }
 
+double CoreTimeOf(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
+  campaign::CoreTime core_time(setting.view.spec);
+  core_time.Of(setting.view.trials);
+  double seconds = 0;
+  ForEachExperiment(setting, sets, [&](const MovedSet& set, int e) {
+    seconds += set.replicates * core_time.OfOne(e, setting.scale_factor);
+  });
+  return seconds;
+}
+
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets) {
   std::vector<campaign::FolderCase> cases;
-  for (const MovedSet& set : sets) {
-    const Move* acting = set.move != nullptr ? set.move : set.beside;
-    for (const int e : setting.view.Answered()) {
-      if (acting != nullptr && !ActsOn(setting, *acting, e)) continue;
-      for (int i = 0; i < set.replicates; ++i) {
-        cases.push_back(
-            {.folder = FolderOf(setting, set, e, i), .rig_case = MovedCase(setting, set, e, i)});
-      }
+  ForEachExperiment(setting, sets, [&](const MovedSet& set, int e) {
+    for (int i = 0; i < set.replicates; ++i) {
+      cases.push_back(
+          {.folder = FolderOf(setting, set, e, i), .rig_case = MovedCase(setting, set, e, i)});
     }
-  }
+  });
   const campaign::CaseRuns runs{.count = cases.size(),
                                 .at = [&](std::size_t i) { return cases[i]; },
                                 .time_cap = setting.view.spec.trial_time_cap};

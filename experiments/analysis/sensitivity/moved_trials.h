@@ -41,6 +41,9 @@ rigs::Case MovedCase(const SensitivitySetting& setting, const MovedSet& set, int
 // Whether the move changes the experiment at all: a drum knows no lift.
 bool ActsOn(const SensitivitySetting& setting, const Move& move, int experiment);
 
+// Processor time of all these sets, by what the campaign's trials took [s].
+double CoreTimeOf(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);
+
 // Runs what is missing of all these sets.
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);
 

@@ -10,7 +10,6 @@
 #include "experiments/analysis/sensitivity/follow.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
-#include "experiments/campaign/plan/core_time.h"
 #include "experiments/trials/engines/template_folder.h"
 
 namespace talus::analysis {
@@ -73,8 +72,12 @@ class Study {
     return table;
   }
 
-  const SensitivitySetting& setting() const { return setting_; }
-  const std::vector<Move>& moves() const { return moves_; }
+  // Processor time of the first simulations of all moves [s].
+  double FirstCoreTime() const {
+    std::vector<MovedSet> sets{{.replicates = BaseReplicates(kFirstReplicates)}};
+    for (const Move& move : moves_) sets.push_back({.move = &move, .replicates = kFirstReplicates});
+    return CoreTimeOf(setting_, sets);
+  }
 
  private:
   static double FactorOf(const JointView& view, const SensitivityOptions& options) {
@@ -244,18 +247,7 @@ SensitivityTable FindSensitivity(const JointView& view, const SensitivityOptions
 }
 
 double FirstCoreTime(const JointView& view, const SensitivityOptions& options) {
-  const Study study(view, options);
-  campaign::CoreTime core_time(view.spec);
-  core_time.Of(view.trials);
-  double seconds = 0;
-  for (const int e : view.Answered()) {
-    int count = BaseReplicates(kFirstReplicates);
-    for (const Move& move : study.moves()) {
-      if (ActsOn(study.setting(), move, e)) count += kFirstReplicates;
-    }
-    seconds += count * core_time.OfOne(e, study.setting().scale_factor);
-  }
-  return seconds;
+  return Study(view, options).FirstCoreTime();
 }
 
 }  // namespace talus::analysis

@@ -106,7 +106,8 @@ std::string SensitivityText(const SensitivityTable& table) {
               (move.moves_still ? ", and it moves still" : "");
     }
     if (!move.why_not_followed.empty()) {
-      text += "; at the answer foretold last " + move.why_not_followed;
+      text += move.num_followed > 0 ? "; then not, as " : "; not anew at the answer foretold, as ";
+      text += move.why_not_followed;
     }
     if (move.FitsNoSet()) {
       text += "\n            no set fits with it: the answer is " +

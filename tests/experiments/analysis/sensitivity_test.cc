@@ -37,7 +37,10 @@ class SensitivityTest : public campaign::CampaignFixture {
   static SensitivityTable Find(const JointView& view,
                                std::vector<std::pair<std::string, std::string>> moves,
                                const campaign::FakeEngineOptions& engine = kBouncing) {
-    SensitivityOptions options{.moves = std::move(moves)};
+    return FindWith(view, {.moves = std::move(moves)}, engine);
+  }
+  static SensitivityTable FindWith(const JointView& view, SensitivityOptions options,
+                                   const campaign::FakeEngineOptions& engine = kBouncing) {
     options.parts = {.runner = campaign::MakeRunner(view.spec, view.folder.root),
                      .engine = std::make_unique<FakeEngine>(engine)};
     return FindSensitivity(view, options);
@@ -161,6 +164,15 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   EXPECT_THAT(ErrorOf(view, "restitution", "0.9"), HasSubstr("in the campaign already"));
   EXPECT_THAT(ErrorOf(view, "restitution", "1.5"), HasSubstr("must be in (0, 1]"));
   EXPECT_THAT(ErrorOf(view, "restitutoin", "0.5"), HasSubstr("did you mean \"restitution\"?"));
+}
+
+TEST_F(SensitivityTest, AnAnswerIsFollowedAsFarAsItsCoreTimeGoes) {
+  const FixedMove move =
+      Move(FindWith(Run(), {.moves = {{"restitution", "0.6"}}, .most_followed_core_time = 0}),
+           "restitution");
+  EXPECT_EQ(move.num_followed, 0);
+  EXPECT_TRUE(move.moves_still);
+  EXPECT_THAT(move.why_not_followed, HasSubstr("no more processor time"));
 }
 
 // μ_r + 1.2 is beyond all that is searched.
