@@ -39,6 +39,7 @@ SensitivityTable Table(std::int64_t last_trial) {
            .from = "0.9",
            .to = "0.6",
            .replicates = 4,
+           .moves_still = true,
            .answer = {shift("sliding_friction", 0.1, 0.2), shift("rolling_friction", -1.5, 0.3)}},
           {.name = "filling",
            .from = "dense",
@@ -64,6 +65,9 @@ TEST(SensitivityView, ShiftsBeyondHalfOfARangeAreMarked) {
   EXPECT_FALSE(restitution[0]["exceeds"]);
   EXPECT_TRUE(restitution[0]["told"]);
   EXPECT_TRUE(restitution[1]["exceeds"]);
+  EXPECT_TRUE(page["moves"][0]["moves_still"]);
+  EXPECT_FALSE(page["moves"][1]["moves_still"]);
+  EXPECT_FALSE(page["moves"][0]["fits_no_set"]);
   const json& filling = page["moves"][1]["answer"];
   EXPECT_FALSE(filling[0]["exceeds"]);
   EXPECT_FALSE(filling[0]["told"]);

@@ -184,6 +184,7 @@ PageValue SensitivityJson(const SensitivityView& view) {
                      {"to", m.to},
                      {"why_not", m.why_not},
                      {"fits_no_set", m.FitsNoSet()},
+                     {"moves_still", m.moves_still},
                      {"answer", ListJson(m.answer, shift)}};
   };
   return {{"outdated", view.is_outdated},

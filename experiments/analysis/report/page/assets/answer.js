@@ -188,10 +188,11 @@ function sensitivity() {
     table("Answers with one fixed thing moved", [{title: "Moved", text: true, wide: true},
         ...D.parameters.map((p, k) => ({title: p.symbol, unit: "now " + formatUnit(D.headline.values[k].value, p.unit)}))],
       s.moves.map((m) => [m.name + " " + m.to + " in place of " + m.from + (m.why_not ? ": not known, " + m.why_not : "") +
-          (m.fits_no_set ? ": no set fits with it" : ""),
+          (m.fits_no_set ? ": no set fits with it" : "") + (m.moves_still ? ": not settled" : ""),
         ...D.parameters.map((p, k) => cell(p, m.answer[k]))])),
     element("p", {class: "note"}, "Simulated at scale factor " + s.scale_factor + ", with the standard error of that, and the 90 % range " +
-      "that would be left. !: beyond half of the stated range. ?: not told from the noise."));
+      "that would be left. !: beyond half of the stated range. ?: not told from the noise. Not settled: where it was simulated " +
+      "last, the answer moves on."));
 }
 
 // Heaps of sets that fit equally, side by side; of one set alone, its heap.
