@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "bench/optimizers/heap_shape.h"
@@ -352,29 +353,26 @@ Vec TwinTruth(int instance) {
   return truth;
 }
 
+namespace {
+
+template <class Kind>
+std::unique_ptr<Problem> Make(Rng& r) {
+  return std::make_unique<Kind>(r);
+}
+
+}  // namespace
+
 std::unique_ptr<Problem> MakeProblem(const std::string& name, int instance) {
+  static const std::map<std::string, std::unique_ptr<Problem> (*)(Rng&)> kMakers = {
+      {"ellipsoid", Make<Ellipsoid>},     {"rosenbrock", Make<Rosenbrock>},
+      {"rastrigin", Make<RastriginMild>}, {"sector", Make<AttractiveSector>},
+      {"branin3", Make<Branin3>},         {"hartmann3", Make<Hartmann3>},
+      {"banana", Make<Banana>},           {"heap", Make<Heap>},
+      {"heap_misfit", Make<HeapMisfit>}};
+  const auto maker = kMakers.find(name);
+  if (maker == kMakers.end()) return nullptr;
   Rng r(Mix(HashString(name)) ^ Mix(static_cast<std::uint64_t>(instance) * 7919u));
-  std::unique_ptr<Problem> p;
-  if (name == "ellipsoid")
-    p.reset(new Ellipsoid(r));
-  else if (name == "rosenbrock")
-    p.reset(new Rosenbrock(r));
-  else if (name == "rastrigin")
-    p.reset(new RastriginMild(r));
-  else if (name == "sector")
-    p.reset(new AttractiveSector(r));
-  else if (name == "branin3")
-    p.reset(new Branin3(r));
-  else if (name == "hartmann3")
-    p.reset(new Hartmann3(r));
-  else if (name == "banana")
-    p.reset(new Banana(r));
-  else if (name == "heap")
-    p.reset(new Heap(r));
-  else if (name == "heap_misfit")
-    p.reset(new HeapMisfit(r));
-  else
-    return nullptr;
+  std::unique_ptr<Problem> p = maker->second(r);
   p->name = name;
   p->instance = instance;
   return p;

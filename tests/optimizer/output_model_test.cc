@@ -5,22 +5,15 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "tests/surrogate/curves.h"
 
 namespace talus::optimizer {
 namespace output_model_test {
 
-constexpr int kPoints = 25;
-constexpr int kElements = 30;
+using test::Curve;
+using test::kElements;
 
-// Curves along 30 places that depend on two parameters in three smooth ways.
-Eigen::VectorXd Curve(const Eigen::VectorXd& x) {
-  Eigen::VectorXd curve(kElements);
-  for (Eigen::Index i = 0; i < curve.size(); ++i) {
-    const double s = static_cast<double>(i) / kElements;
-    curve[i] = 3 * std::sin(2 * x[0]) * s + x[0] * x[1] * std::cos(3 * s) + x[1] * x[1] * s * s;
-  }
-  return curve;
-}
+constexpr int kPoints = 25;
 
 // The first `count` of kPoints evaluations.
 OutputData MakeData(double noise, int count = kPoints) {
