@@ -12,49 +12,45 @@ constexpr int kMostFollowed = 6;
 // simulated at.
 constexpr double kNear = 0.5;
 
-// The recommended set, or another, without the move and with it.
-MovedSet Without(const Move& move, const std::optional<Eigen::VectorXd>& point, int replicates) {
-  if (!point) return {.replicates = BaseReplicates(replicates)};
-  return {.beside = &move, .point = point, .replicates = replicates};
-}
-
-MovedSet With(const Move& move, const std::optional<Eigen::VectorXd>& point, int replicates) {
-  return {.move = &move, .point = point, .replicates = replicates};
-}
-
 }  // namespace
 
 void Follower::Follow(const Move& move, FixedMove& foretold) {
   if (!foretold.why_not.empty()) return;
-  std::vector<Eigen::VectorXd> points{setting_.point};
+  const int replicates = foretold.replicates;
+  std::vector<Place> places{{.point = setting_.point, .without = {}, .with = {}}};
   Eigen::VectorXd next = stated_.Shifted(foretold.answer);
+  if (!IsFar(next, places, foretold)) return;
+  places[0].without =
+      ReadSet(setting_, {.beside = &move, .replicates = BaseReplicates(replicates)});
+  places[0].with = ReadSet(setting_, {.move = &move, .replicates = replicates});
   std::optional<Foreteller> informed;
-  while (foretold.num_followed < kMostFollowed && IsFar(next, points, foretold)) {
-    const std::vector<MovedSet> sets{Without(move, next, foretold.replicates),
-                                     With(move, next, foretold.replicates)};
+  while (foretold.num_followed < kMostFollowed && IsFar(next, places, foretold)) {
+    const std::vector<MovedSet> sets{{.beside = &move, .point = next, .replicates = replicates},
+                                     {.move = &move, .point = next, .replicates = replicates}};
     core_time_ += CoreTimeOf(setting_, sets);
     if (core_time_ > options_.most_followed_core_time) {
       foretold.why_not_followed = "no more processor time is allowed";
       break;
     }
+    places.push_back(Simulate(move, next, sets));
     if (!informed) informed.emplace(ForetellerOf(setting_.view));
-    points.push_back(next);
-    Simulate(move, sets, *informed);
-    const std::vector<ShiftField> shifts = FieldsOf(move, points, informed->posterior(), foretold);
+    informed->Tell(places.back().without);
+    const std::vector<ShiftField> shifts = FieldsOf(places, informed->posterior(), foretold);
     if (shifts.empty()) break;
     ++foretold.num_followed;
     const Foretold anew = informed->With(shifts);
     next = anew.answer.point;
     stated_.Compare(anew, foretold);
   }
-  foretold.moves_still = IsFar(next, points, foretold);
+  foretold.moves_still = IsFar(next, places, foretold);
 }
 
 // From all that was simulated.
-bool Follower::IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::VectorXd>& points,
+bool Follower::IsFar(const Eigen::VectorXd& next, const std::vector<Place>& places,
                      const FixedMove& foretold) const {
-  return std::ranges::all_of(points, [&](const Eigen::VectorXd& at) {
-    const Eigen::VectorXd half_ranges = (next - at).cwiseQuotient(stated_.half_ranges).cwiseAbs();
+  return std::ranges::all_of(places, [&](const Place& place) {
+    const Eigen::VectorXd half_ranges =
+        (next - place.point).cwiseQuotient(stated_.half_ranges).cwiseAbs();
     for (std::size_t i = 0; i < foretold.answer.size(); ++i) {
       const double error = foretold.answer[i].half_ranges_error;
       if (half_ranges[static_cast<Eigen::Index>(i)] > std::max(kNear, kSure * error)) return true;
@@ -64,45 +60,32 @@ bool Follower::IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::Vecto
 }
 
 // `sets`: without the move and with it.
-void Follower::Simulate(const Move& move, const std::vector<MovedSet>& sets, Foreteller& informed) {
+Follower::Place Follower::Simulate(const Move& move, const Eigen::VectorXd& point,
+                                   const std::vector<MovedSet>& sets) {
   if (options_.tell) {
     options_.tell(base::Counted(2 * sets.front().replicates, "simulation") +
                   " each at the answer foretold for " + move.name);
   }
   RunMoved(setting_, sets);
-  const std::vector<int> answered = setting_.view.Answered();
-  for (std::size_t e = 0; e < answered.size(); ++e) {
-    if (!ActsOn(setting_, move, answered[e])) continue;
-    informed.Tell(ObservationsOf(setting_, sets.front(), e));
-    for (const MovedSet& set : sets) simulated_.push_back(OutputsOf(setting_, set, e));
-  }
+  Place place{.point = point,
+              .without = ReadSet(setting_, sets.front()),
+              .with = ReadSet(setting_, sets.back())};
+  tally_.Add(place.without);
+  tally_.Add(place.with);
+  return place;
 }
 
-// In outputs of the posterior, from all simulations of the move at these sets, the first of which
-// is the recommended one. Empty where a set has none that succeeded, which the move then says.
-std::vector<ShiftField> Follower::FieldsOf(const Move& move,
-                                           const std::vector<Eigen::VectorXd>& points,
+// In outputs of the posterior. Empty where a set has no simulation that succeeded, which the move
+// then says.
+std::vector<ShiftField> Follower::FieldsOf(const std::vector<Place>& places,
                                            const optimizer::Posterior& posterior,
                                            FixedMove& foretold) const {
-  const SensitivitySetting setting{.view = setting_.view,
-                                   .posterior = posterior,
-                                   .point = setting_.point,
-                                   .scale_factor = setting_.scale_factor,
-                                   .parts = setting_.parts};
-  const std::vector<int> answered = setting.view.Answered();
-  std::vector<ShiftField> fields(answered.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::optional<Eigen::VectorXd> other = i > 0 ? std::optional(points[i]) : std::nullopt;
-    std::vector<MovedOutputs> without(answered.size());
-    for (std::size_t e = 0; e < answered.size(); ++e) {
-      if (!ActsOn(setting, move, answered[e])) continue;
-      without[e] = OutputsOf(setting, Without(move, other, foretold.replicates), e);
-    }
-    const MoveShifts found =
-        ShiftsBetween(setting, without, With(move, other, foretold.replicates));
+  std::vector<ShiftField> fields(setting_.view.Answered().size());
+  for (const Place& place : places) {
+    const MoveShifts found = ShiftsBetween(setting_, posterior, place.without, place.with);
     foretold.why_not_followed = found.why_not;
     if (!found.why_not.empty()) return {};
-    for (std::size_t e = 0; e < fields.size(); ++e) fields[e].Add(points[i], found.shifts[e]);
+    for (std::size_t e = 0; e < fields.size(); ++e) fields[e].Add(place.point, found.shifts[e]);
   }
   return fields;
 }

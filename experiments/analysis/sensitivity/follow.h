@@ -28,21 +28,28 @@ class Follower {
   void Follow(const Move& move, FixedMove& foretold);
 
   // What was simulated for it.
-  const std::vector<MovedOutputs>& simulated() const { return simulated_; }
+  const Tally& tally() const { return tally_; }
 
  private:
-  bool IsFar(const Eigen::VectorXd& next, const std::vector<Eigen::VectorXd>& points,
+  // A set at which the move was simulated.
+  struct Place {
+    Eigen::VectorXd point;  // unit cube
+    SimulatedSet without;
+    SimulatedSet with;
+  };
+
+  bool IsFar(const Eigen::VectorXd& next, const std::vector<Place>& places,
              const FixedMove& foretold) const;
-  void Simulate(const Move& move, const std::vector<MovedSet>& sets, Foreteller& informed);
-  std::vector<ShiftField> FieldsOf(const Move& move, const std::vector<Eigen::VectorXd>& points,
+  Place Simulate(const Move& move, const Eigen::VectorXd& point, const std::vector<MovedSet>& sets);
+  std::vector<ShiftField> FieldsOf(const std::vector<Place>& places,
                                    const optimizer::Posterior& posterior,
                                    FixedMove& foretold) const;
 
   const SensitivitySetting& setting_;
   const StatedAnswer& stated_;
   const SensitivityOptions& options_;
-  std::vector<MovedOutputs> simulated_{};
-  double core_time_ = 0;  // of these, as estimated [s]
+  Tally tally_{};
+  double core_time_ = 0;  // as estimated [s]
 };
 
 }  // namespace talus::analysis

@@ -4,8 +4,10 @@
 
 namespace talus::analysis {
 
-void Foreteller::Tell(std::span<const optimizer::Observation> more) {
-  for (const optimizer::Observation& observation : more) strategy_->Tell(observation);
+void Foreteller::Tell(const SimulatedSet& more) {
+  for (const std::vector<Simulated>& experiment : more) {
+    for (const Simulated& one : experiment) strategy_->Tell(one.observation);
+  }
   response_.resize(0, 0);
 }
 

@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/shift_field.h"
 #include "experiments/campaign/answer/joint_view.h"
 #include "optimizer/strategy/posterior_strategy.h"
@@ -25,7 +25,7 @@ class Foreteller {
       : strategy_(std::move(strategy)), seed_(seed) {}
 
   // More simulations without a move: the shifts to come are in outputs of the posterior after them.
-  void Tell(std::span<const optimizer::Observation> more);
+  void Tell(const SimulatedSet& more);
 
   const optimizer::Posterior& posterior() { return strategy_->Model(); }
   optimizer::Answer Recommend() { return strategy_->Recommend(); }

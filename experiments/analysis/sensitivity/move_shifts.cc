@@ -2,24 +2,40 @@
 
 namespace talus::analysis {
 
-MoveShifts ShiftsBetween(const SensitivitySetting& setting,
-                         const std::vector<MovedOutputs>& without, const MovedSet& with) {
+namespace {
+
+// Of those that ended well, one a row; NaN where a number is undefined.
+Eigen::MatrixXd OutputsOf(const optimizer::ExperimentModel& model,
+                          const std::vector<Simulated>& simulated) {
+  Eigen::MatrixXd outputs(0, model.num_outputs());
+  for (const Simulated& one : simulated) {
+    if (!one.has_ended) continue;
+    outputs.conservativeResize(outputs.rows() + 1, Eigen::NoChange);
+    outputs.bottomRows(1) =
+        model.OutputsOf(one.observation.field, one.observation.scalars).transpose();
+  }
+  return outputs;
+}
+
+}  // namespace
+
+MoveShifts ShiftsBetween(const SensitivitySetting& setting, const optimizer::Posterior& posterior,
+                         const SimulatedSet& without, const SimulatedSet& with) {
   MoveShifts found;
-  for (std::size_t e = 0; e < without.size(); ++e) {
-    const optimizer::ExperimentModel& model = setting.posterior.models()[e];
-    if (!ActsOn(setting, *with.move, setting.view.Answered()[e])) {
+  for (std::size_t e = 0; e < with.size(); ++e) {
+    const optimizer::ExperimentModel& model = posterior.models()[e];
+    if (with[e].empty()) {
       const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.num_outputs());
       found.shifts.push_back({.mean = none, .variance = none});
       continue;
     }
-    const MovedOutputs made = OutputsOf(setting, with, e);
-    found.num_failed += made.num_failed;
-    if (made.outputs.rows() == 0 || without[e].outputs.rows() == 0) {
+    const Eigen::MatrixXd moved = OutputsOf(model, with[e]);
+    const Eigen::MatrixXd base = OutputsOf(model, without[e]);
+    if (moved.rows() == 0 || base.rows() == 0) {
       found.why_not = "none of its simulations of \"" + NameOf(setting.view, e) + "\" succeeded";
       return found;
     }
-    found.shifts.push_back(
-        ShiftOf(made.outputs, without[e].outputs, model.NoiseAt(setting.scale_factor)));
+    found.shifts.push_back(ShiftOf(moved, base, model.NoiseAt(setting.scale_factor)));
   }
   return found;
 }

@@ -6,18 +6,18 @@
 
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/shift_field.h"
+#include "optimizer/posterior/posterior.h"
 
 namespace talus::analysis {
 
 struct MoveShifts {
   std::vector<Shift> shifts{};  // by experiment; zero where the move does not act
-  int num_failed = 0;           // simulations with the move
   std::string why_not{};        // why there is none, for people; else empty
 };
 
-// Between simulations that were made of a set with its move and those without it, by experiment.
-MoveShifts ShiftsBetween(const SensitivitySetting& setting,
-                         const std::vector<MovedOutputs>& without, const MovedSet& with);
+// Between simulations of a set without the move and with it, in outputs of the posterior.
+MoveShifts ShiftsBetween(const SensitivitySetting& setting, const optimizer::Posterior& posterior,
+                         const SimulatedSet& without, const SimulatedSet& with);
 
 // A field for each, which knows one set.
 std::vector<ShiftField> Everywhere(const Eigen::VectorXd& point, const std::vector<Shift>& shifts);

@@ -1,5 +1,8 @@
 #include "experiments/analysis/sensitivity/moved_trials.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "base/error.h"
 #include "base/text/name.h"
 #include "base/text/number_text.h"
@@ -40,12 +43,6 @@ void ForEachExperiment(const SensitivitySetting& setting, const std::vector<Move
     }
   }
 }
-
-struct Simulated {
-  optimizer::Observation observation;
-  bool has_ended = false;  // well
-  double core_time = 0;    // [s]
-};
 
 Simulated ReadSimulated(const SensitivitySetting& setting, const MovedSet& set, int experiment,
                         int replicate) {
@@ -128,33 +125,28 @@ void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& se
   throw base::Interrupted("interrupted; the same command goes on with the sensitivity");
 }
 
-MovedOutputs OutputsOf(const SensitivitySetting& setting, const MovedSet& set,
-                       std::size_t answered) {
-  const optimizer::ExperimentModel& model = setting.posterior.models()[answered];
-  MovedOutputs made{.outputs = Eigen::MatrixXd(0, model.num_outputs())};
-  for (int i = 0; i < set.replicates; ++i) {
-    const Simulated simulated = ReadSimulated(setting, set, setting.view.Answered()[answered], i);
-    made.core_time += simulated.core_time;
-    if (!simulated.has_ended) {
-      ++made.num_failed;
-      continue;
+SimulatedSet ReadSet(const SensitivitySetting& setting, const MovedSet& set) {
+  const std::vector<int> answered = setting.view.Answered();
+  SimulatedSet simulated(answered.size());
+  ForEachExperiment(setting, {set}, [&](const MovedSet&, int e) {
+    const auto at = std::ranges::find(answered, e) - answered.begin();
+    for (int i = 0; i < set.replicates; ++i) {
+      Simulated one = ReadSimulated(setting, set, e, i);
+      one.observation.experiment = static_cast<int>(at);
+      simulated[static_cast<std::size_t>(at)].push_back(std::move(one));
     }
-    const optimizer::Observation& seen = simulated.observation;
-    made.outputs.conservativeResize(made.outputs.rows() + 1, Eigen::NoChange);
-    made.outputs.bottomRows(1) = model.OutputsOf(seen.field, seen.scalars).transpose();
-  }
-  return made;
+  });
+  return simulated;
 }
 
-std::vector<optimizer::Observation> ObservationsOf(const SensitivitySetting& setting,
-                                                   const MovedSet& set, std::size_t answered) {
-  std::vector<optimizer::Observation> observations;
-  for (int i = 0; i < set.replicates; ++i) {
-    observations.push_back(
-        ReadSimulated(setting, set, setting.view.Answered()[answered], i).observation);
-    observations.back().experiment = static_cast<int>(answered);
+void Tally::Add(const SimulatedSet& set) {
+  for (const std::vector<Simulated>& experiment : set) {
+    for (const Simulated& one : experiment) {
+      ++num_simulations;
+      num_failed += one.has_ended ? 0 : 1;
+      core_time += one.core_time;
+    }
   }
-  return observations;
 }
 
 }  // namespace talus::analysis

@@ -11,13 +11,11 @@
 #include "experiments/campaign/answer/joint_view.h"
 #include "experiments/campaign/campaign.h"
 #include "optimizer/observation.h"
-#include "optimizer/posterior/posterior.h"
 
 namespace talus::analysis {
 
 struct SensitivitySetting {
   const campaign::JointView& view;
-  const optimizer::Posterior& posterior;
   Eigen::VectorXd point;    // the recommended set, unit cube
   double scale_factor = 1;  // of the simulations
   const campaign::CampaignParts& parts;
@@ -47,18 +45,23 @@ double CoreTimeOf(const SensitivitySetting& setting, const std::vector<MovedSet>
 // Runs what is missing of all these sets.
 void RunMoved(const SensitivitySetting& setting, const std::vector<MovedSet>& sets);
 
-// What the simulations of an experiment have shown.
-struct MovedOutputs {
-  Eigen::MatrixXd outputs;  // of those that succeeded, one a row; NaN where a number is undefined
+struct Simulated {
+  optimizer::Observation observation;  // as a strategy is told of it
+  bool has_ended = false;              // well
+  double core_time = 0;                // [s]
+};
+
+// What a set has shown: of each experiment that the campaign answers by, its simulations by seed;
+// none where the set has none.
+using SimulatedSet = std::vector<std::vector<Simulated>>;
+SimulatedSet ReadSet(const SensitivitySetting& setting, const MovedSet& set);
+
+struct Tally {
+  int num_simulations = 0;
   int num_failed = 0;
   double core_time = 0;  // [s]
-};
-// `answered` is the index of the experiment among the posterior's.
-MovedOutputs OutputsOf(const SensitivitySetting& setting, const MovedSet& set,
-                       std::size_t answered);
 
-// The same as a strategy is told of them, those that failed included; of a set without a move.
-std::vector<optimizer::Observation> ObservationsOf(const SensitivitySetting& setting,
-                                                   const MovedSet& set, std::size_t answered);
+  void Add(const SimulatedSet& set);
+};
 
 }  // namespace talus::analysis

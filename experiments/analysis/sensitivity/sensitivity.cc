@@ -48,13 +48,13 @@ class Study {
         foreteller_(ForetellerOf(view)),
         answer_(foreteller_.Recommend()),
         setting_{.view = view,
-                 .posterior = foreteller_.posterior(),
                  .point = answer_.point,
                  .scale_factor = FactorOf(view, options),
                  .parts = options.parts},
         stated_(StatedAnswerOf(view.space, answer_)),
         follower_(setting_, stated_, options_),
-        moves_(MovesOf(view, options, MovedCase(setting_, {}, view.Answered().front(), 0))) {}
+        moves_(MovesOf(view, options, MovedCase(setting_, {}, view.Answered().front(), 0))),
+        tallies_(moves_.size()) {}
 
   SensitivityTable Run() {
     SensitivityTable table = Head();
@@ -163,37 +163,39 @@ class Study {
     for (std::size_t i = 0; i < moves_.size(); ++i) {
       const auto set =
           std::ranges::find_if(sets, [&](const MovedSet& s) { return s.move == &moves_[i]; });
-      if (set != sets.end()) Judge(*set, table.moves[i]);
+      if (set != sets.end()) Judge(*set, tallies_[i], table.moves[i]);
     }
     return true;
   }
 
   void ReadBase(const MovedSet& set) {
-    base_.clear();
-    for (std::size_t e = 0; e < view_.Answered().size(); ++e) {
-      base_.push_back(OutputsOf(setting_, set, e));
-      if (base_.back().outputs.rows() > 0) continue;
+    base_ = ReadSet(setting_, set);
+    for (std::size_t e = 0; e < base_.size(); ++e) {
+      if (std::ranges::any_of(base_[e], &Simulated::has_ended)) continue;
       throw base::Error("none of the simulations of \"" + NameOf(view_, e) +
                         "\" at the recommended set succeeded; see " +
                         SensitivityFolder(view_.folder.root).string());
     }
   }
 
-  void Judge(const MovedSet& set, FixedMove& move) {
+  void Judge(const MovedSet& set, Tally& tally, FixedMove& move) {
+    const SimulatedSet moved = ReadSet(setting_, set);
+    tally = {};
+    tally.Add(moved);
     move.replicates = set.replicates;
+    move.num_failed = tally.num_failed;
     move.outputs.clear();
-    const MoveShifts found = ShiftsBetween(setting_, base_, set);
-    move.num_failed = found.num_failed;
+    const MoveShifts found = ShiftsBetween(setting_, foreteller_.posterior(), base_, moved);
     move.why_not = found.why_not;
     if (!found.why_not.empty()) return;
     for (std::size_t e = 0; e < base_.size(); ++e) {
-      if (ActsOn(setting_, *set.move, view_.Answered()[e])) AddOutputs(e, found.shifts[e], move);
+      if (!moved[e].empty()) AddOutputs(e, found.shifts[e], move);
     }
     stated_.Compare(foreteller_.With(Everywhere(setting_.point, found.shifts)), move);
   }
 
-  void AddOutputs(std::size_t e, const Shift& shift, FixedMove& move) const {
-    const optimizer::ExperimentModel& model = setting_.posterior.models()[e];
+  void AddOutputs(std::size_t e, const Shift& shift, FixedMove& move) {
+    const optimizer::ExperimentModel& model = foreteller_.posterior().models()[e];
     const Eigen::VectorXd single = model.Predict(setting_.point.transpose()).single;
     const auto& scalars = view_.references[static_cast<std::size_t>(view_.Answered()[e])].scalars();
     const Eigen::Index num_modes = single.size() - static_cast<Eigen::Index>(scalars.size());
@@ -215,17 +217,13 @@ class Study {
   }
 
   void CountAll(SensitivityTable& table) const {
-    const auto count = [&](const MovedOutputs& made) {
-      table.num_simulations += static_cast<int>(made.outputs.rows()) + made.num_failed;
-      table.core_time += made.core_time;
-    };
-    for (const MovedOutputs& made : base_) count(made);
-    for (const MovedOutputs& made : follower_.simulated()) count(made);
-    for (std::size_t i = 0; i < moves_.size(); ++i) {
-      const MovedSet set{.move = &moves_[i], .replicates = table.moves[i].replicates};
-      for (std::size_t e = 0; e < view_.Answered().size(); ++e) {
-        if (ActsOn(setting_, moves_[i], view_.Answered()[e])) count(OutputsOf(setting_, set, e));
-      }
+    Tally base;
+    base.Add(base_);
+    std::vector<Tally> all = tallies_;
+    all.insert(all.end(), {base, follower_.tally()});
+    for (const Tally& tally : all) {
+      table.num_simulations += tally.num_simulations;
+      table.core_time += tally.core_time;
     }
   }
 
@@ -237,7 +235,8 @@ class Study {
   StatedAnswer stated_;
   Follower follower_;
   std::vector<Move> moves_;
-  std::vector<MovedOutputs> base_{};  // of the experiments, as recommended
+  std::vector<Tally> tallies_;  // of each move at the recommended set
+  SimulatedSet base_{};         // as recommended
 };
 
 }  // namespace
