@@ -251,18 +251,12 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   trials::TrialOutput output;
   try {
     output = parts_.engine->Collect(CaseOf(trial), folder_.trial(trial.id));
-    trial.metrics = ReferenceOf(trial).Measure(output.profile);
-    trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
+    TakeOutput(output, ReferenceOf(trial), trial);
   } catch (const base::Error& error) {
     FailOrRetry(trial, error.what());
     return;
   }
   RequireNumbers(trial, ReferenceOf(trial), output.scalars);
-  trial.status = journal::TrialStatus::kOk;
-  trial.reason = output.note;
-  trial.num_steps = output.num_steps;
-  trial.num_particles = output.num_particles;
-  if (!(trial.cpu_s > 0)) trial.cpu_s = output.cpu_time;  // it had ended in an earlier process
   Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
 }
 

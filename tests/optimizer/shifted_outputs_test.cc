@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "base/random.h"
 #include "optimizer/posterior/measured_response.h"

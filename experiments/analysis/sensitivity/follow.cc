@@ -1,6 +1,7 @@
 #include "experiments/analysis/sensitivity/follow.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/text/counted.h"
 

@@ -5,7 +5,6 @@
 // is told to a posterior of this move's own: a campaign knows least of the sets that did not fit.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "experiments/analysis/sensitivity/move_shifts.h"

@@ -1,7 +1,6 @@
 #include "experiments/analysis/sensitivity/move_shifts.h"
 
 namespace talus::analysis {
-
 namespace {
 
 // Of those that ended well, one a row; NaN where a number is undefined.

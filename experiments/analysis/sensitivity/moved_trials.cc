@@ -9,6 +9,7 @@
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/plan/campaign_strategy.h"
 #include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/run_cases.h"
 #include "experiments/rigs/case/case_text.h"
 
@@ -61,12 +62,7 @@ Simulated ReadSimulated(const SensitivitySetting& setting, const MovedSet& set, 
     const trials::TrialOutput output =
         setting.parts.engine->Collect(MovedCase(setting, set, experiment, replicate), folder);
     if (reference.has_image()) field = reference.Field(output.profile);
-    trial.metrics = reference.Measure(output.profile);
-    trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
-    trial.num_steps = output.num_steps;
-    trial.num_particles = output.num_particles;
-    trial.cpu_s = output.cpu_time;
-    trial.status = journal::TrialStatus::kOk;
+    campaign::TakeOutput(output, reference, trial);
   } catch (const base::Error&) {
     // It says nothing of the shift; the table counts it.
   }

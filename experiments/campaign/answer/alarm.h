@@ -18,7 +18,7 @@ enum class AlarmKind {
   kDisagree,     // the experiments pull apart by `value`, `experiment` most
   kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
                  // `share` of its powder's area, or its `number` by `value` standard errors;
-  // `scale_factor`, where the grains are coarser than true ones; `parameter` as above
+                 // `scale_factor`, where grains are coarser than true ones; `parameter` as above
   kSearchMisses,         // the same, but another set may fit, for `reason`: the search is to blame
   kContradictsPrior,     // the posterior of `parameter` is `value` sd off its prior, `reason`
   kWorseThanPredicted,   // `shown` is worse than predicted, by `value` of the objective

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "base/text/joined.h"
-#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::campaign {
 
@@ -16,6 +15,17 @@ bool WasEndedByOthers(const runners::FinishedJob& job) {
 std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder) {
   const std::string log = trials::LastLogLines(folder);
   return job.reason + (log.empty() ? "" : ": " + log);
+}
+
+void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
+                journal::TrialRecord& trial) {
+  trial.metrics = reference.Measure(output.profile);
+  trial.metrics.insert(trial.metrics.end(), output.scalars.begin(), output.scalars.end());
+  trial.status = journal::TrialStatus::kOk;
+  trial.reason = output.note;
+  trial.num_steps = output.num_steps;
+  trial.num_particles = output.num_particles;
+  if (!(trial.cpu_s > 0)) trial.cpu_s = output.cpu_time;  // it had ended in an earlier process
 }
 
 void RequireNumbers(const journal::TrialRecord& trial, const Reference& reference,

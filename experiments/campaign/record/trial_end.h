@@ -9,6 +9,7 @@
 #include "experiments/campaign/record/reference.h"
 #include "experiments/journal/records.h"
 #include "experiments/runners/runner.h"
+#include "experiments/trials/engines/trial_engine.h"
 
 namespace talus::campaign {
 
@@ -17,6 +18,11 @@ bool WasEndedByOthers(const runners::FinishedJob& job);
 
 // "ended with exit status 1: last lines of its log"
 std::string FailureText(const runners::FinishedJob& job, const std::filesystem::path& folder);
+
+// Writes down what a trial that has ended well has left. Throws base::Error where its profile
+// cannot be measured; the trial is as it was then.
+void TakeOutput(const trials::TrialOutput& output, const Reference& reference,
+                journal::TrialRecord& trial);
 
 // A number that the engine does not leave at all is the set-up's fault: no other trial would have
 // it. Throws base::Error.
