@@ -104,7 +104,8 @@ def measure(options, folder, name, test, truth, seed):
 
 
 def calibrate(options, folder, name, experiments, seed, truth):
-    """Widths of the joint 90 % ranges in shares of the searched, and the level of the truth."""
+    """Widths of the joint 90 % ranges in shares of the searched, and the level of the truth; None, None where the time
+    bought too few trials of true grains for a posterior."""
     spec = {"experiments": experiments, "powder": powder(options), "device": device(10), "models": MODELS,
             "coarse_graining": {"scale_factors": LEVELS}, "seed": seed, "workers": 1,
             "parameters": {k: {"min": a, "max": b, **({"scale": "log"} if k == "surface_energy" else {})}
@@ -113,13 +114,16 @@ def calibrate(options, folder, name, experiments, seed, truth):
     out = folder / name.replace(" ", "_")
     (folder / f"{out.name}.json").write_text(json.dumps(spec))
     run(options.talus, "calibrate", folder / f"{out.name}.json", "--out", out, "--quiet")
+    level = credible_level(options.talus, out, truth)
+    if level is None:
+        return None, None
     widths = {}
     for p in json.loads((out / "result.json").read_text())["parameters"]:
         low, high = RANGES[p["name"]]
         far = math.log(high / low) if p["name"] == "surface_energy" else high - low
         ends = (p["credible_90_low"], p["credible_90_high"])
         widths[p["name"]] = (math.log(ends[1] / ends[0]) if p["name"] == "surface_energy" else ends[1] - ends[0]) / far
-    return widths, credible_level(options.talus, out, truth)
+    return widths, level
 
 
 def expected(options, folder, tests):
@@ -139,6 +143,10 @@ def expected(options, folder, tests):
 
 def line(widths):
     return ", ".join(f"{k} {v:.3f}" for k, v in widths.items())
+
+
+def told(widths, level):
+    return "no posterior" if level is None else f"level {level:.3f}; {line(widths)}"
 
 
 def main():
@@ -164,7 +172,7 @@ def main():
         print(f"twin {twin} truth " + ", ".join(f"{k} {v:.4g}" for k, v in truth.items()), flush=True)
         widths, level = calibrate(options, folder, "heap", [measured["heap"]], twin, truth)
         tallies.setdefault("heap", []).append((widths, level, None))
-        print(f"  heap alone: level {level:.3f}; {line(widths)}", flush=True)
+        print(f"  heap alone: {told(widths, level)}", flush=True)
         # The heap's own bulk density is a number of the heap, which `next` does not simulate anew.
         asked = {name: (measured[name], known[name][2]) for name in wanted if name != "bulk density"}
         foreseen = expected(options, folder, asked) if asked else {}
@@ -172,12 +180,16 @@ def main():
             own = name == "bulk density"
             experiments = [{**measured[name], "name": "heap"}] if own else [measured["heap"], measured[name]]
             widths, level = calibrate(options, folder, f"with {name}", experiments, twin, truth)
-            after = foreseen.get(name)
+            after = foreseen.get(name) if widths else None
             ratio = math.prod(widths[k] / after[k] for k in after) ** (1 / len(after)) if after else None
             tallies.setdefault(name, []).append((widths, level, ratio))
-            print(f"  with {name}: level {level:.3f}; {line(widths)}"
+            print(f"  with {name}: {told(widths, level)}"
                   + (f"; expected {line(after)}; ratio {ratio:.2f}" if after else ""), flush=True)
-    for name, all_of_them in tallies.items():
+    for name, campaigns in tallies.items():
+        all_of_them = [c for c in campaigns if c[1] is not None]
+        if not all_of_them:
+            print(f"{name}: no posterior in {len(campaigns)}")
+            continue
         means = {k: float(numpy.mean([w[k] for w, *_ in all_of_them])) for k in RANGES}
         ratios = [r for *_, r in all_of_them if r]
         print(f"{name}: covered {sum(level <= 0.9 for _, level, _ in all_of_them)} of {len(all_of_them)}; mean widths {line(means)}"
