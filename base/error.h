@@ -17,6 +17,12 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The disk is full: nobody's fault, and the same work succeeds when there is room.
+class DiskFull : public Error {
+ public:
+  using Error::Error;
+};
+
 // The input is wrong. The message names the file, the place and the remedy, one problem a line.
 class ConfigError : public Error {
  public:

@@ -58,7 +58,9 @@ bool ReadAll(int fd, std::uint64_t offset, std::string& bytes) {
 }
 
 [[noreturn]] void Fail(const std::filesystem::path& path, int code) {
-  throw Error(path.string() + ": cannot be written: " + std::strerror(code));
+  const std::string why = path.string() + ": cannot be written: " + std::strerror(code);
+  if (code == ENOSPC) throw DiskFull(why);
+  throw Error(why);
 }
 
 }  // namespace

@@ -252,6 +252,8 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   try {
     output = parts_.engine->Collect(CaseOf(trial), folder_.trial(trial.id));
     TakeOutput(output, ReferenceOf(trial), trial);
+  } catch (const base::DiskFull& error) {
+    StopForDisk(trial, error.what());
   } catch (const base::Error& error) {
     FailOrRetry(trial, error.what());
     return;
@@ -260,17 +262,19 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
 }
 
+// Neither a full disk nor a lost folder is the parameters' fault; nothing is recorded, and the
+// trial is run again.
+void Campaign::StopForDisk(const journal::TrialRecord& trial, const std::string& reason) const {
+  throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
+}
+
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {
-  // Neither a full disk nor a lost folder is the parameters' fault; nothing is recorded, and the
-  // trial is run again.
   RequireWritable(folder_.root);
   if (const auto folder = folder_.trial(trial.id); !std::filesystem::exists(folder)) {
     throw base::Error(folder.string() +
                       ": has vanished while its trial ran; `talus resume` runs the trial again");
   }
-  if (reason.find("No space left on device") != std::string::npos) {
-    throw base::Error("trial " + std::to_string(trial.id) + ": " + reason);
-  }
+  if (trials::LogSaysDiskFull(folder_.trial(trial.id))) StopForDisk(trial, reason);
   if (spec_.retry_failed && trial.attempts == 1) {
     ++trial.attempts;
     trial.seed = planner_.SeedOf(trial);

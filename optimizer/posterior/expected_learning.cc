@@ -55,7 +55,7 @@ Eigen::MatrixXd Sorted(Eigen::MatrixXd values) {
   return values;
 }
 
-// Of each sorted column: the value that this share lies below.
+// The value in each sorted column that this share lies below.
 Eigen::VectorXd QuantileOf(const Eigen::MatrixXd& sorted, double share) {
   const auto at = static_cast<Eigen::Index>(share * static_cast<double>(sorted.rows() - 1) + 0.5);
   return sorted.row(at).transpose();

@@ -17,7 +17,7 @@ struct PredictedMeasurement {
 
 struct ExpectedLearning {
   double bits = 0;  // ½ log₂ det(I + C⁻¹ Cov), C the variance and Cov of the means
-  // Of each parameter's 90 % range (AskedRanges) afterwards, unit cube: the mean over the sets that
+  // Each parameter's 90 % range (AskedRanges) afterwards, unit cube: the mean over the sets that
   // may be true, and what a tenth of these leave less of, and a tenth more.
   Eigen::VectorXd width;
   Eigen::VectorXd narrow{};

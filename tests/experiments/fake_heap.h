@@ -83,6 +83,7 @@ struct FakeEngineOptions {
   bool film_grows = false;            // the pictures of a film are not all the same
   double sleep = 0;                   // of each trial [s]
   bool no_command = false;            // the program is not there
+  bool disk_full = false;             // every trial's program finds the disk full, and says so
   bool vanish = false;                // every trial's folder is taken away while it runs
   int hang_at = 0;                    // the trial with this id never ends; none if 0
   bool no_numbers = false;            // the masses and densities are not there
@@ -124,6 +125,7 @@ class FakeEngine : public trials::TrialEngine {
     if (options_.fail_once && !std::filesystem::exists(marker)) {
       script += "touch " + marker.string() + "; exit 4\n";
     }
+    if (options_.disk_full) script += "echo heap.png: No space left on device >&2\nexit 1\n";
     if (options_.vanish) script += "rm -r \"$PWD\"\n";
     std::ofstream(folder / "run.sh") << script << "cp drawn.png tmp && mv tmp profile.png\n";
   }

@@ -28,7 +28,7 @@ class ShiftedOutputs : public ::testing::Test {
       strategy_.Tell({.point = Eigen::VectorXd::Constant(1, x), .scalars = {y}});
     }
   }
-  // Of a simulation that shows so much more than what was measured.
+  // What a simulation adds that shows so much more than what was measured.
   double More(double y) const {
     return Compress(target_, kMeasured + y) - Compress(target_, kMeasured);
   }

@@ -16,6 +16,7 @@
 namespace talus::campaign {
 namespace campaign_faults_test {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -279,6 +280,20 @@ TEST_F(CampaignFaults, AFolderThatVanishesUnderItsTrialStopsTheCampaign) {
     ADD_FAILURE() << "nothing was said";
   } catch (const base::Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("0001: has vanished while its trial ran"));
+  }
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  ExpectCalm(folder, calm);
+}
+
+// On a node's own disk, say: the campaign's folder has room.
+TEST_F(CampaignFaults, ATrialThatFindsTheDiskFullStopsTheCampaign) {
+  const Calm calm = RunCalm();
+  const fs::path folder = Begin("disk_full");
+  try {
+    RunFake(folder, {.disk_full = true});
+    ADD_FAILURE() << "nothing was said";
+  } catch (const base::DiskFull& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("trial 1: "), HasSubstr("No space left on device")));
   }
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);

@@ -43,16 +43,12 @@ int CountAt(const JointView& view, int experiment, double factor) {
       }));
 }
 
-const std::string& NameOf(const JointView& view, int experiment) {
-  return view.record.experiments[static_cast<std::size_t>(experiment)].name;
-}
-
 NextCandidate MoreRuns(const Ground& ground, const Known& known) {
   const auto e = static_cast<std::size_t>(known.experiment);
   const int num_heaps = ground.view.record.experiments[e].num_heaps;
   const bool has_image = ground.view.references[e].has_image();
   return {.kind = NextKind::kMoreRuns,
-          .name = "more runs of " + NameOf(ground.view, known.experiment),
+          .name = "more runs of " + ground.view.NameOf(known.experiment),
           .what = has_image ? "photograph " + base::Counted(num_heaps, "more run")
                             : "measure its numbers as often again",
           .learning = LearnWhenLess(ground, known, 0.5 * known.at.measured)};
@@ -62,7 +58,7 @@ NextCandidate MoreSimulations(const Ground& ground, const Known& known, Cost& co
   const double finest = ground.view.spec.coarse_graining.Levels().back();
   const int count = CountAt(ground.view, known.experiment, finest);
   return {.kind = NextKind::kMoreSimulations,
-          .name = "more simulations of " + NameOf(ground.view, known.experiment),
+          .name = "more simulations of " + ground.view.NameOf(known.experiment),
           .what = std::to_string(count) + " more at the smallest scale factor",
           .learning = LearnWhenLess(ground, known, 0.5 * known.surrogate),
           .num_simulations = count,
@@ -82,7 +78,7 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
   if (share >= 1) return;  // the answer is for finer grains already
   all.push_back(
       {.kind = NextKind::kFinerGrains,
-       .name = "finer grains in " + NameOf(ground.view, known.experiment),
+       .name = "finer grains in " + ground.view.NameOf(known.experiment),
        .what = base::Counted(count, "simulation") + " at scale factor " + base::ShortNumber(finer),
        .learning = LearnWhenLess(ground, known, (1 - share) * known.at.model),
        .num_simulations = count,

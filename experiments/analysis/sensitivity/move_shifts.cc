@@ -3,7 +3,7 @@
 namespace talus::analysis {
 namespace {
 
-// Of those that ended well, one a row; NaN where a number is undefined.
+// Those that ended well, one a row; NaN where a number is undefined.
 Eigen::MatrixXd OutputsOf(const optimizer::ExperimentModel& model,
                           const std::vector<Simulated>& simulated) {
   Eigen::MatrixXd outputs(0, model.num_outputs());
@@ -46,7 +46,7 @@ std::vector<ShiftField> Everywhere(const Eigen::VectorXd& point, const std::vect
 }
 
 const std::string& NameOf(const campaign::JointView& view, std::size_t answered) {
-  return view.record.experiments[static_cast<std::size_t>(view.Answered()[answered])].name;
+  return view.NameOf(view.Answered()[answered]);
 }
 
 }  // namespace talus::analysis

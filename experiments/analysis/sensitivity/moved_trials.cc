@@ -33,7 +33,7 @@ fs::path FolderOf(const SensitivitySetting& setting, const MovedSet& set, int ex
          ("experiment_" + std::to_string(experiment + 1)) / base::FileNumber(replicate + 1);
 }
 
-// Of each set those that are simulated for it.
+// Calls `body` for every experiment that a set is simulated for.
 template <class Body>
 void ForEachExperiment(const SensitivitySetting& setting, const std::vector<MovedSet>& sets,
                        Body&& body) {

@@ -24,7 +24,7 @@ struct SensitivityOptions {
   std::vector<std::pair<std::string, std::string>> moves{};  // name, value; none: the usual ones
   std::optional<double> scale_factor{};  // one of the campaign's; default: the coarsest
   int most_replicates = 16;              // of each experiment and move, >= kFirstReplicates
-  // Of simulations at answers foretold, by what the campaign's trials took [s].
+  // Bounds the simulations at answers foretold; reckoned by what the campaign's trials took [s].
   double most_followed_core_time = std::numeric_limits<double>::infinity();
   campaign::CampaignParts parts{};
   std::function<void(const std::string&)> tell{};  // what goes on, a line each; may be empty

@@ -163,7 +163,7 @@ std::string HeldOutJson(const JointView& view, const HeldOut& h) {
 std::string AloneText(const JointView& view, const std::vector<PartialAnswer>& answers) {
   std::string text;
   for (const int e : view.All()) {
-    const std::string& name = view.record.experiments[static_cast<std::size_t>(e)].name;
+    const std::string& name = view.NameOf(e);
     const auto found = std::find_if(
         answers.begin(), answers.end(),
         [&](const PartialAnswer& answer) { return answer.experiments.front() == name; });

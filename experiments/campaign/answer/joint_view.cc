@@ -87,7 +87,7 @@ PartialAnswer AnswerOf(const JointView& view, optimizer::PosteriorStrategy& stra
                        const std::vector<int>& experiments) {
   PartialAnswer partial;
   for (const int e : experiments) {
-    partial.experiments.push_back(view.record.experiments[static_cast<std::size_t>(e)].name);
+    partial.experiments.push_back(view.NameOf(e));
   }
   const optimizer::Answer answer = strategy.Recommend();
   if (!answer.posterior) {

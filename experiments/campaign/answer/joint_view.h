@@ -28,6 +28,9 @@ struct JointView {
 
   // The index of the experiment with this name; throws ConfigError that lists the names.
   int IndexOf(std::string_view name) const;
+  const std::string& NameOf(int experiment) const {
+    return record.experiments[static_cast<std::size_t>(experiment)].name;
+  }
   // All of them, by index.
   std::vector<int> All() const;
   // Those that the campaign's answer meets: all but the one that its spec holds out.

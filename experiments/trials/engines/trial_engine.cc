@@ -1,5 +1,7 @@
 #include "experiments/trials/engines/trial_engine.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "base/error.h"
@@ -47,6 +49,10 @@ std::string LastLogLines(const std::filesystem::path& folder) {
   if (start != std::string::npos) text.erase(0, start + 1);
   if (text.size() > kMostBytes) text.erase(0, text.size() - kMostBytes);
   return base::Printable(text);
+}
+
+bool LogSaysDiskFull(const std::filesystem::path& folder) {
+  return LastLogLines(folder).find(std::strerror(ENOSPC)) != std::string::npos;
 }
 
 }  // namespace talus::trials

@@ -63,4 +63,7 @@ void CopyFolder(const std::filesystem::path& from, const std::filesystem::path& 
 // Why a command has failed, from the end of its log.txt; "" when that says nothing.
 std::string LastLogLines(const std::filesystem::path& folder);
 
+// Whether that end says, in the C library's words, that the disk was full.
+bool LogSaysDiskFull(const std::filesystem::path& folder);
+
 }  // namespace talus::trials
