@@ -78,9 +78,9 @@ void AddChoices(const std::vector<std::size_t>& judged, std::size_t size, std::s
 DesignTable RankDesigns(const campaign::JointView& view, const std::vector<TestCandidate>& tests,
                         const campaign::CampaignParts& parts) {
   const Ground ground{.view = view,
-                      .temper = 1 / (1 - kSurrogateShare),
                       .draws = PriorDraws(view),
-                      .model_error = view.spec.posterior.model_error};
+                      .model_error = view.spec.posterior.model_error,
+                      .surrogate_share = kSurrogateShare};
   DesignTable table{
       .tests = {.parameters = view.record.parameters, .nuisances = view.space.Nuisances()},
       .scale_factor = view.spec.coarse_graining.Levels().front()};

@@ -15,6 +15,8 @@ struct Ground {
   double temper = 1;       // of all variances: the posterior's
   Eigen::MatrixXd draws;   // equally likely, one a row
   double model_error = 1;  // PosteriorOptions
+  // Of the variances of a further test's outputs, the share of its surrogate's error, in [0, 1).
+  double surrogate_share = 0;
   Eigen::VectorXd goal{};  // what a prediction gives at each draw; empty: the parameters count
 
   // `variance` of each output once measured, before tempering.
@@ -31,11 +33,18 @@ std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView&
                                                       const std::vector<double>& scale_factors,
                                                       optimizer::ExperimentTarget target);
 
+// The variance of a further test's outputs once a campaign knows the test as well as it knows its
+// own, of the variance with a surrogate without error.
+Eigen::VectorXd WithSurrogate(const Ground& ground, const Eigen::VectorXd& variance);
+
 // Variance of each output as measured by so many runs, with the model's error; `to_target` is the
 // noise variance at the target over that of the simulations.
 Eigen::VectorXd MeasuredBy(const Ground& ground, const optimizer::OutputPredictions& at, int runs,
                            double to_target);
 
 double MeanOf(const std::vector<double>& values);
+
+// The surrogate's variance of each output, mean over the draws.
+Eigen::VectorXd SurrogateVariance(const optimizer::OutputPredictions& at);
 
 }  // namespace talus::analysis

@@ -78,14 +78,14 @@ void TellDesign(const TestDesign& design, const Hypothetical& made,
   }
 }
 
-// A number's own error besides the scatter of the test.
+// A number's own error besides the scatter of the test, and the surrogate's to come.
 Eigen::VectorXd VarianceOf(const Ground& ground, const optimizer::OutputPredictions& at,
                            const TestCandidate& test, const TestDesign& design,
                            Eigen::Index num_scalars) {
   const double finer = ground.view.spec.coarse_graining.Target() / design.scale_factor;
   Eigen::VectorXd variance = MeasuredBy(ground, at, test.runs, std::pow(finer, 3));
   variance.tail(num_scalars) += at.measured.tail(num_scalars);
-  return variance;
+  return WithSurrogate(ground, variance);
 }
 
 // Outputs of simulations of the test, one a row; NaN where a number is undefined.

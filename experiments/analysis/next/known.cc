@@ -19,10 +19,20 @@ std::vector<Known> KnownExperiments(const Ground& ground, const optimizer::Poste
     Known known{.experiment = answered[i],
                 .at = posterior.models()[i].Predict(ground.draws),
                 .surrogate = {}};
-    known.surrogate = known.at.variance.colwise().mean().transpose();
+    known.surrogate = SurrogateVariance(known.at);
     experiments.push_back(std::move(known));
   }
   return experiments;
+}
+
+double SurrogateShare(const std::vector<Known>& experiments) {
+  double sum = 0;
+  Eigen::Index num_outputs = 0;
+  for (const Known& known : experiments) {
+    sum += (known.surrogate.array() / known.Now().array()).sum();
+    num_outputs += known.surrogate.size();
+  }
+  return sum / static_cast<double>(num_outputs);
 }
 
 optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,

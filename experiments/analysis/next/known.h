@@ -19,6 +19,9 @@ struct Known {
 // Those that the campaign's answer meets.
 std::vector<Known> KnownExperiments(const Ground& ground, const optimizer::Posterior& posterior);
 
+// Of the variances of their outputs, the share of the surrogate's error: the mean over all outputs.
+double SurrogateShare(const std::vector<Known>& experiments);
+
 // With `less` of the variance of each output.
 optimizer::ExpectedLearning LearnWhenLess(const Ground& ground, const Known& known,
                                           const Eigen::VectorXd& less);

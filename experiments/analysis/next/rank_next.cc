@@ -85,9 +85,9 @@ void AddFinerGrains(const Ground& ground, const Known& known, Cost& cost,
        .core_time = count * cost.OfOne(known.experiment, finest) * std::pow(finest / finer, 4)});
 }
 
-void AddMoreOfTheSame(const Ground& ground, const optimizer::Posterior& posterior, Cost& cost,
+void AddMoreOfTheSame(const Ground& ground, const std::vector<Known>& experiments, Cost& cost,
                       std::vector<NextCandidate>& all) {
-  for (const Known& known : KnownExperiments(ground, posterior)) {
+  for (const Known& known : experiments) {
     all.push_back(MoreRuns(ground, known));
     all.push_back(MoreSimulations(ground, known, cost));
     AddFinerGrains(ground, known, cost, all);
@@ -123,7 +123,8 @@ void AddNumbers(const Ground& ground, std::vector<NextCandidate>& all) {
                    .name = "mass on the plate of " + record.name,
                    .what = "weigh what stays on the plate, or what falls off it, in " +
                            base::Counted(runs, "run"),
-                   .learning = ground.Learn(at.mean, MeasuredBy(ground, at, runs, 1))});
+                   .learning = ground.Learn(
+                       at.mean, MeasuredBy(ground, at, runs, 1) + SurrogateVariance(at))});
   }
 }
 
@@ -290,6 +291,8 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
                 .temper = strategy->Model().temper(),
                 .draws = strategy->Sample().Draws(kDraws, view.spec.seed),
                 .model_error = view.spec.posterior.model_error};
+  const std::vector<Known> experiments = KnownExperiments(ground, strategy->Model());
+  ground.surrogate_share = SurrogateShare(experiments);
   NextTable table{.parameters = view.record.parameters, .nuisances = view.space.Nuisances()};
   if (options.goal) {
     ground.goal = options.goal->surrogate.At(ground.draws).mean;
@@ -303,7 +306,7 @@ NextTable RankNext(const JointView& view, const NextOptions& options) {
   }
   table.width = ground.Learn(Eigen::MatrixXd(kDraws, 0), {}).width;
   Cost cost(view);
-  AddMoreOfTheSame(ground, strategy->Model(), cost, table.candidates);
+  AddMoreOfTheSame(ground, experiments, cost, table.candidates);
   AddNumbers(ground, table.candidates);
   AddDirect(ground, table.candidates);
   const std::vector<NextCandidate> tests = JudgeTests(ground, options, cost);
