@@ -262,13 +262,13 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
 }
 
-// Neither a full disk nor a lost folder is the parameters' fault; nothing is recorded, and the
-// trial is run again.
 void Campaign::StopForDisk(const journal::TrialRecord& trial, const std::string& reason) const {
   throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {
+  // Neither a full disk nor a lost folder is the parameters' fault; nothing is recorded, and the
+  // trial is run again.
   RequireWritable(folder_.root);
   if (const auto folder = folder_.trial(trial.id); !std::filesystem::exists(folder)) {
     throw base::Error(folder.string() +
