@@ -15,7 +15,8 @@ time: the heap alone, and the heap with one of
 
 One line a powder and campaign: the credible level of the truth (0.9 or less is inside the joint 90 % region), the widths of the
 joint 90 % ranges in shares of the searched ones, what `talus next` expected of the test after the heap alone, and the
-realised over the expected width, as the geometric mean of the parameters. Then the means over all powders.
+realised over the expected width, as the geometric mean of the parameters. Then the means over all powders. What is in
+FOLDER is not made twice.
 """
 import json
 import math
@@ -75,7 +76,8 @@ def simulate(options, folder, name, keys, plate_mm, truth, seed):
     place = folder / name
     place.parent.mkdir(parents=True, exist_ok=True)
     (folder / f"{name}.json").write_text(json.dumps(case))
-    run(options.talus, "simulate", folder / f"{name}.json", "--out", place)
+    if not (place / "result.json").exists():
+        run(options.talus, "simulate", folder / f"{name}.json", "--out", place)
     return place
 
 
@@ -113,7 +115,8 @@ def calibrate(options, folder, name, experiments, seed, truth):
             "budget": {"core_time": f"{options.core_time} s"}, "confirm": {"candidates": 0}, "next": {"share": 0}}
     out = folder / name.replace(" ", "_")
     (folder / f"{out.name}.json").write_text(json.dumps(spec))
-    run(options.talus, "calibrate", folder / f"{out.name}.json", "--out", out, "--quiet")
+    if not (out / "result.json").exists():
+        run(options.talus, "calibrate", folder / f"{out.name}.json", "--out", out, "--quiet")
     level = credible_level(options.talus, out, truth)
     if level is None:
         return None, None
@@ -136,9 +139,11 @@ def expected(options, folder, tests):
             ask |= {"runs": experiment["map_heaps"]}
         asks.append(ask)
     (folder / "candidates.json").write_text(json.dumps({"candidates": asks}))
-    table = json.loads(run(options.talus, "next", folder / "heap", folder / "candidates.json", "--simulate",
-                           "--budget", f"{options.next_time} s", "--json"))["candidates"]
-    return {c["name"]: c["width_90"] for c in table if c["bits"] is not None}
+    table = folder / "heap" / "next" / "next.json"
+    if not table.exists():
+        run(options.talus, "next", folder / "heap", folder / "candidates.json", "--simulate", "--budget",
+            f"{options.next_time} s")
+    return {c["name"]: c["width_90"] for c in json.loads(table.read_text())["candidates"] if c["bits"] is not None}
 
 
 def line(widths):
