@@ -99,10 +99,16 @@ def measure(options, folder, name, test, truth, seed):
         if not values:
             continue
         mean = float(numpy.mean(values))
+        if mean < 0:
+            continue  # a lump that slides has no angle of its own
         scatter = numpy.std(values, ddof=1) / len(values) ** 0.5 if len(values) > 1 else 0
         degrees = math.pi / 180 if ending == "_deg" else 1  # a bare number is in SI
         entry[key] = {"value": degrees * mean, "sd": degrees * max(float(scatter), share * abs(mean), least)}
     return entry
+
+
+def is_measured(experiment, numbers):
+    return "map" in experiment or any(key in experiment for key, *_ in numbers)
 
 
 def calibrate(options, folder, name, experiments, seed, truth):
@@ -182,6 +188,9 @@ def main():
         asked = {name: (measured[name], known[name][2]) for name in wanted if name != "bulk density"}
         foreseen = expected(options, folder, asked) if asked else {}
         for name in wanted:
+            if not is_measured(measured[name], known[name][2]):
+                print(f"  with {name}: nothing to be measured")
+                continue
             own = name == "bulk density"
             experiments = [{**measured[name], "name": "heap"}] if own else [measured["heap"], measured[name]]
             widths, level = calibrate(options, folder, f"with {name}", experiments, twin, truth)
