@@ -10,8 +10,9 @@ it cannot be fixed: the second campaign has the number that the first one's answ
 One line a powder and move: the shifts foretold and found of each parameter in half ranges, and whether the two are
 within a factor of 1.5, or both below a quarter of the half range, which no campaign tells from its noise. Where no set
 fits with the moved value the second campaign's answer is one of many that are as bad: the line says so, and what was
-foretold of it. The last lines have how many of the answers found lie in the ranges foretold, too, and the mean distance of
-the two, of all moves and of those with which a set fits.
+foretold of it. The last lines have how often the alarm (a parameter moves by more than half of its range) is right, how
+many of the answers found lie in the ranges foretold, too, and the mean distance of the two, of all moves and of those with
+which a set fits.
 """
 import json
 import math
@@ -21,6 +22,7 @@ from twin import arguments, finished, run
 FACTOR = 1.5
 SMALL = 0.25  # half ranges
 IMPLAUSIBLE = 3  # standard deviations
+ALARM = 1  # half ranges: a shift beyond is an alarm of the result
 
 
 def parameters(folder):
@@ -59,6 +61,10 @@ def is_right(a, b):
     return max(abs(a), abs(b)) < SMALL or (a * b > 0 and 1 / FACTOR <= a / b <= FACTOR)
 
 
+def is_alarm(shifts):
+    return max(map(abs, shifts)) > ALARM
+
+
 def main():
     parser = arguments(powders=math.inf)
     parser.add_argument("--campaign", default="both")
@@ -78,6 +84,7 @@ def main():
             shift = {k: answer[k]["shift_in_half_ranges"] for k in now}
             rows.append({"right": all(is_right(shift[k], is_found[k][1]) for k in now),
                          "inside": [answer[k]["credible_90_low"] <= is_found[k][0] <= answer[k]["credible_90_high"] for k in now],
+                         "alarm": is_alarm(shift.values()) == is_alarm(there for _, there in is_found.values()),
                          "distance": [abs(shift[k] - is_found[k][1]) for k in now],
                          "fits": fits(twin / f"{options.campaign}_{name}"),
                          "told_to_fit": told["implausibility_sd"] <= IMPLAUSIBLE})
@@ -95,7 +102,7 @@ def summary(which, rows):
     distances = [one for row in rows for one in row["distance"]]
     if rows:
         print(f"{which}: {sum(row['right'] for row in rows)} of {len(rows)} within a factor of {FACTOR}, or both below "
-              f"{SMALL} of the half range; {sum(inside)} of {len(inside)} found in the range foretold; mean distance "
+              f"{SMALL} of the half range; {sum(row['alarm'] for row in rows)} with an alarm where one is due, and only there; {sum(inside)} of {len(inside)} found in the range foretold; mean distance "
               f"{sum(distances) / len(distances):.2f} half ranges")
 
 
