@@ -10,8 +10,6 @@
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/analysis/next/goal.h"
-#include "experiments/analysis/next/judge_test.h"
-#include "experiments/analysis/next/known.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/test_design.h"
@@ -284,35 +282,6 @@ TEST_F(NextTest, ATestOfNumbersOnlyIsJudgedByThem) {
   EXPECT_EQ(judged.numbers[0].metric, "tapped_density_kg_per_m3");
   EXPECT_GT(std::abs(judged.numbers[0].first - judged.numbers[0].second), 10);
   EXPECT_THAT(NextText(table), HasSubstr("16 of them made"));
-}
-
-TEST(SurrogateShare, IsTheMeanOverTheOutputsOfAllExperiments) {
-  Known image{.experiment = 0, .at = {}, .surrogate = Eigen::Vector2d(1, 3)};
-  image.at.measured = Eigen::Vector2d(1, 0.5);
-  image.at.model = Eigen::Vector2d(0, 0.5);
-  Known number{.experiment = 1, .at = {}, .surrogate = Eigen::VectorXd::Constant(1, 1)};
-  number.at.measured = Eigen::VectorXd::Constant(1, 2);
-  number.at.model = Eigen::VectorXd::Constant(1, 1);
-  EXPECT_NEAR(SurrogateShare({image, number}), (0.5 + 0.75 + 0.25) / 3, 1e-15);
-}
-
-// With half of its variance the surrogate's, a test's errors are √2 times as large.
-TEST_F(NextTest, AFurtherTestTeachesLessWhereSurrogatesKnowLess) {
-  const JointView view = Run();
-  const TestCandidate test{.name = "the heap again"};
-  const Eigen::MatrixXd draws = campaign::AnsweringStrategy(view)->Sample().Draws(200, 1);
-  const campaign::CampaignParts parts = Parts(view);
-  const TestDesign design = SimulateDesign(view, test, {.draws = draws}, parts);
-  const auto judged = [&](double share) {
-    NextCandidate candidate{.kind = NextKind::kTest, .name = test.name};
-    JudgeTest({.view = view, .draws = draws, .surrogate_share = share},
-              {.test = test, .design = design, .unknown = {}}, candidate);
-    return candidate;
-  };
-  const NextCandidate known = judged(0);
-  const NextCandidate guessed = judged(0.5);
-  EXPECT_NEAR((guessed.predicted.variance - 2 * known.predicted.variance).norm(), 0, 1e-12);
-  EXPECT_LT(guessed.learning->bits, known.learning->bits);
 }
 
 // The drawn density is 1550 − 350 μ_r kg/m³: what tells μ_t alone, however well, does not help it.
