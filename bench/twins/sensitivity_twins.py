@@ -102,7 +102,8 @@ def summary(which, rows):
     distances = [one for row in rows for one in row["distance"]]
     if rows:
         print(f"{which}: {sum(row['right'] for row in rows)} of {len(rows)} within a factor of {FACTOR}, or both below "
-              f"{SMALL} of the half range; {sum(row['alarm'] for row in rows)} with an alarm where one is due, and only there; {sum(inside)} of {len(inside)} found in the range foretold; mean distance "
+              f"{SMALL} of the half range; {sum(row['alarm'] for row in rows)} with an alarm where one is due, and only "
+              f"there; {sum(inside)} of {len(inside)} found in the range foretold; mean distance "
               f"{sum(distances) / len(distances):.2f} half ranges")
 
 

@@ -189,7 +189,7 @@ def main():
         foreseen = expected(options, folder, asked) if asked else {}
         for name in wanted:
             if not is_measured(measured[name], known[name][2]):
-                print(f"  with {name}: nothing to be measured")
+                print(f"  with {name}: nothing to be measured", flush=True)
                 continue
             own = name == "bulk density"
             experiments = [{**measured[name], "name": "heap"}] if own else [measured["heap"], measured[name]]

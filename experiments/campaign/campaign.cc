@@ -24,6 +24,10 @@ namespace {
 constexpr int kMostReruns = 3;        // of a trial that others keep ending
 constexpr double kWaitSeconds = 0.5;  // between two looks at the keyboard and the clock
 
+[[noreturn]] void StopForDisk(const journal::TrialRecord& trial, const std::string& reason) {
+  throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
+}
+
 }  // namespace
 
 Campaign::Campaign(CampaignFolder folder, CampaignLock lock, journal::Journal journal,
@@ -260,10 +264,6 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
   }
   RequireNumbers(trial, ReferenceOf(trial), output.scalars);
   Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
-}
-
-void Campaign::StopForDisk(const journal::TrialRecord& trial, const std::string& reason) const {
-  throw base::DiskFull("trial " + std::to_string(trial.id) + ": " + reason);
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {

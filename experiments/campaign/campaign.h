@@ -67,7 +67,6 @@ class Campaign {
   void HandleEnd(const runners::FinishedJob& job);
   bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
   void Collect(journal::TrialRecord& trial, const runners::FinishedJob& job);
-  [[noreturn]] void StopForDisk(const journal::TrialRecord& trial, const std::string& reason) const;
   void FailOrRetry(journal::TrialRecord& trial, const std::string& reason);
   void Close(journal::TrialRecord& trial, const imaging::GrayImage* profile);
   void NoteElapsed();

@@ -18,6 +18,7 @@ namespace campaign_faults_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 namespace fs = std::filesystem;
 
 constexpr const char* kSpec = R"(,
@@ -275,12 +276,8 @@ TEST_F(CampaignFaults, LostFoldersOfTrialsAreNotMissed) {
 TEST_F(CampaignFaults, AFolderThatVanishesUnderItsTrialStopsTheCampaign) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("vanished");
-  try {
-    RunFake(folder, {.vanish = true});
-    ADD_FAILURE() << "nothing was said";
-  } catch (const base::Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("0001: has vanished while its trial ran"));
-  }
+  EXPECT_THAT([&] { RunFake(folder, {.vanish = true}); },
+              ThrowsMessage<base::Error>(HasSubstr("0001: has vanished while its trial ran")));
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
 }
@@ -289,12 +286,9 @@ TEST_F(CampaignFaults, AFolderThatVanishesUnderItsTrialStopsTheCampaign) {
 TEST_F(CampaignFaults, ATrialThatFindsTheDiskFullStopsTheCampaign) {
   const Calm calm = RunCalm();
   const fs::path folder = Begin("disk_full");
-  try {
-    RunFake(folder, {.disk_full = true});
-    ADD_FAILURE() << "nothing was said";
-  } catch (const base::DiskFull& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("trial 1: "), HasSubstr("No space left on device")));
-  }
+  EXPECT_THAT([&] { RunFake(folder, {.disk_full = true}); },
+              ThrowsMessage<base::DiskFull>(
+                  AllOf(HasSubstr("trial 1: "), HasSubstr("No space left on device"))));
   EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
   ExpectCalm(folder, calm);
 }

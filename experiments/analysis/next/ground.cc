@@ -20,10 +20,6 @@ Eigen::VectorXd MeasuredBy(const Ground& ground, const optimizer::OutputPredicti
   return share * to_target * at.single;
 }
 
-Eigen::VectorXd WithSurrogate(const Ground& ground, const Eigen::VectorXd& variance) {
-  return variance / (1 - ground.surrogate_share);
-}
-
 double MeanOf(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += v;

@@ -33,10 +33,6 @@ std::unique_ptr<optimizer::PosteriorStrategy> ModelOf(const campaign::JointView&
                                                       const std::vector<double>& scale_factors,
                                                       optimizer::ExperimentTarget target);
 
-// The variance of a further test's outputs once a campaign knows the test as well as it knows its
-// own, of the variance with a surrogate without error.
-Eigen::VectorXd WithSurrogate(const Ground& ground, const Eigen::VectorXd& variance);
-
 // Variance of each output as measured by so many runs, with the model's error; `to_target` is the
 // noise variance at the target over that of the simulations.
 Eigen::VectorXd MeasuredBy(const Ground& ground, const optimizer::OutputPredictions& at, int runs,

@@ -85,7 +85,7 @@ Eigen::VectorXd VarianceOf(const Ground& ground, const optimizer::OutputPredicti
   const double finer = ground.view.spec.coarse_graining.Target() / design.scale_factor;
   Eigen::VectorXd variance = MeasuredBy(ground, at, test.runs, std::pow(finer, 3));
   variance.tail(num_scalars) += at.measured.tail(num_scalars);
-  return WithSurrogate(ground, variance);
+  return variance / (1 - ground.surrogate_share);
 }
 
 // Outputs of simulations of the test, one a row; NaN where a number is undefined.

@@ -307,8 +307,8 @@ TEST_F(NextTest, ForAGoalWhatNarrowsItComesFirst) {
   const NextCandidate& mass = Find(table, "mass on the plate of heap");
   const NextCandidate& density = Find(table, "tapped density");
   EXPECT_EQ(table.candidates.front().name, "tapped density");
-  EXPECT_GT(mass.learning->bits,
-            0.2);  // it tells of the sliding friction, as far as 24 trials know
+  // It tells of the sliding friction, as far as 24 trials know.
+  EXPECT_GT(mass.learning->bits, 0.2);
   EXPECT_GT(mass.learning->goal_half_width, 0.8 * table.goal->half_width);
   EXPECT_LT(density.learning->goal_half_width, 0.7 * table.goal->half_width);
   EXPECT_THAT(NextText(table), HasSubstr("of the goal, sliding_friction"));
