@@ -53,23 +53,21 @@ target_precompile_headers(talus_library_headers PRIVATE
   <Eigen/Core> <algorithm> <array> <cmath> <functional> <limits> <memory> <optional> <span> <string> <utility>
   <vector>)
 
-# talus_unite_folders(target ON|OFF sources…)
-function(talus_unite_folders target unite)
+# talus_unite_folders(target sources…): the files of a folder are compiled together where CMAKE_UNITY_BUILD is on, in
+# half of the time; so their unnamed namespaces share no name.
+function(talus_unite_folders target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  if(unite)
-    foreach(source ${ARGN})
-      get_filename_component(folder ${source} DIRECTORY)
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_")
-    endforeach()
-  endif()
+  foreach(source ${ARGN})
+    get_filename_component(folder ${source} DIRECTORY)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_")
+  endforeach()
 endfunction()
 
-# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED] [UNITY])
+# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED])
 # PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. PRECOMPILED: with
-# talus_library_headers. UNITY: the files of a folder are compiled together where CMAKE_UNITY_BUILD is on, in half of
-# the time; so their unnamed namespaces share no name.
+# talus_library_headers.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "PRECOMPILED;UNITY" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
@@ -83,7 +81,7 @@ function(talus_add_library name)
   if(ARG_PRECOMPILED)
     target_precompile_headers(talus_${name} REUSE_FROM talus_library_headers)
   endif()
-  talus_unite_folders(talus_${name} ${ARG_UNITY} ${ARG_SOURCES})
+  talus_unite_folders(talus_${name} ${ARG_SOURCES})
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
 

@@ -7,7 +7,7 @@
 namespace talus::engine {
 namespace {
 
-void Append(std::string& text, double value) { text += "," + base::ExactNumber(value); }
+void AppendField(std::string& text, double value) { text += "," + base::ExactNumber(value); }
 
 }  // namespace
 
@@ -69,15 +69,15 @@ void Series::Write(const Simulation& simulation, SeriesState& state) const {
   row += "," + std::to_string(simulation.num_particles());
   for (const WallLoad& load : simulation.WallLoads()) {
     for (const Vec3& v : {load.force, load.torque}) {
-      for (const double value : {v.x, v.y, v.z}) Append(row, value);
+      for (const double value : {v.x, v.y, v.z}) AppendField(row, value);
     }
   }
   const std::vector<double> mass = MassBeyond(simulation, state);
   const double since = simulation.time() - state.last_time;
   state.last_mass.resize(mass.size(), 0.0);
   for (std::size_t s = 0; s < mass.size(); ++s) {
-    Append(row, mass[s]);
-    Append(row, state.num_rows > 0 ? (mass[s] - state.last_mass[s]) / since : 0.0);
+    AppendField(row, mass[s]);
+    AppendField(row, state.num_rows > 0 ? (mass[s] - state.last_mass[s]) / since : 0.0);
   }
   state.text += row + "\n";
   state.last_mass = mass;

@@ -1,6 +1,6 @@
 // The dynamic angle of repose in a turning drum: the mean slope of the middle half of the surface,
 // over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
-// towards -x. Front and back are of the floor's material where there is one, else of the side's.
+// towards -x. Front and back are the floor where its material or its pair with the powder is stated, else as the side.
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -9,6 +9,7 @@
 #include "base/sample.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
@@ -51,7 +52,8 @@ class DrumRig : public RememberingRig<DrumMemory> {
   static std::vector<engine::Wall> Walls(const Case& c, double) {
     const DrumOptions& drum = c.rig.drum;
     const double radius = drum.diameter / 2;
-    const int covers = c.materials.floor ? kFloor : kWalls;
+    const bool stated = c.materials.floor || StatedWith(c.pairs, kFloor).Any();
+    const int covers = stated ? kFloor : kWalls;
     const auto lid = [&](double y) {
       return engine::Disc{.center = {0, y, radius}, .normal = {0, 1, 0}, .radius = radius};
     };

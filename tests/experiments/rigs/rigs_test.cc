@@ -11,6 +11,7 @@
 #include "base/files/file.h"
 #include "base/json/json_reader.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/phased/surface.h"
 #include "experiments/rigs/rig_list.h"
@@ -24,6 +25,7 @@ namespace talus::rigs {
 namespace rigs_test {
 
 using ::testing::AnyOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 Case Tapped(int count) {
@@ -184,16 +186,17 @@ TEST(Drum, AFillStandsForItsMass) {
   EXPECT_FALSE(c.rig.drum.fill);
 }
 
+std::vector<int> WallMaterialsOf(const Case& c) {
+  std::vector<int> list;
+  for (const engine::Wall& wall : EntryOf(c).walls(c, 0)) list.push_back(wall.material);
+  return list;
+}
+
 TEST(Drum, CoversHaveAMaterialOfTheirOwn) {
   Case c = Filmed();
-  const auto materials = [&] {
-    std::vector<int> list;
-    for (const engine::Wall& wall : EntryOf(c).walls(c, 0)) list.push_back(wall.material);
-    return list;
-  };
-  EXPECT_EQ(materials(), (std::vector{kWalls, kWalls, kWalls}));
+  EXPECT_EQ(WallMaterialsOf(c), (std::vector{kWalls, kWalls, kWalls}));
   c.materials.floor = WallMaterial{.sliding_friction = 0.2};
-  EXPECT_EQ(materials(), (std::vector{kWalls, kFloor, kFloor}));
+  EXPECT_EQ(WallMaterialsOf(c), (std::vector{kWalls, kFloor, kFloor}));
 }
 
 // Every rig goes on from a checkpoint with the same bits.
@@ -252,6 +255,16 @@ TEST(EstimateOfACase, MeetsWhatAPouredCohesiveHeapTakes) {
   const auto rig = Ran(c);
   EXPECT_NEAR(expected.simulated_time / rig->simulation().time(), 1, 0.15);
   EXPECT_NEAR(expected.grain_time / expected.time_step / rig->Progress().particle_steps, 1, 0.15);
+}
+
+// What a pair states would count for nothing where no wall were of the body's material.
+TEST_P(EveryRig, ABodyIsThereOnceItsPairIsStated) {
+  Case by_material = Small(GetParam());
+  by_material.materials.floor = WallMaterial{};
+  Case by_pair = Small(GetParam());
+  PairWith(by_pair.pairs, kFloor).sliding_friction = 0.2;
+  EXPECT_EQ(WallMaterialsOf(by_pair), WallMaterialsOf(by_material));
+  EXPECT_THAT(WallMaterialsOf(by_pair), Contains(kFloor));
 }
 
 TEST_P(EveryRig, GoesOnFromACheckpointWithTheSameBits) {
