@@ -1,6 +1,7 @@
 // The dynamic angle of repose in a turning drum: the mean slope of the middle half of the surface,
 // over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
-// towards -x. Front and back are the floor where its material or its pair with the powder is stated, else as the side.
+// towards -x. Front and back are the floor where its material or its pair with the powder is
+// stated, else as the side.
 #include <numbers>
 #include <optional>
 #include <utility>
