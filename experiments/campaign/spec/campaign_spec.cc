@@ -1,5 +1,7 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
+#include <set>
+
 #include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
@@ -8,6 +10,8 @@
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/journal/record_json.h"
 #include "experiments/rigs/case/case_warnings.h"
+#include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "experiments/trials/engines/command_engine.h"
@@ -104,10 +108,30 @@ std::vector<Eigen::VectorXd> CheckedPoints(const CampaignSpec& spec) {
   return points;
 }
 
+// A wall's parameter is without effect where no experiment has such a wall.
+void CheckBodies(const CampaignSpec& spec, std::size_t num_experiments, base::Problems& problems) {
+  if (spec.engine.kind != EngineKind::kTalus) return;  // a command may build what it likes
+  std::set<int> bodies{rigs::kPowder};
+  for (std::size_t e = 0; e < num_experiments; ++e) {
+    const rigs::Case rig_case =
+        TypicalCase(spec, static_cast<int>(e), spec.coarse_graining.Levels().front());
+    for (const engine::Wall& wall : rigs::EntryOf(rig_case).walls(rig_case, 0)) {
+      bodies.insert(wall.material);
+    }
+  }
+  for (const optimizer::Parameter& parameter : SpaceOf(spec).parameters) {
+    const int body = PlaceOf(parameter.name).body;
+    problems.Require(bodies.contains(body), "parameters." + parameter.name,
+                     "has no effect: no experiment's rig has a " +
+                         std::string(rigs::kBodyNames[body]) + "; leave it out");
+  }
+}
+
 }  // namespace
 
 void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  CheckBodies(spec, experiments.size(), problems);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     for (const double factor : spec.coarse_graining.Levels()) {
       for (const Eigen::VectorXd& point : CheckedPoints(spec)) {

@@ -159,6 +159,21 @@ TEST(Spec, WhatHasNoEffectOrCannotBeIsRefused) {
     "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
     "parameters": {"surface_energy": {"min": 1e-6, "max": 1e-4}}})"),
               HasSubstr("has no effect without adhesion"));
+  const auto funnel_error = [](const std::string& rim, const std::string& parameter) {
+    return ErrorOf(R"({
+      "experiments": [{"name": "funnel", "filling": {"kind": "pour"},
+                       "rig": {"kind": "funnel_heap", "plate_diameter": "10 mm", "height": "10 mm",
+                               "rim_height": ")" +
+                   rim + R"("}, "angle_of_repose_1": {"value": "33 deg", "sd": "1 deg"}}],
+      "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+      "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}, ")" +
+                   parameter + R"(": {"min": 0.1, "max": 0.9}}})");
+  };
+  EXPECT_EQ(funnel_error("1 mm", "tube_sliding_friction"), "");
+  EXPECT_EQ(funnel_error("0 mm", "plate_pair_sliding_friction"), "");
+  EXPECT_THAT(
+      funnel_error("0 mm", "tube_sliding_friction"),
+      HasSubstr("parameters.tube_sliding_friction: has no effect: no experiment's rig has a tube"));
   EXPECT_THAT(ErrorOf(With(R"("device": {"tube_length": "5 mm"})")),
               HasSubstr("device.tube_length: is 0.005, cannot hold the mass"));
   EXPECT_THAT(ErrorOf(With(R"("noise": {"replicates": 1})")), HasSubstr("noise.replicates: is 1"));
