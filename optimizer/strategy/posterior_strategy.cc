@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/random.h"
@@ -288,17 +289,32 @@ Proposal PosteriorStrategy::ByGain(std::span<const Proposal> asked) {
   order.resize(std::min<std::size_t>(order.size(), kBest));
   const Eigen::MatrixXd sites = draws(order, Eigen::all);
   if (auto few = TooFewAt(sites.row(0), asked)) return *few;
-  return MostPerCost(gain, sites);
+  return MostPerCost(gain, sites, Price(asked));
 }
 
-Proposal PosteriorStrategy::MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites) const {
+// Where more of their number is used up than of the core time, an even share of the time that is
+// left: coarse grains, which cost next to none, would use up the number and leave the time.
+double PosteriorStrategy::Price(std::span<const Proposal> asked) const {
+  const double used = static_cast<double>(observations_.size() + asked.size());
+  if (options_.core_time <= 0 || used >= options_.simulations) return 0;
+  double spent = 0;
+  for (const Told& told : told_) spent += std::accumulate(told.cost.begin(), told.cost.end(), 0.0);
+  for (const Proposal& p : asked) {
+    spent += CostOf(static_cast<std::size_t>(p.experiment), levels_.LevelOf(p.scale_factor));
+  }
+  if (used / options_.simulations <= spent / options_.core_time) return 0;
+  return (options_.core_time - spent) / (options_.simulations - used);
+}
+
+Proposal PosteriorStrategy::MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites,
+                                        double price) const {
   Proposal best;
   double most = -1;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const Eigen::MatrixXd gains = gain.OfOne(e, sites);
     for (Eigen::Index i = 0; i < sites.rows(); ++i) {
       for (int level = 0; level < levels_.size(); ++level) {
-        const double rate = gains(i, level) / CostOf(e, level);
+        const double rate = gains(i, level) / (CostOf(e, level) + price);
         if (rate <= most) continue;
         most = rate;
         best = {.point = sites.row(i),

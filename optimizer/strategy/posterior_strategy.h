@@ -3,7 +3,8 @@
 //
 // First a design at the coarsest scale factor. Then the next set is a posterior draw where the
 // outputs at the target are known worst, and the scale factor and experiment are what narrows the
-// misfit there most a core second. The answer is the posterior's (posterior.h).
+// misfit there most a core second. The answer is the posterior's (posterior.h). Where the number of
+// simulations is bounded beside their core time, both are used up.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +35,8 @@ struct PosteriorStrategyOptions {
   bool learn_model_error = false;  // model_error is the scale of its prior (learn_model_errors.h)
   double stop_share = 0.1;  // stop when no number of evaluations would take this share of its width
                             // from the range of a parameter that is asked for; 0: never
+  int simulations = 0;      // that may be run; 0: any number
+  double core_time = 0;     // that these may take together [core s]; 0: any
   std::uint64_t seed = 1;
 };
 
@@ -103,8 +106,10 @@ class PosteriorStrategy : public Strategy {
   bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);
-  // Which of the points, for which experiment and how coarse, gains most a core second.
-  Proposal MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites) const;
+  // Which of the points, for which experiment and how coarse, gains most for what it costs.
+  Proposal MostPerCost(const AskedGain& gain, const Eigen::MatrixXd& sites, double price) const;
+  // What a simulation costs beside its own core time [core s].
+  double Price(std::span<const Proposal> asked) const;
   // A finer scale factor that has too few evaluations to tell its discrepancy.
   std::optional<Proposal> TooFewAt(const Eigen::VectorXd& point,
                                    std::span<const Proposal> asked) const;

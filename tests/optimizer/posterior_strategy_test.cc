@@ -33,6 +33,8 @@ struct Twin {
   std::uint64_t seed = 1;
   double weight = 1;
   double stop_share = 0.1;
+  int simulations = 0;
+  double core_time = 0;
 
   ExperimentTarget MakeTarget() const {
     const double sum = 1 + truth[0] + truth[1];
@@ -42,10 +44,14 @@ struct Twin {
     return made;
   }
   std::unique_ptr<PosteriorStrategy> Make() const {
-    return std::make_unique<PosteriorStrategy>(
-        PosteriorStrategyOptions{
-            .scale_factors = factors, .target = target, .stop_share = stop_share, .seed = seed},
-        Domain{.num_parameters = 2}, std::vector{MakeTarget()});
+    return std::make_unique<PosteriorStrategy>(PosteriorStrategyOptions{.scale_factors = factors,
+                                                                        .target = target,
+                                                                        .stop_share = stop_share,
+                                                                        .simulations = simulations,
+                                                                        .core_time = core_time,
+                                                                        .seed = seed},
+                                               Domain{.num_parameters = 2},
+                                               std::vector{MakeTarget()});
   }
   Observation Simulate(const Proposal& p, int run) const {
     Observation observation{
@@ -72,6 +78,37 @@ TEST(PosteriorStrategy, AnswersForTheTargetThatCoarseGrainsMiss) {
   EXPECT_EQ(answer.posterior->target_scale_factor, 1);
   EXPECT_FALSE(answer.posterior->is_extrapolated);
   EXPECT_TRUE(answer.posterior->unlearnt_scale_factors.empty());
+}
+
+struct Use {
+  int simulations = 0;
+  double core_time = 0;  // [core s]
+};
+
+// What a search has used when either of the two is used up.
+Use UseOf(const Twin& twin, int simulations, double core_time) {
+  const auto strategy = twin.Make();
+  Use use;
+  while (use.simulations < simulations && use.core_time < core_time) {
+    const Observation observation =
+        twin.Simulate(strategy->AskAt(1, {}).front(), use.simulations++);
+    use.core_time += observation.cost;
+    strategy->Tell(observation);
+  }
+  return use;
+}
+
+TEST(PosteriorStrategy, UsesUpTheCoreTimeAndTheNumberWhereBothAreBounded) {
+  Twin twin{.factors = {3, 1}};  // a coarse simulation costs an 81st
+  const double by_cost = UseOf(twin, 40, 1e9).core_time;
+  twin.simulations = 40;
+  twin.core_time = 3 * by_cost;
+  const Use both = UseOf(twin, 40, twin.core_time);
+  EXPECT_GE(both.core_time, 0.9 * twin.core_time);
+  EXPECT_GE(both.simulations, 0.75 * 40);  // the step of a fine simulation is 6 % of the time
+  // A number that is out of reach changes nothing.
+  twin.simulations = 1'000'000;
+  EXPECT_EQ(UseOf(twin, 40, 1e9).core_time, by_cost);
 }
 
 // A model of all of them would take hours.

@@ -44,6 +44,8 @@ std::unique_ptr<optimizer::PosteriorStrategy> MakePosteriorStrategyFor(
       .model_error = spec.posterior.model_error,
       .learn_model_error = spec.posterior.learn_model_error,
       .stop_share = spec.posterior.stop_share,
+      .simulations = spec.budget.simulations,
+      .core_time = spec.budget.core_time.value_or(0),
       .seed = spec.seed};
   return std::make_unique<optimizer::PosteriorStrategy>(options, SpaceOf(spec).MakeDomain(),
                                                         std::move(targets));
