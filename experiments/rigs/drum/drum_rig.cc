@@ -2,6 +2,8 @@
 // over a given number of turns. The axis is y, the drum's lowest point z = 0; it carries the grains
 // towards -x. Front and back are the floor where its material or its pair with the powder is
 // stated, else as the side.
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -24,9 +26,10 @@ constexpr double kStill = 0.01;     // grain diameters that nobody sees move
 
 struct DrumMemory {
   std::vector<double> angles{};  // of the surface at each look [deg]
+  int num_carried = 0;           // looks at which powder hangs from the shell in its place
 
   static constexpr base::FieldKey kKeys[] = {{"angles", "angles_deg"}};
-  TALUS_FIELDS(angles);
+  TALUS_FIELDS(angles, num_carried);
 };
 
 class DrumRig : public RememberingRig<DrumMemory> {
@@ -113,10 +116,14 @@ class DrumRig : public RememberingRig<DrumMemory> {
     const auto along = [](const auto& p) { return p.position.x; };
     const double low = MassQuantile(grains, 0.02, along);
     const double high = MassQuantile(grains, 0.98, along);
-    const auto slope = SlopeOf(SurfaceOf(
+    const std::vector<SurfacePoint> surface = SurfaceOf(
         grains,
-        {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()}));
-    if (slope) memory().angles.push_back(SlopeAngle(-*slope));
+        {.from = low + (high - low) / 4, .to = high - (high - low) / 4, .width = MeanDiameter()});
+    if (HangsFromShell(surface)) {
+      ++memory().num_carried;
+    } else if (const auto slope = SlopeOf(surface)) {
+      memory().angles.push_back(SlopeAngle(-*slope));
+    }
     return std::nullopt;
   }
 
@@ -124,6 +131,11 @@ class DrumRig : public RememberingRig<DrumMemory> {
     const std::vector<double>& angles = memory().angles;
     Reading angle{Observable::kAngle};
     Reading spread{Observable::kAngleSd};
+    if (std::cmp_greater(memory().num_carried, angles.size())) {
+      angle.undefined = spread.undefined =
+          "the drum carries the powder round: it hangs from the shell above the surface";
+      return {angle, spread};
+    }
     if (angles.size() < 2) {
       angle.undefined = spread.undefined = "the surface has too few grains across";
       return {angle, spread};
@@ -133,6 +145,17 @@ class DrumRig : public RememberingRig<DrumMemory> {
   }
 
  private:
+  // Whether most of what is highest lies at the upper half of the shell, within a grain. A powder
+  // that flows is there in none of the middle half's strips, one that clings in nearly all.
+  bool HangsFromShell(const std::vector<SurfacePoint>& surface) const {
+    const double radius = rig_case().rig.drum.diameter / 2;
+    const auto at_shell = std::ranges::count_if(surface, [&](const SurfacePoint& p) {
+      const double shell = radius + std::sqrt(std::max(0.0, radius * radius - p.x * p.x));
+      return p.top > shell - MeanDiameter();
+    });
+    return std::cmp_greater(2 * at_shell, surface.size());
+  }
+
   void Turn() {
     const engine::MotionStep motion{.time = scene().time(),
                                     .angular_velocity = {0, rig_case().rig.drum.speed, 0}};

@@ -168,6 +168,19 @@ TEST(Drum, TheDynamicAngleGrowsWithFriction) {
   EXPECT_LT(angles[1], 60);
 }
 
+// Grains that weigh a hundredth of what they cling with go round with the shell: the highest grains
+// are no surface, and the slope through them no angle.
+TEST(Drum, APowderThatClingsToTheShellHasNoAngle) {
+  Case c = CaseOf(RigKind::kDrum, 0.7, 0.3, 0.3e-3);
+  c.rig.drum = {.diameter = 0.012, .width = 0.005, .speed = 8, .start_turns = 0.5, .turns = 0.25};
+  const double weight = kDensity * std::numbers::pi / 6 * 1e-9 * c.gravity;
+  c.powder.material.surface_energy = 100 * weight / (2 * std::numbers::pi * 0.25e-3);
+  c.models.adhesion = engine::Adhesion::kDmt;
+  const auto rig = Ran(c);
+  const auto result = nlohmann::json::parse(rig->ResultText({}, {}));
+  EXPECT_THAT(std::string(result["undefined"]["angle_deg"]), HasSubstr("hangs from the shell"));
+}
+
 // A trial keeps both under their names.
 TEST(Observables, ShareNoNameWithTheMetricsOfPictures) {
   const std::vector<std::string> metrics = imaging::MetricNames();
