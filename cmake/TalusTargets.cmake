@@ -54,7 +54,7 @@ target_precompile_headers(talus_library_headers PRIVATE
   <vector>)
 
 # talus_unite_folders(target sources…): the files of a folder are compiled together where CMAKE_UNITY_BUILD is on, in
-# half of the time; so their unnamed namespaces share no name.
+# half of the time; so in their unnamed namespaces functions of one name must not take each other's arguments.
 function(talus_unite_folders target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   foreach(source ${ARGN})
