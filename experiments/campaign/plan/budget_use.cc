@@ -80,13 +80,15 @@ double SearchLeft(const CampaignSpec& spec, const BudgetUse& use, const Pace& pa
   return std::max(0.0, left);
 }
 
-// The recommended set, branches and ends of every experiment [s].
-double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace) {
+// The recommended set, branches and ends of every experiment [s]; `begun` are the confirming trials
+// since the search ended.
+double ConfirmationLeft(const CampaignSpec& spec, const Pace& pace,
+                        std::span<const journal::TrialRecord> begun) {
   const double factor = spec.confirm.scale_factor.value_or(spec.coarse_graining.scale_factor);
   double left = 0;
   for (int e = 0; e < pace.num_experiments; ++e) {
-    const auto ended = std::ranges::count_if(pace.trials, [&](const journal::TrialRecord& trial) {
-      return !IsOfSearch(trial) && trial.experiment == e && HasEnded(trial);
+    const auto ended = std::ranges::count_if(begun, [&](const journal::TrialRecord& trial) {
+      return trial.experiment == e && HasEnded(trial);
     });
     left += std::max(0.0, spec.confirm.MostTrials() - static_cast<double>(ended)) *
             TimeOfOne(pace.trials, e, factor);
@@ -113,6 +115,7 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
       ++use.num_confirm;
       continue;
     }
+    use.num_confirm = 0;  // a search that goes on is confirmed anew
     if (!IsPaidFor(trial)) continue;
     ++use.num_search;
     if (!HasEnded(trial)) continue;
@@ -130,7 +133,8 @@ BudgetUse UseOf(const CampaignSpec& spec, std::span<const journal::TrialRecord> 
                   .at_a_time = std::max(1, at_a_time)};
   const double search = use.num_confirm > 0 ? 0 : SearchLeft(spec, use, pace);
   if (!std::isfinite(search)) return use;
-  const double work = search + ConfirmationLeft(spec, pace);
+  const double work =
+      search + ConfirmationLeft(spec, pace, trials.last(static_cast<std::size_t>(use.num_confirm)));
   const double core_time =
       use.core_seconds + work * pace.at_a_time * CoresOfTrial(spec);  // when that is done
   use.seconds_left = work + AfterwardsLeft(spec, core_time, pace.at_a_time);

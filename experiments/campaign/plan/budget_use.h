@@ -14,7 +14,7 @@ namespace talus::campaign {
 
 struct BudgetUse {
   int num_search = 0;       // trials of noise and search that were started, no reused ones
-  int num_confirm = 0;      // … of the confirmation, which begins when the search has ended
+  int num_confirm = 0;      // … of the confirmation, since the search ended
   double core_seconds = 0;  // of those of the search that have ended, and of the goal's runs; not
                             // more than the budget [s]
   std::optional<double> seconds_left{};  // at most; none before a trial has ended

@@ -81,6 +81,20 @@ TEST(BudgetUse, OnceItConfirmsOnlyThatIsLeft) {
   EXPECT_DOUBLE_EQ(use.seconds_left.value(), 2 * kTrial / 2);
 }
 
+// A finished campaign whose budget is raised searches on, and confirms what it then finds.
+TEST(BudgetUse, ASearchThatGoesOnAfterAConfirmationHasNotEnded) {
+  std::vector<journal::TrialRecord> trials = Trials(8, 0);
+  const auto add = [&](const std::vector<journal::TrialRecord>& more) {
+    trials.insert(trials.end(), more.begin(), more.end());
+  };
+  add(Trials(3, 0, journal::TrialKind::kConfirm));
+  add(Trials(12, 2));
+  const BudgetUse use = UseOf(SpecOf({.simulations = 60}), trials, 100, 2);
+  EXPECT_EQ(use.num_search, 22);
+  EXPECT_EQ(use.num_confirm, 0);
+  EXPECT_DOUBLE_EQ(use.seconds_left.value(), 200 + 15);
+}
+
 // The two ends are six trials more; further tests take a fifth of the core time of all, which is
 // 200 s so far, 400 of the search and 90 of the confirmation.
 TEST(BudgetUse, EndsAndFurtherTestsAreCounted) {
