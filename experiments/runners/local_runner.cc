@@ -178,7 +178,7 @@ std::vector<std::string> Environment(int threads, const std::string& mark) {
   }
   list.push_back("OMP_NUM_THREADS=" + std::to_string(threads));
   list.push_back("OMP_WAIT_POLICY=passive");
-  for (const auto& [name, value] : kUnboundRanks) {
+  for (const auto& [name, value] : kSharingRanks) {
     if (std::getenv(name) == nullptr) list.push_back(std::string(name) + "=" + value);
   }
   list.push_back(MarkEntry(mark));

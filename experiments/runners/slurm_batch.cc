@@ -102,7 +102,7 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   }
   for (const std::string& line : options.setup) out << line << '\n';
   out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n";
-  for (const auto& [name, value] : kUnboundRanks) out << "export " << name << '=' << value << '\n';
+  for (const auto& [name, value] : kSharingRanks) out << "export " << name << '=' << value << '\n';
   out << "started=${EPOCHREALTIME//[!0-9]/}\n"
       << "\"${command[@]}\" >log.txt 2>&1 </dev/null\n"
       << "status=$?\n"

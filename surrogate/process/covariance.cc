@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "surrogate/process/covariance_rows.h"
 
 namespace talus::surrogate {
 
@@ -44,17 +45,33 @@ double Covariance::Value(const PairTerms& terms) const {
 }
 
 Eigen::MatrixXd Covariance::Between(const Sites& a, const Sites& b) const {
+  const CovarianceRows rows(a, hyper_);
   Eigen::MatrixXd result(a.columns.cols(), b.columns.cols());
-  constexpr double kPairWork = 40;
+  constexpr double kPairWork = 20;
   base::ParallelFor(
       {.num_items = b.columns.cols(), .item_work = kPairWork * static_cast<double>(result.rows())},
-      [&](Eigen::Index j) {
-        for (Eigen::Index i = 0; i < result.rows(); ++i) {
-          result(i, j) =
-              At(a.columns.col(i).data(), b.columns.col(j).data(), a.growth[i], b.growth[j]);
-        }
-      });
+      [&](Eigen::Index j) { result.col(j) = Column(rows, b.columns.col(j).data(), b.growth[j]); });
   return result;
+}
+
+// The operations of `Value`, in its order.
+Eigen::ArrayXd Covariance::Column(const CovarianceRows& rows, const double* b,
+                                  double growth) const {
+  Eigen::ArrayXd q = Eigen::ArrayXd::Zero(rows.size());
+  Eigen::ArrayXd p = Eigen::ArrayXd::Zero(rows.size());
+  for (Eigen::Index k = 0; k < hyper_.length.size(); ++k) {
+    q += ((rows.coordinate(k) - b[k]) / hyper_.length[k]).square();
+    p += rows.centred(k) * (2 * b[k] - 1);
+  }
+  Eigen::ArrayXd value = hyper_.trend * hyper_.trend * (p + p * p) +
+                         hyper_.signal * hyper_.signal * CorrelationsAt(kernel_, q);
+  if (hyper_.scale) value *= rows.TargetShares(growth);
+  value += kConstantSd * kConstantSd;
+  if (!hyper_.scale || growth == 0 || !rows.any_growth()) return value;
+  const ScaleTerm& scale = *hyper_.scale;
+  const Eigen::ArrayXd rho = CorrelationsAt(kernel_, q / (scale.length_ratio * scale.length_ratio));
+  return value +
+         rows.SharedGrowth(growth) * scale.discrepancy * scale.discrepancy * (1 + p / 2 + rho);
 }
 
 Eigen::VectorXd Covariance::Diagonal(const Sites& sites) const {

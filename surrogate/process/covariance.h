@@ -44,6 +44,8 @@ struct Sites {
   }
 };
 
+class CovarianceRows;
+
 // What the covariance of one pair is made of.
 struct PairTerms {
   double p = 0;
@@ -67,6 +69,7 @@ class Covariance {
   double At(const double* a, const double* b, double growth_a = 0, double growth_b = 0) const {
     return Value(Terms(a, b, growth_a, growth_b));
   }
+  // `At` of all pairs, to the bit.
   Eigen::MatrixXd Between(const Sites& a, const Sites& b) const;
   Eigen::VectorXd Diagonal(const Sites& sites) const;
 
@@ -77,6 +80,8 @@ class Covariance {
   const Hyperparameters& hyper() const { return hyper_; }
 
  private:
+  Eigen::ArrayXd Column(const CovarianceRows& rows, const double* b, double growth) const;
+
   Kernel kernel_;
   Hyperparameters hyper_;
 };

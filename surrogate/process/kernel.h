@@ -7,6 +7,7 @@
 // ρ' = dρ/dq. Written in q, not in the distance, so that the slope is finite at zero distance.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 
 namespace talus::surrogate {
@@ -35,6 +36,25 @@ inline Correlation CorrelationAt(Kernel kernel, double q) {
   }
   const double decay = std::exp(-q / 2);
   return {.value = decay, .slope = -decay / 2};
+}
+
+// ρ at each q: the operations of CorrelationAt, and the bits of its exponential, which is not
+// Eigen's.
+inline Eigen::ArrayXd CorrelationsAt(Kernel kernel, const Eigen::ArrayXd& q) {
+  const auto exponential = [](double x) { return std::exp(x); };
+  switch (kernel) {
+    case Kernel::kMatern52: {
+      const Eigen::ArrayXd s = (5 * q).sqrt();
+      return (1 + s + s * s / 3) * (-s).unaryExpr(exponential);
+    }
+    case Kernel::kMatern32: {
+      const Eigen::ArrayXd s = (3 * q).sqrt();
+      return (1 + s) * (-s).unaryExpr(exponential);
+    }
+    case Kernel::kSquaredExponential:
+      break;
+  }
+  return (-q / 2).unaryExpr(exponential);
 }
 
 }  // namespace talus::surrogate

@@ -14,6 +14,7 @@ simulations for a posterior, which is the prior of learnt_denser.json, learnt_el
 and learnt_more.json.
 """
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -42,8 +43,13 @@ def without_comments(text):
     return re.sub(r'("(?:[^"\\]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
 
 
+@functools.cache
+def plain_text(name):
+    return without_comments((SOURCE / "examples" / name).read_text())
+
+
 def example(name):
-    return json.loads(without_comments((SOURCE / "examples" / name).read_text()))
+    return json.loads(plain_text(name))
 
 
 def spec():
@@ -165,13 +171,18 @@ def replaced(root, place, value):
     return root
 
 
+@functools.cache
+def good_text(name):
+    return json.dumps(GOOD[name][0](), indent=1)
+
+
 def good_folder(folder):
     (folder / "deck").mkdir()
     (folder / "deck/run.sh").write_text("exit 3 # {{ sliding_friction }} {{ rolling_friction }}\n")
     (folder / "mine").mkdir()
     (folder / "mine/thesis.txt").write_text("years of work\n")
-    for name, (content, _) in GOOD.items():
-        (folder / f"{name}.json").write_text(json.dumps(content(), indent=1))
+    for name in GOOD:
+        (folder / f"{name}.json").write_text(good_text(name))
     (folder / "text.json").write_text("not JSON\n")
     (folder / "empty.json").write_text("")
     (folder / "white.png").write_bytes(bytes.fromhex(
