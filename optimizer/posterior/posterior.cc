@@ -103,6 +103,27 @@ class KernelMixture {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
+// A round's proposal, and how many draws are from it.
+struct Round {
+  KernelMixture mixture;
+  double num_draws = 0;
+};
+
+// Log density of each point (rows) in each round (columns), times its draws. `known` has the
+// earlier points in the earlier rounds, which are most of the pairs.
+Eigen::MatrixXd LogsIn(const std::vector<Round>& rounds, const Eigen::MatrixXd& points,
+                       const Eigen::MatrixXd& known) {
+  Eigen::MatrixXd logs(points.rows(), static_cast<Eigen::Index>(rounds.size()));
+  logs.topLeftCorner(known.rows(), known.cols()) = known;
+  for (Eigen::Index m = 0; m < logs.cols(); ++m) {
+    const Round& round = rounds[static_cast<std::size_t>(m)];
+    const Eigen::Index left = points.rows() - (m < known.cols() ? known.rows() : 0);
+    logs.col(m).tail(left) =
+        round.mixture.LogDensity(points.bottomRows(left)).array() + std::log(round.num_draws);
+  }
+  return logs;
+}
+
 KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& weight,
                         base::Random& random) {
   constexpr int kCentres = 120;
@@ -163,7 +184,7 @@ Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,
 
 PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,
                                   std::uint64_t seed) const {
-  constexpr int kRounds = 4;
+  constexpr std::size_t kRounds = 4;
   constexpr double kEnough = 600;  // effective draws
   base::Random random(seed, base::Stream("posterior"));
   PosteriorSample sample;
@@ -174,17 +195,13 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
   sample.points = optimizer::Stack(
       sample.points, Inside(domain, prior_.Draw(num_prior, domain.num_parameters, seed)));
   sample.log_density = LogDensity(sample.points, softness);
-  std::vector<KernelMixture> mixtures;
-  std::vector<double> counts;
-  for (int round = 0;; ++round) {
+  std::vector<Round> rounds;
+  Eigen::MatrixXd in_rounds(sample.points.rows(), 0);
+  for (;;) {
     // Balance heuristic: the proposal is the mixture of all rounds.
-    const auto num_mixtures = static_cast<Eigen::Index>(mixtures.size());
-    Eigen::MatrixXd logs(sample.points.rows(), num_mixtures + (num_prior > 0 ? 2 : 1));
+    Eigen::MatrixXd logs(sample.points.rows(), in_rounds.cols() + (num_prior > 0 ? 2 : 1));
     logs.col(0).setConstant(std::log(first / share_inside));
-    for (std::size_t m = 0; m < mixtures.size(); ++m) {
-      logs.col(static_cast<Eigen::Index>(m) + 1) =
-          mixtures[m].LogDensity(sample.points).array() + std::log(counts[m]);
-    }
+    logs.middleCols(1, in_rounds.cols()) = in_rounds;
     if (num_prior > 0) {
       logs.rightCols(1) = prior_.LogDensity(sample.points).array() + std::log(1.0 * num_prior);
     }
@@ -193,16 +210,17 @@ PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double so
     const Eigen::VectorXd log_weight = sample.log_density + log_volume;
     sample.volume = log_volume.array().exp();
     sample.weight = (log_weight.array() - LogSumExp(log_weight)).exp();
-    if (round == kRounds || 1 / sample.weight.squaredNorm() > kEnough) break;
-    mixtures.push_back(MixtureOf(sample.points, sample.weight, random));
-    const Eigen::MatrixXd drawn = mixtures.back().Draw(num_start / 2, random);
-    counts.push_back(static_cast<double>(drawn.rows()));
+    if (rounds.size() == kRounds || 1 / sample.weight.squaredNorm() > kEnough) break;
+    rounds.push_back({.mixture = MixtureOf(sample.points, sample.weight, random)});
+    const Eigen::MatrixXd drawn = rounds.back().mixture.Draw(num_start / 2, random);
+    rounds.back().num_draws = static_cast<double>(drawn.rows());
     const Eigen::MatrixXd more = Inside(domain, drawn);
     const Eigen::Index before = sample.points.rows();
     sample.points.conservativeResize(before + more.rows(), Eigen::NoChange);
     sample.points.bottomRows(more.rows()) = more;
     sample.log_density.conservativeResize(before + more.rows());
     sample.log_density.tail(more.rows()) = LogDensity(more, softness);
+    in_rounds = LogsIn(rounds, sample.points, in_rounds);
   }
   sample.SetRegion();
   return sample;
