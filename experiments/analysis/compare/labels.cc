@@ -1,5 +1,6 @@
 #include "experiments/analysis/compare/labels.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -47,6 +48,23 @@ std::string SymbolOf(std::string_view parameter) {
       Entry{"particle_size", "d/d₀"},
   };
   return Find(kSymbols, parameter);
+}
+
+std::string WordsOf(std::string_view parameter) {
+  if (SymbolOf(parameter) == parameter) return "";
+  std::string words(parameter);
+  for (const std::string_view body : {"plate_pair_", "tube_pair_", "plate_", "tube_"}) {
+    if (!words.starts_with(body)) continue;
+    words.erase(0, body.size());
+    break;
+  }
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string LongNameOf(std::string_view parameter) {
+  const std::string words = WordsOf(parameter);
+  return words.empty() ? std::string(parameter) : words + " " + SymbolOf(parameter);
 }
 
 std::string MetricTitle(std::string_view metric) {

@@ -9,6 +9,7 @@
 #include "base/text/number_text.h"
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
+#include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
 #include "experiments/analysis/report/data/tables.h"
 #include "experiments/analysis/report/page/base64.h"
@@ -337,6 +338,34 @@ TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {
   EXPECT_THAT(measured->leaves,
               HasSubstr("(now " + base::ShortNumber(shown.credible_low, 3) + " to " +
                         base::ShortNumber(shown.credible_high, 3) + ")"));
+}
+
+// Nobody asks for a nuisance itself: where the others do not hang on it, to measure it is no step.
+TEST(NextSteps, ANuisanceThatLeavesTheOthersAsTheyAreIsNotToBeMeasured) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.parameters[0].range.name = "plate_pair_sliding_friction";
+  Eigen::MatrixXd& draws = evidence.model->draws;
+  const Eigen::Index half =
+      draws.rows() / 2;  // moved past each other, they tell nothing of each other
+  Eigen::VectorXd moved(draws.rows());
+  for (Eigen::Index i = 0; i < draws.rows(); ++i)
+    moved[i] = draws((i * 7919 + half) % draws.rows(), 1);
+  draws.col(1) = moved;
+  const auto is_offered = [&] {
+    const std::vector<NextStep> steps = NextSteps(evidence, {});
+    return std::any_of(steps.begin(), steps.end(),
+                       [](const NextStep& step) { return step.what.starts_with("Measure"); });
+  };
+  EXPECT_TRUE(is_offered());
+  evidence.answer->parameters[0].nuisance.emplace();
+  EXPECT_FALSE(is_offered());
+}
+
+TEST(Labels, TheWordsDoNotSayTheBodyThatTheSymbolNames) {
+  EXPECT_EQ(LongNameOf("sliding_friction"), "sliding friction μₜ");
+  EXPECT_EQ(LongNameOf("plate_pair_sliding_friction"), "sliding friction μₜ powder–plate");
+  EXPECT_EQ(LongNameOf("tube_surface_energy"), "surface energy γ tube");
+  EXPECT_EQ(LongNameOf("hopper_angle"), "hopper_angle");
 }
 
 // The synthetic valley is a normal of 0.18 along and 0.02 across: in two dimensions its joint 90 %

@@ -7,20 +7,16 @@
 #include "base/text/counted.h"
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
+#include "experiments/analysis/compare/labels.h"
 
 namespace talus::analysis {
 namespace {
-
-std::string Spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 std::string Searched(const Evidence& evidence) {
   std::vector<std::string> words;
   for (const ParameterInfo& p : evidence.parameters) {
     words.push_back(
-        Spaced(p.range.name) + " " + p.symbol + " in [" + base::ShortNumber(p.range.low) + ", " +
+        LongNameOf(p.range.name) + " in [" + base::ShortNumber(p.range.low) + ", " +
         base::WithUnit(p.range.high, p.unit, 3) + "]" +
         (p.range.scale == optimizer::Scale::kLog ? " (searched on a logarithmic scale)" : ""));
   }

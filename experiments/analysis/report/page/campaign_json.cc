@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "base/text/shell_text.h"
@@ -7,12 +6,6 @@
 
 namespace talus::analysis {
 namespace {
-
-// "sliding_friction" → "sliding friction"
-std::string Spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 // Trials of all experiments.
 PageValue CountsJson(const Evidence& e) {
@@ -85,7 +78,7 @@ PageValue CampaignJson(const ReportData& data) {
 PageValue ParametersJson(const Evidence& evidence) {
   return ListJson(evidence.parameters, [](const ParameterInfo& p) {
     return PageValue{{"name", p.range.name},
-                     {"title", p.symbol == p.range.name ? "" : Spaced(p.range.name)},
+                     {"title", WordsOf(p.range.name)},
                      {"symbol", p.symbol},
                      {"unit", p.unit},
                      {"low", NumberJson(p.range.low)},

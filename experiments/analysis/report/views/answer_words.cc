@@ -1,9 +1,9 @@
 #include "experiments/analysis/report/views/answer_words.h"
 
-#include <algorithm>
 #include <cctype>
 
 #include "base/text/number_text.h"
+#include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/verdict.h"
@@ -15,19 +15,13 @@ namespace {
 using campaign::AlarmKind;
 using campaign::Answer;
 
-// "sliding friction μₜ"
-std::string LongName(const ParameterInfo& parameter) {
-  std::string name = parameter.range.name;
-  if (name == parameter.symbol) return name;
-  std::ranges::replace(name, '_', ' ');
-  return name + " " + parameter.symbol;
-}
-
 }  // namespace
 
 std::vector<std::string> HeadlineWords(const Evidence& evidence) {
   std::vector<std::string> names;
-  for (const ParameterInfo& parameter : evidence.parameters) names.push_back(LongName(parameter));
+  for (const ParameterInfo& parameter : evidence.parameters) {
+    names.push_back(LongNameOf(parameter.range.name));
+  }
   std::vector<std::string> sentences = campaign::Headline(*evidence.answer, names);
   for (std::string& sentence : sentences) sentence = WithPowers(sentence);
   return sentences;

@@ -56,7 +56,8 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
                 .cost = "one measurement to ± " + Number(50 * kMeasured) +
                         " % of its searched range; no simulation",
                 .leaves = {},
-                .remaining = kMeasured / width};
+                // Nobody asks for a nuisance, only for what the others are, given it.
+                .remaining = measured.nuisance ? 1 : kMeasured / width};
   const std::vector<optimizer::Range> ranges = optimizer::CredibleRanges(given, 0.9);
   for (std::size_t j = 0, left = 0; j < evidence.parameters.size(); ++j) {
     if (j == k) continue;
