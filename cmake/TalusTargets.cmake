@@ -53,21 +53,29 @@ target_precompile_headers(talus_library_headers PRIVATE
   <Eigen/Core> <algorithm> <array> <cmath> <functional> <limits> <memory> <optional> <span> <string> <utility>
   <vector>)
 
-# talus_unite_folders(target sources…): the files of a folder are compiled together where CMAKE_UNITY_BUILD is on, in
-# half of the time; so in their unnamed namespaces functions of one name must not take each other's arguments.
+# talus_unite_folders(target sources… [WHOLE folders…]): the files of a folder are compiled together where
+# CMAKE_UNITY_BUILD is on, in half of the time; so in their unnamed namespaces functions of one name must not take each
+# other's arguments. WHOLE: folders that are compiled with all folders in them.
 function(talus_unite_folders target)
+  cmake_parse_arguments(ARG "" "" "WHOLE" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  foreach(source ${ARGN})
+  foreach(source ${ARG_UNPARSED_ARGUMENTS})
     get_filename_component(folder ${source} DIRECTORY)
+    foreach(whole ${ARG_WHOLE})
+      if(source MATCHES "^${whole}/")
+        set(folder ${whole})
+      endif()
+    endforeach()
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_")
   endforeach()
 endfunction()
 
-# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED])
+# talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED]
+#   [WHOLE ...])
 # PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. PRECOMPILED: with
-# talus_library_headers.
+# talus_library_headers. WHOLE: as in talus_unite_folders.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE;WHOLE" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
@@ -81,7 +89,7 @@ function(talus_add_library name)
   if(ARG_PRECOMPILED)
     target_precompile_headers(talus_${name} REUSE_FROM talus_library_headers)
   endif()
-  talus_unite_folders(talus_${name} ${ARG_SOURCES})
+  talus_unite_folders(talus_${name} ${ARG_SOURCES} WHOLE ${ARG_WHOLE})
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
 namespace {
 
-constexpr int kGate = 0;
 constexpr double kFront = 0.99;  // of the mass lies behind the front
 
 class ColumnCollapseRig : public RememberingRig<NoMemory> {

@@ -8,13 +8,12 @@
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/flow.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 #include "experiments/rigs/phased/surface.h"
 
 namespace talus::rigs {
 namespace {
-
-constexpr int kGate = 0;
 
 class DrawDownRig : public RememberingRig<FlowMemory> {
  public:

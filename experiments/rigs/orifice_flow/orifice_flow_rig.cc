@@ -9,12 +9,12 @@
 
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/phased/flow.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
 namespace {
 
-constexpr int kGate = 0;
 constexpr const char* kDischarging = "discharging";
 constexpr double kFlowing = 0.1;  // of the powder that must run out
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kEnds = 0.15;  // of the plate at either end, which the layer is not read on
 constexpr double kPicturePixel = 0.05;  // of the picture from above, in mean diameters
-constexpr int kMostPixels = 4000;       // of it along the path
+constexpr int kMostAlong = 4000;        // of it along the path
 
 class SpreadingRig : public RememberingRig<NoMemory> {
  public:
@@ -82,7 +82,7 @@ class SpreadingRig : public RememberingRig<NoMemory> {
   // The whole plate from above, the path to the right.
   std::optional<imaging::GrayImage> FromAbove(GrainSpan grains) const override {
     const SpreadingOptions& o = rig_case().rig.spreading;
-    const double pixel = std::max(kPicturePixel * MeanDiameter(), o.length / kMostPixels);
+    const double pixel = std::max(kPicturePixel * MeanDiameter(), o.length / kMostAlong);
     return ImageOf(HeightMapOf(grains, {.to = o.length, .half_width = o.width / 2}, pixel),
                    SpreadingGap(rig_case()));
   }

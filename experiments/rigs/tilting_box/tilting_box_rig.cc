@@ -10,12 +10,12 @@
 
 #include "base/text/number_text.h"
 #include "experiments/rigs/case/materials.h"
+#include "experiments/rigs/phased/gate.h"
 #include "experiments/rigs/phased/rig_entry.h"
 
 namespace talus::rigs {
 namespace {
 
-constexpr int kGate = 0;
 constexpr double kSlid = 0.5;  // mean diameters
 
 double Degrees(double radians) { return radians * 180 / std::numbers::pi; }

@@ -40,7 +40,7 @@ constexpr const char* kDone = ".command_done";
 constexpr const char* kMpiLauncher = "mpirun";
 // The filled command, as a list.
 constexpr const char* kCommandFile = ".command.json";
-constexpr const char* kResult = "result.json";
+constexpr const char* kResultName = "result.json";
 
 std::string CaseText(const rigs::Case& rig_case, const CommandOptions& options) {
   const CommandCase command_case{.heap = rig_case, .engine = options};
@@ -169,9 +169,9 @@ nlohmann::ordered_json ChecksumsOf(const std::vector<fs::path>& files, const fs:
 
 // Whether the folder holds what was measured there, if it has been measured at all.
 bool IsAsMeasured(const fs::path& folder) {
-  if (!fs::exists(folder / kResult)) return true;
+  if (!fs::exists(folder / kResultName)) return true;
   try {
-    const auto text = base::CheckedText(base::ReadFile(folder / kResult), kResult);
+    const auto text = base::CheckedText(base::ReadFile(folder / kResultName), kResultName);
     if (!text) return false;
     const auto result = nlohmann::json::parse(*text, nullptr, false);
     if (!result.is_object() || !result.contains("measured")) return true;
@@ -254,7 +254,7 @@ CommandEngine::CommandEngine(const CommandOptions& options)
 void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
   PrepareFolder(folder, "case.json", CaseText(rig_case, options_));
   if (IsComplete(folder)) return;
-  for (const char* ended : {kDone, kResult}) fs::remove(folder / ended);
+  for (const char* ended : {kDone, kResultName}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
   RemoveScalars(folder);
   TemplateValues values = ValuesOf(options_, rig_case);
@@ -288,7 +288,7 @@ bool CommandEngine::IsComplete(const fs::path& folder) {
 
 TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& folder) {
   const Measured measured = MeasureResult(options_, rig_case, folder);
-  base::WriteFileAtomically(folder / kResult, ResultText(rig_case, measured, folder),
+  base::WriteFileAtomically(folder / kResultName, ResultText(rig_case, measured, folder),
                             Outlives::kProgram);
   return {.profile = measured.profile,
           .num_steps = 0,
@@ -380,7 +380,7 @@ void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder
     result["status"] = "failed";
     result["talus_version"] = base::Version();
     result["reason"] = error.what();
-    base::WriteFileAtomically(folder / kResult,
+    base::WriteFileAtomically(folder / kResultName,
                               base::WithChecksum(base::JsonText(result, 2) + "\n"));
     throw base::Error(error.what());  // the input was good, whatever kind of error a result is
   }

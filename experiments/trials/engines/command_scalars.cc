@@ -47,7 +47,7 @@ void RequirePossible(const std::string& file, const std::vector<journal::MetricR
   }
 }
 
-std::string Trimmed(const std::string& text) {
+std::string Unquoted(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\"");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
@@ -95,14 +95,14 @@ std::vector<journal::MetricRecord> ParseCsvScalars(const std::string& text) {
   std::set<std::string> names;
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
-    if (Trimmed(line).empty()) continue;
+    if (Unquoted(line).empty()) continue;
     if (std::ranges::count(line, '"') % 2 != 0) {
       throw base::Error("left scalars.csv whose line " + std::to_string(number) +
                         " has a quote that is not closed: " + line.substr(0, kMostQuoted));
     }
     const auto comma = line.find(',');
-    const std::string name = Trimmed(line.substr(0, comma));
-    const std::string word = comma == std::string::npos ? "" : Trimmed(line.substr(comma + 1));
+    const std::string name = Unquoted(line.substr(0, comma));
+    const std::string word = comma == std::string::npos ? "" : Unquoted(line.substr(comma + 1));
     if (number == 1 && word == "value") continue;
     double value = 0;
     const auto read = std::from_chars(word.data(), word.data() + word.size(), value);

@@ -22,10 +22,10 @@ using json = nlohmann::ordered_json;
 // Nothing has worked by then: the command is wrong, not the parameters.
 constexpr int kHopeless = 8;
 
-class Loop {
+class OptimizeLoop {
  public:
-  Loop(const OptimizeProblem& problem, const std::vector<std::string>& command,
-       const OptimizeOutput& output)
+  OptimizeLoop(const OptimizeProblem& problem, const std::vector<std::string>& command,
+               const OptimizeOutput& output)
       : problem_(problem),
         output_(output),
         evaluator_(problem, command),
@@ -144,7 +144,7 @@ class Loop {
 
 std::string Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
                      const OptimizeOutput& output) {
-  return Loop(problem, command, output).Run();
+  return OptimizeLoop(problem, command, output).Run();
 }
 
 }  // namespace talus::trials

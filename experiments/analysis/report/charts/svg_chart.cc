@@ -22,7 +22,7 @@ constexpr double kLegendLine = 20;
 
 constexpr const char* kFont = "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\"";
 
-std::string Number(double x, int digits = 6) { return base::ShortNumber(x, digits); }
+std::string Attribute(double x, int digits = 6) { return base::ShortNumber(x, digits); }
 
 std::string Pixel(double x) {
   char text[32];
@@ -31,7 +31,7 @@ std::string Pixel(double x) {
 }
 
 std::string LineStyle(const SvgStyle& style) {
-  return " fill=\"none\" stroke=\"" + style.color + "\" stroke-width=\"" + Number(style.width) +
+  return " fill=\"none\" stroke=\"" + style.color + "\" stroke-width=\"" + Attribute(style.width) +
          "\"" + (style.dashed ? " stroke-dasharray=\"6 4\"" : "");
 }
 
@@ -47,7 +47,7 @@ std::string TickText(double tick) {
   char scientific[32];
   std::snprintf(scientific, sizeof scientific, "%.0e", tick);
   const bool is_power = std::abs(power - std::round(power)) < 1e-9;
-  const std::string text = WithPowers(is_far && is_power ? scientific : Number(tick, 4));
+  const std::string text = WithPowers(is_far && is_power ? scientific : Attribute(tick, 4));
   return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
 }
 
@@ -122,7 +122,7 @@ void SvgChart::Band(const std::vector<SvgPoint>& low, const std::vector<SvgPoint
   std::vector<SvgPoint> around = low;
   around.insert(around.end(), high.rbegin(), high.rend());
   const std::string fill =
-      " fill=\"" + style.color + "\" fill-opacity=\"" + Number(style.opacity) + "\"";
+      " fill=\"" + style.color + "\" fill-opacity=\"" + Attribute(style.opacity) + "\"";
   body_ += "<path d=\"" + Path(around) + "Z\"" + fill + "/>\n";
   if (!name.empty()) {
     legend_.push_back({name, "<rect x=\"-9\" y=\"-5\" width=\"18\" height=\"10\"" + fill + "/>"});
@@ -131,8 +131,8 @@ void SvgChart::Band(const std::vector<SvgPoint>& low, const std::vector<SvgPoint
 
 void SvgChart::Points(const std::vector<SvgPoint>& points, const SvgStyle& style,
                       const std::string& name) {
-  const std::string end = "\" r=\"" + Number(style.width / 2) + "\" fill=\"" + style.color +
-                          "\" fill-opacity=\"" + Number(style.opacity) + "\"/>";
+  const std::string end = "\" r=\"" + Attribute(style.width / 2) + "\" fill=\"" + style.color +
+                          "\" fill-opacity=\"" + Attribute(style.opacity) + "\"/>";
   for (const SvgPoint& point : points) {
     if (!Inside(point)) continue;
     body_ +=

@@ -95,7 +95,7 @@ std::string AllHeaps(const ReportData& data) {
 }
 
 // "0.123", "3 × 10⁻⁵"; nothing known: "–".
-std::string Number(double value) {
+std::string ShownOrDash(double value) {
   return std::isfinite(value) ? WithPowers(base::ShortNumber(value, 3)) : "–";
 }
 
@@ -108,11 +108,11 @@ std::string ParameterTable(const Evidence& evidence) {
     const ParameterInfo& info = evidence.parameters[k];
     const std::string unit = info.unit.empty() ? "" : " " + info.unit;
     const std::string name = info.range.name == info.symbol ? "" : " (" + info.range.name + ")";
-    rows +=
-        Element("tr", Text("td", info.symbol + name) +
-                          Text("td", Number(p.value) + unit, "style=\"font-weight:650\"") +
-                          Text("td", Number(p.credible_low) + " to " + Number(p.credible_high)) +
-                          Text("td", Number(p.searched_low) + " to " + Number(p.searched_high)));
+    rows += Element(
+        "tr", Text("td", info.symbol + name) +
+                  Text("td", ShownOrDash(p.value) + unit, "style=\"font-weight:650\"") +
+                  Text("td", ShownOrDash(p.credible_low) + " to " + ShownOrDash(p.credible_high)) +
+                  Text("td", ShownOrDash(p.searched_low) + " to " + ShownOrDash(p.searched_high)));
   }
   return Element("table", rows) + Text("p", "* for all parameters together", "class=\"soft\"");
 }
@@ -197,7 +197,7 @@ std::string Conditions(const campaign::Answer& answer) {
 std::string Foot(const ReportData& data) {
   const campaign::Answer& answer = *data.evidence.answer;
   std::string text = std::to_string(answer.cost.num_trials) + " simulations, " +
-                     Number(answer.cost.core_hours) + " core hours";
+                     ShownOrDash(answer.cost.core_hours) + " core hours";
   for (const campaign::ResultReused& reused : answer.reused) {
     text += ", reused: " + ReusedText(reused);
   }
