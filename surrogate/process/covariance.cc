@@ -7,6 +7,11 @@
 #include "surrogate/process/covariance_rows.h"
 
 namespace talus::surrogate {
+namespace {
+
+constexpr double kPairWork = 20;  // multiplications, an exponential among them
+
+}  // namespace
 
 Covariance::Covariance(Kernel kernel, Hyperparameters hyper)
     : kernel_(kernel), hyper_(std::move(hyper)) {}
@@ -46,32 +51,46 @@ double Covariance::Value(const PairTerms& terms) const {
 
 Eigen::MatrixXd Covariance::Between(const Sites& a, const Sites& b) const {
   const CovarianceRows rows(a, hyper_);
-  Eigen::MatrixXd result(a.columns.cols(), b.columns.cols());
-  constexpr double kPairWork = 20;
+  Eigen::MatrixXd result(rows.size(), b.columns.cols());
   base::ParallelFor(
-      {.num_items = b.columns.cols(), .item_work = kPairWork * static_cast<double>(result.rows())},
-      [&](Eigen::Index j) { result.col(j) = Column(rows, b.columns.col(j).data(), b.growth[j]); });
+      {.num_items = b.columns.cols(), .item_work = kPairWork * static_cast<double>(rows.size())},
+      [&](Eigen::Index j) {
+        result.col(j) = Column(rows, rows.size(), b.columns.col(j).data(), b.growth[j]);
+      });
+  return result;
+}
+
+Eigen::MatrixXd Covariance::Among(const Sites& sites) const {
+  const CovarianceRows rows(sites, hyper_);
+  const Eigen::Index size = rows.size();
+  Eigen::MatrixXd result(size, size);
+  base::ParallelFor({.num_items = size, .item_work = kPairWork / 2 * static_cast<double>(size)},
+                    [&](Eigen::Index j) {
+                      result.col(j).tail(size - j) =
+                          Column(rows, size - j, sites.columns.col(j).data(), sites.growth[j]);
+                    });
+  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
   return result;
 }
 
 // The operations of `Value`, in its order.
-Eigen::ArrayXd Covariance::Column(const CovarianceRows& rows, const double* b,
+Eigen::ArrayXd Covariance::Column(const CovarianceRows& rows, Eigen::Index count, const double* b,
                                   double growth) const {
-  Eigen::ArrayXd q = Eigen::ArrayXd::Zero(rows.size());
-  Eigen::ArrayXd p = Eigen::ArrayXd::Zero(rows.size());
+  Eigen::ArrayXd q = Eigen::ArrayXd::Zero(count);
+  Eigen::ArrayXd p = Eigen::ArrayXd::Zero(count);
   for (Eigen::Index k = 0; k < hyper_.length.size(); ++k) {
-    q += ((rows.coordinate(k) - b[k]) / hyper_.length[k]).square();
-    p += rows.centred(k) * (2 * b[k] - 1);
+    q += ((rows.coordinate(k, count) - b[k]) / hyper_.length[k]).square();
+    p += rows.centred(k, count) * (2 * b[k] - 1);
   }
   Eigen::ArrayXd value = hyper_.trend * hyper_.trend * (p + p * p) +
                          hyper_.signal * hyper_.signal * CorrelationsAt(kernel_, q);
-  if (hyper_.scale) value *= rows.TargetShares(growth);
+  if (hyper_.scale) value *= rows.TargetShares(growth, count);
   value += kConstantSd * kConstantSd;
   if (!hyper_.scale || growth == 0 || !rows.any_growth()) return value;
   const ScaleTerm& scale = *hyper_.scale;
   const Eigen::ArrayXd rho = CorrelationsAt(kernel_, q / (scale.length_ratio * scale.length_ratio));
-  return value +
-         rows.SharedGrowth(growth) * scale.discrepancy * scale.discrepancy * (1 + p / 2 + rho);
+  return value + rows.SharedGrowth(growth, count) * scale.discrepancy * scale.discrepancy *
+                     (1 + p / 2 + rho);
 }
 
 Eigen::VectorXd Covariance::Diagonal(const Sites& sites) const {

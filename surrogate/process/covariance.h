@@ -71,6 +71,7 @@ class Covariance {
   }
   // `At` of all pairs, to the bit.
   Eigen::MatrixXd Between(const Sites& a, const Sites& b) const;
+  Eigen::MatrixXd Among(const Sites& sites) const;  // `Between` of them and themselves
   Eigen::VectorXd Diagonal(const Sites& sites) const;
 
   // ∂k(x, b_j)/∂x of x at the target, one column for each column b_j of `b`.
@@ -80,7 +81,9 @@ class Covariance {
   const Hyperparameters& hyper() const { return hyper_; }
 
  private:
-  Eigen::ArrayXd Column(const CovarianceRows& rows, const double* b, double growth) const;
+  // Of the last `count` rows.
+  Eigen::ArrayXd Column(const CovarianceRows& rows, Eigen::Index count, const double* b,
+                        double growth) const;
 
   Kernel kernel_;
   Hyperparameters hyper_;

@@ -18,17 +18,18 @@ CovarianceRows::CovarianceRows(const Sites& sites, const Hyperparameters& hyper)
   }
 }
 
-Eigen::ArrayXd CovarianceRows::TargetShares(double growth) const {
+Eigen::ArrayXd CovarianceRows::TargetShares(double growth, Eigen::Index count) const {
   Eigen::ArrayXd of_distinct(distinct_growth_.size());
   for (std::size_t i = 0; i < distinct_growth_.size(); ++i) {
     of_distinct[static_cast<Eigen::Index>(i)] =
         std::exp(-hyper_.scale->decay * (distinct_growth_[i] + growth));
   }
-  return of_distinct(which_growth_);
+  return of_distinct(which_growth_.tail(count));
 }
 
-Eigen::ArrayXd CovarianceRows::SharedGrowth(double growth) const {
-  return growth_ * growth + (growth_ * growth_ - growth_) * (growth * growth - growth);
+Eigen::ArrayXd CovarianceRows::SharedGrowth(double growth, Eigen::Index count) const {
+  const auto own = growth_.tail(count);
+  return own * growth + (own * own - own) * (growth * growth - growth);
 }
 
 }  // namespace talus::surrogate

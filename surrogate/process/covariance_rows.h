@@ -15,13 +15,20 @@ class CovarianceRows {
   CovarianceRows(const Sites& sites, const Hyperparameters& hyper);
 
   Eigen::Index size() const { return coordinates_.rows(); }
-  auto coordinate(Eigen::Index k) const { return coordinates_.col(k); }
-  auto centred(Eigen::Index k) const { return centred_.col(k); }  // z = 2x - 1
   bool any_growth() const { return growth_.any(); }
 
-  // Of the pairs with a point of this growth, as in PairTerms. Needs hyper.scale.
-  Eigen::ArrayXd TargetShares(double growth) const;
-  Eigen::ArrayXd SharedGrowth(double growth) const;
+  // Of the last `count` points.
+  auto coordinate(Eigen::Index k, Eigen::Index count) const {
+    return coordinates_.col(k).tail(count);
+  }
+  auto centred(Eigen::Index k, Eigen::Index count) const {  // z = 2x - 1
+    return centred_.col(k).tail(count);
+  }
+
+  // Of the pairs of the last `count` points with one of this growth, as in PairTerms. Needs
+  // hyper.scale.
+  Eigen::ArrayXd TargetShares(double growth, Eigen::Index count) const;
+  Eigen::ArrayXd SharedGrowth(double growth, Eigen::Index count) const;
 
  private:
   const Hyperparameters& hyper_;

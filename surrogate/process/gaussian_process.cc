@@ -211,7 +211,7 @@ Eigen::MatrixXd GaussianProcess::Draw(const Eigen::MatrixXd& points, int num_dra
   Eigen::MatrixXd v = covariance_.Between(warped_, sites);
   const Eigen::VectorXd mean = v.transpose() * alpha_;
   SolveColumns(lower_, v);
-  Eigen::MatrixXd posterior = covariance_.Between(sites, sites) - v.transpose() * v;
+  Eigen::MatrixXd posterior = covariance_.Among(sites) - v.transpose() * v;
   // Robust Cholesky: the posterior is singular at and between close points.
   const Eigen::LDLT<Eigen::MatrixXd> factor(posterior);
   const Eigen::VectorXd root = factor.vectorD().cwiseMax(0.0).cwiseSqrt();

@@ -140,17 +140,12 @@ Eigen::VectorXd HyperLayout::Pack(const Hyperparameters& hyper) const {
 
 Eigen::MatrixXd NoisyCovariance(const Covariance& covariance, const PooledData& data,
                                 double nugget) {
-  const Eigen::Index size = data.size();
-  Eigen::MatrixXd k(size, size);
-  for (Eigen::Index j = 0; j < size; ++j) {
-    for (Eigen::Index i = j; i < size; ++i) {
-      k(i, j) = covariance.At(data.sites.columns.col(i).data(), data.sites.columns.col(j).data(),
-                              data.sites.growth[i], data.sites.growth[j]);
-    }
+  Eigen::MatrixXd k = covariance.Among(data.sites);
+  for (Eigen::Index j = 0; j < k.cols(); ++j) {
     const double noise = covariance.hyper().noise[data.level[j]];
     k(j, j) += noise * noise / data.counts[j] + nugget;
   }
-  return k.selfadjointView<Eigen::Lower>();
+  return k;
 }
 
 double PoolingTerm(const PooledData& data, const Eigen::VectorXd& noise) {

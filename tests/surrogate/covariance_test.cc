@@ -40,6 +40,7 @@ TEST_P(Columns, AreThePairsOneByOne) {
                                                a.growth[i], b.growth[j]));
           }
         }
+        EXPECT_EQ(covariance.Among(a), covariance.Between(a, a));
       }
     }
   }
