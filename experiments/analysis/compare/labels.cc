@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
 
@@ -52,12 +53,7 @@ std::string SymbolOf(std::string_view parameter) {
 
 std::string WordsOf(std::string_view parameter) {
   if (SymbolOf(parameter) == parameter) return "";
-  std::string words(parameter);
-  for (const std::string_view body : {"plate_pair_", "tube_pair_", "plate_", "tube_"}) {
-    if (!words.starts_with(body)) continue;
-    words.erase(0, body.size());
-    break;
-  }
+  std::string words = campaign::PlaceOf(std::string(parameter)).property;
   std::ranges::replace(words, '_', ' ');
   return words;
 }

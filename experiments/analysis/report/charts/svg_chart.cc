@@ -22,7 +22,7 @@ constexpr double kLegendLine = 20;
 
 constexpr const char* kFont = "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"14\"";
 
-std::string Attribute(double x, int digits = 6) { return base::ShortNumber(x, digits); }
+std::string Attribute(double x) { return base::ShortNumber(x, 6); }
 
 std::string Pixel(double x) {
   char text[32];
@@ -47,7 +47,7 @@ std::string TickText(double tick) {
   char scientific[32];
   std::snprintf(scientific, sizeof scientific, "%.0e", tick);
   const bool is_power = std::abs(power - std::round(power)) < 1e-9;
-  const std::string text = WithPowers(is_far && is_power ? scientific : Attribute(tick, 4));
+  const std::string text = WithPowers(is_far && is_power ? scientific : base::ShortNumber(tick, 4));
   return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
 }
 
