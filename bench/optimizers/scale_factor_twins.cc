@@ -32,7 +32,7 @@
 namespace talus::bench {
 namespace {
 
-constexpr int kLook = 10;                // simulations between two looks at the stopping rule
+constexpr int kLook = 10;                // simulations between two looks at the region
 constexpr double kNuisanceSd = 0.2;      // of its prior, unit cube
 constexpr double kNuisanceEffect = 0.3;  // displacement over a nuisance's range, unit cube
 constexpr double kWithin = 1.5;          // of the region's final volume
@@ -245,7 +245,7 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
       const optimizer::Answer seen = twin.strategy->Recommend();
       sights.push_back({.spent = twin.spent, .volume = seen.posterior->region_volume});
     }
-    if (options.until_stop && twin.told % kLook == 0 && twin.strategy->WhyStop()) break;
+    if (options.until_stop && twin.told > 0 && twin.strategy->WhyStop()) break;
     twin.SimulateOne();
   }
   const optimizer::Answer answer = twin.strategy->Recommend();

@@ -378,8 +378,25 @@ const Outlook& PosteriorStrategy::OutlookNow() {
   return *outlook_;
 }
 
+// Since it was last asked, and at least since the last proposal, which may have been evaluated more
+// than once: a search that goes on after an interruption looks where it would have looked without.
+bool PosteriorStrategy::IsTimeToLook() const {
+  const Observation& last = observations_.back();
+  const auto is_other = [&](const Observation& told) {
+    return told.experiment != last.experiment || told.scale_factor != last.scale_factor ||
+           !SamePoint(told.point, last.point);
+  };
+  const auto others = std::find_if(observations_.rbegin(), observations_.rend(), is_other);
+  const int before = static_cast<int>(std::distance(others, observations_.rend()));
+  return IsTimeForOutlook(std::min(before, asked_at_.value_or(before)),
+                          static_cast<int>(observations_.size()));
+}
+
 std::optional<StopReason> PosteriorStrategy::WhyStop() {
   if (options_.stop_share == 0 || !HasDesign()) return std::nullopt;
+  const bool is_time = IsTimeToLook();
+  asked_at_ = static_cast<int>(observations_.size());
+  if (!is_time) return std::nullopt;
   return StopByOutlook(OutlookNow(), options_.stop_share);
 }
 

@@ -103,6 +103,7 @@ class PosteriorStrategy : public Strategy {
   // The surrogates after half as many evaluations again, if these do as well as the last third has.
   std::vector<SurrogateAhead> SurrogatesAhead(const Eigen::MatrixXd& draws);
   const Outlook& OutlookNow();
+  bool IsTimeToLook() const;
   bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);
@@ -134,6 +135,7 @@ class PosteriorStrategy : public Strategy {
   std::optional<AskedDensity> asked_;
   std::optional<PosteriorSample> asked_sample_;
   std::optional<Outlook> outlook_;
+  std::optional<int> asked_at_;  // observations when it was last asked whether to stop
 };
 
 }  // namespace talus::optimizer

@@ -69,6 +69,38 @@ struct Twin {
   }
 };
 
+// Evaluations until the search ends by itself, each made `replicates` times.
+std::vector<Observation> UntilItStops(const Twin& twin, int replicates) {
+  constexpr std::size_t kMost = 300;
+  auto strategy = twin.Make();
+  std::vector<Observation> told;
+  while (told.size() < kMost && (told.empty() || !strategy->WhyStop())) {
+    const Proposal proposal = strategy->AskAt(1, {}).front();
+    for (int r = 0; r < replicates; ++r) {
+      told.push_back(twin.Simulate(proposal, static_cast<int>(told.size())));
+      strategy->Tell(told.back());
+    }
+  }
+  return told;
+}
+
+// Before each proposal, as a campaign asks.
+TEST(PosteriorStrategy, ASearchThatIsInterruptedStopsWhereItWouldHaveStopped) {
+  const Twin twin{.stop_share = 0.4};
+  for (const int replicates : {1, 3}) {
+    const std::vector<Observation> told = UntilItStops(twin, replicates);
+    ASSERT_THAT(told.size(), testing::AllOf(testing::Gt(25), testing::Lt(300)));
+    for (std::size_t count = 24; count <= told.size();
+         count += static_cast<std::size_t>(replicates)) {
+      auto resumed = twin.Make();
+      for (std::size_t i = 0; i < count; ++i) resumed->Tell(told[i]);
+      EXPECT_EQ(resumed->WhyStop().has_value(), count == told.size())
+          << replicates << ", " << count;
+      EXPECT_EQ(resumed->WhyStop().has_value(), count == told.size());  // asked again
+    }
+  }
+}
+
 TEST(PosteriorStrategy, AnswersForTheTargetThatCoarseGrainsMiss) {
   const Twin twin;
   const Answer answer = twin.Search(24)->Recommend();
