@@ -5,8 +5,10 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE RelWithDebInfo)
+  set(CMAKE_BUILD_TYPE Release)
 endif()
+# Both with assertions: what is checked while it runs is checked at the user's, too.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
 
 add_library(talus_compile_options INTERFACE)
@@ -53,29 +55,31 @@ target_precompile_headers(talus_library_headers PRIVATE
   <Eigen/Core> <algorithm> <array> <cmath> <functional> <limits> <memory> <optional> <span> <string> <utility>
   <vector>)
 
-# talus_unite_folders(target sources… [WHOLE folders…]): the files of a folder are compiled together where
+# talus_unite_folders(target sources… [TOGETHER "folders…"…]): the files of a folder are compiled together where
 # CMAKE_UNITY_BUILD is on, in half of the time; so in their unnamed namespaces functions of one name must not take each
-# other's arguments. WHOLE: folders that are compiled with all folders in them.
+# other's arguments. TOGETHER: each a list of folders that are compiled at once, with all folders in them; a compiler
+# takes up to 2 GB for it.
 function(talus_unite_folders target)
-  cmake_parse_arguments(ARG "" "" "WHOLE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "TOGETHER" ${ARGN})
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   foreach(source ${ARG_UNPARSED_ARGUMENTS})
-    get_filename_component(folder ${source} DIRECTORY)
-    foreach(whole ${ARG_WHOLE})
-      if(source MATCHES "^${whole}/")
-        set(folder ${whole})
+    get_filename_component(group ${source} DIRECTORY)
+    foreach(together ${ARG_TOGETHER})
+      string(REPLACE " " "|" any "${together}")
+      if(source MATCHES "^(${any})/")
+        string(REPLACE " " "_" group "${together}")
       endif()
     endforeach()
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${folder}_")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${group}_")
   endforeach()
 endfunction()
 
 # talus_add_library(name [PUBLIC_HEADERS ...] [HEADERS ...] SOURCES ... [PUBLIC ...] [PRIVATE ...] [PRECOMPILED]
-#   [WHOLE ...])
+#   [TOGETHER ...])
 # PUBLIC_HEADERS are installed (docs/library.md); HEADERS are for this project only. PRECOMPILED: with
-# talus_library_headers. WHOLE: as in talus_unite_folders.
+# talus_library_headers. TOGETHER: as in talus_unite_folders.
 function(talus_add_library name)
-  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE;WHOLE" ${ARGN})
+  cmake_parse_arguments(ARG "PRECOMPILED" "" "PUBLIC_HEADERS;HEADERS;SOURCES;PUBLIC;PRIVATE;TOGETHER" ${ARGN})
   add_library(talus_${name} STATIC ${ARG_SOURCES})
   add_library(talus::${name} ALIAS talus_${name})
   set_target_properties(talus_${name} PROPERTIES EXPORT_NAME ${name})
@@ -89,7 +93,7 @@ function(talus_add_library name)
   if(ARG_PRECOMPILED)
     target_precompile_headers(talus_${name} REUSE_FROM talus_library_headers)
   endif()
-  talus_unite_folders(talus_${name} ${ARG_SOURCES} WHOLE ${ARG_WHOLE})
+  talus_unite_folders(talus_${name} ${ARG_SOURCES} TOGETHER ${ARG_TOGETHER})
   set_property(GLOBAL APPEND PROPERTY talus_libraries talus_${name})
 endfunction()
 
@@ -137,6 +141,7 @@ function(talus_add_test path)
   string(REPLACE "/" "_" target ${program})
   if(NOT TARGET ${target})
     add_executable(${target})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 24)
     target_precompile_headers(${target} REUSE_FROM talus_test_headers)
     target_link_libraries(${target} PRIVATE GTest::gmock GTest::gtest_main talus_test_options)
   endif()

@@ -13,7 +13,7 @@ class CMakeBuild(build_ext):
     def build_extension(self, ext):
         build = pathlib.Path(self.build_temp).resolve()
         build.mkdir(parents=True, exist_ok=True)
-        subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+        subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                         "-DTALUS_BUILD_TESTS=OFF", "-DTALUS_BUILD_BENCH=OFF"], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "talus_python"], check=True)
         built = next((build / "python/talus").glob("_core*.so"))

@@ -19,11 +19,11 @@ namespace {
 using base::ShortNumber;
 
 // A number's name without its unit, and the unit that people read it in.
-struct Shown {
+struct TitleAndUnit {
   std::string title;
   rigs::ShownUnit unit;
 
-  explicit Shown(const std::string& name)
+  explicit TitleAndUnit(const std::string& name)
       : title(rigs::FindObservable(name) != nullptr ? rigs::FindObservable(name)->key : name),
         unit(rigs::ShownUnitOf(rigs::UnitOfObservable(name))) {}
 
@@ -68,7 +68,7 @@ std::string SharesText(const PredictedNumber& number, bool many_draws) {
 // By whom the number is told, and how far off either is of draws that were left out.
 std::string LeftOutText(const Prediction& prediction, const PredictedNumber& number) {
   if (!number.surrogate) return "";
-  const Shown shown(number.name);
+  const TitleAndUnit shown(number.name);
   const PredictedSurrogate& s = *number.surrogate;
   const std::string errors = " misses a draw left out by " + shown.Text(s.left_out_error, 2) +
                              shown.Unit() + ", the other draws' mean by " +
@@ -96,7 +96,7 @@ std::string ScaleFactorsText(const Prediction& prediction) {
 std::string MeasuredText(const Prediction& prediction, const PredictedNumber& number,
                          const std::vector<journal::ParameterRecord>& parameters) {
   const MeasuredThere& m = *number.measured;
-  const Shown shown(number.name);
+  const TitleAndUnit shown(number.name);
   std::string text = "    measured " + shown.Text(m.value) + " ± " + shown.Text(m.standard_error) +
                      shown.Unit() + ": " + (m.is_inside ? "inside" : "outside") + " of " +
                      shown.Text(m.low) + " … " + shown.Text(m.high) + ", its error counted";
@@ -151,10 +151,10 @@ std::string WhatText(const Prediction& prediction) {
 
 }  // namespace
 
-std::string NumberTitle(const PredictedNumber& number) { return Shown(number.name).title; }
+std::string NumberTitle(const PredictedNumber& number) { return TitleAndUnit(number.name).title; }
 
 std::string NumberText(const PredictedNumber& number) {
-  const Shown shown(number.name);
+  const TitleAndUnit shown(number.name);
   return shown.Text(number.mean) + shown.Unit() + ", 90 % of runs in " + shown.Text(number.low) +
          " … " + shown.Text(number.high);
 }
@@ -174,7 +174,7 @@ std::string PredictionText(const Prediction& prediction,
   }
   for (const std::string& note : prediction.notes) text += "  note: " + note + "\n";
   for (const PredictedNumber& number : prediction.numbers) {
-    const Shown shown(number.name);
+    const TitleAndUnit shown(number.name);
     text += "  " + shown.title +
             std::string(shown.title.size() < 15 ? 16 - shown.title.size() : 1, ' ');
     if (number.num_defined == 0) {

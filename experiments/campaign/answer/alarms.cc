@@ -102,7 +102,7 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
 }
 
 // "(sliding_friction 0.31, rolling_friction 0.12)"
-std::string SetText(const Answer& answer, const std::vector<double>& values) {
+std::string BracketedSet(const Answer& answer, const std::vector<double>& values) {
   return "(" +
          base::JoinedUpTo(values.size(), ", ",
                           [&](std::size_t k) {
@@ -142,7 +142,7 @@ bool WasExpectedToFit(const Answer& answer, const MeasurementFit& fit) {
 // Why a miss is the search's, which has not found what may fit; nothing where it has done its part.
 std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFit& fit) {
   if (const ResultCandidate* nearer = NearerSet(answer)) {
-    return SetText(answer, nearer->values) + ", simulated again, too, " +
+    return BracketedSet(answer, nearer->values) + ", simulated again, too, " +
            (Misses(answer, *nearer) ? "misses less" : "fits");
   }
   if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";

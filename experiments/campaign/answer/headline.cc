@@ -37,7 +37,7 @@ std::string RangeText(const Told& told, std::size_t i) {
          Short(told.at(i).credible_high);
 }
 
-std::string SetText(const Told& told, const std::vector<double>& values) {
+std::string ToldSet(const Told& told, const std::vector<double>& values) {
   return "(" +
          base::JoinedUpTo(values.size(), ", ",
                           [&](std::size_t i) { return told.names[i] + " " + Short(values[i]); }) +
@@ -88,7 +88,7 @@ std::string SeparateText(const Told& told) {
   std::string text = "They allow " + std::to_string(branches.size()) + " separate answers";
   for (std::size_t b = 0; b < branches.size(); ++b) {
     text += (b == 0 ? ": " : ", ") + Percent(branches[b].share) + " of the posterior round " +
-            SetText(told, branches[b].values);
+            ToldSet(told, branches[b].values);
   }
   return text;
 }
@@ -101,7 +101,7 @@ std::string CurveText(const Told& told) {
   std::string text =
       "They determine " + told.names[known] + " given " + told.names[given] + ", not both: ";
   if (sets.size() < 2) return text + RangeText(told, given) + ", " + RangeText(told, known);
-  return text + "sets from " + SetText(told, sets.front()) + " to " + SetText(told, sets.back()) +
+  return text + "sets from " + ToldSet(told, sets.front()) + " to " + ToldSet(told, sets.back()) +
          " fit equally";
 }
 
