@@ -57,13 +57,13 @@ bool ReadAll(int fd, std::uint64_t offset, std::string& bytes) {
   return true;
 }
 
-[[noreturn]] void Fail(const std::filesystem::path& path, int code) {
+}  // namespace
+
+void ThrowUnwritten(const std::filesystem::path& path, int code) {
   const std::string why = path.string() + ": cannot be written: " + std::strerror(code);
   if (code == ENOSPC) throw DiskFull(why);
   throw Error(why);
 }
-
-}  // namespace
 
 std::string ReadFile(const std::filesystem::path& path, std::uint64_t limit) {
   // Without O_NONBLOCK a pipe that nobody writes to would be waited for.
@@ -104,12 +104,12 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view byt
   const bool sync = outlives == Outlives::kPowerCut;
   const std::string temporary = path.string() + ".tmp" + std::to_string(::getpid());
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0) Fail(path, errno);
+  if (file.get() < 0) ThrowUnwritten(path, errno);
   if (!WriteAll(file.get(), bytes) || (sync && ::fsync(file.get()) != 0) || !file.Close() ||
       ::rename(temporary.c_str(), path.c_str()) != 0) {
     const int code = errno;
     ::unlink(temporary.c_str());
-    Fail(path, code);
+    ThrowUnwritten(path, code);
   }
 }
 

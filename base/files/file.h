@@ -26,6 +26,9 @@ enum class Outlives { kPowerCut, kProgram };
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
                          Outlives outlives = Outlives::kPowerCut);
 
+// Throws Error, or DiskFull, that names a file that the system refused to write; `code` is errno's.
+[[noreturn]] void ThrowUnwritten(const std::filesystem::path& path, int code);
+
 // XXH3, 64 bits [xxhash]: detects damage, not malice.
 std::uint64_t Checksum(std::string_view bytes);
 

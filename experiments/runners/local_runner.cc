@@ -239,7 +239,7 @@ void LocalRunner::StartProcess(const Job& job) {
   const Gate gate;
   const std::string log_name = (job.folder / "log.txt").string();
   const int log = ::open(log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (log < 0) throw base::Error(log_name + ": cannot be written: " + std::strerror(errno));
+  if (log < 0) base::ThrowUnwritten(log_name, errno);
 
   std::vector<std::string> command = job.command;
   const std::string mark = guard_.MarkOf(job.id);

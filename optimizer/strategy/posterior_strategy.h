@@ -96,6 +96,8 @@ class PosteriorStrategy : public Strategy {
     int size() const { return by_code.front().size(); }
   };
 
+  static constexpr int kFewest = 6;  // evaluations of an experiment that a model can stand on
+
   Proposal Next(std::span<const Proposal> asked);
   // Whether the stopping rule has something to judge.
   bool HasDesign();

@@ -35,7 +35,7 @@ std::filesystem::path CampaignFolder::experiment(std::size_t index) const {
 CampaignLock::CampaignLock(const std::filesystem::path& root) {
   const std::string path = (root / "campaign.lock").string();
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) throw base::Error(path + ": cannot be written: " + std::strerror(errno));
+  if (file_ < 0) base::ThrowUnwritten(path, errno);
   if (!base::LockWithin(file_, kPatience, kPause)) {
     char owner[32] = "";
     if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
@@ -48,7 +48,7 @@ CampaignLock::CampaignLock(const std::filesystem::path& root) {
       ::pwrite(file_, owner.data(), owner.size(), 0) != static_cast<ssize_t>(owner.size())) {
     const int code = errno;
     ::close(file_);
-    throw base::Error(path + ": cannot be written: " + std::strerror(code));
+    base::ThrowUnwritten(path, code);
   }
 }
 

@@ -13,8 +13,10 @@
 #include "base/text/joined.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/drum_images.h"
+#include "experiments/campaign/spec/parameter_ranges.h"
 #include "experiments/campaign/spec/plausible.h"
 #include "experiments/campaign/spec/validate_numbers.h"
+#include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/rig_list.h"
 
 namespace talus::campaign {
@@ -113,14 +115,15 @@ void CheckWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all
                 base::Problems& problems) {
   const optimizer::ParameterSpace space = SpaceOf(spec);
   for (const optimizer::Parameter& p : space.parameters) {
-    const bool plate = p.name.starts_with("plate_");
-    if (!plate && !p.name.starts_with("tube_")) continue;
+    const ParameterPlace place = PlaceOf(p.name);
+    if (place.body == rigs::kPowder || place.is_pair) continue;
     std::set<double> given;
     for (const ExperimentSpec& e : all) {
-      const auto& wall = plate ? e.device->plate_material : e.device->tube_material;
+      const auto& wall =
+          place.body == rigs::kFloor ? e.device->plate_material : e.device->tube_material;
       if (!wall) continue;
       for (const auto& [key, value] : PropertiesOf(*wall)) {
-        if (p.name.ends_with("_" + key)) given.insert(value);
+        if (key == place.property) given.insert(value);
       }
     }
     problems.Require(given.size() < 2, "parameters." + p.name,

@@ -5,7 +5,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -31,7 +30,7 @@ std::string ChecksumOf(const std::string& bytes) { return base::Hex(base::Checks
 
 int Open(const std::filesystem::path& path, int flags) {
   const int file = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) throw base::Error(path.string() + ": cannot be written: " + std::strerror(errno));
+  if (file < 0) base::ThrowUnwritten(path, errno);
   return file;
 }
 
@@ -166,7 +165,7 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
   const std::string text = base::WithChecksum(base::JsonText(line) + "\n");
   const std::lock_guard guard(writing_);
   if (::write(log_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-    throw base::Error((root_ / kLog).string() + ": cannot be written: " + std::strerror(errno));
+    base::ThrowUnwritten(root_ / kLog, errno);
   }
 }
 
