@@ -228,7 +228,10 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
 
 void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
   Transaction transaction(database_);
-  t.finish_order = database_.Number("SELECT ifnull(max(finish_order), 0) FROM trials") + 1;
+  if (!last_finish_order_) {
+    last_finish_order_ = database_.Number("SELECT ifnull(max(finish_order), 0) FROM trials");
+  }
+  t.finish_order = *last_finish_order_ + 1;
   database_
       .Prepare(
           "UPDATE trials SET status = ?2, reason = ?3, attempts = ?4, finish_order = ?5, "
@@ -249,6 +252,7 @@ void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
   }
   SealTrial(database_, t.id);
   transaction.Commit();
+  last_finish_order_ = t.finish_order;
 }
 
 std::string Journal::ProfilePng(std::int64_t trial) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,6 +76,7 @@ class Journal {
   void ReadMetrics(std::vector<TrialRecord>& trials);
 
   Database database_;
+  std::optional<std::int64_t> last_finish_order_;  // once it is known
 };
 
 }  // namespace talus::journal
