@@ -1,7 +1,6 @@
 #include "optimizer/search/stopping_rule.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace talus::optimizer {
@@ -38,11 +37,6 @@ std::optional<StopReason> StopByOutlook(const Outlook& outlook, double stop_shar
   const double most = Most(outlook.all);
   if (!(most < stop_share) || outlook.temper > kMostTemper) return std::nullopt;
   return StopReason{.rule = StopRule::kShare, .value = most, .limit = stop_share};
-}
-
-bool IsTimeForOutlook(int before, int now) {
-  const auto tenths = [](int told) { return std::floor(std::log(told) / std::log(1.1)); };
-  return tenths(now) > tenths(before);
 }
 
 std::optional<StopShortfall> ShortOfOutlook(const Outlook& outlook, double stop_share,

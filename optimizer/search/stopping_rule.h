@@ -32,10 +32,6 @@ struct Outlook {
 };
 // Where no number of them takes `stop_share` from a range.
 std::optional<StopReason> StopByOutlook(const Outlook& outlook, double stop_share);
-// Whether there is something to look at that was not there after `before` evaluations: after each
-// of the first ten, then each time by a tenth more. One of a hundred evaluations moves no range, a
-// rule that is asked after each is met by luck some day, and an outlook costs more than a proposal.
-bool IsTimeForOutlook(int before, int now);
 // Where half as many again would, or the temper is too high. `num_told`: evaluations so far.
 std::optional<StopShortfall> ShortOfOutlook(const Outlook& outlook, double stop_share,
                                             int num_told);

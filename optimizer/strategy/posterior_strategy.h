@@ -104,8 +104,9 @@ class PosteriorStrategy : public Strategy {
   ExperimentModel::Setup SetupOf(std::size_t experiment) const;
   // The surrogates after half as many evaluations again, if these do as well as the last third has.
   std::vector<SurrogateAhead> SurrogatesAhead(const Eigen::MatrixXd& draws);
+  Outlook OutlookBy(const PosteriorSample& sample, int num_draws);
   const Outlook& OutlookNow();
-  bool IsTimeToLook() const;
+  bool IsFarFromTheEnd();
   bool IsUnderWay() const;
   std::optional<Proposal> FromDesign(std::span<const Proposal> asked) const;
   Proposal ByGain(std::span<const Proposal> asked);
@@ -118,7 +119,8 @@ class PosteriorStrategy : public Strategy {
                                    std::span<const Proposal> asked) const;
   double CostOf(std::size_t experiment, int level) const;
   Posterior MakePosterior();
-  PosteriorSample SampleOf(const Posterior& posterior) const;
+  // `share`: a sample so many times smaller.
+  PosteriorSample SampleOf(const Posterior& posterior, int share = 1) const;
   std::vector<double> UnlearntScaleFactors() const;
   int FewestAtFinest() const;
   void Summarise(Answer& answer);
@@ -137,7 +139,6 @@ class PosteriorStrategy : public Strategy {
   std::optional<AskedDensity> asked_;
   std::optional<PosteriorSample> asked_sample_;
   std::optional<Outlook> outlook_;
-  std::optional<int> asked_at_;  // observations when it was last asked whether to stop
 };
 
 }  // namespace talus::optimizer

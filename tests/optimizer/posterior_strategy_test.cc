@@ -69,17 +69,14 @@ struct Twin {
   }
 };
 
-// Evaluations until the search ends by itself, each made `replicates` times.
-std::vector<Observation> UntilItStops(const Twin& twin, int replicates) {
+// Evaluations until the search ends by itself.
+std::vector<Observation> UntilItStops(const Twin& twin) {
   constexpr std::size_t kMost = 300;
   auto strategy = twin.Make();
   std::vector<Observation> told;
   while (told.size() < kMost && (told.empty() || !strategy->WhyStop())) {
-    const Proposal proposal = strategy->AskAt(1, {}).front();
-    for (int r = 0; r < replicates; ++r) {
-      told.push_back(twin.Simulate(proposal, static_cast<int>(told.size())));
-      strategy->Tell(told.back());
-    }
+    told.push_back(twin.Simulate(strategy->AskAt(1, {}).front(), static_cast<int>(told.size())));
+    strategy->Tell(told.back());
   }
   return told;
 }
@@ -87,17 +84,32 @@ std::vector<Observation> UntilItStops(const Twin& twin, int replicates) {
 // Before each proposal, as a campaign asks.
 TEST(PosteriorStrategy, ASearchThatIsInterruptedStopsWhereItWouldHaveStopped) {
   const Twin twin{.stop_share = 0.4};
-  for (const int replicates : {1, 3}) {
-    const std::vector<Observation> told = UntilItStops(twin, replicates);
-    ASSERT_THAT(told.size(), testing::AllOf(testing::Gt(25), testing::Lt(300)));
-    for (std::size_t count = 24; count <= told.size();
-         count += static_cast<std::size_t>(replicates)) {
-      auto resumed = twin.Make();
-      for (std::size_t i = 0; i < count; ++i) resumed->Tell(told[i]);
-      EXPECT_EQ(resumed->WhyStop().has_value(), count == told.size())
-          << replicates << ", " << count;
-      EXPECT_EQ(resumed->WhyStop().has_value(), count == told.size());  // asked again
-    }
+  const std::vector<Observation> told = UntilItStops(twin);
+  ASSERT_THAT(told.size(), testing::AllOf(testing::Gt(25), testing::Lt(300)));
+  for (std::size_t count = 24; count <= told.size(); ++count) {
+    auto resumed = twin.Make();
+    for (std::size_t i = 0; i < count; ++i) resumed->Tell(told[i]);
+    EXPECT_EQ(resumed->WhyStop().has_value(), count == told.size()) << count;
+    EXPECT_EQ(resumed->WhyStop().has_value(), count == told.size());  // asked again
+  }
+}
+
+// The look at a smaller sample first only saves time.
+TEST(PosteriorStrategy, ASearchStopsWhereNoNumberOfEvaluationsWouldNarrowARange) {
+  const Twin twin{.stop_share = 0.15};
+  const std::vector<Observation> told = UntilItStops(twin);
+  ASSERT_LT(told.size(), 300);
+  auto asked = twin.Make();
+  auto whole = twin.Make();
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    asked->Tell(told[i]);
+    whole->Tell(told[i]);
+    const bool is_last = i + 1 == told.size();
+    if (i < 24 || (i % 4 != 0 && !is_last)) continue;
+    const PosteriorSummary summary = *whole->Recommend().posterior;
+    EXPECT_EQ(asked->WhyStop().has_value(),
+              summary.surrogate_narrowing < twin.stop_share && summary.temper <= 1.5)
+        << i;
   }
 }
 

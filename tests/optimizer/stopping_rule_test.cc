@@ -45,20 +45,6 @@ TEST(StoppingRule, CalibrationsEndWhereNoNumberOfTrialsWouldNarrowARange) {
   EXPECT_FALSE(StopByOutlook({}, 0.05));
 }
 
-TEST(StoppingRule, AnOutlookIsTakenAfterEachOfTheFirstTrialsAndThenWithEachTenth) {
-  for (int n = 1; n <= 10; ++n) EXPECT_TRUE(IsTimeForOutlook(n - 1, n)) << n;
-  EXPECT_FALSE(IsTimeForOutlook(100, 100));  // nothing was added
-  EXPECT_TRUE(IsTimeForOutlook(100, 113));   // several at once
-  int last = 10;
-  for (int n = 11; n <= 2000; ++n) {
-    if (!IsTimeForOutlook(n - 1, n)) continue;
-    // Both ends lie up to one beside a power of 1.1.
-    EXPECT_NEAR(n - last, last / 10.0, 1.1) << n;
-    last = n;
-  }
-  EXPECT_GT(last, 1800);
-}
-
 TEST(StoppingRule, WhatHalfAsManyTrialsAgainWouldNarrowIsSaidFromTheShareOn) {
   const std::vector<std::string> names{"sliding_friction", "rolling_friction"};
   const auto shortfall = ShortOfOutlook({.again = {0.07, 0.15}, .all = {0.2, 0.4}}, 0.1, 41);
