@@ -141,9 +141,9 @@ const Posterior& PosteriorStrategy::Model() {
   return *posterior_;
 }
 
-PosteriorSample PosteriorStrategy::SampleOf(const Posterior& posterior, int share) const {
+PosteriorSample PosteriorStrategy::SampleOf(const Posterior& posterior, int divisor) const {
   const int start = domain_.num_parameters <= 2 ? 3000 : 6000;
-  return posterior.Sample(domain_, start / share, 1, options_.seed);
+  return posterior.Sample(domain_, start / divisor, 1, options_.seed);
 }
 
 const PosteriorSample& PosteriorStrategy::Sample() {

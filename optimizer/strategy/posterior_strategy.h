@@ -119,8 +119,8 @@ class PosteriorStrategy : public Strategy {
                                    std::span<const Proposal> asked) const;
   double CostOf(std::size_t experiment, int level) const;
   Posterior MakePosterior();
-  // `share`: a sample so many times smaller.
-  PosteriorSample SampleOf(const Posterior& posterior, int share = 1) const;
+  // `divisor`: of the usual size.
+  PosteriorSample SampleOf(const Posterior& posterior, int divisor = 1) const;
   std::vector<double> UnlearntScaleFactors() const;
   int FewestAtFinest() const;
   void Summarise(Answer& answer);

@@ -68,10 +68,10 @@ const Outlook& PosteriorStrategy::OutlookNow() {
 // was below (bench/optimizers/RECORD.md, Several grain sizes). Most searches that are asked are
 // that far.
 bool PosteriorStrategy::IsFarFromTheEnd() {
-  constexpr int kShare = 5;
+  constexpr int kDivisor = 5;
   constexpr int kDraws = 100;
   const double far = 4 * options_.stop_share;
-  return !outlook_ && !StopByOutlook(OutlookBy(SampleOf(Model(), kShare), kDraws), far);
+  return !outlook_ && !StopByOutlook(OutlookBy(SampleOf(Model(), kDivisor), kDraws), far);
 }
 
 std::optional<StopReason> PosteriorStrategy::WhyStop() {
