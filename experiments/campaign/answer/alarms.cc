@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/text/joined.h"
-#include "base/text/number_text.h"
 #include "experiments/campaign/answer/agreement.h"
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/record/stored.h"
@@ -101,17 +100,6 @@ void AddPhotographs(const journal::CampaignRecord& campaign, Answer& answer) {
   }
 }
 
-// "(sliding_friction 0.31, rolling_friction 0.12)"
-std::string BracketedSet(const Answer& answer, const std::vector<double>& values) {
-  return "(" +
-         base::JoinedUpTo(values.size(), ", ",
-                          [&](std::size_t k) {
-                            return answer.parameters.at(k).name + " " +
-                                   base::ShortNumber(values[k], 3);
-                          }) +
-         ")";
-}
-
 // Another set that was simulated again and comes clearly nearer.
 const ResultCandidate* NearerSet(const Answer& answer) {
   constexpr double kClearly = 0.7;  // of the recommended set's distance
@@ -142,7 +130,9 @@ bool WasExpectedToFit(const Answer& answer, const MeasurementFit& fit) {
 // Why a miss is the search's, which has not found what may fit; nothing where it has done its part.
 std::optional<std::string> SearchFault(const Answer& answer, const MeasurementFit& fit) {
   if (const ResultCandidate* nearer = NearerSet(answer)) {
-    return BracketedSet(answer, nearer->values) + ", simulated again, too, " +
+    std::vector<std::string> names;
+    for (const ResultParameter& p : answer.parameters) names.push_back(p.name);
+    return BracketedSet(names, nearer->values) + ", simulated again, too, " +
            (Misses(answer, *nearer) ? "misses less" : "fits");
   }
   if (WasExpectedToFit(answer, fit)) return "its model expected this set to fit";

@@ -25,6 +25,11 @@ std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
   });
 }
 
+std::string BracketedSet(const std::vector<std::string>& names, const std::vector<double>& values) {
+  const auto text = [&](std::size_t i) { return names[i] + " " + base::ShortNumber(values[i], 3); };
+  return "(" + base::JoinedUpTo(values.size(), ", ", text) + ")";
+}
+
 FreeRanges CredibleValues(const optimizer::ParameterSpace& space, const optimizer::Answer& answer) {
   Eigen::VectorXd low(answer.point.size());
   Eigen::VectorXd high(answer.point.size());

@@ -23,6 +23,9 @@ std::vector<double> FreeValues(const optimizer::ParameterSpace& space,
 std::string SetText(const std::vector<journal::ParameterRecord>& parameters,
                     const std::vector<double>& values);
 
+// "(sliding_friction 0.31, rolling_friction 0.12)": for sentences, three digits without units.
+std::string BracketedSet(const std::vector<std::string>& names, const std::vector<double>& values);
+
 // The joint 90 % ranges of the free parameters, SI.
 struct FreeRanges {
   std::vector<double> low, high;

@@ -5,6 +5,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "base/text/plain_number.h"
+#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/nuisances.h"
 
 namespace talus::campaign {
@@ -35,13 +36,6 @@ bool IsOpen(const Answer& answer, std::size_t i) {
 std::string RangeText(const Told& told, std::size_t i) {
   return told.names[i] + " in " + Short(told.at(i).credible_low) + " to " +
          Short(told.at(i).credible_high);
-}
-
-std::string ToldSet(const Told& told, const std::vector<double>& values) {
-  return "(" +
-         base::JoinedUpTo(values.size(), ", ",
-                          [&](std::size_t i) { return told.names[i] + " " + Short(values[i]); }) +
-         ")";
 }
 
 // The alarms that leave nothing to be said of ranges.
@@ -88,7 +82,7 @@ std::string SeparateText(const Told& told) {
   std::string text = "They allow " + std::to_string(branches.size()) + " separate answers";
   for (std::size_t b = 0; b < branches.size(); ++b) {
     text += (b == 0 ? ": " : ", ") + Percent(branches[b].share) + " of the posterior round " +
-            ToldSet(told, branches[b].values);
+            BracketedSet(told.names, branches[b].values);
   }
   return text;
 }
@@ -101,8 +95,8 @@ std::string CurveText(const Told& told) {
   std::string text =
       "They determine " + told.names[known] + " given " + told.names[given] + ", not both: ";
   if (sets.size() < 2) return text + RangeText(told, given) + ", " + RangeText(told, known);
-  return text + "sets from " + ToldSet(told, sets.front()) + " to " + ToldSet(told, sets.back()) +
-         " fit equally";
+  return text + "sets from " + BracketedSet(told.names, sets.front()) + " to " +
+         BracketedSet(told.names, sets.back()) + " fit equally";
 }
 
 std::string RegionText(const Told& told) {
