@@ -4,7 +4,7 @@
 //
 //   scale_factor_twins [--first 1] [--last 20] [--core-time 100] [--factors 2,1.5,1] [--target 0]
 //                  [--useless yes] [--tests 1] [--nuisances 0] [--until-stop yes] [--stop-share
-//                  0.1] [--look yes]
+//                  0.1] [--look yes] [--begun 1]
 //
 // A heap at scale factor f costs f⁻⁴ core seconds, is that of parameters displaced by 0.08 (f - 1),
 // and scatters more, as measured on heaps of three grain sizes (docs/validation.md). --useless: a
@@ -15,9 +15,11 @@
 // before the core time is spent. --again: half as many simulations again are made afterwards, and
 // what they do to the ranges is held against what was expected. --look: the region is looked at
 // every ten simulations, and a powder's line says after how many core seconds it stays within 1.5
-// times its final size.
+// times its final size. --begun: so many simulations have begun before the first of them is told,
+// as with (begun + 1) / 2 workers (docs/campaigns.md, Several workers).
 #include <cstdio>
 #include <ctime>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,6 +53,7 @@ struct Options {
   double stop_share = 0.1;
   bool again = false;
   bool look = false;
+  int begun = 1;
 };
 
 Options Parse(int argc, char** argv) {
@@ -66,6 +69,7 @@ Options Parse(int argc, char** argv) {
     if (key == "--nuisances") options.nuisances = std::stoi(argv[i + 1]);
     if (key == "--again") options.again = true;
     if (key == "--look") options.look = true;
+    if (key == "--begun") options.begun = std::stoi(argv[i + 1]);
     if (key == "--until-stop") options.until_stop = true;
     if (key == "--stop-share") options.stop_share = std::stod(argv[i + 1]);
     if (key != "--factors") continue;
@@ -171,7 +175,16 @@ struct Twin {
   int MadeOf(int test) const { return instance + 5000 * test; }
 
   void SimulateOne() {
-    const optimizer::Proposal p = strategy->AskAt(1, {}).front();
+    while (static_cast<int>(begun.size()) < options.begun) {
+      const std::vector<optimizer::Proposal> pending(begun.begin(), begun.end());
+      begun.push_back(strategy->AskAt(1, pending).front());
+    }
+    EndOne();
+  }
+
+  void EndOne() {
+    const optimizer::Proposal p = begun.front();
+    begun.pop_front();
     const double cost = HeapCost(p.scale_factor);
     spent_at[p.scale_factor] += cost;
     spent += cost;
@@ -193,7 +206,8 @@ struct Twin {
   std::vector<std::unique_ptr<Problem>> problems{};
   std::vector<optimizer::ExperimentTarget> targets{};
   std::optional<optimizer::PosteriorStrategy> strategy{};
-  double spent = 0;  // [core s]
+  std::deque<optimizer::Proposal> begun{};  // and not told
+  double spent = 0;                         // [core s]
   int told = 0;
   std::map<double, double> spent_at{};  // core seconds, by scale factor
 };
@@ -248,6 +262,7 @@ void Calibrate(const Options& options, int instance, Tally& tally) {
     if (options.until_stop && twin.told > 0 && twin.strategy->WhyStop()) break;
     twin.SimulateOne();
   }
+  while (!twin.begun.empty()) twin.EndOne();
   const optimizer::Answer answer = twin.strategy->Recommend();
   const auto standing = twin.strategy->Consider(twin.truth);
   const double distance = (answer.point - twin.truth).head(D).norm();

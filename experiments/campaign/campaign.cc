@@ -7,13 +7,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/files/file.h"
-#include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
-#include "experiments/campaign/answer/remains.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"
+#include "experiments/campaign/plan/turns.h"
 #include "experiments/campaign/record/trial_end.h"
 #include "experiments/campaign/start.h"
 #include "imaging/formats/images/image_file.h"
@@ -63,6 +61,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
       return End(asked);
     }
     const bool started = asked == base::Interrupt::kNone && StartTrials(interrupt);
+    if (TellEnded()) continue;  // what follows from it is planned before more is told
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
@@ -119,6 +118,8 @@ void Campaign::CollectReused() {
   if (reused.empty()) return;
   std::erase_if(waiting_, is_there);
   Submit(reused);
+  while (TellEnded()) {
+  }
   const auto answer = planner_.Recommend();
   if (answer && answer->posterior) {
     console_.Line(FirstAnswerText(*answer, planner_.space(), record_.parameters));
@@ -153,28 +154,36 @@ bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
     planner_.StopSearch({.kind = StopKind::kWallClock, .value = *spec_.budget.wall_clock});
   }
-  const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
-  if (room <= 0) return false;
+  bool submitted = SubmitWaiting();  // before the proposals, which take their time
+  const auto num_begun = running_.size() + waiting_.size() + ended_.size();
+  const int most = MostBegun(spec_, parts_.runner->Capacity());
+  if (const int count = most - static_cast<int>(num_begun); count > 0) {
+    const bool is_goal_due = IsGoalDue();
+    if (is_goal_due && num_begun == 0 && !LookAtGoal(interrupt)) return true;  // it is to end
+    if (!is_goal_due || num_begun == 0) Begin(planner_.Next(count));
+    submitted |= SubmitWaiting();
+  }
+  return submitted;
+}
+
+bool Campaign::SubmitWaiting() {
   std::vector<journal::TrialRecord> trials;
+  const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
   while (!waiting_.empty() && static_cast<int>(trials.size()) < room) {
-    trials.push_back(waiting_.front());
+    trials.push_back(std::move(waiting_.front()));
     waiting_.pop_front();
   }
-  std::vector<journal::TrialRecord> planned;
-  if (const bool is_due = IsGoalDue(); !is_due || (running_.empty() && trials.empty())) {
-    if (is_due && !LookAtGoal(interrupt)) return true;  // the loop sees that it is to end
-    planned = planner_.Next(room - static_cast<int>(trials.size()));
-  }
+  if (!trials.empty()) Submit(trials);
+  return !trials.empty();
+}
+
+void Campaign::Begin(std::vector<journal::TrialRecord> planned) {
+  if (planned.empty()) return;
   for (journal::TrialRecord& trial : planned) trial.started_utc = journal::UtcNow();
-  if (!planned.empty()) {
-    journal_.Start(planned, parts_.runner->JobsOutliveUs() ? base::Outlives::kPowerCut
-                                                           : base::Outlives::kProgram);
-  }
+  journal_.Start(planned, parts_.runner->JobsOutliveUs() ? base::Outlives::kPowerCut
+                                                         : base::Outlives::kProgram);
   for (const journal::TrialRecord& trial : planned) planner_.Started(trial);
-  trials.insert(trials.end(), planned.begin(), planned.end());
-  if (trials.empty()) return false;
-  Submit(trials);
-  return true;
+  std::ranges::move(planned, std::back_inserter(waiting_));
 }
 
 // A trial whose folder holds its result already, because the process ended before it could be
@@ -237,7 +246,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   }
   if (WasEndedByOthers(job) && RunAgain(trial, job)) return;
   if (job.ok()) {
-    Collect(trial, job);
+    Collect(trial);
   } else {
     FailOrRetry(trial, FailureText(job, folder_.trial(trial.id)));
   }
@@ -251,7 +260,7 @@ bool Campaign::RunAgain(journal::TrialRecord& trial, const runners::FinishedJob&
   return true;
 }
 
-void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&) {
+void Campaign::Collect(journal::TrialRecord& trial) {
   trials::TrialOutput output;
   try {
     output = parts_.engine->Collect(CaseOf(trial), folder_.trial(trial.id));
@@ -263,7 +272,9 @@ void Campaign::Collect(journal::TrialRecord& trial, const runners::FinishedJob&)
     return;
   }
   RequireNumbers(trial, ReferenceOf(trial), output.scalars);
-  Close(trial, ReferenceOf(trial).has_image() ? &output.profile : nullptr);
+  std::optional<imaging::GrayImage> profile;
+  if (ReferenceOf(trial).has_image()) profile = std::move(output.profile);
+  Keep(trial, std::move(profile));
 }
 
 void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reason) {
@@ -287,16 +298,35 @@ void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reaso
   }
   trial.status = journal::TrialStatus::kFailed;
   trial.reason = reason;
-  Close(trial, nullptr);
+  Keep(trial, {});
 }
 
-void Campaign::Close(journal::TrialRecord& trial, const imaging::GrayImage* profile) {
+void Campaign::Keep(journal::TrialRecord& trial, std::optional<imaging::GrayImage> profile) {
   trial.finished_utc = journal::UtcNow();
+  ended_.push_back({.trial = std::move(trial), .profile = std::move(profile)});
+}
+
+// The trial whose turn it is; all that have ended where there are no turns.
+bool Campaign::TellEnded() {
+  if (!AreToldInTurn(spec_)) {
+    for (EndedTrial& ended : ended_) Tell(ended);
+    return !std::exchange(ended_, {}).empty();
+  }
+  const auto next = NextInTurn(planner_.trials());
+  const auto found =
+      std::ranges::find_if(ended_, [&](const EndedTrial& ended) { return ended.trial.id == next; });
+  if (found == ended_.end()) return false;
+  Tell(*found);
+  ended_.erase(found);
+  return true;
+}
+
+void Campaign::Tell(EndedTrial& ended) {
+  auto& [trial, profile] = ended;
   KeepTrial(folder_, trial);  // a journal that is made anew measures it again, but cannot time it
-  journal_.Finish(trial, profile == nullptr ? std::string() : imaging::EncodePng(*profile));
+  journal_.Finish(trial, profile ? imaging::EncodePng(*profile) : std::string());
   NoteElapsed();
-  planner_.Finished(trial,
-                    profile == nullptr ? std::vector<float>() : ReferenceOf(trial).Field(*profile));
+  planner_.Finished(trial, profile ? ReferenceOf(trial).Field(*profile) : std::vector<float>());
   NoteBest(trial);
   Report(trial);
 }
@@ -315,41 +345,6 @@ void Campaign::DropRunning() {
   std::size_t left = running_.size();
   while (left > 0 && Clock::now() < until) left -= parts_.runner->Wait(kWaitSeconds).size();
   running_.clear();
-}
-
-CampaignEnd Campaign::End(base::Interrupt interrupt) {
-  const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
-  journal::ProgressRecord progress{
-      .state = finished ? "finished" : "interrupted",
-      .stop_reason = finished ? planner_.stop()->Text() : "it was interrupted",
-      .elapsed_s = Elapsed(),
-      .result_json = {}};
-  if (finished) {
-    const CampaignEvidence evidence{
-        .spec = spec_,
-        .campaign = record_,
-        .references = references_,
-        .profile = [this](std::int64_t id) { return StoredProfile(journal_, folder_, id); },
-        .elapsed = Elapsed()};
-    result_ = Conclude(planner_, evidence);
-    if (result_) result_->remains = WriteRemains(folder_.root, planner_, evidence);
-    if (result_) WriteResult(progress);
-  }
-  journal_.SetProgress(progress);
-  journal_.AddEvent("stop", 0, progress.stop_reason);
-  if (!finished) return CampaignEnd::kInterrupted;
-  if (result_) return CampaignEnd::kFinished;
-  console_.Line("no result: " + progress.stop_reason);
-  return CampaignEnd::kFailed;
-}
-
-void Campaign::WriteResult(journal::ProgressRecord& progress) {
-  progress.result_json = AnswerJson(*result_);
-  base::WriteFileAtomically(folder_.result(), progress.result_json);
-  const auto answer = planner_.Recommend();
-  if (!answer || !answer->posterior) return;
-  base::WriteFileAtomically(folder_.posterior(),
-                            PosteriorCsv(*answer->posterior, planner_.space(), record_.parameters));
 }
 
 void Campaign::NoteBest(const journal::TrialRecord& trial) {

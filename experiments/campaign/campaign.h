@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/interrupt.h"
 #include "experiments/campaign/answer/answer.h"
@@ -52,11 +53,18 @@ class Campaign {
  private:
   using Clock = std::chrono::steady_clock;
 
+  struct EndedTrial {
+    journal::TrialRecord trial;
+    std::optional<imaging::GrayImage> profile;  // of one that succeeded, where it leaves one
+  };
+
   bool StayEnded();
   void TellFinished();
   void TakeUpRunning();
   void CollectReused();
   bool StartTrials(const base::InterruptGuard& interrupt);
+  bool SubmitWaiting();
+  void Begin(std::vector<journal::TrialRecord> planned);
   bool IsGoalDue() const;
   bool LookAtGoal(const base::InterruptGuard& interrupt);  // false where the user ends it
   void Submit(const std::vector<journal::TrialRecord>& trials);
@@ -66,9 +74,11 @@ class Campaign {
   }
   void HandleEnd(const runners::FinishedJob& job);
   bool RunAgain(journal::TrialRecord& trial, const runners::FinishedJob& job);
-  void Collect(journal::TrialRecord& trial, const runners::FinishedJob& job);
+  void Collect(journal::TrialRecord& trial);
   void FailOrRetry(journal::TrialRecord& trial, const std::string& reason);
-  void Close(journal::TrialRecord& trial, const imaging::GrayImage* profile);
+  void Keep(journal::TrialRecord& trial, std::optional<imaging::GrayImage> profile);
+  bool TellEnded();
+  void Tell(EndedTrial& ended);
   void NoteElapsed();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);
@@ -92,7 +102,8 @@ class Campaign {
   CampaignParts parts_;
   Console& console_;
   std::map<std::int64_t, journal::TrialRecord> running_;
-  std::deque<journal::TrialRecord> waiting_;             // to be run again, when there is room
+  std::deque<journal::TrialRecord> waiting_;             // to be run, when there is room
+  std::vector<EndedTrial> ended_;                        // to be told, in their turn
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<Answer> result_;

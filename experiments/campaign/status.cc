@@ -98,6 +98,12 @@ std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
   return text;
 }
 
+// Of those under way some wait for a core, or to be told.
+int AtATime(const CampaignSpec& spec, int under_way) {
+  if (spec.runner.kind != RunnerKind::kLocal) return under_way;
+  return std::min(under_way, LocalWorkers(spec, NumCores()));
+}
+
 }  // namespace
 
 std::string StatusText(const std::filesystem::path& root) {
@@ -126,7 +132,7 @@ std::string StatusText(const std::filesystem::path& root) {
           std::to_string(counts.by_kind[3]) + " to confirm\n";
   if (!answer) text += ReusedLines(ReusedBy(trials, CoresOfTrial(spec)));
   text += "  now               " + std::to_string(counts.running) +
-          (alive ? " running\n" : " to be run again\n");
+          (alive ? " under way\n" : " to be run again\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
   text += BestLines(trials, campaign, spec);
   for (const journal::ExperimentRecord& e : campaign.experiments) {
@@ -139,8 +145,8 @@ std::string StatusText(const std::filesystem::path& root) {
   }
   text += "  worked on for     " + trials::DurationText(progress.elapsed_s) + "\n";
   const std::optional<GoalState> goal = LastGoal(folder.root, spec);
-  const BudgetUse use =
-      UseOf(spec, trials, progress.elapsed_s, counts.running, goal ? goal->core_time : 0);
+  const BudgetUse use = UseOf(spec, trials, progress.elapsed_s, AtATime(spec, counts.running),
+                              goal ? goal->core_time : 0);
   if (goal) text += "  goal              " + TextOf(*goal, *spec.goal) + "\n";
   text += "  budget used       " + UseText(spec.budget, use, progress.elapsed_s) + "\n";
   if (!answer && use.seconds_left) {

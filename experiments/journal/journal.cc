@@ -62,13 +62,13 @@ std::string WhatIsBroken(Database& database) {
 constexpr std::string_view kTrialColumns =
     "id, kind, kind_index, set_index, origin, objective, seed, scale_factor, status, reason, "
     "attempts, finish_order, started_utc, finished_utc, duration_s, cpu_s, num_steps, "
-    "num_particles, host, job, experiment";
+    "num_particles, host, job, experiment, due";
 
 TrialRecord ReadTrial(const Statement& row) {
   TrialRecord t;
   row.Read(0, t.id, t.kind, t.kind_index, t.set, t.origin, t.objective, t.seed, t.scale_factor,
            t.status, t.reason, t.attempts, t.finish_order, t.started_utc, t.finished_utc,
-           t.duration_s, t.cpu_s, t.num_steps, t.num_particles, t.host, t.job, t.experiment);
+           t.duration_s, t.cpu_s, t.num_steps, t.num_particles, t.host, t.job, t.experiment, t.due);
   return t;
 }
 
@@ -195,10 +195,10 @@ void Journal::Insert(const TrialRecord& t) {
   database_
       .Prepare("INSERT INTO trials (" + std::string(kTrialColumns) +
                ") VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', ?9, 0, ?10, '', ?13, "
-               "?14, 0, 0, '', ?11, ?12)")
+               "?14, 0, 0, '', ?11, ?12, ?15)")
       .Bind(t.id, base::NameOf(t.kind), t.kind_index, t.set, t.origin, t.objective, t.seed,
             t.scale_factor, t.attempts, t.started_utc, t.job, t.experiment, if_known(t.duration_s),
-            if_known(t.cpu_s))
+            if_known(t.cpu_s), t.due)
       .Finish();
   InsertPoint(t);
   SealTrial(database_, t.id);

@@ -141,7 +141,8 @@ struct TrialRecord {
   TrialStatus status = TrialStatus::kRunning;
   std::string reason;             // why it failed, or how it ended
   int attempts = 1;               // 2 when it was tried again with a new seed
-  std::int64_t finish_order = 0;  // from 1, in which trials finished and were told; 0 while running
+  std::int64_t finish_order = 0;  // from 1, in which trials were told; 0 while running
+  double due = 0;  // when it is to be told: on the campaign's clock of expected costs [core s]
   std::string started_utc;
   std::string finished_utc;
   double duration_s = 0;  // wall-clock
@@ -154,7 +155,7 @@ struct TrialRecord {
 
   static constexpr base::FieldKey kKeys[] = {{"unit", "unit_point"}, {"native", "values"}};
   TALUS_FIELDS(id, kind, kind_index, set, origin, objective, unit, native, seed, experiment,
-               scale_factor, status, reason, attempts, finish_order, started_utc, finished_utc,
+               scale_factor, status, reason, attempts, finish_order, due, started_utc, finished_utc,
                duration_s, cpu_s, num_steps, num_particles, host, job, metrics);
 
   // The value of a metric; nothing when the trial has none or it is not defined.

@@ -6,7 +6,7 @@ namespace talus::journal {
 // "talu", so that `file` and we tell a journal from another SQLite file.
 inline constexpr int kJournalApplicationId = 0x74616c75;
 // Grows with every change of the tables. Journals of another version are refused.
-inline constexpr int kSchemaVersion = 6;
+inline constexpr int kSchemaVersion = 7;
 
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE campaign (
@@ -86,6 +86,7 @@ CREATE TABLE trials (
   reason TEXT NOT NULL,
   attempts INTEGER NOT NULL,
   finish_order INTEGER NOT NULL,  -- order in which trials were told to the optimiser; 0 while running
+  due REAL NOT NULL,              -- when it is to be told, by expected costs [core s]
   started_utc TEXT NOT NULL,
   finished_utc TEXT NOT NULL,
   duration_s REAL,

@@ -102,9 +102,13 @@ class PosteriorStrategy : public Strategy {
   // Whether the stopping rule has something to judge.
   bool HasDesign();
   ExperimentModel::Setup SetupOf(std::size_t experiment) const;
+  std::ptrdiff_t NumEarlier(const Told& told) const;
+  std::vector<SurrogateAhead> SureSurrogates();
   // The surrogates after half as many evaluations again, if these do as well as the last third has.
   std::vector<SurrogateAhead> SurrogatesAhead(const Eigen::MatrixXd& draws);
-  Outlook OutlookBy(const PosteriorSample& sample, int num_draws);
+  std::vector<double> NarrowingBy(const Eigen::MatrixXd& draws,
+                                  const std::vector<SurrogateAhead>& ahead);
+  Outlook OutlookBy(const Eigen::MatrixXd& draws);  // of any number of further evaluations
   const Outlook& OutlookNow();
   bool IsFarFromTheEnd();
   bool IsUnderWay() const;

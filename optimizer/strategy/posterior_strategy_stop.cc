@@ -8,28 +8,48 @@
 #include "optimizer/strategy/posterior_strategy.h"
 
 namespace talus::optimizer {
+namespace {
+
+constexpr int kOutlookDraws = 400;
+
+}  // namespace
 
 bool PosteriorStrategy::HasDesign() {
   return CanModel() && !FromDesign({}) && !TooFewAt(Eigen::VectorXd(), {});
 }
 
-// With today's hyper-parameters. No variance falls faster than that of a mean of independent
-// evaluations at the finest scale factor: where the last third was the first to tell a discrepancy,
-// it did once.
-std::vector<SurrogateAhead> PosteriorStrategy::SurrogatesAhead(const Eigen::MatrixXd& draws) {
+// Of the first two thirds of what was told, so many are of this experiment.
+std::ptrdiff_t PosteriorStrategy::NumEarlier(const Told& told) const {
   const std::size_t earlier = 2 * observations_.size() / 3;
+  return std::ranges::lower_bound(told.place, earlier) - told.place.begin();
+}
+
+// Without error, and with the evaluations at the finest scale factor that half as many again bring.
+std::vector<SurrogateAhead> PosteriorStrategy::SureSurrogates() {
   std::vector<SurrogateAhead> ahead;
   for (std::size_t e = 0; e < told_.size(); ++e) {
-    const Told& told = told_[e];
-    const ExperimentModel& now = Model().models()[e];
-    const std::vector<int>& level = told.by_code.front().level;
-    const auto count = std::ranges::lower_bound(told.place, earlier) - told.place.begin();
+    const std::vector<int>& level = told_[e].by_code.front().level;
     const auto finest = std::ranges::count(level, levels_.finest());
-    const auto finest_before = std::count(level.begin(), level.begin() + count, levels_.finest());
+    const auto finest_before =
+        std::count(level.begin(), level.begin() + NumEarlier(told_[e]), levels_.finest());
     const double times = 1 + 1.5 * static_cast<double>(finest - finest_before) /
                                  static_cast<double>(std::max<std::ptrdiff_t>(1, finest));
     ahead.push_back(
-        {.left = Eigen::VectorXd::Constant(now.num_outputs(), 1 / times), .times_finest = times});
+        {.left = Eigen::VectorXd::Zero(Model().models()[e].num_outputs()), .times_finest = times});
+  }
+  return ahead;
+}
+
+// What half as many evaluations again leave, with today's hyper-parameters. No variance falls
+// faster than that of a mean of independent evaluations at the finest scale factor: where the last
+// third was the first to tell a discrepancy, it did once.
+std::vector<SurrogateAhead> PosteriorStrategy::SurrogatesAhead(const Eigen::MatrixXd& draws) {
+  std::vector<SurrogateAhead> ahead = SureSurrogates();
+  for (std::size_t e = 0; e < told_.size(); ++e) {
+    const Told& told = told_[e];
+    const double least = 1 / ahead[e].times_finest;
+    ahead[e].left.setConstant(least);
+    const std::ptrdiff_t count = NumEarlier(told);
     if (count < kFewest) continue;
     const OutputData data =
         Modelled(told.by_code[told.code()], told.values, static_cast<int>(count));
@@ -37,30 +57,24 @@ std::vector<SurrogateAhead> PosteriorStrategy::SurrogatesAhead(const Eigen::Matr
     const auto typical = [&](const ExperimentModel& model) -> Eigen::ArrayXd {
       return model.Outputs(draws).variance.colwise().mean().transpose();
     };
-    ahead.back().left = (typical(now) / typical(before)).max(1 / times).min(1.0);
+    ahead[e].left = (typical(Model().models()[e]) / typical(before)).max(least).min(1.0);
   }
   return ahead;
 }
 
-Outlook PosteriorStrategy::OutlookBy(const PosteriorSample& sample, int num_draws) {
-  constexpr Eigen::Index kFew = 50;
-  const Eigen::MatrixXd draws = sample.Draws(num_draws, options_.seed);
-  const Eigen::MatrixXd few = draws(Eigen::seqN(0, kFew, num_draws / kFew), Eigen::all);
-  std::vector<SurrogateAhead> ahead = SurrogatesAhead(few);
-  const ExpectedNarrowing expected(Model(), draws, options_.seed);
-  const auto narrowing = [&]() -> std::vector<double> {
-    const Eigen::VectorXd each = expected.Of(domain_.Asked(), ahead);
-    return {each.begin(), each.end()};
-  };
-  Outlook outlook{.again = narrowing(), .temper = Model().temper()};
-  for (SurrogateAhead& surrogate : ahead) surrogate.left.setZero();
-  outlook.all = narrowing();
-  return outlook;
+std::vector<double> PosteriorStrategy::NarrowingBy(const Eigen::MatrixXd& draws,
+                                                   const std::vector<SurrogateAhead>& ahead) {
+  const Eigen::VectorXd each =
+      ExpectedNarrowing(Model(), draws, options_.seed).Of(domain_.Asked(), ahead);
+  return {each.begin(), each.end()};
+}
+
+Outlook PosteriorStrategy::OutlookBy(const Eigen::MatrixXd& draws) {
+  return {.all = NarrowingBy(draws, SureSurrogates()), .temper = Model().temper()};
 }
 
 const Outlook& PosteriorStrategy::OutlookNow() {
-  constexpr int kDraws = 400;
-  if (!outlook_) outlook_.emplace(OutlookBy(Sample(), kDraws));
+  if (!outlook_) outlook_.emplace(OutlookBy(Sample().Draws(kOutlookDraws, options_.seed)));
   return *outlook_;
 }
 
@@ -70,8 +84,9 @@ const Outlook& PosteriorStrategy::OutlookNow() {
 bool PosteriorStrategy::IsFarFromTheEnd() {
   constexpr int kDivisor = 5;
   constexpr int kDraws = 100;
-  const double far = 4 * options_.stop_share;
-  return !outlook_ && !StopByOutlook(OutlookBy(SampleOf(Model(), kDivisor), kDraws), far);
+  if (outlook_) return false;
+  const Eigen::MatrixXd draws = SampleOf(Model(), kDivisor).Draws(kDraws, options_.seed);
+  return !StopByOutlook(OutlookBy(draws), 4 * options_.stop_share);
 }
 
 std::optional<StopReason> PosteriorStrategy::WhyStop() {
@@ -82,7 +97,12 @@ std::optional<StopReason> PosteriorStrategy::WhyStop() {
 std::optional<StopShortfall> PosteriorStrategy::Shortfall() {
   if (options_.stop_share == 0) return std::nullopt;
   if (!HasDesign()) return StopShortfall{.lack = StopLack::kFirstTrials};
-  return ShortOfOutlook(OutlookNow(), options_.stop_share, static_cast<int>(observations_.size()));
+  constexpr Eigen::Index kFew = 50;
+  const Eigen::MatrixXd draws = Sample().Draws(kOutlookDraws, options_.seed);
+  const Eigen::MatrixXd few = draws(Eigen::seqN(0, kFew, kOutlookDraws / kFew), Eigen::all);
+  Outlook outlook = OutlookNow();
+  outlook.again = NarrowingBy(draws, SurrogatesAhead(few));
+  return ShortOfOutlook(outlook, options_.stop_share, static_cast<int>(observations_.size()));
 }
 
 }  // namespace talus::optimizer

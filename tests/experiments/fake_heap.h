@@ -82,6 +82,7 @@ struct FakeEngineOptions {
   bool fail_once = false;             // every trial's first seed fails
   bool film_grows = false;            // the pictures of a film are not all the same
   double sleep = 0;                   // of each trial [s]
+  int slow_third = 0;                 // 1 to 3: of each three trials this one takes longer
   bool no_command = false;            // the program is not there
   bool disk_full = false;             // every trial's program finds the disk full, and says so
   bool vanish = false;                // every trial's folder is taken away while it runs
@@ -111,6 +112,7 @@ class FakeEngine : public trials::TrialEngine {
     imaging::WritePng(folder / "drawn.png", DrawFilm(m.sliding_friction, rolling, seed,
                                                      num_pictures, options_.film_grows));
     std::string script = "sleep " + std::to_string(options_.sleep) + "\n";
+    if (std::stoi(folder.filename()) % 3 + 1 == options_.slow_third) script += "sleep 0.1\n";
     if (options_.hang_at > 0 && std::stoi(folder.filename()) == options_.hang_at) {
       script = "sleep 3600\n";
     }

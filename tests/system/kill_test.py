@@ -3,7 +3,7 @@
 
 Two workers run another engine whose command leaves processes in sessions of their own. After each kill
 nothing of it may run on, and what was finished must stay as it was; in the end the campaign has the
-trials that it was to have, each once. --two: of two experiments at three scale factors, searched by the posterior.
+trials of one that nobody killed. --two: of two experiments at three scale factors, searched by the posterior.
 `bench/kills` runs both with 200 kills.
 """
 import json
@@ -80,10 +80,10 @@ def processes_in(folder):
     return found
 
 
-def finished_trials(talus, folder):
-    subprocess.run([talus, "export", "out"], cwd=folder, check=True, capture_output=True)
-    trials = json.loads((folder / "out/export/trials.json").read_text())["trials"]
-    return {t["id"]: (t["unit_point"], t["seed"], t["status"], t["metrics"])
+def finished_trials(talus, folder, out="out"):
+    subprocess.run([talus, "export", out], cwd=folder, check=True, capture_output=True)
+    trials = json.loads((folder / out / "export/trials.json").read_text())["trials"]
+    return {t["id"]: (t["unit_point"], t["seed"], t["status"], t["metrics"], t["finish_order"])
             for t in trials if t["status"] != "running"}
 
 
@@ -131,6 +131,10 @@ def killed_campaign(talus, source, most_kills, dice, two):
         search = [t for t in before if before[t][2] == "ok"]
         assert len(search) == len(before) == simulations + confirming, (len(search), len(before))
         assert sorted(before) == list(range(1, simulations + confirming + 1))
+        subprocess.run([talus, "calibrate", "spec.json", "--out", "whole"], cwd=folder, check=True, capture_output=True)
+        whole = finished_trials(talus, folder, "whole")
+        others = [trial for trial, content in whole.items() if before[trial] != content]
+        assert not others, f"these trials are not those of a campaign that nobody killed: {others}"
         return kills, len(before)
 
 

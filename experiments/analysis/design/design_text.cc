@@ -10,7 +10,7 @@
 #include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/next/next_text.h"
-#include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/plan/usual_cost.h"
 #include "experiments/rigs/case/device_text.h"
 #include "experiments/rigs/observables/shown_number.h"
 #include "experiments/trials/simulate/run_log.h"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "experiments/campaign/plan/core_time.h"
+#include "experiments/campaign/plan/usual_cost.h"
 #include "imaging/formats/images/image_file.h"
 #include "optimizer/strategy/make_strategy.h"
 
@@ -77,8 +77,7 @@ optimizer::Observation ObservationOf(const journal::TrialRecord& trial, const Re
       .experiment = trial.experiment,
       .scale_factor = trial.scale_factor,
       // Not the processor time, which differs from run to run and would take proposals with it.
-      .cost = static_cast<double>(trial.num_particles) * static_cast<double>(trial.num_steps) /
-              kUsualSpeed,
+      .cost = CostAtUsualSpeed(trial),
       .failed = trial.status != journal::TrialStatus::kOk || !reference.IsMeasured(trial),
       .value = value.value_or(0),
       .field = std::move(field)};

@@ -53,7 +53,8 @@ Planner::Planner(const CampaignSpec& spec, const journal::CampaignRecord& record
       domain_(space_.MakeDomain()),
       posterior_(MakePosteriorStrategy(spec_, record, references_)),
       proposer_(MakeProposer(spec_, references_)),
-      core_time_(spec_) {}
+      core_time_(spec_),
+      turns_(spec_) {}
 
 void Planner::Started(const journal::TrialRecord& trial) {
   trials_.push_back(trial);
@@ -64,6 +65,7 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
   const auto known = std::find_if(trials_.begin(), trials_.end(),
                                   [&](const journal::TrialRecord& t) { return t.id == trial.id; });
   *known = trial;
+  turns_.Told(trial);
   if (!IsOfSearch(trial)) return;
   const optimizer::Observation observation =
       ObservationOf(trial, ReferenceOf(trial), std::move(field));
@@ -159,6 +161,7 @@ void Planner::Append(journal::TrialRecord trial, std::vector<journal::TrialRecor
           ? Count(journal::TrialKind::kDesign) + Count(journal::TrialKind::kSearch)
           : Count(trial.kind);
   trial.seed = SeedOf(trial);
+  trial.due = turns_.DueOf(trial);
   trials_.push_back(trial);
   planned.push_back(std::move(trial));
 }

@@ -1,7 +1,7 @@
 // Which trial comes next: noise first, then what the optimiser asks for, then the confirmation.
 //
 // A planner's state follows from the trials it was told, in their order, and from those that are
-// running; so it is rebuilt from a journal, and with one worker goes on as if nothing had happened.
+// running; so it is rebuilt from a journal, and goes on as if nothing had happened.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +15,7 @@
 #include "experiments/campaign/plan/candidates.h"
 #include "experiments/campaign/plan/core_time.h"
 #include "experiments/campaign/plan/stop.h"
+#include "experiments/campaign/plan/turns.h"
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/journal/records.h"
@@ -118,6 +119,7 @@ class Planner {
   std::optional<Stop> stop_;
   std::optional<GoalState> goal_;
   CoreTime core_time_;
+  Turns turns_;
   const int most_threads_ = base::MostLoopThreads();
 };
 

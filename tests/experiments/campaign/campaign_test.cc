@@ -311,5 +311,21 @@ TEST_F(CampaignTest, SeveralWorkersAndReplicatesMakeEveryTrialOnce) {
   for (const auto& [set, count] : sets) EXPECT_EQ(count, 2);
 }
 
+// The strategy is told of trials as they were expected to end, not as they end.
+TEST_F(CampaignTest, WithSeveralWorkersTheTrialsDoNotHangOnWhichEndsFirst) {
+  constexpr const char* kThree = R"(, "budget": {"simulations": 20}, "workers": 3,
+    "coarse_graining": {"scale_factors": [2, 1]})";
+  const fs::path calm = Begin(kThree, "calm");
+  EXPECT_EQ(RunFake(calm, {}), CampaignEnd::kFinished);
+  const std::string table = TrialTable(calm);
+  EXPECT_THAT(table, HasSubstr("model"));  // what is proposed follows from what was told
+  for (const int third : {1, 2}) {
+    const fs::path uneven = Begin(kThree, "uneven" + std::to_string(third));
+    EXPECT_EQ(RunFake(uneven, {.die_once = third == 2, .slow_third = third}),
+              CampaignEnd::kFinished);
+    EXPECT_EQ(TrialTable(uneven), table) << third;
+  }
+}
+
 }  // namespace campaign_test
 }  // namespace talus::campaign

@@ -70,6 +70,7 @@ class JournalTest : public ::testing::Test {
     trial.unit = {0.25, 0.5};
     trial.native = {0.25, 1e-5};
     trial.seed = 100 + id;
+    trial.due = 0.1 * static_cast<double>(id);
     trial.experiment = static_cast<int>(id % 2);
     trial.started_utc = UtcNow();
     return trial;
@@ -125,6 +126,7 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   EXPECT_EQ(trials[1].status, TrialStatus::kOk);
   EXPECT_EQ(trials[0].experiment, 1);
   EXPECT_EQ(trials[1].experiment, 0);
+  EXPECT_EQ(trials[1].due, Trial(2).due);
   EXPECT_EQ(trials[1].finish_order, 1);
   EXPECT_EQ(trials[1].native, (std::vector<double>{0.25, 1e-5}));
   EXPECT_EQ(trials[1].Metric("sad_mm2"), 1.5);
@@ -284,7 +286,7 @@ TEST_F(JournalTest, ManyTrialsAreReadByAsManyStatementsAsFewAndWithoutTheirImage
       database.Execute("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < " +
                        std::to_string(num_trials) +
                        ") INSERT INTO trials SELECT i, 'search', i, i, 'model', 'sad', i, 1, 'ok', "
-                       "'', 1, i, '', '', 1, 1, 1, 1, '', '', 0 FROM n;"
+                       "'', 1, i, i, '', '', 1, 1, 1, 1, '', '', 0 FROM n;"
                        "INSERT INTO points SELECT t.id, p.position, 0.5, 0.5 FROM trials t, "
                        "parameters p;"
                        "INSERT INTO metrics SELECT id, m.column1, 1, '', '' FROM trials, (VALUES "
