@@ -166,7 +166,9 @@ bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
   return submitted;
 }
 
+// Those due first: the others may end before their turn.
 bool Campaign::SubmitWaiting() {
+  std::ranges::stable_sort(waiting_, {}, &journal::TrialRecord::due);
   std::vector<journal::TrialRecord> trials;
   const int room = parts_.runner->Capacity() - static_cast<int>(running_.size());
   while (!waiting_.empty() && static_cast<int>(trials.size()) < room) {

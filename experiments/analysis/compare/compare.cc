@@ -72,15 +72,16 @@ double PooledScatter(const std::vector<Measurement>& measured) {
 // share says nothing.
 double NearestVolume(const std::vector<ComparedSet>& sets, std::size_t num_tied) {
   const Eigen::Index dimension = sets.front().point.size();
-  Eigen::MatrixXd points(dimension, static_cast<Eigen::Index>(sets.size()));
+  Eigen::MatrixXd points(static_cast<Eigen::Index>(sets.size()), dimension);
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    points.col(static_cast<Eigen::Index>(i)) = sets[i].point;
+    points.row(static_cast<Eigen::Index>(i)) = sets[i].point;
   }
-  const Eigen::MatrixXd sample = EvenSample(kVolumeSample, dimension).transpose();
+  const Eigen::VectorXd half_squares = points.rowwise().squaredNorm() / 2;
+  const Eigen::MatrixXd sample = EvenSample(kVolumeSample, dimension);
   int tied = 0;
-  for (Eigen::Index i = 0; i < sample.cols(); ++i) {
-    Eigen::Index nearest = 0;
-    (points.colwise() - sample.col(i)).colwise().squaredNorm().minCoeff(&nearest);
+  for (Eigen::Index i = 0; i < sample.rows(); ++i) {
+    Eigen::Index nearest = 0;  // ½|p - s|² but for ½|s|²
+    (half_squares - points * sample.row(i).transpose()).minCoeff(&nearest);
     if (nearest < static_cast<Eigen::Index>(num_tied)) ++tied;
   }
   return static_cast<double>(tied) / kVolumeSample;
