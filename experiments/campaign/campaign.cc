@@ -47,7 +47,7 @@ double Campaign::Elapsed() const {
 }
 
 CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
-  if (!StayEnded()) journal_.SetProgress({.elapsed_s = Elapsed()});
+  if (!StayEnded()) NoteProgress();
   TellFinished();
   if (parts_.goal) planner_.NoteGoal(LastGoal(folder_.root, spec_));
   TakeUpRunning();
@@ -60,7 +60,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
       DropRunning();
       return End(asked);
     }
-    const bool started = asked == base::Interrupt::kNone && StartTrials(interrupt);
+    const bool started = StartTrials(interrupt);
     if (TellEnded()) continue;  // what follows from it is planned before more is told
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
       console_.Line("ends when the " + std::to_string(running_.size()) +
@@ -73,17 +73,6 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
     ShowStatus();
     for (const runners::FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
   }
-}
-
-// A search that has ended stays so until something is asked of it (Reopen). Its budget may have
-// room again: trials that still ran when it ended counted by an estimate.
-bool Campaign::StayEnded() {
-  const journal::ProgressRecord before = journal_.Progress();
-  if (before.state != "finished" || before.result_json.empty()) return false;
-  planner_.StopSearch(ParseAnswer(before.result_json).stop);
-  console_.Line("it has ended: " + before.stop_reason + "; `talus resume " + folder_.root.string() +
-                " --add-simulations " + std::to_string(kMoreSimulations) + "` goes on");
-  return true;
 }
 
 // Trials become known by their ids, observations are told in the order in which they finished.
@@ -150,20 +139,24 @@ bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
   return true;
 }
 
+// What follows from what was told is planned also where it is not to be started any more: a resumed
+// campaign must not know more when it plans.
 bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
     planner_.StopSearch({.kind = StopKind::kWallClock, .value = *spec_.budget.wall_clock});
   }
-  bool submitted = SubmitWaiting();  // before the proposals, which take their time
+  const bool starts = interrupt.Asked() == base::Interrupt::kNone;
+  const bool submitted = starts && SubmitWaiting();  // before the proposals, which take their time
   const auto num_begun = running_.size() + waiting_.size() + ended_.size();
-  const int most = MostBegun(spec_, parts_.runner->Capacity());
-  if (const int count = most - static_cast<int>(num_begun); count > 0) {
-    const bool is_goal_due = IsGoalDue();
-    if (is_goal_due && num_begun == 0 && !LookAtGoal(interrupt)) return true;  // it is to end
-    if (!is_goal_due || num_begun == 0) Begin(planner_.Next(count));
-    submitted |= SubmitWaiting();
+  const int count = MostBegun(spec_, parts_.runner->Capacity()) - static_cast<int>(num_begun);
+  if (count <= 0) return submitted;
+  if (IsGoalDue()) {
+    if (num_begun > 0 || !starts) return submitted;
+    if (!LookAtGoal(interrupt)) return true;  // it is to end
   }
-  return submitted;
+  Begin(planner_.Next(count));
+  NoteStop();
+  return (starts && SubmitWaiting()) || submitted;
 }
 
 // Those due first: the others may end before their turn.
@@ -184,7 +177,10 @@ void Campaign::Begin(std::vector<journal::TrialRecord> planned) {
   for (journal::TrialRecord& trial : planned) trial.started_utc = journal::UtcNow();
   journal_.Start(planned, parts_.runner->JobsOutliveUs() ? base::Outlives::kPowerCut
                                                          : base::Outlives::kProgram);
-  for (const journal::TrialRecord& trial : planned) planner_.Started(trial);
+  for (const journal::TrialRecord& trial : planned) {
+    planner_.Started(trial);
+    KeepTrial(folder_, trial);
+  }
   std::ranges::move(planned, std::back_inserter(waiting_));
 }
 
@@ -239,7 +235,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   running_.erase(found);
   if (job.duration > 0) trial.duration_s = job.duration;
   if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
-  trial.host = job.host;
+  if (!job.host.empty()) trial.host = job.host;
   if (job.end ==
       runners::JobEnd::kNotStarted) {  // the set-up's fault: every other trial would fail as well
     throw base::Error("trial " + std::to_string(trial.id) +
@@ -305,6 +301,9 @@ void Campaign::FailOrRetry(journal::TrialRecord& trial, const std::string& reaso
 
 void Campaign::Keep(journal::TrialRecord& trial, std::optional<imaging::GrayImage> profile) {
   trial.finished_utc = journal::UtcNow();
+  if (AreToldInTurn(spec_) && NextInTurn(planner_.trials()) != trial.id) {
+    journal_.NoteEnd(trial);  // who resumes finds the result, and not how long it took
+  }
   ended_.push_back({.trial = std::move(trial), .profile = std::move(profile)});
 }
 
@@ -338,7 +337,7 @@ void Campaign::NoteElapsed() {
   constexpr auto kPeriod = std::chrono::seconds(2);
   if (Clock::now() - noted_ < kPeriod) return;
   noted_ = Clock::now();
-  journal_.SetProgress({.elapsed_s = Elapsed()});
+  NoteProgress();
 }
 
 void Campaign::DropRunning() {

@@ -80,6 +80,8 @@ class Campaign {
   bool TellEnded();
   void Tell(EndedTrial& ended);
   void NoteElapsed();
+  void NoteStop();
+  void NoteProgress();
   void DropRunning();
   CampaignEnd End(base::Interrupt interrupt);
   void WriteResult(journal::ProgressRecord& progress);
@@ -108,6 +110,7 @@ class Campaign {
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<Answer> result_;
   Clock::time_point start_;
+  std::string stop_json_;      // of the rule that has ended the search; empty where none has
   Clock::time_point noted_;    // when the time worked on it was last written
   double elapsed_before_ = 0;  // [s]
 };

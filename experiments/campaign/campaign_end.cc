@@ -1,13 +1,43 @@
-// When a session ends: what was found is written.
+// When a search or a session ends: it is noted, and stays so; what was found is written.
 #include <cstdint>
 
 #include "base/files/file.h"
+#include "base/json/json_writer.h"
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/remains.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/journal/record_json.h"
 
 namespace talus::campaign {
+
+// A search that has ended stays so until something is asked of it (Reopen). Its budget may have
+// room again: trials that still ran when it ended counted by an estimate.
+bool Campaign::StayEnded() {
+  const journal::ProgressRecord before = journal_.Progress();
+  stop_json_ = before.stop_json;
+  if (!stop_json_.empty()) {
+    planner_.StopSearch(journal::ParseRecord<Stop>(stop_json_, "the journal's stop"));
+  }
+  if (before.state != "finished" || before.result_json.empty()) return false;
+  planner_.StopSearch(ParseAnswer(before.result_json).stop);
+  console_.Line("it has ended: " + before.stop_reason + "; `talus resume " + folder_.root.string() +
+                " --add-simulations " + std::to_string(kMoreSimulations) + "` goes on");
+  return true;
+}
+
+// Trials that were under way are told after a rule has ended the search: asked anew, with these, it
+// may answer otherwise.
+void Campaign::NoteStop() {
+  const std::optional<Stop>& stop = planner_.stop();
+  if (!stop_json_.empty() || !stop || stop->kind != StopKind::kRule) return;
+  stop_json_ = base::JsonTextWriter::TextOf(*stop);
+  NoteProgress();
+}
+
+void Campaign::NoteProgress() {
+  journal_.SetProgress({.elapsed_s = Elapsed(), .stop_json = stop_json_});
+}
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
@@ -15,7 +45,8 @@ CampaignEnd Campaign::End(base::Interrupt interrupt) {
       .state = finished ? "finished" : "interrupted",
       .stop_reason = finished ? planner_.stop()->Text() : "it was interrupted",
       .elapsed_s = Elapsed(),
-      .result_json = {}};
+      .result_json = {},
+      .stop_json = stop_json_};
   if (finished) {
     const CampaignEvidence evidence{
         .spec = spec_,

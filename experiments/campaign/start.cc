@@ -252,9 +252,11 @@ void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem
 
 void Reopen(journal::Journal& journal) {
   journal::ProgressRecord progress = journal.Progress();
-  if (progress.state != "finished") return;
-  progress.state = "interrupted";
-  progress.stop_reason = "it is to go on";
+  progress.stop_json.clear();
+  if (progress.state == "finished") {
+    progress.state = "interrupted";
+    progress.stop_reason = "it is to go on";
+  }
   journal.SetProgress(progress);
 }
 

@@ -98,12 +98,6 @@ std::string FailureLines(const std::vector<journal::TrialRecord>& trials) {
   return text;
 }
 
-// Of those under way some wait for a core, or to be told.
-int AtATime(const CampaignSpec& spec, int under_way) {
-  if (spec.runner.kind != RunnerKind::kLocal) return under_way;
-  return std::min(under_way, LocalWorkers(spec, NumCores()));
-}
-
 }  // namespace
 
 std::string StatusText(const std::filesystem::path& root) {
@@ -132,7 +126,7 @@ std::string StatusText(const std::filesystem::path& root) {
           std::to_string(counts.by_kind[3]) + " to confirm\n";
   if (!answer) text += ReusedLines(ReusedBy(trials, CoresOfTrial(spec)));
   text += "  now               " + std::to_string(counts.running) +
-          (alive ? " under way\n" : " to be run again\n");
+          (alive ? " under way\n" : " to be run or collected\n");
   text += "  failed            " + std::to_string(counts.failed) + "\n" + FailureLines(trials);
   text += BestLines(trials, campaign, spec);
   for (const journal::ExperimentRecord& e : campaign.experiments) {

@@ -17,12 +17,14 @@ struct Numbers {
   std::int64_t id = 1;
   std::int64_t kind_index = 0;
   std::int64_t set = 1;  // 0 is the noise's
+  double due = 0;        // after all that was told before
 };
 
 Numbers NextOf(const std::vector<journal::TrialRecord>& trials) {
   Numbers next;
   for (const journal::TrialRecord& trial : trials) {
     next.id = std::max(next.id, trial.id + 1);
+    next.due = std::max(next.due, trial.due);
     if (!IsOfSearch(trial)) continue;
     next.set = std::max(next.set, trial.set + 1);
     if (trial.kind == journal::TrialKind::kDesign || trial.kind == journal::TrialKind::kSearch) {
@@ -105,6 +107,7 @@ TakenOver TakeOverDesigns(const CampaignFolder& folder,
       if (!unit || std::ranges::count(levels, former.scale_factor) == 0) continue;
       journal::TrialRecord trial = TrialOf(experiment, former, *unit);
       trial.id = numbers.id;
+      trial.due = numbers.due;
       trial.kind = journal::TrialKind::kDesign;
       trial.kind_index = numbers.kind_index;
       trial.set = numbers.set;

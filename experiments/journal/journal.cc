@@ -226,6 +226,15 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
   transaction.Commit();
 }
 
+void Journal::NoteEnd(const TrialRecord& t) {
+  Transaction transaction(database_);
+  database_.Prepare("UPDATE trials SET duration_s = ?2, cpu_s = ?3, host = ?4 WHERE id = ?1")
+      .Bind(t.id, t.duration_s, t.cpu_s, t.host)
+      .Finish();
+  SealTrial(database_, t.id);
+  transaction.Commit();
+}
+
 void Journal::Finish(TrialRecord& t, std::string_view profile_png) {
   Transaction transaction(database_);
   if (!last_finish_order_) {

@@ -31,7 +31,8 @@ std::string ColumnName(const ParameterRecord& parameter) {
 void Journal::InsertCampaign(const CampaignRecord& c) {
   database_
       .Prepare(
-          "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', 0, '')")
+          "INSERT INTO campaign VALUES (1, ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, 'running', '', 0, '', "
+          "'')")
       .Bind(c.name, c.spec_path, c.spec_text, c.spec_json, c.spec_hash, c.talus_version,
             c.created_utc, c.objective)
       .Finish();
@@ -102,19 +103,22 @@ CampaignRecord Journal::Campaign() {
 }
 
 ProgressRecord Journal::Progress() {
-  Statement row =
-      database_.Prepare("SELECT state, stop_reason, elapsed_s, result_json FROM campaign");
+  Statement row = database_.Prepare(
+      "SELECT state, stop_reason, elapsed_s, result_json, stop_json FROM campaign");
   if (!row.Step()) throw base::Error("the journal holds no campaign");
   ProgressRecord p;
-  row.Read(0, p.state, p.stop_reason, p.elapsed_s, p.result_json);
+  row.Read(0, p.state, p.stop_reason, p.elapsed_s, p.result_json, p.stop_json);
   return p;
 }
 
 void Journal::SetProgress(const ProgressRecord& progress) {
   Transaction transaction(database_);
   database_
-      .Prepare("UPDATE campaign SET state = ?1, stop_reason = ?2, elapsed_s = ?3, result_json = ?4")
-      .Bind(progress.state, progress.stop_reason, progress.elapsed_s, progress.result_json)
+      .Prepare(
+          "UPDATE campaign SET state = ?1, stop_reason = ?2, elapsed_s = ?3, result_json = ?4, "
+          "stop_json = ?5")
+      .Bind(progress.state, progress.stop_reason, progress.elapsed_s, progress.result_json,
+            progress.stop_json)
       .Finish();
   SealCampaign(database_);
   transaction.Commit();

@@ -122,6 +122,7 @@ struct ProgressRecord {
   std::string stop_reason{};      // in words, when it is not running
   double elapsed_s = 0;           // time worked on it, all sessions together
   std::string result_json{};      // result.json's text once there is one
+  std::string stop_json{};        // of the rule that has ended the search, as result.json has it
 };
 
 struct TrialRecord {

@@ -22,7 +22,8 @@ CREATE TABLE campaign (
   state TEXT NOT NULL,
   stop_reason TEXT NOT NULL,
   elapsed_s REAL NOT NULL,
-  result_json TEXT NOT NULL
+  result_json TEXT NOT NULL,
+  stop_json TEXT NOT NULL
 );
 CREATE TABLE parameters (
   position INTEGER PRIMARY KEY,   -- order in the unit cube, from 0

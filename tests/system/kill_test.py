@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""kill_test.py TALUS SOURCE_DIR [--kills N] [--seed S] [--two]: kill -9 of a campaign at random moments.
+"""kill_test.py TALUS SOURCE_DIR [--kills N] [--seed S] [--two]: kill -9 or Ctrl-C of a campaign at random moments.
 
 Two workers run another engine whose command leaves processes in sessions of their own. After each kill
 nothing of it may run on, and what was finished must stay as it was; in the end the campaign has the
@@ -30,6 +30,9 @@ awk -v mu={{ sliding_friction }} -v mr={{ rolling_friction }} 'BEGIN {
       if (x * x + y * y <= r * r) print x "," y "," z "," d } }' >heap.part
 mv heap.part heap.csv
 """
+
+
+KILLED = (-signal.SIGKILL, -signal.SIGINT, 130)  # by Ctrl-C before and after it is listened to
 
 
 def without_comments(text):
@@ -103,7 +106,7 @@ def killed_campaign(talus, source, most_kills, dice, two):
                 output = campaign.communicate(timeout=None if kills == most_kills
                                               else dice.uniform(0.02, 0.6))[0].decode()
             except subprocess.TimeoutExpired:
-                campaign.send_signal(signal.SIGKILL)
+                campaign.send_signal(dice.choice((signal.SIGKILL, signal.SIGINT)))
                 output = campaign.communicate()[0].decode()
                 kills += 1
             deadline = time.monotonic() + 60  # a busy machine ends them late
@@ -111,7 +114,7 @@ def killed_campaign(talus, source, most_kills, dice, two):
                 time.sleep(0.01)
             assert not left, f"these live on: {left}"
             if not (folder / "out/journal.sqlite").exists():
-                assert campaign.returncode == -9, output
+                assert campaign.returncode in KILLED, output
                 for file in sorted((folder / "out").rglob("*")) if (folder / "out").exists() else []:
                     assert file.name in ("campaign.lock", "aehp.png", "aehp_sd.png", "campaign.json") \
                         or ".tmp" in file.name, file
@@ -121,7 +124,7 @@ def killed_campaign(talus, source, most_kills, dice, two):
                     subprocess.run(["rm", "-rf", "out"], cwd=folder, check=True)
                 continue
             command = [talus, "resume", "out"]
-            assert campaign.returncode in (0, -9), output
+            assert campaign.returncode in (0, *KILLED), output
             now = finished_trials(talus, folder)
             lost = [trial for trial, content in before.items() if now.get(trial) != content]
             assert not lost, f"these trials are lost or changed: {lost}"

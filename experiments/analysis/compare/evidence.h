@@ -108,6 +108,7 @@ struct Evidence {
   std::string objective;         // key of one of kObjectives: the latest search's
   std::string strategy;          // its kind
   int max_simulations = 0;       // the budget; 0: none
+  int workers = 0;               // trials that run at a time; 0: all that are under way
   std::vector<ParameterInfo> parameters;
   std::vector<MetricInfo> metrics;
   std::vector<TrialEvidence> trials;

@@ -15,6 +15,7 @@
 #include "engine/kernel/dispatch.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/answer.h"
+#include "experiments/campaign/plan/cores.h"
 #include "experiments/journal/journal.h"
 #include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/observable.h"
@@ -148,6 +149,11 @@ void AddSpec(Evidence& evidence, const journal::CampaignRecord& record) {
   const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
   if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
   if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
+  if (spec.contains("runner") && spec["runner"].value("kind", "") == "slurm") return;
+  evidence.workers = spec.value("workers", 0);
+  if (evidence.workers == 0) {
+    evidence.workers = std::max(1, campaign::NumCores() / spec.value("threads", 1));
+  }
 }
 
 // "Linux 6.1.0 x86_64, 8 processors"

@@ -101,6 +101,7 @@ void KeepCampaign(const CampaignFolder& folder, const journal::CampaignRecord& r
 }
 
 void KeepTrial(const CampaignFolder& folder, const journal::TrialRecord& trial) {
+  std::filesystem::create_directories(folder.trial(trial.id));
   base::WriteFileAtomically(folder.trial(trial.id) / kTrialFile, TextWithChecksum(trial),
                             base::Outlives::kProgram);
 }

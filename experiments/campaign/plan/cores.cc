@@ -15,6 +15,11 @@ int LocalWorkers(const CampaignSpec& spec, int num_cores) {
   return spec.workers > 0 ? spec.workers : std::max(1, num_cores / CoresOfTrial(spec));
 }
 
+int AtATime(const CampaignSpec& spec, int under_way) {
+  if (spec.runner.kind != RunnerKind::kLocal) return under_way;
+  return std::min(under_way, LocalWorkers(spec, NumCores()));
+}
+
 std::optional<std::string> CoresWarning(const CampaignSpec& spec, int num_cores) {
   if (spec.runner.kind != RunnerKind::kLocal) return std::nullopt;
   const int each = CoresOfTrial(spec);

@@ -71,12 +71,12 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
       ObservationOf(trial, ReferenceOf(trial), std::move(field));
   posterior_->Tell(observation);
   if (proposer_) proposer_->Tell(observation);
-  CheckThatSomeSucceed();
+  CheckThatSomeSucceed(trial.reason);
   CheckThatNumbersAreDefined(trial.experiment);
 }
 
 // A campaign whose first trials all fail has a mistake in its set-up; going on would only cost.
-void Planner::CheckThatSomeSucceed() {
+void Planner::CheckThatSomeSucceed(const std::string& last) {
   std::size_t failed = 0;
   for (const journal::TrialRecord& trial : trials_) {
     if (trial.kind == journal::TrialKind::kReused) continue;  // the set-up of others worked
@@ -84,9 +84,7 @@ void Planner::CheckThatSomeSucceed() {
     if (trial.status == journal::TrialStatus::kFailed) ++failed;
   }
   if (failed < kFailuresToGiveUp) return;
-  StopSearch({.kind = StopKind::kAllFailed,
-              .value = static_cast<double>(failed),
-              .cause = trials_.back().reason});
+  StopSearch({.kind = StopKind::kAllFailed, .value = static_cast<double>(failed), .cause = last});
 }
 
 // Nor does a number teach anything that no set defines.
@@ -245,7 +243,8 @@ void Planner::LeaveCoresToTrials() const {
       std::count_if(trials_.begin(), trials_.end(), [](const journal::TrialRecord& trial) {
         return trial.status == journal::TrialStatus::kRunning;
       });
-  base::SetMostLoopThreads(most_threads_ - static_cast<int>(num_running) * CoresOfTrial(spec_));
+  base::SetMostLoopThreads(most_threads_ -
+                           AtATime(spec_, static_cast<int>(num_running)) * CoresOfTrial(spec_));
 }
 
 bool Planner::PlanSearch(int count, std::vector<journal::TrialRecord>& planned) {

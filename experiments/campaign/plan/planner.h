@@ -105,7 +105,7 @@ class Planner {
   int Count(journal::TrialKind kind) const;
   int NumOfSearch() const;  // that the strategies are told of, noise and reused ones included
   int NumPaidFor() const;   // … without the reused ones
-  void CheckThatSomeSucceed();
+  void CheckThatSomeSucceed(const std::string& last);  // reason of the trial that was just told
   void CheckThatNumbersAreDefined(int experiment);
 
   const CampaignSpec spec_;

@@ -29,7 +29,8 @@ struct BudgetOptions {
            .doc = "processor time for noise and search; no new trial of the search after it, > 0"});
     visit("wall_clock", self.wall_clock,
           {.dimension = base::Dimension::kTime,
-           .doc = "no new trial of the search after this time of work, > 0"});
+           .doc = "none of the search is proposed after this time of work; those under way still "
+                  "run; > 0"});
     visit("sensitivity_share", self.sensitivity_share,
           {.doc = "at the end `talus sensitivity` runs by itself where its first simulations take "
                   "this share of the search's processor time at most, such as 0.05; in [0, 1], 0 "

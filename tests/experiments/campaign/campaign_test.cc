@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/json/json_text.h"
+#include "base/json/json_writer.h"
 #include "experiments/analysis/export/export.h"
 #include "experiments/campaign/answer/answer_summary.h"
 #include "experiments/campaign/answer/consider.h"
@@ -325,6 +326,20 @@ TEST_F(CampaignTest, WithSeveralWorkersTheTrialsDoNotHangOnWhichEndsFirst) {
               CampaignEnd::kFinished);
     EXPECT_EQ(TrialTable(uneven), table) << third;
   }
+}
+
+// What was told after a rule had ended the search is no reason to go on with it.
+TEST_F(CampaignTest, ASearchThatARuleHasEndedIsNotResumedUnlessMoreIsAskedFor) {
+  const fs::path folder = Begin(R"(, "budget": {"simulations": 20}, "workers": 1)");
+  const Stop stop{.kind = StopKind::kRule, .rule = optimizer::StopReason{.name = "the rule"}};
+  journal::Journal::Open(journal::JournalPath(folder))
+      .SetProgress({.state = "interrupted", .stop_json = base::JsonTextWriter::TextOf(stop)});
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFailed);  // without a trial there is no answer
+  EXPECT_EQ(Trials(folder).size(), 0u);
+  EXPECT_EQ(journal::Journal::OpenReadOnly(journal::JournalPath(folder)).Progress().stop_reason,
+            stop.Text());
+  RunFake(folder, {}, {.add_simulations = 5});
+  EXPECT_GE(Trials(folder).size(), 5u);
 }
 
 }  // namespace campaign_test

@@ -117,6 +117,11 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   StartTrial(journal, 1);
   StartTrial(journal, 2);
   FinishAsOk(journal, Trial(2), 1.5);
+  TrialRecord waits = Trial(1);
+  waits.duration_s = 7;
+  waits.cpu_s = 6;
+  waits.host = "node";
+  journal.NoteEnd(waits);
   journal.AddEvent("warning", 2, "text");
 
   Journal reader = Journal::OpenReadOnly(File());  // `journal` is still open
@@ -124,6 +129,9 @@ TEST_F(JournalTest, HoldsWhatItWasGivenAndReadsItWhileItIsWritten) {
   ASSERT_EQ(trials.size(), 2u);
   EXPECT_EQ(trials[0].status, TrialStatus::kRunning);
   EXPECT_EQ(trials[1].status, TrialStatus::kOk);
+  EXPECT_EQ(trials[0].duration_s, 7);
+  EXPECT_EQ(trials[0].cpu_s, 6);
+  EXPECT_EQ(trials[0].host, "node");
   EXPECT_EQ(trials[0].experiment, 1);
   EXPECT_EQ(trials[1].experiment, 0);
   EXPECT_EQ(trials[1].due, Trial(2).due);

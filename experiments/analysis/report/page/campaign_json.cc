@@ -64,6 +64,7 @@ PageValue CampaignJson(const ReportData& data) {
           {"stop_reason", e.stop_reason},
           {"folder", base::ShellWord(e.folder.string())},
           {"budget", e.max_simulations},
+          {"workers", e.workers},
           {"counts", CountsJson(e)},
           {"reused_from",
            e.answer ? ListJson(e.answer->reused, campaign::ReusedText) : PageValue::array()},

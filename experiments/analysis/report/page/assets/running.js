@@ -30,7 +30,7 @@ function timeLeft() {
   if (D.campaign.state !== "running" || !D.campaign.budget || left <= 0 || !ended.length) return null;
   const latest = ended.slice(-10);
   const each = latest.reduce((sum, i) => sum + t.seconds[i], 0) / latest.length;
-  const workers = Math.max(1, running);
+  const workers = Math.max(1, Math.min(running, D.campaign.workers || running));
   return fact("Time left", "at most about " + duration(left * each / workers),
     left + " simulations of the budget, " + workers + " at a time");
 }

@@ -5,7 +5,7 @@ function standing() {
   const parts = [searched + " simulations" + (c.budget ? " of at most " + c.budget : "")];
   if (confirming) parts[0] += " and " + confirming + (confirming === 1 ? " that confirms" : " that confirm") + " the answer";
   if (failed) parts.push(failed + " failed");
-  if (running) parts.push(running + " running");
+  if (running) parts.push(running + " under way");
   if (reused) parts.push("reused: " + (c.reused_from.length ? c.reused_from.join(", ") : reused + " simulations"));
   if (c.core_hours !== null) parts.push(duration(3600 * c.core_hours) + " of core time" + (confirming ? " in all" : ""));
   return [element("span", {class: "state"}, D.headline && D.headline.unsettled ? "budget used" : c.state),
