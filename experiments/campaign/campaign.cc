@@ -60,8 +60,8 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
       DropRunning();
       return End(asked);
     }
-    const bool started = StartTrials(interrupt);
-    if (TellEnded()) continue;  // what follows from it is planned before more is told
+    const bool started = asked == base::Interrupt::kNone && StartTrials(interrupt);
+    if (MayTell(asked) && TellEnded()) continue;  // what follows is planned before more is told
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
@@ -139,24 +139,30 @@ bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
   return true;
 }
 
-// What follows from what was told is planned also where it is not to be started any more: a resumed
-// campaign must not know more when it plans.
+// Where nothing is planned any more, a trial that is told leaves room for one to be planned by who
+// resumes: he must not know more by then.
+bool Campaign::MayTell(base::Interrupt asked) const {
+  return asked == base::Interrupt::kNone || !AreToldInTurn(spec_) || RoomToBegin() <= 0;
+}
+
+int Campaign::RoomToBegin() const {
+  return MostBegun(spec_, parts_.runner->Capacity()) - static_cast<int>(NumBegun());
+}
+
 bool Campaign::StartTrials(const base::InterruptGuard& interrupt) {
   if (spec_.budget.wall_clock && Elapsed() > *spec_.budget.wall_clock) {
     planner_.StopSearch({.kind = StopKind::kWallClock, .value = *spec_.budget.wall_clock});
   }
-  const bool starts = interrupt.Asked() == base::Interrupt::kNone;
-  const bool submitted = starts && SubmitWaiting();  // before the proposals, which take their time
-  const auto num_begun = running_.size() + waiting_.size() + ended_.size();
-  const int count = MostBegun(spec_, parts_.runner->Capacity()) - static_cast<int>(num_begun);
-  if (count <= 0) return submitted;
+  const bool submitted = SubmitWaiting();  // before the proposals, which take their time
+  const int room = RoomToBegin();
+  if (room <= 0) return submitted;
   if (IsGoalDue()) {
-    if (num_begun > 0 || !starts) return submitted;
+    if (NumBegun() > 0) return submitted;
     if (!LookAtGoal(interrupt)) return true;  // it is to end
   }
-  Begin(planner_.Next(count));
+  Begin(planner_.Next(room));
   NoteStop();
-  return (starts && SubmitWaiting()) || submitted;
+  return SubmitWaiting() || submitted;
 }
 
 // Those due first: the others may end before their turn.

@@ -62,6 +62,10 @@ class Campaign {
   void TellFinished();
   void TakeUpRunning();
   void CollectReused();
+  // Begun and not told.
+  std::size_t NumBegun() const { return running_.size() + waiting_.size() + ended_.size(); }
+  int RoomToBegin() const;
+  bool MayTell(base::Interrupt asked) const;
   bool StartTrials(const base::InterruptGuard& interrupt);
   bool SubmitWaiting();
   void Begin(std::vector<journal::TrialRecord> planned);

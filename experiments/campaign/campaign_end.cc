@@ -40,6 +40,7 @@ void Campaign::NoteProgress() {
 }
 
 CampaignEnd Campaign::End(base::Interrupt interrupt) {
+  for (const EndedTrial& ended : ended_) journal_.NoteEnd(ended.trial);
   const bool finished = interrupt == base::Interrupt::kNone && waiting_.empty();
   journal::ProgressRecord progress{
       .state = finished ? "finished" : "interrupted",
