@@ -139,8 +139,8 @@ bool Campaign::LookAtGoal(const base::InterruptGuard& interrupt) {
   return true;
 }
 
-// Where nothing is planned any more, a trial that is told leaves room for one to be planned by who
-// resumes: he must not know more by then.
+// After Ctrl-C nothing is planned: a trial that is told leaves room for one that is planned on
+// resuming, when no more may be known than in an unbroken campaign.
 bool Campaign::MayTell(base::Interrupt asked) const {
   return asked == base::Interrupt::kNone || !AreToldInTurn(spec_) || RoomToBegin() <= 0;
 }
