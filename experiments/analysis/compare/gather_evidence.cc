@@ -149,10 +149,9 @@ void AddSpec(Evidence& evidence, const journal::CampaignRecord& record) {
   const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
   if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
   if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
-  if (spec.contains("runner") && spec["runner"].value("kind", "") == "slurm") return;
-  evidence.workers = spec.value("workers", 0);
-  if (evidence.workers == 0) {
-    evidence.workers = std::max(1, campaign::NumCores() / spec.value("threads", 1));
+  const campaign::CampaignSpec understood = campaign::ParseSpecText(record.spec_json);
+  if (understood.runner.kind == campaign::RunnerKind::kLocal) {
+    evidence.workers = campaign::LocalWorkers(understood, campaign::NumCores());
   }
 }
 
