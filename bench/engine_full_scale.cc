@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   simulation.Advance(steps);
   const double work = static_cast<double>(steps * count);
   const engine::ListStatistics list = simulation.Statistics();
-  std::printf("%lld grains, %lld steps on %d threads: %.1f ns of CPU a grain and step, %.0f s\n",
+  std::printf("%lld grains, %lld steps on %d threads: %.1f ns of CPU a grain and step, %.2f s\n",
               static_cast<long long>(count), static_cast<long long>(steps), threads,
               1e9 * (bench::CpuSeconds() - cpu) / work, bench::WallSeconds() - wall);
   std::printf(
