@@ -36,6 +36,27 @@ struct MeasureFlags {
   bool choose_mass = false;
 };
 
+// Flags that the input leaves without an effect.
+void RefuseIdleFlags(const MeasureFlags& flags) {
+  const auto refuse = [](bool given, const char* flag, const char* why) {
+    if (given) throw base::ConfigError(std::string(flag) + ": " + why + "; leave it out");
+  };
+  refuse(!flags.tilt.empty() && flags.frame.empty(), "--tilt", "is of a plate given by --frame");
+  const char* kind = !flags.like.empty() ? "has no effect on spheres"
+                     : flags.drum        ? "has no effect on a drum"
+                     : flags.map         ? "has no effect on a map"
+                                         : nullptr;
+  if (kind == nullptr) return;
+  refuse(!flags.scale.empty(), "--scale", kind);
+  refuse(!flags.pixel_size.empty(), "--pixel-size", kind);
+  refuse(!flags.tilt.empty(), "--tilt", kind);
+  refuse(flags.threshold.has_value(), "--threshold", kind);
+  refuse(flags.powder != "auto", "--powder", kind);
+  refuse(flags.choose_mass, "--choose-mass", kind);
+  refuse(flags.map && (flags.drum || !flags.like.empty()), "--map", kind);
+  refuse(flags.drum && !flags.like.empty(), "--drum", kind);
+}
+
 // What only one kind of test has stands with it alone.
 std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
   if (!flags.drum) {
@@ -43,7 +64,7 @@ std::optional<imaging::DrumPhotos> Drum(const MeasureFlags& flags) {
     throw base::ConfigError("--diameter and --turning are of a drum; add --drum");
   }
   if (flags.diameter.empty()) {
-    throw base::ConfigError("--diameter is missing; give the drum's inside with its unit: 84mm");
+    throw base::ConfigError("--diameter is missing; give the drum's with its unit: 84mm");
   }
   imaging::DrumPhotos options{
       .photos = {},
@@ -105,6 +126,7 @@ void Measure(const MeasureFlags& flags) {
                                  .like = flags.like,
                                  .num_views = flags.views,
                                  .length_unit = std::nullopt};
+  RefuseIdleFlags(flags);
   if (!flags.length_unit.empty()) {
     request.length_unit =
         FlagQuantity("--length-unit", "1 " + flags.length_unit, base::Dimension::kLength);
@@ -148,7 +170,8 @@ void AddPhotoFlags(CLI::App& verb, MeasureFlags& flags) {
 void AddDrumFlags(CLI::App& verb, MeasureFlags& flags) {
   verb.add_flag("--drum", flags.drum,
                 "photographs of a turning drum, a series or its average: angle, fill, map");
-  verb.add_option("--diameter", flags.diameter, "with --drum: its inside, such as 84mm");
+  verb.add_option("--diameter", flags.diameter,
+                  "with --drum: of the circle where it meets what is around it, such as 84mm");
   verb.add_option("--turning", flags.turning,
                   "with --drum: as the camera sees it; default: read from the picture")
       ->check(CLI::IsMember(base::NamesOf<imaging::Turning>()));

@@ -1,6 +1,7 @@
 #include "imaging/drums/drum_circle.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -17,6 +18,7 @@ constexpr double kLeastStep = 60;       // of an edge [grey levels over kEdge]
 constexpr int kEdge = 3;                // length over which an edge is looked for [px]
 constexpr double kOnCircle = 0.01;      // how far a point may lie off the circle / its radius
 constexpr double kLeastOn = 0.5;        // share of the rays whose point lies on it
+constexpr double kMostBeyond = 0.01;    // how far it may reach out of the picture / its radius
 constexpr double kSmallestShare = 0.2;  // radius / shorter side of the picture
 
 struct Point {
@@ -70,6 +72,16 @@ std::vector<Point> OnCircle(const std::vector<Point>& points, const DrumCircle& 
   return on;
 }
 
+// A cut drum's fill would be that of a part of it.
+void RequireWhole(const DrumCircle& circle, const GrayImage& photo, const std::string& name) {
+  const double inside = std::min({circle.center_x, circle.center_y, photo.width - circle.center_x,
+                                  photo.height - circle.center_y});
+  const double beyond = circle.radius - inside;
+  if (beyond <= kMostBeyond * circle.radius) return;
+  throw base::ConfigError(name + ": its drum reaches " + std::to_string(std::lround(beyond)) +
+                          " px out of the picture; the whole ring must be in it");
+}
+
 }  // namespace
 
 DrumCircle FindDrumCircle(const GrayImage& photo, const std::string& name) {
@@ -93,6 +105,7 @@ DrumCircle FindDrumCircle(const GrayImage& photo, const std::string& name) {
                             "whole ring must be in the picture, near its middle, and differ from "
                             "what is around it");
   }
+  RequireWhole(circle, photo, name);
   return circle;
 }
 

@@ -89,7 +89,7 @@ struct Top {
 // 3 : 5, on a round top, where width ~ √depth, by 1 : 1.
 Top FindTop(const Outline& outline, double base_width) {
   const double height = *std::max_element(outline.height.begin(), outline.height.end());
-  const double depth = std::max(1.0, 0.02 * height);  // [px]
+  const double depth = std::min(std::max(1.0, 0.02 * height), height / 10);  // [px]
   const Span near = SpanAbove(outline.height, height - depth);
   const Span mid = SpanAbove(outline.height, height - 4 * depth);
   const Span far = SpanAbove(outline.height, height - 9 * depth);

@@ -30,7 +30,7 @@ double SquareMillimetres(double pixels, const Frame& frame) {
 Measured Rmse(const GrayImage& a, const GrayImage& b, const std::optional<Region>& region) {
   const Region where =
       region.value_or(Region{.left = 0, .top = 0, .width = a.width, .height = a.height});
-  if (where.left + where.width > a.width || where.top + where.height > a.height) {
+  if (where.left > a.width - where.width || where.top > a.height - where.height) {
     return {.not_defined = "the region is not within the image"};
   }
   double squares = 0;

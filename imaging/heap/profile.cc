@@ -22,8 +22,8 @@ void Frame::Validate(base::Problems& problems) const {
                    pictures.value_or(0), "must be 1 or more, and divide width_px");
   problems.Require(center_x >= 0 && center_x <= width / std::max(1, num_pictures()), "center_x_px",
                    center_x, "must be within the image, of a film within its first picture");
-  problems.Require(baseline >= 0 && baseline <= height, "baseline_px", baseline,
-                   "must be within the image");
+  problems.Require(baseline >= 1 && baseline <= height, "baseline_px", baseline,
+                   "must be within the image, below its first row");
 }
 
 bool Frame::Knows(int column, int row) const {

@@ -121,6 +121,17 @@ Experiment MeasureFilm(const ExperimentOptions& options) {
   return JoinedFilm(pictures);
 }
 
+// Else no heap would have an RMSE.
+void RequireWithin(const std::optional<Region>& region, const GrayImage& image) {
+  if (!region || (region->left <= image.width - region->width &&
+                  region->top <= image.height - region->height)) {
+    return;
+  }
+  throw base::ConfigError("metrics.rmse_region: is not within the profiles of " +
+                          std::to_string(image.width) + " x " + std::to_string(image.height) +
+                          " px");
+}
+
 }  // namespace
 
 void FilmedPicture::Validate(base::Problems& problems) const {
@@ -138,6 +149,13 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   const bool as_wide_as_heap = !scale.empty() && plate_diameter == 0;
   problems.Require(as_wide_as_heap || (plate_diameter > 0 && plate_diameter <= 2), "plate_diameter",
                    plate_diameter, "must be positive and at most 2 m; write \"10 mm\" for 10 mm");
+  problems.Require(
+      !frame || std::abs(frame->plate_diameter - plate_diameter) <= 1e-6 * frame->plate_diameter,
+      "plate_diameter", plate_diameter, "is another than that of \"frame\"; they are of one plate");
+  problems.Require(map_heaps == 1 || !map.empty(), "map_heaps", map_heaps,
+                   "is of a map; photographs tell their heaps by their names");
+  problems.Require(tilt == 0 || frame.has_value(), "tilt", tilt,
+                   "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
   problems.Require(
@@ -174,6 +192,7 @@ Experiment MeasureExperiment(const ExperimentOptions& options) {
   } else {
     result.aehp = ReadMap(options.map, options.plate_diameter, options.frame);
   }
+  RequireWithin(options.metrics.rmse_region, result.aehp.image);
   CompareRuns(result);
   result.metrics = DescribeProfile(result.Images(), options.metrics);
   result.warnings = Gathered(result.warnings);

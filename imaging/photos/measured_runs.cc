@@ -30,6 +30,8 @@ MeasuredPhoto MeasurePhoto(const ExperimentOptions& options, const Placement& pl
   const BacklitPhoto flat = TakeFlat(options, photo);
   GrayImage silhouette = MakeSilhouette(flat, pose, placement.photo_pixel, placement.frame);
   const double nebp = Nebp(silhouette);
+  const bool reaches_border =
+      ReachesBorder(silhouette, flat, pose, placement.photo_pixel, placement.frame);
   MeasuredView view{.photo = photo.path,
                     .plate = pose,
                     .nebp = nebp,
@@ -39,7 +41,8 @@ MeasuredPhoto MeasurePhoto(const ExperimentOptions& options, const Placement& pl
                                                    .silhouette = silhouette,
                                                    .nebp = nebp,
                                                    .frame = placement.frame,
-                                                   .overexposed = photo.overexposed});
+                                                   .overexposed = photo.overexposed,
+                                                   .reaches_border = reaches_border});
   return {std::move(view), std::move(silhouette), std::move(warnings)};
 }
 

@@ -14,19 +14,27 @@ namespace {
 
 constexpr double kSameScale = 0.01;  // how far a photograph's plate width may be off the median [-]
 
-// The size that most photographs have is not known before all are read; the first readable one
-// stands for it.
-void CheckSize(PhotoCollection& collection, Photo& photo) {
-  if (photo.width == 0) return;
-  if (collection.width == 0) {
+// The size that most photographs have, of several the first one's.
+void SetSize(const std::vector<Photo>& photos, PhotoCollection& collection) {
+  std::ptrdiff_t most = 0;
+  for (const Photo& photo : photos) {
+    if (photo.width == 0) continue;  // not readable
+    const auto count = std::ranges::count_if(photos, [&](const Photo& other) {
+      return other.width == photo.width && other.height == photo.height;
+    });
+    if (count <= most) continue;
+    most = count;
     collection.width = photo.width;
     collection.height = photo.height;
     collection.block = photo.block;
   }
+}
+
+void CheckSize(const PhotoCollection& collection, Photo& photo) {
+  if (photo.width == 0) return;
   if (photo.width == collection.width && photo.height == collection.height) return;
   photo.fault = photo.path.string() + ": has " + PixelSizeText(photo.width, photo.height) +
-                ", the photographs before it " +
-                PixelSizeText(collection.width, collection.height) +
+                ", most photographs " + PixelSizeText(collection.width, collection.height) +
                 "; all photographs must be of one size and scale";
 }
 
@@ -118,6 +126,7 @@ PhotoCollection CollectPhotos(const ExperimentOptions& options, const PhotoSet& 
                               std::vector<Photo> photos) {
   PhotoCollection collection;
   for (const PhotoFiles& run : set.runs) collection.runs.push_back(run.run);
+  SetSize(photos, collection);
   for (Photo& photo : photos) CheckSize(collection, photo);
   const double median = MedianWidth(photos);
   for (Photo& photo : photos) CheckScale(median, photo);

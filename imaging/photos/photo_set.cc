@@ -179,14 +179,16 @@ PhotoSet GivenPhotos(const std::vector<PhotoRun>& runs, const std::string& patte
   return set;
 }
 
-// Whether names fall into runs of equally many views by the pattern, and none is left over.
+// Whether names fall into runs of the same views by the pattern, and none is left over. Some views
+// may be missing, which is said when the set is made.
 bool Splits(const std::vector<std::filesystem::path>& files, const std::string& pattern) {
   try {
     const std::map<std::string, Views, ByNumber> runs = Group(files, PhotoPattern(pattern));
     std::size_t count = 0;
     for (const auto& [run, views] : runs) count += views.size();
-    return count == files.size() && runs.size() > 1 &&
-           count == runs.size() * runs.begin()->second.size();
+    if (count != files.size() || runs.size() < 2) return false;
+    const bool are_equal = count == runs.size() * runs.begin()->second.size();
+    return are_equal || 4 * count > 3 * runs.size() * ExpectedViews(runs).size();
   } catch (const base::ConfigError&) {
     return false;  // two photographs would be one view of one run
   }

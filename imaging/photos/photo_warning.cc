@@ -107,17 +107,6 @@ std::string WarningText(const PhotoWarning& warning) {
   return place + ": " + reason;
 }
 
-bool TouchesFrame(const GrayImage& silhouette) {
-  const auto powder = [&](int x, int y) { return silhouette.at(x, y) < 128; };
-  for (int x = 0; x < silhouette.width; ++x) {
-    if (powder(x, 0)) return true;
-  }
-  for (int y = 0; y < silhouette.height; ++y) {
-    if (powder(0, y) || powder(silhouette.width - 1, y)) return true;
-  }
-  return false;
-}
-
 double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame) {
   const double rim = (0.5 + kRimMargin / 2) * frame.plate_diameter / frame.pixel_size;
   double beside = 0;
@@ -168,7 +157,7 @@ std::vector<PhotoWarning> WarningsOf(const SeenView& view) {
   };
   const double beside = ShareBesidePlate(view.silhouette, view.frame);
   warn(view.nebp == 0, PhotoDoubt::kNoPowder);
-  warn(TouchesFrame(view.silhouette), PhotoDoubt::kTouchesFrame);
+  warn(view.reaches_border, PhotoDoubt::kTouchesFrame);
   warn(beside > kMuchBesidePlate, PhotoDoubt::kBesidePlate, beside);
   warn(view.overexposed > kMuchOverexposed, PhotoDoubt::kOverexposed, view.overexposed);
   return warnings;

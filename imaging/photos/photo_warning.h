@@ -51,12 +51,10 @@ struct SeenView {
   const GrayImage& silhouette;
   double nebp = 0;  // [px]
   const Frame& frame;
-  double overexposed = 0;  // as in BacklitPhoto [-]
+  double overexposed = 0;       // as in BacklitPhoto [-]
+  bool reaches_border = false;  // of the photograph
 };
 std::vector<PhotoWarning> WarningsOf(const SeenView& view);
-
-// Whether the powder reaches the left, right or upper edge of the frame.
-bool TouchesFrame(const GrayImage& silhouette);
 
 // Share of the powder that lies farther from the axis than the plate's rim and a margin [-].
 double ShareBesidePlate(const GrayImage& silhouette, const Frame& frame);

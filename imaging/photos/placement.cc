@@ -90,9 +90,17 @@ Placement PlaceByPlate(const ExperimentOptions& options, const PhotoCollection& 
 
 Placement Place(const ExperimentOptions& options, const PhotoCollection& collection) {
   if (options.frame) return PlaceByFrame(options, collection);
-  if (options.scale.empty()) return PlaceByPlate(options, collection);
-  return PlaceByScale(options, collection,
-                      ParseScale(options.scale).pixel_size() * collection.block);
+  Placement placement =
+      options.scale.empty()
+          ? PlaceByPlate(options, collection)
+          : PlaceByScale(options, collection,
+                         ParseScale(options.scale).pixel_size() * collection.block);
+  if (placement.frame.baseline < 1) {
+    throw base::ConfigError(collection.photos.front().path.string() +
+                            ": what was taken for the plate lies at the upper border; give the "
+                            "plate's place with \"frame\", or crop what hangs above the heap");
+  }
+  return placement;
 }
 
 }  // namespace talus::imaging

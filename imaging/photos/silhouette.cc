@@ -75,13 +75,14 @@ void FillHoles(cv::Mat& heap) {
 
 // `powder` 255 where dark, rows above the baseline only.
 GrayImage Finish(const cv::Mat& powder, const Frame& frame) {
-  cv::Mat heap = StandingOnPlate(powder, frame);
-  FillHoles(heap);
   GrayImage silhouette{
       .width = frame.width,
       .height = frame.height,
       .pixels = std::vector<std::uint8_t>(
           static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height), 255)};
+  if (powder.empty()) return silhouette;  // no row is above the baseline
+  cv::Mat heap = StandingOnPlate(powder, frame);
+  FillHoles(heap);
   for (int y = 0; y < heap.rows; ++y) {
     for (int x = 0; x < heap.cols; ++x) {
       if (heap.at<std::uint8_t>(y, x) != 0) silhouette.at(x, y) = 0;
@@ -97,6 +98,21 @@ GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, doub
   const cv::Mat relative = Resample(photo, plate, frame.pixel_size / photo_pixel, frame);
   const cv::Mat powder = relative < photo.threshold;
   return Finish(powder.rowRange(0, RowsAboveBaseline(frame)), frame);
+}
+
+bool ReachesBorder(const GrayImage& silhouette, const BacklitPhoto& photo, const PlatePose& plate,
+                   double photo_pixel, const Frame& frame) {
+  const double scale = frame.pixel_size / photo_pixel;
+  const cv::Matx23d to_photo = PhotoFromFrame(plate, scale, frame);
+  const double near = std::max(1.0, scale);  // of the border [px]
+  for (int y = 0; y < silhouette.height; ++y) {
+    for (int x = 0; x < silhouette.width; ++x) {
+      if (silhouette.at(x, y) >= 128) continue;
+      const cv::Vec2d at = to_photo * cv::Vec3d(x, y, 1);
+      if (at[0] < near || at[1] < near || at[0] > photo.image.width - 1 - near) return true;
+    }
+  }
+  return false;
 }
 
 GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame) {

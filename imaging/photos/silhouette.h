@@ -13,6 +13,11 @@ namespace talus::imaging {
 GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, double photo_pixel,
                          const Frame& frame);
 
+// Whether the powder of such a silhouette reaches the photograph's left, right or upper border,
+// which may lie within the frame.
+bool ReachesBorder(const GrayImage& silhouette, const BacklitPhoto& photo, const PlatePose& plate,
+                   double photo_pixel, const Frame& frame);
+
 // The heap in an image that is already 0 or 255: holes (light that is shut in by powder and plate)
 // are filled, and what does not stand on the plate is dropped.
 GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame);

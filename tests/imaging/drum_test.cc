@@ -154,6 +154,28 @@ TEST(Drum, ErrorsSayWhatToDo) {
 }
 
 // Their average would be of neither light, and it was taken.
+// Its fill would be that of what is seen.
+TEST(Drum, OneThatIsCutOffIsRefused) {
+  const GrayImage whole = Draw({.angle = 0.5});
+  for (const int left : {10, 30}) {  // columns; the ring begins at the 12th
+    GrayImage cut{.width = kSide - left, .height = kSide, .pixels = {}};
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = left; x < kSide; ++x) cut.pixels.push_back(whole.at(x, y));
+    }
+    const DrumPhotos photos{.photos = {Write("cut", cut)}, .diameter = 0.084};
+    if (left == 10) {
+      EXPECT_NO_THROW(MeasureDrum(photos));
+      continue;
+    }
+    try {
+      MeasureDrum(photos);
+      FAIL() << "a drum that is cut off was measured";
+    } catch (const base::ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("px out of the picture"));
+    }
+  }
+}
+
 TEST(Drum, APhotographLitOtherwiseThanItsSeriesIsNamed) {
   const GrayImage photo = Draw({.angle = 33 * kDegree});
   GrayImage inverse = photo;

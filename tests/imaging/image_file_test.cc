@@ -81,6 +81,26 @@ TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, 300), "half.tif"), base::ConfigError);
 }
 
+// A red of 200 that lets half of what is behind it through, before white: as in any other format.
+TEST(ImageFile, TransparentTiffIsSeenBeforeWhite) {
+  const std::string file = TempFile("transparent.tif");
+  TIFF* const tiff = TIFFOpen(file.c_str(), "w");
+  ASSERT_NE(tiff, nullptr);
+  const std::uint16_t unassociated = EXTRASAMPLE_UNASSALPHA;
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 1);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 1);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 4);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &unassociated);
+  std::uint8_t pixel[] = {200, 0, 0, 128};
+  ASSERT_EQ(TIFFWriteScanline(tiff, pixel, 0), 1);
+  TIFFClose(tiff);
+  // 0.299 × 200 × 128/255 + 127; the conversion rounds to whole levels.
+  EXPECT_NEAR(ReadGrayImage(file).pixels[0], 157, 1);
+}
+
 // 24 bits, bottom row first, rows padded to four bytes, as Windows writes them.
 std::string Bmp() {
   const GrayImage ramp = Ramp();

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "imaging/formats/images/image_file.h"
@@ -61,6 +62,68 @@ TEST(PhotoDoubt, DoubtfulPhotographsAreWarnedOf) {
                                                    std::pair(Name(1, 4), kBesidePlate),
                                                    std::pair(Name(1, 5), kViewDisagrees),
                                                    std::pair(Name(1, 6), kOverexposed)));
+}
+
+// In each the heap's top is cut off by the photograph's upper border, which lies within the frame
+// of those whose plate is farther up.
+TEST(PhotoDoubt, AHeapCutByThePhotographIsWarnedOfWhereverItsPlateIs) {
+  const fs::path folder = EmptyFolder("cut");
+  Scene low = SmallScene();
+  low.baseline = 120;
+  Scene high = low;
+  high.baseline = 60;
+  const auto cut = [](double x) { return 0.55 * (150 - std::abs(x)); };  // 82 px high
+  for (int view = 0; view < 3; ++view) WritePng(folder / Name(1, view), PhotographOf(low, cut));
+  WritePng(folder / Name(1, 3), PhotographOf(high, cut));
+  std::vector<std::string> touching;
+  for (const PhotoWarning& warning : MeasureExperiment(Options(folder)).warnings) {
+    if (warning.doubt != PhotoDoubt::kTouchesFrame) continue;
+    touching.push_back(warning.photo.filename().string());
+  }
+  EXPECT_THAT(touching, testing::ElementsAre(Name(1, 3)));
+}
+
+// A tube that has been lifted and not taken away, as wide as the plate and larger than the heap.
+TEST(PhotoDoubt, ATubeAboveTheHeapIsNotItsPlate) {
+  Scene scene = SmallScene();
+  scene.height = 400;
+  scene.baseline = 345;
+  const auto heap = [](double along, double up) { return up < 0.5 * (150 - std::abs(along)); };
+  const fs::path without = EmptyFolder("without_tube"), with = EmptyFolder("with_tube");
+  WritePng(without / Name(1, 0), Expose(scene, Cover(scene, [&](double along, double up) {
+                                          return up > 0 && heap(along, up);
+                                        })));
+  WritePng(with / Name(1, 0),
+           Expose(scene, Cover(scene, [&](double along, double up) {
+                    return up > 0 && (heap(along, up) || (up > 120 && std::abs(along) < 150));
+                  })));
+  const Experiment alone = MeasureExperiment(Options(without));
+  const Experiment below = MeasureExperiment(Options(with));
+  EXPECT_NEAR(below.aehp.frame.baseline, alone.aehp.frame.baseline, 1);
+  EXPECT_NEAR(Nebp(below.aehp.image), Nebp(alone.aehp.image), 0.01 * Nebp(alone.aehp.image));
+}
+
+// One of six is wider: it is the one that is not as the others.
+TEST(PhotoDoubt, TheSizeIsThatOfMostPhotographs) {
+  const fs::path folder = EmptyFolder("sizes");
+  Scene wide = SmallScene();
+  wide.width += 20;
+  WritePng(folder / Name(1, 0), Triangle(wide));
+  for (int view = 1; view < 6; ++view) WritePng(folder / Name(1, view), Triangle(SmallScene()));
+  const std::string error = ErrorOf(Options(folder));
+  EXPECT_THAT(error, HasSubstr(Name(1, 0) + ": has 440 x 220 px, most photographs 420 x 220 px"));
+  EXPECT_THAT(error, testing::Not(HasSubstr(Name(1, 1))));
+}
+
+TEST(PhotoDoubt, ARegionOfTheRmseOutsideOfTheProfilesIsRefused) {
+  const fs::path folder = GoodFolder("region");
+  ExperimentOptions options = Options(folder);
+  options.metrics.rmse_region = Region{.left = 300, .top = 0, .width = 121, .height = 10};
+  EXPECT_THAT(ErrorOf(options), HasSubstr("metrics.rmse_region: is not within"));
+  options.metrics.rmse_region->left = std::numeric_limits<int>::max();
+  EXPECT_THAT(ErrorOf(options), HasSubstr("metrics.rmse_region: is not within"));
+  options.metrics.rmse_region->left = 299;
+  EXPECT_EQ(ErrorOf(options), "no error");
 }
 
 // A lamp too bright is one fault, however many photographs it spoils; the worst of them is named.

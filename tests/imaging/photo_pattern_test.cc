@@ -55,6 +55,10 @@ TEST(PhotoPattern, NamesTellOfRuns) {
   EXPECT_EQ(recognise({"h1-01.jpg", "h1-02.jpg", "h2-01.jpg", "h2-02.jpg"}), "{run}-{view}.*");
   EXPECT_EQ(recognise({"h 1 (1).jpg", "h 1 (2).jpg", "h 2 (1).jpg", "h 2 (2).jpg"}),
             "{run} ({view}).*");
+  // A view is missing: still two heaps, and the set says which.
+  EXPECT_EQ(recognise({"h1_01.jpg", "h1_02.jpg", "h1_03.jpg", "h1_04.jpg", "h2_01.jpg", "h2_02.jpg",
+                       "h2_04.jpg"}),
+            "{run}_{view}.*");
   EXPECT_EQ(recognise({"a/1.jpg", "b/1.jpg"}), "{run}/*");
   // A phone's names: views of one heap.
   EXPECT_EQ(recognise({"IMG_20240101_1201.jpg", "IMG_20240101_1202.jpg"}), "*");

@@ -186,6 +186,18 @@ void ExpectNoAngle(const ReposeAngles& angles, const std::string& reason) {
   }
 }
 
+// Round caps of few rows. A degree: a row of eight, on a base of 80 px, is one and a half.
+TEST(LowHeap, HasTheAngleOfItsShape) {
+  for (const double top : {6.0, 7.0, 8.0, 8.9, 9.5, 12.0}) {
+    const Side cap = Bent(40, top, -1);
+    const ReposeAngles angles = MeasureRepose(
+        Silhouette([&](double x) { return std::abs(x) < 40 ? cap.height(std::abs(x)) : 0; }),
+        SmallFrame());
+    ASSERT_TRUE(angles[1].mean.defined()) << angles[1].mean.not_defined;
+    EXPECT_NEAR(angles[1].mean.value / kDegree, RegressionAngle(cap, 1), 1.0) << top;
+  }
+}
+
 TEST(NoAngle, EmptyHeap) {
   ExpectNoAngle(MeasureRepose(Silhouette([](double) { return 0; }), SmallFrame()), "empty");
 }

@@ -37,7 +37,7 @@ struct NamedMass {
 
 // "1.5g", "1.50 g day 2", "heap_620mg": a number and a unit of mass in a folder's name.
 std::optional<NamedMass> MassInName(const std::string& name) {
-  static const std::regex kMass("(^|[^0-9.])([0-9]+(?:\\.[0-9]+)?) ?(kg|g|mg|ug)($|[^A-Za-z])");
+  static const std::regex kMass("(^|[^0-9.,])([0-9]+(?:\\.[0-9]+)?) ?(kg|g|mg|ug)($|[^A-Za-z])");
   std::smatch match;
   if (!std::regex_search(name, match, kMass)) return std::nullopt;
   std::string rest = match.prefix().str() + match[1].str() + match[4].str() + match.suffix().str();

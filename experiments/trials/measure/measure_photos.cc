@@ -76,10 +76,25 @@ void WriteOverlays(const MeasureRequest& request, const imaging::Experiment& exp
   base::ParallelFor({.num_items = std::ssize(files), .item_work = imaging::kPhotoWork}, write);
 }
 
+// What of an earlier call this one may not write anew: comparisons read all runs that there are.
+void RemoveFormer(const fs::path& out) {
+  fs::remove(out / "standard_deviation.png");
+  if (!fs::is_directory(out / "runs")) return;
+  std::vector<fs::path> former;
+  for (const auto& entry : fs::directory_iterator(out / "runs")) {
+    const fs::path& file = entry.path();
+    if (file.filename().string().starts_with("run_") && file.extension() == ".png") {
+      former.push_back(file);
+    }
+  }
+  for (const fs::path& file : former) fs::remove(file);
+}
+
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
   const fs::path& out = request.out;
   base::ClaimOutputFolder(out, "measure", InputsOf(request));
   fs::create_directories(out / "overlays");
+  RemoveFormer(out);
   if (!experiment.runs.empty()) fs::create_directories(out / "runs");
   imaging::WriteProfile(out / "aehp.png", experiment.aehp);
   if (!experiment.standard_deviation.pixels.empty()) {
@@ -139,14 +154,16 @@ std::string DrawUnusable(const MeasureRequest& request,
     const std::string name = "fault_" + unusable.photo.parent_path().filename().string() + "_" +
                              unusable.photo.stem().string();
     const fs::path path = OverlayPath(request.out, name);
+    imaging::ColorImage picture;
     try {
-      const imaging::ColorImage picture = imaging::FaultOf(unusable, request.experiment);
-      fs::create_directories(path.parent_path());
-      imaging::WritePng(path, picture);
-      said += "\n" + unusable.photo.string() + ": see " + path.string();
+      picture = imaging::FaultOf(unusable, request.experiment);
     } catch (const base::ConfigError&) {
       continue;  // the fault says why
     }
+    if (said.empty()) base::ClaimOutputFolder(request.out, "measure", InputsOf(request));
+    fs::create_directories(path.parent_path());
+    imaging::WritePng(path, picture);
+    said += "\n" + unusable.photo.string() + ": see " + path.string();
   }
   return said;
 }
@@ -155,9 +172,11 @@ imaging::Experiment MeasureOrDraw(const MeasureRequest& request) {
   try {
     return imaging::MeasureExperiment(request.experiment);
   } catch (const imaging::UnusablePhotosError& error) {
-    throw base::ConfigError(error.what() + (request.out.empty()
-                                                ? "\nwith --out DIR what was found in each is drawn"
-                                                : DrawUnusable(request, error.photos())));
+    if (request.out.empty()) {
+      throw base::ConfigError(std::string(error.what()) +
+                              "\nwith --out DIR what was found in each is drawn");
+    }
+    throw base::ConfigError(error.what() + DrawUnusable(request, error.photos()));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <set>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -85,6 +86,13 @@ void MeasureSpheres(const MeasureRequest& request, std::ostream& print) {
   if (request.num_views < 1 || request.num_views > imaging::kMostViews) {
     throw base::ConfigError("--views: is " + std::to_string(request.num_views) +
                             ", must be from 1 to " + std::to_string(imaging::kMostViews));
+  }
+  std::set<fs::path> stems;
+  for (const fs::path& file : request.inputs) {
+    if (request.out.empty() || stems.insert(file.stem()).second) continue;
+    throw base::ConfigError(file.string() +
+                            ": another file has this name, which is that of its folder in --out; "
+                            "measure them one by one");
   }
   const imaging::HeapImages reference = ReadReference(request.like);
   for (const fs::path& file : request.inputs) {

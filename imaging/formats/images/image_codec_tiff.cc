@@ -95,20 +95,20 @@ RawImage ReadDeep(TIFF* tiff, const TiffLayout& layout, const std::string& name,
   return image;
 }
 
-// Everything else through libtiff's own conversion to RGBA (palettes, tiles, 1-bit, CMYK, YCbCr).
+// Everything else through libtiff's own conversion to RGBA (palettes, tiles, 1-bit, CMYK, YCbCr),
+// whose colours are multiplied by alpha already. Before white, as other formats.
 RawImage ReadConverted(TIFF* tiff, const TiffLayout& layout, const std::string& name) {
-  RawImage image = EmptyImage(layout, 4, 8);
+  RawImage image = EmptyImage(layout, 3, 8);
   std::vector<std::uint32_t> raster(static_cast<std::size_t>(layout.width) * layout.height);
   if (TIFFReadRGBAImageOriented(tiff, layout.width, layout.height, raster.data(),
                                 ORIENTATION_TOPLEFT, 1) != 1) {
     ThrowDamaged(name, "cannot be decoded");
   }
   for (const std::uint32_t pixel : raster) {
-    std::uint16_t samples[4];
+    std::uint16_t samples[3];
     int channel = 0;
-    for (const std::uint32_t sample :
-         {TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel), TIFFGetA(pixel)}) {
-      samples[channel++] = static_cast<std::uint16_t>(sample);
+    for (const std::uint32_t sample : {TIFFGetR(pixel), TIFFGetG(pixel), TIFFGetB(pixel)}) {
+      samples[channel++] = static_cast<std::uint16_t>(sample + 255 - TIFFGetA(pixel));
     }
     image.AddRow(samples);
   }

@@ -16,22 +16,32 @@ constexpr double kAsWide = 0.9;         // of the widest: still a candidate for 
 constexpr double kLeastThick = 0.015;   // rows with straight sides / width
 constexpr double kOffLine = 0.75;       // where a side has left its line [px]
 
+constexpr double kLeastBelow = 0.1;  // of a hanging area's size: what lies below it as a heap does
+
+// The largest dark area; where that hangs from the upper border, as a lifted tube does, the largest
+// of those that lie wholly below it, if one is large enough for a heap on its plate.
 cv::Mat LargestArea(const BacklitPhoto& photo) {
   const cv::Mat relative(photo.image.height, photo.image.width, CV_32F,
                          const_cast<float*>(photo.image.pixels.data()));
   const cv::Mat dark = relative < photo.threshold;
   cv::Mat labels, stats, centers;
   const int count = cv::connectedComponentsWithStats(dark, labels, stats, centers, 8);
+  const auto area = [&](int label) { return stats.at<int>(label, cv::CC_STAT_AREA); };
+  const auto top = [&](int label) { return stats.at<int>(label, cv::CC_STAT_TOP); };
   int best = 0;
-  int best_area = 0;
   for (int label = 1; label < count; ++label) {
-    const int area = stats.at<int>(label, cv::CC_STAT_AREA);
-    if (area > best_area) {
-      best = label;
-      best_area = area;
-    }
+    if (best == 0 || area(label) > area(best)) best = label;
   }
   if (best == 0) return cv::Mat::zeros(dark.size(), CV_8U);
+  if (top(best) == 0) {
+    const int end = stats.at<int>(best, cv::CC_STAT_HEIGHT);
+    int below = 0;
+    for (int label = 1; label < count; ++label) {
+      const bool lies_below = top(label) >= end && area(label) >= kLeastBelow * area(best);
+      if (lies_below && (below == 0 || area(label) > area(below))) below = label;
+    }
+    if (below != 0) best = below;
+  }
   return labels == best;
 }
 
