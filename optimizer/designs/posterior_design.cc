@@ -9,6 +9,7 @@ namespace talus::optimizer {
 namespace {
 
 constexpr double kOfNuisance = 0.5;  // of a parameter that is asked for
+constexpr int kMostTried = 4096;     // points, where constraints leave little of the cube
 
 void FollowPrior(const Domain& domain, Points& points) {
   if (domain.prior.IsUniform()) return;
@@ -17,6 +18,13 @@ void FollowPrior(const Domain& domain, Points& points) {
     for (Eigen::VectorXd& point : points) {
       point[k] = values[static_cast<std::size_t>(point[k] * static_cast<double>(values.size()))];
     }
+  }
+}
+
+// Of the points those in the domain, until there are `size`.
+void AppendThoseWithin(const Domain& domain, const Points& from, int size, Points& points) {
+  for (const Eigen::VectorXd& point : from) {
+    if (domain.Contains(point) && static_cast<int>(points.size()) < size) points.push_back(point);
   }
 }
 
@@ -32,10 +40,23 @@ Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed) {
   Points points = domain.guesses;
   Points hypercube = LatinHypercube(size, domain.num_parameters, seed);
   FollowPrior(domain, hypercube);
-  for (const Eigen::VectorXd& point : hypercube) {
-    if (domain.Contains(point) && static_cast<int>(points.size()) < size) points.push_back(point);
+  AppendThoseWithin(domain, hypercube, size, points);
+  // Constraints may have left few of them.
+  if (domain.feasible && static_cast<int>(points.size()) < size) {
+    Points more = Sobol(kMostTried, domain.num_parameters, seed);
+    FollowPrior(domain, more);
+    AppendThoseWithin(domain, more, size, points);
   }
   return points;
+}
+
+Eigen::VectorXd SobolWithin(const Domain& domain, int index, std::uint64_t seed) {
+  if (!domain.feasible) return Sobol(index + 1, domain.num_parameters, seed).back();
+  const Points all = Sobol(index + kMostTried, domain.num_parameters, seed);
+  Points within;
+  AppendThoseWithin(domain, all, index + 1, within);
+  if (within.empty()) return all.back();
+  return within[static_cast<std::size_t>(index) % within.size()];
 }
 
 }  // namespace talus::optimizer

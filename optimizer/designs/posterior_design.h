@@ -13,7 +13,12 @@ namespace talus::optimizer {
 // roughly only, and less by as much as its prior is narrower than uniform.
 int PosteriorDesignSize(const Domain& domain);
 
-// The domain's guesses, then the hypercube's points that lie in the domain.
+// The domain's guesses, then the hypercube's points that lie in the domain, and Sobol's where
+// constraints leave too few of these.
 Points PosteriorDesign(const Domain& domain, int size, std::uint64_t seed);
+
+// The index-th, from 0, of Sobol's points in the domain; they begin anew where the first few
+// thousand hold no more. Any point where these hold none.
+Eigen::VectorXd SobolWithin(const Domain& domain, int index, std::uint64_t seed);
 
 }  // namespace talus::optimizer

@@ -194,7 +194,7 @@ Proposal PosteriorStrategy::Next(std::span<const Proposal> asked) {
   if (CanModel()) return ByGain(asked);
   // Most of the design has failed: more of the same.
   const int index = static_cast<int>(observations_.size() + asked.size());
-  const Eigen::VectorXd point = Sobol(index + 1, domain_.num_parameters, options_.seed).back();
+  const Eigen::VectorXd point = SobolWithin(domain_, index, options_.seed);
   return {.point = point,
           .origin = Origin::kDesign,
           .experiment = index % static_cast<int>(targets_.size()),

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/random.h"
+#include "optimizer/designs/posterior_design.h"
 
 namespace talus::optimizer {
 namespace design_test {
@@ -144,6 +145,19 @@ TEST(Sobol, IsSpreadMoreEvenlyThanChance) {
     for (const Eigen::VectorXd& p : Sobol(256, 6, seed)) sum += (2 * p).prod();
     EXPECT_NEAR(sum / 256, 1, 0.04);
   }
+}
+
+// Constraints that leave a fortieth of the cube: without them in mind, hardly a point of a Latin
+// hypercube lies there.
+TEST(PosteriorDesign, IsCompleteWithinNarrowConstraints) {
+  Domain domain{.num_parameters = 2};
+  domain.feasible = [](const Eigen::VectorXd& u) { return u[0] + u[1] < 0.22; };
+  const int size = PosteriorDesignSize(domain);
+  const Points points = PosteriorDesign(domain, size, 3);
+  ASSERT_EQ(static_cast<int>(points.size()), size);
+  for (const Eigen::VectorXd& point : points) EXPECT_TRUE(domain.Contains(point));
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(domain.Contains(SobolWithin(domain, i, 3)));
+  EXPECT_GT(SmallestDistance(points), 0);
 }
 
 }  // namespace design_test
