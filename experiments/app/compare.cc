@@ -80,13 +80,16 @@ void RunCompare(CompareArguments arguments) {
     throw base::ConfigError("--matters: is for batches; give the folders of two campaigns or more");
   }
   arguments.campaign = arguments.folders.front();
-  if (!arguments.objective.empty()) SearchOn(arguments);
   if (arguments.out.empty()) arguments.out = std::filesystem::path(arguments.campaign) / "compare";
   analysis::Evidence evidence = analysis::GatherEvidence(arguments.campaign, arguments.experiment);
+  base::ClaimOutputFolder(arguments.out, "compare");
+  if (!arguments.objective.empty()) {
+    SearchOn(arguments);  // now that nothing else can be wrong
+    evidence = analysis::GatherEvidence(arguments.campaign, arguments.experiment);
+  }
   analysis::AddModel(arguments.campaign, evidence);
   const std::vector<analysis::ObjectiveFinding> findings = analysis::CompareObjectives(evidence);
   const analysis::ComparedCampaign compared{evidence, findings};
-  base::ClaimOutputFolder(arguments.out, "compare");
   WriteComparison(compared, arguments.out);
   const std::string text = analysis::ComparisonText(compared) + "\n";
   base::WriteFileAtomically(arguments.out / "compare.txt", text);

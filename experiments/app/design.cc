@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "experiments/analysis/design/design_spec.h"
 #include "experiments/analysis/design/design_text.h"
 #include "experiments/analysis/design/rank_designs.h"
@@ -27,7 +28,7 @@ void Design(const DesignArguments& arguments) {
   const std::filesystem::path folder =
       arguments.out.empty() ? std::filesystem::path(arguments.spec).stem().concat("_design")
                             : std::filesystem::path(arguments.out);
-  std::filesystem::create_directories(folder);
+  base::ClaimOutputFolder(folder, "design");
   const campaign::JointView view = analysis::ViewOf(design, folder);
   const analysis::DesignTable table = analysis::RankDesigns(
       view, design.candidates, campaign::MakeParts(view.spec, campaign::NextFolder(folder)));

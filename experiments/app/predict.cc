@@ -2,14 +2,18 @@
 #include "experiments/analysis/predict/predict.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/name.h"
 #include "base/units.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/app/command_line.h"
@@ -28,7 +32,20 @@ struct PredictArguments {
   bool json = false;
 };
 
+// A prediction stands in a folder of its case's name.
+void CheckNames(const std::vector<std::string>& cases) {
+  std::map<std::string, std::string> files;
+  for (const std::string& file : cases) {
+    const auto [other, is_new] =
+        files.emplace(base::FileWord(std::filesystem::path(file).stem().string()), file);
+    if (is_new) continue;
+    throw base::ConfigError(file + ": would be predicted in the same folder as " + other->second +
+                            "; give each case its own file name");
+  }
+}
+
 void RunPredict(const PredictArguments& arguments) {
+  CheckNames(arguments.cases);
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const std::string& file : arguments.cases) {
@@ -41,6 +58,9 @@ void RunPredict(const PredictArguments& arguments) {
     // A queue's own files stand beside the predictions, not among those of the campaign's trials.
     const analysis::Prediction prediction = analysis::Predict(
         view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
+    if (prediction.runs.empty() && prediction.num_failed > 0) {
+      throw base::Error(file + ": every run failed, the last because it " + prediction.failure);
+    }
     if (arguments.json) {
       list.push_back(base::ToJson(prediction));
     } else {
@@ -63,8 +83,8 @@ void AddPredictCommand(CLI::App& app) {
       ->add_option("CASE", arguments->cases,
                    "cases of bulk tests, or scenes, as talus simulate takes them")
       ->required();
-  command->add_option("--draws", options.num_draws,
-                      "sets drawn from the posterior, from 2 to 200; default: 12");
+  CLI::Option* draws = command->add_option(
+      "--draws", options.num_draws, "sets drawn from the posterior, from 2 to 200; default: 12");
   command->add_option("--seeds", options.num_seeds,
                       "runs of each set, from 1 to 100; default: 3, of one set alone 8");
   command
@@ -78,8 +98,10 @@ void AddPredictCommand(CLI::App& app) {
                       "core time for the runs of one case, such as \"10 min\"; default: 150 s");
   CLI::Option* set = command->add_option(
       "--set", arguments->set, "NAME=VALUE of every calibrated parameter: by this set alone");
+  set->excludes(draws);
   command->add_flag("--recommended", options.recommended, "by the recommended set alone")
-      ->excludes(set);
+      ->excludes(set)
+      ->excludes(draws);
   command
       ->add_option("--measured", options.measured,
                    "what was measured: a JSON file as an experiment of a spec, or a profile that "

@@ -2,6 +2,7 @@
 #include "experiments/analysis/sensitivity/sensitivity.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "experiments/analysis/sensitivity/moved_trials.h"
 #include "experiments/analysis/sensitivity/sensitivity_text.h"
 #include "experiments/app/commands.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/make_parts.h"
 
 namespace talus::app {
@@ -42,11 +44,14 @@ std::vector<std::pair<std::string, std::string>> ReadMoves(const std::vector<std
 
 void Sensitivity(const SensitivityArguments& arguments) {
   const campaign::JointView view = campaign::ReadJointView(arguments.folder);
+  const std::filesystem::path folder = analysis::SensitivityFolder(view.folder.root);
+  std::filesystem::create_directories(folder);
+  const campaign::CampaignLock lock(folder);  // its simulations are one process's at a time
   analysis::SensitivityOptions options{
       .moves = ReadMoves(arguments.moves),
       .scale_factor = arguments.scale_factor,
       .most_replicates = arguments.most_replicates,
-      .parts = campaign::MakeParts(view.spec, analysis::SensitivityFolder(view.folder.root)),
+      .parts = campaign::MakeParts(view.spec, folder),
       .tell = [](const std::string& line) { std::cerr << line << std::endl; }};
   const analysis::SensitivityTable table = analysis::FindSensitivity(view, options);
   analysis::WriteSensitivity(table, view.folder.root);

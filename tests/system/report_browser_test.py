@@ -328,10 +328,20 @@ class ReportInABrowser(unittest.TestCase):
         folder = pathlib.Path(self.folder.name) / "words"
         if not folder.exists():
             tube_and_drum(self.talus, folder)
+            subprocess.run([self.talus, "predict", folder / "run", folder / "heap1.json", "--draws", "2", "--seeds", "2"],
+                           check=True, stdout=subprocess.DEVNULL)
             subprocess.run([self.talus, "report", folder / "run"], check=True, stdout=subprocess.DEVNULL)
         self.driver.set_window_size(1400, 1000)
+        self.driver.get_log("browser")  # what earlier pages left
         self.driver.get((folder / "run/report/report.html").as_uri())
         self.check_charts()
+        severe = [e["message"] for e in self.driver.get_log("browser") if e["level"] == "SEVERE"]
+        self.assertEqual(severe, [])
+        cells = self.driver.execute_script(
+            "const t = document.querySelector('[aria-label=\"Prediction of heap1\"]');"
+            "return [...t.querySelectorAll('tr')].map((r) => r.cells.length)")
+        self.assertGreater(len(cells), 2)
+        self.assertEqual(len(set(cells)), 1, cells)  # a head for each column
         text = self.driver.execute_script("const s = document.getElementById('spec'); if (s) s.remove();"
                                           "return document.body.innerText")
         self.assertNotRegex(text, r"\b[μm]u?_[trγ]\b")  # symbols, not their spelling

@@ -110,7 +110,7 @@ std::vector<double> ToValues(const Evidence& evidence, const Eigen::VectorXd& po
 ModelFinding FindFromModel(const Evidence& evidence, ObjectiveModel model,
                            const Eigen::VectorXd& start, double margin) {
   ModelFinding finding{.model = std::move(model), .point = {}, .values = {}, .there = {}};
-  finding.point = finding.model.Minimiser(start);
+  finding.point = finding.model.Minimiser(start, evidence.feasible);
   finding.values = ToValues(evidence, finding.point);
   finding.there = finding.model.Predict(finding.point.transpose()).front();
   const auto sample = finding.model.Predict(EvenSample(kVolumeSample, start.size()));

@@ -133,8 +133,9 @@ std::string TiesText(const std::vector<ObjectiveFinding>& findings) {
   for (const ObjectiveFinding& f : findings) {
     if (!f.absent.empty()) continue;
     any_scatter |= f.noise_sd != 0;
-    text += (text.empty() ? "" : "; ") + f.info.title + " " + Shown(f, f.noise_sd, 2) + " " +
-            f.info.unit;
+    text += (text.empty() ? "" : "; ") + f.info.title + " " +
+            (std::isnan(f.noise_sd) ? "not known, no set was simulated twice"
+                                    : Shown(f, f.noise_sd, 2) + " " + f.info.unit);
   }
   if (text.empty()) return "";
   if (!any_scatter) return "  Simulations of one set came out alike: only equal sets tie.\n";

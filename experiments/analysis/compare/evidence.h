@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -125,7 +126,18 @@ struct Evidence {
   std::string spec;                           // the text of the spec's file
   std::string spec_json;                      // as it was understood
   std::function<std::optional<imaging::Profile>(int)> profile;  // ANHP of a trial by its id
+  std::function<bool(const Eigen::VectorXd&)> feasible;         // of the unit cube; none: all of it
 };
+
+// Whether a trial of any experiment has ended since that with this id: what was made of those up to
+// it is older than the campaign.
+inline bool HaveTrialsEndedSince(const Evidence& evidence, std::int64_t id) {
+  const auto is_later = [&](const TrialEvidence& trial) {
+    return trial.id > id && trial.state != journal::TrialStatus::kRunning;
+  };
+  return std::ranges::any_of(evidence.trials, is_later) ||
+         std::ranges::any_of(evidence.of_others, is_later);
+}
 
 // Column of a metric; nothing when no trial has it.
 std::optional<std::size_t> MetricColumn(const Evidence& evidence, std::string_view metric);

@@ -36,11 +36,14 @@ ParameterInfo InfoOf(const journal::ParameterRecord& record) {
   return info;
 }
 
-void MarkNuisances(Evidence& evidence) {
-  if (!evidence.answer) return;
-  for (std::size_t i = 0; i < evidence.answer->parameters.size(); ++i) {
-    evidence.parameters.at(i).range.is_nuisance =
-        evidence.answer->parameters[i].nuisance.has_value();
+// As the spec has them, which a campaign without an answer has, too.
+void MarkNuisances(const journal::CampaignRecord& record, Evidence& evidence) {
+  const optimizer::ParameterSpace space =
+      campaign::SpaceOf(campaign::ParseSpecText(record.spec_json));
+  for (ParameterInfo& parameter : evidence.parameters) {
+    const auto known =
+        std::ranges::find(space.parameters, parameter.range.name, &optimizer::Parameter::name);
+    parameter.range.is_nuisance = known != space.parameters.end() && known->is_nuisance;
   }
 }
 
@@ -267,7 +270,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   AddTrialsOf(shown, journal->Trials(), evidence);
   AddReference(shown, evidence);
   AddAnswer(progress.result_json, record, evidence);
-  MarkNuisances(evidence);
+  MarkNuisances(record, evidence);
   AddTimes(evidence, progress.elapsed_s);
   AddVersions(record, evidence);
   evidence.profile =

@@ -66,6 +66,7 @@ void AddModel(const std::filesystem::path& campaign, Evidence& evidence,
     return;
   }
   const campaign::JointView view = campaign::ReadJointView(campaign);
+  evidence.feasible = view.space.MakeDomain().feasible;
   const std::shared_ptr<optimizer::PosteriorStrategy> strategy = StrategyTold(view);
   const optimizer::Answer answer = strategy->Recommend();
   if (!answer.posterior) {

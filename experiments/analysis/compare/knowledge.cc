@@ -167,6 +167,7 @@ std::string KnowledgeSentence(const std::vector<ObjectiveKnowledge>& all) {
   const ObjectiveKnowledge& least = *known.front();
   const ObjectiveKnowledge& most = *known.back();
   const double ratio = most.region / least.region;
+  if (std::isnan(least.region_high) || std::isnan(most.region_low)) return "";
   // Regions whose uncertain shares overlap do not differ for people.
   if (!(least.region_high < most.region_low)) {
     return "From the same trials " + least.title + " and " + most.title +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -87,7 +88,8 @@ std::vector<ObjectivePrediction> ObjectiveModel::Predict(const Eigen::MatrixXd& 
   return made;
 }
 
-Eigen::VectorXd ObjectiveModel::Minimiser(const Eigen::VectorXd& start) const {
+Eigen::VectorXd ObjectiveModel::Minimiser(const Eigen::VectorXd& start,
+                                          const Feasible& feasible) const {
   const auto less = [](const ObjectivePrediction& a, const ObjectivePrediction& b) {
     return a.objective < b.objective;
   };
@@ -96,7 +98,11 @@ Eigen::VectorXd ObjectiveModel::Minimiser(const Eigen::VectorXd& start) const {
   Eigen::VectorXd best = start;
   base::Random random(1, base::Stream("minimiser of a compared objective"));
   for (double reach = 0.1; reach > 1e-3; reach *= 0.7) {
-    const auto predicted = Predict(candidates);
+    auto predicted = Predict(candidates);
+    for (Eigen::Index i = 0; feasible && i < candidates.rows(); ++i) {
+      if (feasible(candidates.row(i).transpose())) continue;
+      predicted[static_cast<std::size_t>(i)].objective = std::numeric_limits<double>::infinity();
+    }
     const auto least = std::min_element(predicted.begin(), predicted.end(), less);
     best = candidates.row(least - predicted.begin()).transpose();
     candidates.resize(96, start.size());  // the best so far, and points around it, closer each time

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 
 #include "experiments/analysis/compare/criterion.h"
@@ -37,8 +38,10 @@ class ObjectiveModel {
   // One point a row.
   std::vector<ObjectivePrediction> Predict(const Eigen::MatrixXd& points) const;
 
-  // The least predicted objective, from `start` and an even sample of the cube.
-  Eigen::VectorXd Minimiser(const Eigen::VectorXd& start) const;
+  // The least predicted objective, from `start` and an even sample of the cube; where there are
+  // constraints, of what `feasible` allows.
+  using Feasible = std::function<bool(const Eigen::VectorXd&)>;
+  Eigen::VectorXd Minimiser(const Eigen::VectorXd& start, const Feasible& feasible) const;
 
   double noise_sd() const;  // scatter of one evaluation of the quantity
 

@@ -1,5 +1,7 @@
 #include "experiments/analysis/next/advise.h"
 
+#include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "base/files/file.h"
@@ -8,6 +10,7 @@
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/analysis/predict/predict.h"
 #include "experiments/campaign/answer/answer.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
@@ -30,6 +33,11 @@ int SimulateFirst(const std::filesystem::path& campaign) {
 NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& request) {
   const campaign::JointView view = campaign::ReadJointView(campaign);
   const std::filesystem::path folder = campaign::NextFolder(view.folder.root);
+  std::optional<campaign::CampaignLock> lock;  // its simulations are one process's at a time
+  if (request.simulate) {
+    std::filesystem::create_directories(folder);
+    lock.emplace(folder);
+  }
   std::optional<Goal> goal;
   if (request.goal) {
     goal = SimulateGoal(view, *request.goal,

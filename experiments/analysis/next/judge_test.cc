@@ -159,7 +159,10 @@ ListedTest ListTest(const campaign::JointView& view, const TestCandidate& test) 
 void JudgeTest(const Ground& ground, const SimulatedTest& simulated, NextCandidate& candidate) {
   const auto& [test, design, unknown] = simulated;
   if (design.trials.size() < kFewest) {
-    candidate.what += "; too few of its simulations succeeded";
+    const int missing = design.size - design.num_simulations;
+    candidate.what += missing > 0 ? "; of its " + base::Counted(design.size, "simulation") + " " +
+                                        std::to_string(missing) + " are still to be made"
+                                  : "; too few of its simulations succeeded";
     return;
   }
   const Hypothetical made = Imagine(ground, test, design);

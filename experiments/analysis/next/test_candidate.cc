@@ -184,6 +184,7 @@ std::string ExperimentText(const campaign::JointView& view, const TestCandidate&
   }
   nlohmann::ordered_json json{{"name", name}};
   if (only.rig) json["rig"] = base::ToJson(*only.rig);
+  if (only.mass && !campaign::HasFill(only)) json["mass"] = *only.mass;
   json["device"] = base::ToJson(*only.device);
   if (!only.pairs->empty()) json["pairs"] = base::ToJson(*only.pairs);
   json["filling"] = base::ToJson(*only.filling);

@@ -74,7 +74,8 @@ TestDesign Collect(const campaign::JointView& view, const TestCandidate& test,
                    const campaign::DesignRecord& record, trials::TrialEngine& engine) {
   TestDesign design{.scale_factor = record.scale_factor,
                     .middle = MiddleOf(record),
-                    .frame = FrameOf(view, test)};
+                    .frame = FrameOf(view, test),
+                    .size = static_cast<int>(record.points.size())};
   for (std::size_t i = 0; i < record.points.size(); ++i) {
     const campaign::FolderCase at{.folder = FolderOf(view, test).trial(i),
                                   .rig_case = CaseAt(view, test, record, i)};
@@ -125,6 +126,9 @@ std::optional<TestDesign> StoredDesign(const campaign::JointView& view, const Te
 TestDesign SimulateDesign(const campaign::JointView& view, const TestCandidate& test,
                           const DesignPlace& place, const campaign::CampaignParts& parts) {
   std::optional<campaign::DesignRecord> record = ReadRecord(view, test);
+  // A plan's sets follow from its priors. A campaign's were spread by what it knew by then.
+  const bool is_plan = view.record.experiments.empty();
+  if (record && is_plan && record->points != PointsOf(place)) record.reset();
   if (!record) {
     record = campaign::DesignRecord{.test = TextOf(view, test),
                                     .scale_factor = view.spec.coarse_graining.Levels().front(),

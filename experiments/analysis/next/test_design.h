@@ -26,6 +26,7 @@ struct TestDesign {
   double scale_factor = 1;
   Eigen::VectorXd middle{};  // the point nearest to the mean of all, unit cube
   std::optional<imaging::Frame> frame{};
+  int size = 0;                       // simulations in all
   std::vector<DesignTrial> trials{};  // those that succeeded
   int num_simulations = 0;            // that have ended
   double core_time = 0;               // of these [s]

@@ -75,9 +75,11 @@ rigs::RigOptions Of(rigs::RigKind kind) {
 
 double UpToMillimetre(double length) { return 1e-3 * std::ceil(1e3 * length); }
 
-double BulkVolume(const rigs::Powder& powder) {
+// Of as much powder as the first experiment takes; so do tests that are named here.
+double BulkVolume(const campaign::CampaignSpec& spec) {
   constexpr double kPacked = 0.6;  // solid fraction
-  return powder.mass / (kPacked * powder.material.density);
+  const double mass = campaign::ExperimentsOf(spec).front().mass.value_or(spec.powder.mass);
+  return mass / (kPacked * spec.powder.material.density);
 }
 
 // Diameter of a cylinder that so much powder fills as high as it is wide.
@@ -159,7 +161,7 @@ void AddVessels(const campaign::CampaignSpec& spec, double volume,
 std::vector<TestCandidate> UsualTests(const campaign::JointView& view) {
   std::vector<TestCandidate> tests;
   AddPlates(view, tests);
-  const double volume = BulkVolume(view.spec.powder);
+  const double volume = BulkVolume(view.spec);
   AddVessels(view.spec, volume, tests);
   AddFlows(view.spec, volume, tests);
   std::erase_if(tests, [&](const TestCandidate& test) { return IsMade(view, test); });

@@ -5,6 +5,7 @@
 #include "base/files/file.h"
 #include "base/json/json_file.h"
 #include "base/text/name.h"
+#include "experiments/analysis/predict/number_surrogate.h"
 #include "experiments/analysis/predict/prediction.h"
 #include "experiments/analysis/predict/prediction_design.h"
 #include "experiments/campaign/folder/record_file.h"
@@ -20,7 +21,7 @@ PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options)
   if (!design || !fs::exists(file)) return options;
   const auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
   if (before.draws.empty() || before.by != PredictedBy::kPosterior) return options;
-  options.num_draws = design->num_draws;
+  options.num_draws = std::max(design->num_draws, NumberSurrogate::kFewest);
   const auto stage =
       std::ranges::find(design->stages, before.scale_factor, &PredictionStage::scale_factor);
   if (stage != design->stages.end()) options.num_seeds = stage->num_seeds;
@@ -29,6 +30,20 @@ PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options)
       given.contains("coarse_graining") && given["coarse_graining"].contains("scale_factor");
   if (before.test != kSceneTest && !states) options.scale_factors = {before.scale_factor};
   return options;
+}
+
+void KeepMeasured(const std::filesystem::path& file, Prediction& prediction) {
+  if (!std::filesystem::exists(file)) return;
+  auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());
+  const auto same = [](const PredictedDraw& a, const PredictedDraw& b) {
+    return a.values == b.values;
+  };
+  if (!std::ranges::equal(before.draws, prediction.draws, same)) return;
+  prediction.image = before.image;
+  for (PredictedNumber& number : prediction.numbers) {
+    const auto known = std::ranges::find(before.numbers, number.name, &PredictedNumber::name);
+    if (known != before.numbers.end()) number.measured = known->measured;
+  }
 }
 
 }  // namespace talus::analysis

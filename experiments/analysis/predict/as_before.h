@@ -1,11 +1,19 @@
 // A prediction that is made once more, when its campaign has gone on.
 #pragma once
 
+#include <filesystem>
+
 #include "experiments/analysis/predict/predict.h"
+#include "experiments/analysis/predict/prediction.h"
 
 namespace talus::analysis {
 
 // `options` with what an earlier call for this file had, where it has ended.
+// With draws enough for a surrogate.
 PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options);
+
+// What the prediction in a file, if there is one, says of measured values: of the same draws it
+// holds still.
+void KeepMeasured(const std::filesystem::path& file, Prediction& prediction);
 
 }  // namespace talus::analysis

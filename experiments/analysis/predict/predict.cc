@@ -341,6 +341,7 @@ class Predictor {
     if (!case_.rig_case.frame && case_.scene_text.empty()) {
       prediction.notes.push_back("no pictures: the case has no frame");
     }
+    if (options_.as_before) KeepMeasured(root_ / "prediction.json", prediction);
     base::WriteFileAtomically(root_ / "draws.csv", DrawsCsv(prediction, view_.record.parameters));
     base::WriteFileAtomically(root_ / "prediction.json",
                               base::JsonText(base::ToJson(prediction), 2) + "\n");

@@ -163,8 +163,10 @@ rigs::Case CaseWith(const JointView& view, const PredictedCase& predicted,
   rigs::Case rig_case = predicted.rig_case;
   for (std::size_t i = 0; i < view.space.parameters.size(); ++i) {
     const optimizer::Parameter& p = view.space.parameters[i];
-    // What the campaign holds of its own walls says nothing of the case's.
+    // What the campaign holds of its own walls says nothing of the case's, nor how much powder its
+    // tests take.
     if (p.fixed && campaign::PlaceOf(p.name).body != rigs::kPowder) continue;
+    if (p.name == "mass" || p.name == "fill") continue;
     campaign::SetParameter(rig_case, p.name, values[i]);
   }
   rig_case.seed = seed;

@@ -77,13 +77,15 @@ struct PredictedNumber {
 // A measured profile beside the simulated ones. Distances are areas between silhouettes.
 struct MeasuredImage {
   double sad_mm2 = kUnknown;     // measured from the predicted mean
-  double sad_90_mm2 = kUnknown;  // 90 % of single runs are as near to the mean of the others
+  double sad_90_mm2 = kUnknown;  // 90 % of single runs are as near to the mean; of one run unknown
   bool is_inside = false;
   int nearest_draw = 0;  // whose mean is nearest to what was measured
   double nearest_sad_mm2 = kUnknown;
-  bool nearest_is_inside = false;  // nearer than 90 % of single runs are to their draw's mean
+  double nearest_sad_90_mm2 = kUnknown;  // 90 % of single runs are as near to their draw's mean
+  bool nearest_is_inside = false;
 
-  TALUS_FIELDS(sad_mm2, sad_90_mm2, is_inside, nearest_draw, nearest_sad_mm2, nearest_is_inside);
+  TALUS_FIELDS(sad_mm2, sad_90_mm2, is_inside, nearest_draw, nearest_sad_mm2, nearest_sad_90_mm2,
+               nearest_is_inside);
 };
 
 struct PredictedDraw {

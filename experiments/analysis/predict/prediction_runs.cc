@@ -245,10 +245,11 @@ std::optional<MeasuredImage> PredictionRuns::CompareImage(const imaging::Profile
   std::vector<Weighted> spread;
   for (const SeenRun& run : all) spread.push_back({sad(run.image, mean), run.weight});
   image.sad_mm2 = sad(measured.image, mean);
-  image.sad_90_mm2 = Quantile90(spread);
+  if (all.size() > 1) image.sad_90_mm2 = Quantile90(spread);
   image.is_inside = image.sad_mm2 <= image.sad_90_mm2;
   image.nearest_sad_mm2 = nearest;
-  image.nearest_is_inside = nearest <= Quantile90(own);
+  if (!own.empty()) image.nearest_sad_90_mm2 = Quantile90(own);
+  image.nearest_is_inside = nearest <= image.nearest_sad_90_mm2;
   return image;
 }
 

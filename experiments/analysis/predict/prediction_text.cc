@@ -104,23 +104,26 @@ std::string MeasuredText(const Prediction& prediction, const PredictedNumber& nu
   return text + (m.nearest_is_inside
                      ? "; yet " + SetText(prediction, m.nearest_draw, parameters) +
                            " gives it: `talus add-experiment` would narrow the answer by it\n"
-                     : "; no draw gives it: this process is not predicted by any set that fits\n");
+                 : prediction.by == PredictedBy::kPosterior
+                     ? "; no draw gives it: this process is not predicted by any set that fits\n"
+                     : "; this set does not give it\n");
 }
 
 std::string ImageText(const Prediction& prediction,
                       const std::vector<journal::ParameterRecord>& parameters) {
   const MeasuredImage& image = *prediction.image;
-  std::string text = "  measured image  " + ShortNumber(image.sad_mm2) +
-                     " mm² from the predicted mean, " + (image.is_inside ? "inside" : "outside") +
-                     " of the " + ShortNumber(image.sad_90_mm2) + " mm² of 90 % of single runs";
-  if (!image.is_inside) {
-    text += "; nearest is " + SetText(prediction, image.nearest_draw, parameters) + ", " +
-            ShortNumber(image.nearest_sad_mm2) + " mm² from it, " +
-            (image.nearest_is_inside ? "which gives it: `talus add-experiment` would narrow the "
-                                       "answer by it"
-                                     : "and does not give it either");
-  }
-  return text + "\n";
+  std::string text =
+      "  measured image  " + ShortNumber(image.sad_mm2) + " mm² from the predicted mean";
+  if (!std::isfinite(image.sad_90_mm2)) return text + ", which is one run\n";
+  text += std::string(", ") + (image.is_inside ? "inside" : "outside") + " of the " +
+          ShortNumber(image.sad_90_mm2) + " mm² of 90 % of single runs";
+  if (image.is_inside || prediction.by != PredictedBy::kPosterior) return text + "\n";
+  text += "; nearest is " + SetText(prediction, image.nearest_draw, parameters) + ", " +
+          ShortNumber(image.nearest_sad_mm2) + " mm² from it";
+  if (!std::isfinite(image.nearest_sad_90_mm2)) return text + "\n";
+  return text + (image.nearest_is_inside
+                     ? ", which gives it: `talus add-experiment` would narrow the answer by it\n"
+                     : ", and does not give it either\n");
 }
 
 // "0.012 (0.003 … 0.05)": the median of the work, and what 90 % of it lies in.

@@ -1,5 +1,7 @@
 #include "experiments/analysis/predict/surrogate_answer.h"
 
+#include <cmath>
+
 #include "experiments/analysis/predict/number_surrogate.h"
 
 namespace talus::analysis {
@@ -28,7 +30,10 @@ void AnswerBySurrogate(const Prediction& prediction, const SetsOfPosterior& sets
   if (!number.surrogate->is_used) return;
   const Eigen::VectorXd by_draw = surrogate->At(PointsOf(prediction, sets.space)).mean;
   number.by_draw.assign(by_draw.begin(), by_draw.end());
+  const bool ran_twice = std::isfinite(number.run_sd);
   Take(told, number);
+  // The surrogate's scatter of a run is then its prior's, not the process's.
+  if (!ran_twice) number.run_sd = number.parameters_share = kUnknown;
   spread = told;
 }
 

@@ -35,6 +35,7 @@ struct FieldNamed {
 
 // What campaign::SetParameter sets, as it stands.
 double ValueOf(const rigs::Case& c, const std::string& parameter) {
+  if (campaign::IsOfBulk(parameter)) return campaign::ParameterOf(c, parameter).value_or(0);
   const ParameterPlace place = campaign::PlaceOf(parameter);
   const engine::Material& powder = c.powder.material;
   const auto& wall = place.body == rigs::kFloor ? c.materials.floor : c.materials.walls;
@@ -115,7 +116,7 @@ void AddPowder(const campaign::JointView& view, const rigs::Case& c, std::vector
                    .to = alike ? "10 % either way" : "a quarter wider",
                    .apply = [](rigs::Case& moved) { Widen(moved.powder.sizes); },
                    .placeholders = {"grains", "smallest_diameter", "largest_diameter"}});
-  if (IsSearched(view, kFill)) return;
+  if (IsSearched(view, kFill) || IsSearched(view, "mass")) return;
   moves.push_back({.name = "mass",
                    .from = base::WithUnit(1e3 * c.powder.mass, "g"),
                    .to = base::WithUnit(1e3 * kMoreMass * c.powder.mass, "g"),

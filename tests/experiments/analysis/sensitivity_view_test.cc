@@ -33,7 +33,7 @@ SensitivityTable Table(std::int64_t last_trial) {
       .scale_factor = 2,
       .last_trial = last_trial,
       .num_simulations = 20,
-      .parameters = {},
+      .parameters = {{.name = "sliding_friction"}, {.name = "rolling_friction"}},
       .moves = {
           {.name = "restitution",
            .from = "0.9",
@@ -86,6 +86,13 @@ TEST(SensitivityView, WithoutAFileThereIsNone) {
 
 TEST(SensitivityView, MadeBeforeTheLastTrialsIsCalledOutdated) {
   EXPECT_TRUE(ReadSensitivity(WithTable("old", 59))->is_outdated);
+}
+
+// A parameter was searched later: the table says nothing of it, and its columns are others.
+TEST(SensitivityView, MadeBeforeAParameterWasSearchedIsLeftOut) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 3, .coarse_design = true});
+  evidence.folder = WithTable("fewer", 60).folder;
+  EXPECT_FALSE(ReadSensitivity(evidence).has_value());
 }
 
 TEST(SensitivityView, ADamagedOneIsNamedWithTheRemedy) {

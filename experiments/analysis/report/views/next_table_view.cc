@@ -14,6 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
+// One made before a parameter was searched says nothing of it.
+bool TellsOfAll(const Json& by_name, const Evidence& evidence) {
+  return std::ranges::all_of(evidence.parameters, [&](const ParameterInfo& parameter) {
+    return by_name.contains(parameter.range.name);
+  });
+}
+
 // In the order of the parameters.
 std::vector<double> WidthsOf(const Json& by_name, const Evidence& evidence) {
   std::vector<double> widths;
@@ -64,10 +71,7 @@ CandidateView CandidateOf(const Json& json, const Evidence& evidence, const fs::
 NextTableView ViewOf(const Json& json, const Evidence& evidence, const fs::path& folder) {
   NextTableView view{.width = WidthsOf(json.at("width_90"), evidence), .candidates = {}};
   const auto after = json.at("after_trial").get<std::int64_t>();
-  view.is_outdated =
-      std::any_of(evidence.trials.begin(), evidence.trials.end(), [&](const TrialEvidence& trial) {
-        return trial.id > after && trial.state != journal::TrialStatus::kRunning;
-      });
+  view.is_outdated = HaveTrialsEndedSince(evidence, after);
   if (json.contains("goal")) {
     view.goal = {.process = json["goal"].at("process").get<std::string>(),
                  .metric = json["goal"].at("observable").get<std::string>(),
@@ -86,7 +90,9 @@ std::optional<NextTableView> ReadNextTable(const Evidence& evidence) {
   const fs::path path = folder / "next.json";
   if (evidence.folder.empty() || !fs::exists(path)) return std::nullopt;
   try {
-    return ViewOf(Json::parse(base::ReadFile(path)), evidence, folder);
+    const Json json = Json::parse(base::ReadFile(path));
+    if (!TellsOfAll(json.at("width_90"), evidence)) return std::nullopt;
+    return ViewOf(json, evidence, folder);
   } catch (const Json::exception&) {
     throw base::ConfigError(path.string() +
                             ": is not what `talus next` writes here; run it again, or remove the "

@@ -30,10 +30,13 @@ PredictionView ViewOf(const fs::path& folder, const Evidence& evidence) {
       .prediction = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string()),
       .mean = {},
       .different = {}};
-  const Prediction& p = view.prediction;
-  view.is_outdated = std::ranges::any_of(evidence.trials, [&](const TrialEvidence& trial) {
-    return trial.id > p.last_trial && trial.state != journal::TrialStatus::kRunning;
+  Prediction& p = view.prediction;
+  view.is_outdated = HaveTrialsEndedSince(evidence, p.last_trial);
+  // Sets without a parameter that is searched since cannot be told beside its others.
+  const bool is_of_these = std::ranges::all_of(p.draws, [&](const PredictedDraw& draw) {
+    return draw.values.size() == evidence.parameters.size();
   });
+  if (!is_of_these) p.different.clear();
   view.mean = PictureIn(folder, p.mean_profile, p.name + ": mean silhouette");
   view.different = PictureIn(folder, p.most_different, p.name + ": the two draws that differ most");
   return view;

@@ -43,8 +43,8 @@ function predictionCard(p) {
     p.notes.length ? element("ul", {class: "plain"}, p.notes.map((note) => element("li", {}, note))) : null,
     table("Prediction of " + p.name, [{title: "Number", text: true}, {title: "Mean"}, {title: "90\u00a0% of runs"},
         {title: "Parameters, sd"}, {title: "Single run, sd"}, {title: "Parameters' share of the variance"},
-        {title: "Measured", text: true}],
-      p.numbers.map((n) => n.mean === null ? [n.title, "–", "–", "–", "–", "–", "–"] : [n.title, formatUnit(n.mean, n.unit),
+        {title: "Told by", text: true}, {title: "Measured", text: true}],
+      p.numbers.map((n) => n.mean === null ? [n.title, "–", "–", "–", "–", "–", "–", "–"] : [n.title, formatUnit(n.mean, n.unit),
         format(n.low) + " to " + formatUnit(n.high, n.unit), formatUnit(n.parameters_sd, n.unit, 2),
         formatUnit(n.run_sd, n.unit, 2), percent(n.parameters_share), toldBy(n), measuredThere(n)])),
     pictures.length ? element("div", {class: "grid two"}, pictures) : null);
