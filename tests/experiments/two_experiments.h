@@ -27,7 +27,8 @@ class TwoExperiments : public ::testing::Test {
         << kMap << R"(},
         )"
         << FastLift(fallen) << R"(],
-      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+      "powder": {"material": {"density": 2500},
+                 "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
       "coarse_graining": {"scale_factor": 2},
       "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
                      "rolling_friction": {"min": 0.05, "max": 0.5}},

@@ -16,14 +16,14 @@ env LD_DEBUG=files OMP_WAIT_POLICY=passive "$libraries"/ld-linux-* --inhibit-cac
   case "$library" in "$home"/* | */ld-linux-*) ;; *) echo "$library is this system's"; exit 1 ;; esac
 done
 cat >"$work/case.json" <<'CASE'
-{"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"youngs_modulus": "1 MPa"}},
+{"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"density": 2500, "youngs_modulus": "1 MPa"}},
  "frame": {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70, "plate_diameter": 0.01}}
 CASE
 "$home/bin/talus" simulate "$work/case.json" --out "$work/heap" --quiet
 cat >"$work/spec.json" <<SPEC
 {"experiment": {"map": "heap/profile.png", "plate_diameter": "10 mm", "frame": {"width_px": 120, "height_px": 80,
    "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70, "plate_diameter": 0.01}},
- "powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"youngs_modulus": "1 MPa"}},
+ "powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"density": 2500, "youngs_modulus": "1 MPa"}},
  "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}}, "strategy": {"kind": "sobol", "num_points": 3},
  "budget": {"simulations": 3}, "confirm": {"candidates": 0}}
 SPEC

@@ -16,7 +16,7 @@ import types
 FRAME = {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70,
          "plate_diameter": 0.01}
 CASE = {"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g",
-                   "material": {"youngs_modulus": "1 MPa"}}, "device": {"lift_velocity": "5 cm/s"}, "frame": FRAME}
+                   "material": {"density": 2500, "youngs_modulus": "1 MPa"}}, "device": {"lift_velocity": "5 cm/s"}, "frame": FRAME}
 
 
 def run(talus, *arguments, status=0):

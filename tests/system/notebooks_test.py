@@ -22,7 +22,7 @@ def campaign(root):
         "experiment": {"photos": str(source / "examples/photos/powder_a"),
                        "pattern": "run{run}_view{view}.jpg", "plate_diameter": "10 mm",
                        "pixel_size": "100 um"},
-        "powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g"},
+        "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g"},
         "parameters": {"sliding_friction": {"min": 1, "max": 2}},
         "strategy": {"kind": "sobol", "num_points": 5},
         "budget": {"simulations": 5},

@@ -16,7 +16,7 @@ import talus
 FRAME = {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70,
          "plate_diameter": 0.01}
 CASE = {"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g",
-                   "material": {"youngs_modulus": "1 MPa"}}, "frame": FRAME}
+                   "material": {"density": 2500, "youngs_modulus": "1 MPa"}}, "frame": FRAME}
 
 
 def raises(error, words, call, *arguments, **keys):

@@ -37,7 +37,7 @@ def tube_and_drum(talus, folder):
     with what fell beside them, and the angle of a drum. Returns what the terminal said."""
     frame = {"width_px": 120, "height_px": 80, "pixel_size": 1e-4, "center_x_px": 60, "baseline_px": 70,
              "plate_diameter": 0.01}
-    powder = {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"youngs_modulus": "1 MPa"}}
+    powder = {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g", "material": {"density": 2500, "youngs_modulus": "1 MPa"}}
     device = {"lift_velocity": "5 cm/s"}
     truth = {**powder, "material": {**powder["material"], "sliding_friction": 0.4, "rolling_friction": 0.2}}
     folder.mkdir(parents=True)

@@ -83,7 +83,7 @@ awk -v d={length} -v mu={{{{ sliding_friction }}}} -v mr={{{{ rolling_friction }
         experiment["filling"] = {"kind": "pour"}
     spec = {"engine": {"kind": "command", "templates": "deck", "command": ["sh", "run.sh"]},
             "experiments": [experiment],
-            "powder": {"sizes": {"kind": "mono", "diameter": "0.8 mm"}, "mass": "1 g"},
+            "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "0.8 mm"}, "mass": "1 g"},
             "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9},
                            "rolling_friction": {"min": 0.05, "max": 0.5}},
             "budget": {"simulations": 10}, "confirm": {"candidates": 1, "replicates": 2}, "seed": 2}

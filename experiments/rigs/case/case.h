@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -38,6 +39,18 @@ struct Device : LiftedTubeOptions {
   }
 };
 
+// The key `material` of a powder. The laws' numbers have usual values, the density of a grain has
+// none.
+struct GrainMaterial : engine::Material {
+  template <class Self, class Visitor>
+  static void Visit(Self& self, Visitor&& visit) {
+    engine::Material::Visit(self, [&](std::string_view key, auto& field, base::FieldInfo info) {
+      info.required = key == "density";
+      visit(key, field, info);
+    });
+  }
+};
+
 // What is heaped: the material, the sizes and the mass of a powder.
 struct Powder {
   engine::Material material;
@@ -46,7 +59,9 @@ struct Powder {
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
-    visit("material", self.material, {.doc = "of a grain"});
+    GrainMaterial grain{self.material};
+    visit("material", grain, {.required = true, .doc = "of a grain"});
+    if constexpr (!std::is_const_v<Self>) self.material = grain;
     visit("sizes", self.sizes, {.required = true, .doc = "diameters of the real powder"});
     visit("mass", self.mass,
           {.dimension = base::Dimension::kMass,

@@ -22,7 +22,8 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr const char* kPowder = R"(
-  "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+  "powder": {"material": {"density": 2500},
+             "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
   "coarse_graining": {"scale_factors": [2, 1]},
   "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
                  "rolling_friction": {"min": 0.05, "max": 0.5}})";

@@ -29,7 +29,8 @@ class GoalTest : public campaign::CampaignFixture {
                     const std::string& rig = R"({"kind": "tapped_density", "diameter": "10 mm"})") {
     fs::create_directories(scratch_.path() / (name + "_in"));
     std::ofstream(scratch_.path() / (name + "_in") / "taps.json")
-        << R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+        << R"({"powder": {"material": {"density": 2500},
+             "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
              "filling": {"kind": "pour"}, "rig": )"
         << rig << "}";
     return Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]}, "workers": 1,

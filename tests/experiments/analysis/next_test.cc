@@ -52,7 +52,8 @@ class NextTest : public campaign::CampaignFixture {
   }
   fs::path Taps() const {
     const fs::path file = scratch_.path() / "taps.json";
-    std::ofstream(file) << R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"},
+    std::ofstream(file) << R"({"powder": {"material": {"density": 2500},
+      "sizes": {"kind": "mono", "diameter": "0.4 mm"},
       "mass": "0.5 g"}, "rig": {"kind": "tapped_density", "diameter": "10 mm"},
       "filling": {"kind": "pour"}})";
     return file;
@@ -337,7 +338,8 @@ TEST_F(NextTest, AGoalThatTheTestDoesNotMeasureNamesThoseThereAreAndCostsNothing
     EXPECT_THAT(error.what(), HasSubstr("has no observable \"runout\"; it has poured_density"));
   }
   const fs::path column = scratch_.path() / "column.json";
-  std::ofstream(column) << R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"},
+  std::ofstream(column) << R"({"powder": {"material": {"density": 2500},
+    "sizes": {"kind": "mono", "diameter": "0.4 mm"},
     "mass": "0.5 g"}, "rig": {"kind": "column_collapse", "length": "5 mm", "width": "8 mm"}})";
   try {
     SimulateGoal(view, {.file = column}, Parts(view));

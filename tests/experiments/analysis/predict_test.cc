@@ -42,7 +42,8 @@ class PredictTest : public campaign::CampaignFixture {
     return scratch_.path() / name;
   }
   fs::path Taps(const std::string& more = "") const {
-    return Write("taps.json", R"({"powder": {"material": {"sliding_friction": 0.123},
+    return Write("taps.json", R"({"powder": {
+      "material": {"density": 2500, "sliding_friction": 0.123},
       "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.5 g"},
       "rig": {"kind": "tapped_density", "diameter": "10 mm"}, "filling": {"kind": "pour"})" +
                                   more + "}");
@@ -184,6 +185,7 @@ TEST_F(PredictTest, AMeasuredNumberIsInsideOrAnotherDrawGivesItOrNoneDoes) {
 
 TEST_F(PredictTest, AMeasuredImageIsComparedInItsOwnFrameWithoutNewRuns) {
   const fs::path tube = Write("tube.json", R"({"powder": {
+      "material": {"density": 2500},
       "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"}})");
   const PredictOptions options{.file = tube, .num_draws = 4, .num_seeds = 2};
   EXPECT_FALSE(Run(options).image.has_value());

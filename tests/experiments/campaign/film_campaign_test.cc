@@ -39,7 +39,8 @@ class FilmCampaign : public CampaignFixture {
         << times << R"(]}},
         "frame": {"width_px": 120, "height_px": 80, "pixel_size": "0.1 mm", "center_x_px": 60,
                   "baseline_px": 76, "plate_diameter": "10 mm"}}],
-        "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+        "powder": {"material": {"density": 2500},
+                   "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
         "parameters": {"sliding_friction": {"min": 0.1, "max": 0.8},
                        "rolling_friction": {"min": 0.05, "max": 0.5}}, "next": {"share": 0},
         "workers": 1)"

@@ -44,7 +44,8 @@ class NumbersOnly : public CampaignFixture {
     const fs::path in = scratch_.path() / (name + "_in");
     WriteFakeSpec(in, "");
     std::ofstream(in / "spec.json") << R"({"experiments": [)" << experiments << R"(],
-      "powder": {"sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
+      "powder": {"material": {"density": 2500},
+                 "sizes": {"kind": "mono", "diameter": "0.4 mm"}, "mass": "0.5 g"},
       "coarse_graining": {"scale_factor": 2},
       "parameters": {)" << parameters
                                     << R"(},

@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 CampaignSpec Read(const std::string& members) {
   return ReadCampaignSpec(base::ParseJson(R"({
     "experiment": {"map": "map.png", "plate_diameter": "10 mm"},
-    "powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},
+    "powder": {"material": {"density": 2500},
+               "sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},
     )" + members + "}",
                                           "/folder/powder.json"));
 }
@@ -76,7 +77,8 @@ TEST(ScaleFactors, WhatCannotBeIsRefusedWithItsPlace) {
 std::string ErrorOfExperiments(const std::string& list, const std::string& more = "") {
   try {
     ReadCampaignSpec(base::ParseJson(R"({
-      "powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},)" +
+      "powder": {"material": {"density": 2500},
+                 "sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},)" +
                                          more + "\"experiments\": [" + list + "]}",
                                      "/folder/powder.json"));
   } catch (const base::ConfigError& error) {
@@ -106,7 +108,8 @@ TEST(Experiments, WhatCannotBeIsRefusedWithItsPlace) {
 
 TEST(Experiments, EachHasItsOwnDeviceOrTheCampaigns) {
   const CampaignSpec spec = ReadCampaignSpec(base::ParseJson(R"({
-    "powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},
+    "powder": {"material": {"density": 2500},
+               "sizes": {"kind": "mono", "diameter": "0.2 mm"}, "mass": "0.5 g"},
     "device": {"lift_velocity": "2 cm/s"},
     "experiments": [
       {"name": "heap", "map": "m.png", "plate_diameter": "10 mm"},

@@ -76,7 +76,7 @@ TEST(Spec, AnExperimentHasItsOwnMassAndItsRepeatedNumbers) {
     "experiments": [
       {"name": "small", "map": "a.png", "plate_diameter": "10 mm", "mass": "0.5 g"},
       {"name": "large", "mass": "1 g", "mass_fallen": {"values": ["18 mg", "23 mg", "22 mg"]}}],
-    "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}},
+    "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "400 um"}},
     "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5}}})");
   EXPECT_DOUBLE_EQ(TypicalCase(spec, 0, 1).powder.mass, 0.5e-3);
   EXPECT_DOUBLE_EQ(TypicalCase(spec, 1, 1).powder.mass, 1e-3);
@@ -112,7 +112,8 @@ TEST(Spec, PairsAreStatedOrSearched) {
       {"name": "steel", "map": "map.png", "plate_diameter": "10 mm"},
       {"name": "glass", "map": "map.png", "plate_diameter": "10 mm",
        "pairs": [{"between": ["powder", "plate"], "rolling_friction": 0.07}]}],
-    "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+    "powder": {"material": {"density": 2500},
+               "sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
     "pairs": [{"between": ["powder", "plate"], "rolling_friction": 0.05}],
     "parameters": {"sliding_friction": {"min": 0.1, "max": 0.5},
                    "plate_pair_sliding_friction": {"min": 0.2, "max": 0.4},
@@ -134,7 +135,8 @@ TEST(Spec, PairsAreStatedOrSearched) {
 TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {
   const std::string error = ErrorOf(R"({
   "experiment": {"map": "m.png", "plate_diameter": "10 mm"},
-  "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 m"},
+  "powder": {"material": {"density": 2500},
+             "sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 m"},
   "parameters": {"sliding_friction": {"min": 0.7, "max": 0.1},
                  "restitution": {"min": 0.5, "max": 1.5},
                  "surface_energi": {}},
@@ -142,13 +144,13 @@ TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {
   "budget": {"simulations": 0},
   "workers": -1
 })");
-  EXPECT_THAT(error, HasSubstr("powder.json:3:71: powder.mass: \"1.5 m\""));
-  EXPECT_THAT(error, HasSubstr("powder.json:4:46: parameters.sliding_friction.min: is 0.7, must "
+  EXPECT_THAT(error, HasSubstr("powder.json:4:71: powder.mass: \"1.5 m\""));
+  EXPECT_THAT(error, HasSubstr("powder.json:5:46: parameters.sliding_friction.min: is 0.7, must "
                                "be below max"));
   EXPECT_THAT(error, HasSubstr("parameters.restitution.max: is 1.5"));
   EXPECT_THAT(error, HasSubstr("parameters.surface_energi: is not known here; did you mean "
                                "\"surface_energy\"?"));
-  EXPECT_THAT(error, HasSubstr("powder.json:7:16: objective: must be one of \"sad\", \"rmse\""));
+  EXPECT_THAT(error, HasSubstr("powder.json:8:16: objective: must be one of \"sad\", \"rmse\""));
   EXPECT_THAT(error, HasSubstr("budget.simulations: is 0, must be from 1 to 1000000"));
   EXPECT_THAT(error, HasSubstr("workers: is -1"));
 }
@@ -156,7 +158,8 @@ TEST(Spec, EveryProblemIsReportedAtOnceWithItsPlace) {
 TEST(Spec, WhatHasNoEffectOrCannotBeIsRefused) {
   EXPECT_THAT(ErrorOf(R"({
     "experiment": {"map": "m.png", "plate_diameter": "10 mm"},
-    "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+    "powder": {"material": {"density": 2500},
+               "sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
     "parameters": {"surface_energy": {"min": 1e-6, "max": 1e-4}}})"),
               HasSubstr("has no effect without adhesion"));
   const auto funnel_error = [](const std::string& rim, const std::string& parameter) {
@@ -165,7 +168,8 @@ TEST(Spec, WhatHasNoEffectOrCannotBeIsRefused) {
                        "rig": {"kind": "funnel_heap", "plate_diameter": "10 mm", "height": "10 mm",
                                "rim_height": ")" +
                    rim + R"("}, "angle_of_repose_1": {"value": "33 deg", "sd": "1 deg"}}],
-      "powder": {"sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
+      "powder": {"material": {"density": 2500},
+                 "sizes": {"kind": "mono", "diameter": "400 um"}, "mass": "1.5 g"},
       "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}, ")" +
                    parameter + R"(": {"min": 0.1, "max": 0.9}}})");
   };

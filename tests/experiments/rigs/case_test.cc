@@ -62,6 +62,7 @@ TEST(Case, TheCompleteTextIsTheSameCase) {
 TEST(Case, ASizeFileMovesIntoTheCase) {
   Write("heap_case_sizes.csv", "diameter (um),% under\n400,0\n500,50\n600,100\n");
   const Case rig_case = LoadCase(Write("heap_case_file.json", R"({"powder": {
+    "material": {"density": 2500},
     "sizes": {"kind": "file", "file": "heap_case_sizes.csv"}, "mass": "0.5 g"}})"));
   EXPECT_EQ(rig_case.powder.sizes.kind, engine::SizeKind::kCumulative);
   EXPECT_THAT(CaseText(rig_case), ::testing::Not(HasSubstr("heap_case_sizes")));
@@ -70,7 +71,8 @@ TEST(Case, ASizeFileMovesIntoTheCase) {
 // Whatever the two materials are; γ of a pair is coarse-grained as the powder's (C1).
 TEST(Case, PairsOfTheCaseActInItsScene) {
   const Case rig_case = LoadCase(Write("heap_case_pairs.json", R"({
-    "powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.2 g"},
+    "powder": {"material": {"density": 2500},
+               "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.2 g"},
     "models": {"adhesion": "dmt"},
     "device": {"plate_material": {"sliding_friction": 0.9}},
     "coarse_graining": {"scale_factor": 2},
@@ -95,7 +97,7 @@ TEST(Case, HashIgnoresWhatDoesNotChangeTheHeap) {
 }
 
 TEST(Case, EveryProblemIsListed) {
-  EXPECT_THAT(ErrorOf(R"({"powder": {"material": {"poisson_ratio": 0.6},
+  EXPECT_THAT(ErrorOf(R"({"powder": {"material": {"density": 2500, "poisson_ratio": 0.6},
                           "sizes": {"kind": "mono"}, "mass": -1},
                           "device": {"tube_inner_diameter": "12 mm"},
                           "rules": {"heap": {"hold_time": 0}}, "num_views": 0, "sead": 1})"),
@@ -107,9 +109,25 @@ TEST(Case, EveryProblemIsListed) {
                     HasSubstr("sead: is not known here; did you mean \"seed\"?")));
 }
 
+// It has no usual value, and what depends on it, from the time step to the mass, looks sound.
+TEST(Case, ThePowdersDensityMustBeStatedThatOfAWallNeedNot) {
+  const auto error_of = [](const std::string& material, const std::string& more = "") {
+    return ErrorOf("{\"powder\": {" + material +
+                   R"("sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.2 g"})" + more +
+                   "}");
+  };
+  EXPECT_THAT(error_of(""), HasSubstr("powder.material: is missing"));
+  EXPECT_THAT(error_of(R"("material": {"restitution": 0.5}, )"),
+              HasSubstr("powder.material.density: is missing"));
+  EXPECT_EQ(error_of(R"("material": {"density": 1500}, )",
+                     R"(, "device": {"plate_material": {"sliding_friction": 0.2}})"),
+            "");
+}
+
 TEST(Case, ADeviceThatCannotHoldTheMassIsRefused) {
   const std::string powder =
-      R"("powder": {"sizes": {"kind": "mono", "diameter": "0.5 mm"}, "mass": "1 g"})";
+      R"("powder": {"material": {"density": 2500},
+  "sizes": {"kind": "mono", "diameter": "0.5 mm"}, "mass": "1 g"})";
   EXPECT_EQ(ErrorOf("{" + powder + "}"), "");
   EXPECT_THAT(ErrorOf("{" + powder + R"(, "device": {"tube_length": "2 mm"}})"),
               HasSubstr("device.tube_length: is 0.002, cannot hold the mass"));

@@ -338,7 +338,8 @@ TEST(RigRun, WritesTheContractOfATrialFolder) {
 }
 
 TEST(RigOptions, OnlyTheKeysOfTheKindAreKnown) {
-  const std::string powder = R"({"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"},
+  const std::string powder = R"({"powder": {"material": {"density": 2500},
+                                "sizes": {"kind": "mono", "diameter": "1 mm"},
                                 "mass": "1 g"}, "rig": )";
   EXPECT_EQ(ErrorOf((powder + R"({"kind": "drum", "speed": "20 rpm"}})").c_str()), "");
   EXPECT_THAT(ErrorOf((powder + R"({"kind": "drum", "slot": "5 mm"}})").c_str()),
@@ -361,7 +362,8 @@ TEST(RigOptions, OnlyTheKeysOfTheKindAreKnown) {
 }
 
 TEST(RigOptions, ARigWithoutKindIsRefused) {
-  const std::string text = R"({"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"},
+  const std::string text = R"({"powder": {"material": {"density": 2500},
+                              "sizes": {"kind": "mono", "diameter": "1 mm"},
                               "mass": "1 g"}, "rig": {}})";
   EXPECT_THAT(ErrorOf(text.c_str()), HasSubstr("rig.kind: is missing"));
 }

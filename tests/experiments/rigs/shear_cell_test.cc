@@ -130,7 +130,7 @@ TEST(ShearCell, APouredOneGoesOnFromACheckpointWithTheSameBits) {
 
 std::string ErrorOf(const std::string& rig, const std::string& modulus = "10 MPa") {
   const std::string text = R"({"powder": {"sizes": {"kind": "mono", "diameter": "1 mm"},
-    "material": {"youngs_modulus": ")" +
+    "material": {"density": 2500, "youngs_modulus": ")" +
                            modulus + R"("}, "mass": "2.2 g"},
     "rig": {"kind": "shear_cell", "diameter": "14 mm")" +
                            rig + "}}";

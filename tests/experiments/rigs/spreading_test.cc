@@ -140,7 +140,8 @@ TEST(Spreading, APictureFromAboveShowsThePlateAsLongAsItIs) {
 }
 
 TEST(Spreading, KeysOfAnotherSpreaderAreRefused) {
-  const std::string powder = R"({"powder": {"sizes": {"kind": "mono", "diameter": "0.2 mm"},
+  const std::string powder = R"({"powder": {"material": {"density": 2500},
+                                "sizes": {"kind": "mono", "diameter": "0.2 mm"},
                                 "mass": "0.01 g"}, "rig": {"kind": "spreading", )";
   EXPECT_THAT(ErrorOf((powder + R"("teeth": 3}})").c_str()), HasSubstr("is a comb's"));
   EXPECT_THAT(ErrorOf((powder + R"("spreader": "comb", "turning": 3}})").c_str()),

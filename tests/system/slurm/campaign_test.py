@@ -43,7 +43,7 @@ def spec(folder, runner, num_trials=24, workers=1):
         "experiment": {"photos": str(source / "examples/photos/powder_a"),
                        "pattern": "run{run}_view{view}.jpg", "plate_diameter": "10 mm",
                        "pixel_size": "100 um"},
-        "powder": {"sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g"},
+        "powder": {"material": {"density": 2500}, "sizes": {"kind": "mono", "diameter": "1 mm"}, "mass": "0.3 g"},
         "device": {"plate": "disc"},
         "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9},
                        "rolling_friction": {"min": 0.02, "max": 0.6}},
