@@ -108,6 +108,19 @@ TEST_F(DesignTest, SimulationsAreMadeOnce) {
   EXPECT_EQ(first.tests.candidates[0].num_made, 32);
 }
 
+// What a folder holds of a plan with another prior does not count.
+TEST_F(DesignTest, SetsFollowFromThePriorAndNotFromWhatRanBefore) {
+  const std::string wide = std::string(kPowder) + kCandidates;
+  std::string narrow = wide;
+  const std::string range = "\"max\": 0.8";
+  narrow.insert(narrow.find(range) + range.size(), R"(, "prior": {"mean": 0.4, "sd": 0.02})");
+  Rank(LoadDesignSpec(Write(narrow)), {});
+  const DesignTable after = Rank(LoadDesignSpec(Write(wide)), {});
+  fs::remove_all(scratch_.path() / "next");
+  const DesignTable fresh = Rank(LoadDesignSpec(Write(wide)), {});
+  EXPECT_EQ(after.choices[0][0].learning.bits, fresh.choices[0][0].learning.bits);
+}
+
 // 32 of the heap, and of the tapped density nothing, which the campaign does not have.
 TEST_F(DesignTest, ACampaignThatBeginsLaterTakesThemOver) {
   Rank(LoadDesignSpec(Write(std::string(kPowder) + kCandidates)), {});

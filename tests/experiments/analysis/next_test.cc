@@ -109,6 +109,20 @@ TEST_F(NextTest, EntriesOfTestsHaveNamesThatAnExperimentMayHave) {
 }
 
 // Bits count what two outputs say twice; the ranges that are left do not.
+// A test is simulated with the first experiment's own mass; added without it, it would be another.
+TEST_F(NextTest, EntriesOfTestsHaveTheMassThatTheyWereSimulatedWith) {
+  JointView view = Run();
+  const TestCandidate tapped = UsualTests(view)[3];
+  ASSERT_EQ(tapped.name, "tapped density");
+  EXPECT_THAT(ExperimentText(view, tapped), HasSubstr("\"mass\": 0.0005"));
+  auto experiments = campaign::ExperimentsOf(view.spec);
+  experiments.front().mass = 0.25e-3;  // half of the powder's
+  view.spec.experiment.reset();
+  view.spec.experiments = experiments;
+  EXPECT_THAT(ExperimentText(view, tapped), HasSubstr("\"mass\": 0.00025"));
+  EXPECT_LT(UsualTests(view)[3].rig->tapped_density.diameter, tapped.rig->tapped_density.diameter);
+}
+
 TEST(NextRanking, WhatLeavesTheSmallestRangesComesFirstAndWhatIsNotKnownLast) {
   NextTable table{.parameters = {},
                   .width = Eigen::Vector2d(0.4, 0.2),

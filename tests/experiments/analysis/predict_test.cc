@@ -11,6 +11,7 @@
 #include "base/json/json_reader.h"
 #include "engine/scene/scene_spec.h"
 #include "experiments/analysis/predict/affordable.h"
+#include "experiments/analysis/predict/predicted_case.h"
 #include "experiments/analysis/predict/prediction_plan.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/predict/scene_engine.h"
@@ -242,6 +243,39 @@ TEST_F(PredictTest, WallsThatTheCampaignHasSearchedAreNotTheCases) {
   EXPECT_THAT(ErrorOf({.file = Taps(R"(, "device": {"plate_material": {"sliding_friction": 0.3}})"),
                        .set = {{"sliding_friction", "0.4"}, {"plate_sliding_friction", "0.2"}}}),
               HasSubstr("the campaign has calibrated it as plate_sliding_friction"));
+}
+
+// How much powder a process takes is its own, whatever the campaign knows of that in its tests.
+TEST_F(PredictTest, TheMassIsTheCasesWhereTheCampaignSearchesOrFixesIt) {
+  const PredictedCase taps = ReadPredictedCase(*view_, Taps(), {}, 1);
+  JointView weighed = *view_;
+  for (const auto fixed : {std::optional<double>(), std::optional<double>(1.6e-3)}) {
+    weighed.space.parameters = view_->space.parameters;
+    weighed.space.parameters.push_back({.name = "mass", .low = 1e-3, .high = 2e-3, .fixed = fixed});
+    const rigs::Case predicted = CaseWith(weighed, taps, std::vector{0.3, 0.2, 1.6e-3}, 1);
+    EXPECT_EQ(predicted.powder.mass, 0.5e-3);
+    EXPECT_EQ(predicted.powder.material.sliding_friction, 0.3);
+  }
+}
+
+// With one run there is no scatter to judge by, and of one set nothing is said of others.
+TEST_F(PredictTest, OneRunOfOneSetIsNoPrediction) {
+  const Prediction p =
+      Run({.file = Taps(),
+           .num_seeds = 1,
+           .set = {{"sliding_friction", "0.4"}, {"rolling_friction", "0.2"}},
+           .measured = Write("off.json", R"({"tapped_density": {"value": 1300, "sd": 1}})")});
+  const std::string text = PredictionText(p, view_->record.parameters);
+  EXPECT_THAT(text, HasSubstr("this set does not give it"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("any set that fits")));
+}
+
+// Six draws once each: the surrogate's noise is its prior's then.
+TEST_F(PredictTest, WithoutASecondRunOfASetNothingIsSaidOfScatter) {
+  const Prediction p = Run({.file = Taps(), .num_draws = 8, .num_seeds = 1});
+  EXPECT_TRUE(std::isnan(p.numbers.at(0).run_sd));
+  EXPECT_TRUE(std::isnan(p.numbers.at(0).parameters_share));
+  EXPECT_THAT(PredictionText(p, view_->record.parameters), HasSubstr("no set was run twice"));
 }
 
 TEST_F(PredictTest, ASceneIsFilledWithTheCampaignsPowder) {

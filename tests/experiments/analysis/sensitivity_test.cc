@@ -160,6 +160,14 @@ TEST_F(SensitivityTest, WhatIsSearchedIsNotMoved) {
   plate.space.parameters.push_back({.name = "plate_sliding_friction", .low = 0.1, .high = 0.6});
   const auto moves = UsualMoves(plate, campaign::TypicalCase(view.spec, 0, 2));
   for (const analysis::Move& move : moves) EXPECT_NE(move.name, "plate_pair_sliding_friction");
+  const rigs::Case typical = campaign::TypicalCase(view.spec, 0, 2);
+  JointView weighed = view;
+  weighed.space.parameters.push_back({.name = "mass", .low = 0.4e-3, .high = 0.6e-3});
+  const auto is_mass = [](const analysis::Move& move) { return move.name == "mass"; };
+  EXPECT_TRUE(std::ranges::any_of(UsualMoves(view, typical), is_mass));
+  EXPECT_FALSE(std::ranges::any_of(UsualMoves(weighed, typical), is_mass));
+  EXPECT_EQ(MoveTo(view, typical, "mass", "0.6 g").from, "0.0005 kg");
+  EXPECT_EQ(MoveTo(view, typical, "particle_size", "1.1").from, "1");
   EXPECT_THAT(ErrorOf(view, "rolling_friction", "0.2"), HasSubstr("is searched"));
   EXPECT_THAT(ErrorOf(view, "restitution", "0.9"), HasSubstr("in the campaign already"));
   EXPECT_THAT(ErrorOf(view, "restitution", "1.5"), HasSubstr("must be in (0, 1]"));
