@@ -332,9 +332,8 @@ rigs::Case CaseAt(const CampaignSpec& spec, const Eigen::VectorXd& point, int ex
       spec,
       {.values = values, .seed = spec.seed, .scale_factor = scale_factor, .experiment = experiment},
       {});
-  rig_case.frame = imaging::Frame{.pixel_size = 1e-4,
-                                  .baseline = 1,
-                                  .plate_diameter = rigs::EntryOf(rig_case).width(rig_case)};
+  rig_case.frame = imaging::Frame{
+      .pixel_size = 1e-4, .baseline = 1, .plate_diameter = rigs::EntryOf(rig_case).width(rig_case)};
   return rig_case;
 }
 
