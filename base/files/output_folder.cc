@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files/file.h"
@@ -74,6 +75,16 @@ void RequireNoInput(const fs::path& output, std::span<const fs::path> inputs) {
                       ": is an input, which the result would overwrite; name "
                       "another file");
   }
+}
+
+void RemoveFormerFiles(const fs::path& folder, std::string_view prefix) {
+  if (!fs::is_directory(folder)) return;
+  std::vector<fs::path> former;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const bool is_one = entry.path().filename().string().starts_with(prefix);
+    if (is_one && entry.is_regular_file()) former.push_back(entry.path());
+  }
+  for (const fs::path& file : former) fs::remove(file);
 }
 
 bool HoldsOnly(const fs::path& folder, std::span<const std::string_view> names) {

@@ -25,6 +25,10 @@ bool IsOutputFolder(const std::filesystem::path& folder, std::string_view comman
 void RequireNoInput(const std::filesystem::path& output,
                     std::span<const std::filesystem::path> inputs);
 
+// Removes the files in a folder, if there is one, whose names begin so: an earlier call of the
+// command that writes them may have left more of them than this one will.
+void RemoveFormerFiles(const std::filesystem::path& folder, std::string_view prefix);
+
 // Whether a folder is absent or holds no file but those named.
 bool HoldsOnly(const std::filesystem::path& folder, std::span<const std::string_view> names);
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/files/output_folder.h"
 
 namespace talus::base {
 namespace file_test {
@@ -73,6 +74,20 @@ TEST_F(FileTest, TheTailOfAHugeFileTakesNoMemory) {
   const long before = PeakMegabytes();
   EXPECT_EQ(ReadTail(folder_ / "log", 4096), std::string(4096, '\0'));
   EXPECT_LT(PeakMegabytes() - before, 50);
+}
+
+TEST_F(FileTest, OnlyFilesWhoseNamesBeginSoAreRemoved) {
+  for (const char* name : {"run_01.png", "run_01.json", "notes.txt", "my_run_01.png"}) {
+    WriteFileAtomically(folder_ / name, "x");
+  }
+  fs::create_directories(folder_ / "run_more");
+  RemoveFormerFiles(folder_, "run_");
+  RemoveFormerFiles(folder_ / "absent", "run_");
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    left.push_back(entry.path().filename().string());
+  }
+  EXPECT_THAT(left, testing::UnorderedElementsAre("notes.txt", "my_run_01.png", "run_more"));
 }
 
 // The reference value is XXH3's published one for no bytes at all with seed 0.

@@ -31,21 +31,12 @@ const char* EndingOf(CardFormat format) {
   return "txt";
 }
 
-// Draws of an earlier call, of which there may have been more.
-void RemoveFormer(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> former;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().filename().string().starts_with("draw_")) former.push_back(entry.path());
-  }
-  for (const std::filesystem::path& file : former) std::filesystem::remove(file);
-}
-
 }  // namespace
 
 void WriteDrawCards(const std::vector<DrawCard>& cards, const std::vector<CardFormat>& formats,
                     const std::filesystem::path& folder) {
   base::ClaimOutputFolder(folder, "card");
-  RemoveFormer(folder);
+  base::RemoveFormerFiles(folder, "draw_");
   base::Csv csv;
   csv.Cell("draw").Cell("weight");
   for (const CardRange& r : cards.front().card.ranges) {

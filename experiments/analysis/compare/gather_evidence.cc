@@ -37,9 +37,8 @@ ParameterInfo InfoOf(const journal::ParameterRecord& record) {
 }
 
 // As the spec has them, which a campaign without an answer has, too.
-void MarkNuisances(const journal::CampaignRecord& record, Evidence& evidence) {
-  const optimizer::ParameterSpace space =
-      campaign::SpaceOf(campaign::ParseSpecText(record.spec_json));
+void MarkNuisances(const campaign::CampaignSpec& spec, Evidence& evidence) {
+  const optimizer::ParameterSpace space = campaign::SpaceOf(spec);
   for (ParameterInfo& parameter : evidence.parameters) {
     const auto known =
         std::ranges::find(space.parameters, parameter.range.name, &optimizer::Parameter::name);
@@ -146,13 +145,13 @@ void AddTimes(Evidence& evidence, double elapsed) {
                      {"their processor time", cpu}};
 }
 
-void AddSpec(Evidence& evidence, const journal::CampaignRecord& record) {
+void AddSpec(Evidence& evidence, const journal::CampaignRecord& record,
+             const campaign::CampaignSpec& understood) {
   evidence.spec = record.spec_text;
   evidence.spec_json = record.spec_json;
   const nlohmann::json spec = base::ParseJson(record.spec_json, "the journal's spec").root;
   if (spec.contains("budget")) evidence.max_simulations = spec["budget"].value("simulations", 0);
   if (spec.contains("strategy")) evidence.strategy = spec["strategy"].value("kind", "");
-  const campaign::CampaignSpec understood = campaign::ParseSpecText(record.spec_json);
   if (understood.runner.kind == campaign::RunnerKind::kLocal) {
     evidence.workers = campaign::LocalWorkers(understood, campaign::NumCores());
   }
@@ -258,7 +257,8 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   evidence.state = progress.state;
   evidence.stop_reason = progress.stop_reason;
   evidence.objective = record.objective;
-  AddSpec(evidence, record);
+  const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
+  AddSpec(evidence, record, spec);
   for (const journal::ParameterRecord& parameter : record.parameters) {
     evidence.parameters.push_back(InfoOf(parameter));
   }
@@ -270,7 +270,7 @@ Evidence GatherEvidence(const std::filesystem::path& campaign, const std::string
   AddTrialsOf(shown, journal->Trials(), evidence);
   AddReference(shown, evidence);
   AddAnswer(progress.result_json, record, evidence);
-  MarkNuisances(record, evidence);
+  MarkNuisances(spec, evidence);
   AddTimes(evidence, progress.elapsed_s);
   AddVersions(record, evidence);
   evidence.profile =

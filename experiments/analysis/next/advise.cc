@@ -9,23 +9,19 @@
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "experiments/analysis/predict/predict.h"
-#include "experiments/campaign/answer/answer.h"
+#include "experiments/campaign/answer/standing_answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/folder/design_folder.h"
 #include "experiments/campaign/make_parts.h"
 #include "experiments/campaign/plan/core_time.h"
-#include "experiments/journal/journal.h"
 
 namespace talus::analysis {
 namespace {
 
 // What a finished campaign's alarms ask for, as its report puts it first.
 int SimulateFirst(const std::filesystem::path& campaign) {
-  const std::string text =
-      journal::Journal::OpenReadOnly(journal::JournalPath(campaign)).Progress().result_json;
-  if (text.empty()) return 0;
-  const campaign::Answer answer = campaign::ParseAnswer(text);
-  return campaign::AsksForSimulations(answer) ? campaign::MoreSimulations(answer) : 0;
+  const std::optional<campaign::Answer> answer = campaign::StandingAnswer(campaign);
+  return answer && campaign::AsksForSimulations(*answer) ? campaign::MoreSimulations(*answer) : 0;
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 #include "experiments/analysis/predict/one_set.h"
 
-#include <string>
+#include <optional>
 
 #include "base/error.h"
-#include "experiments/campaign/answer/answer.h"
 #include "experiments/campaign/answer/consider.h"
-#include "experiments/journal/journal.h"
+#include "experiments/campaign/answer/standing_answer.h"
 
 namespace talus::analysis {
 namespace {
@@ -13,18 +12,15 @@ namespace {
 using campaign::JointView;
 
 Eigen::VectorXd RecommendedPoint(const JointView& view) {
-  // The file may be of a campaign that has gone on since; the journal then has none.
-  const std::string text =
-      journal::Journal::OpenReadOnly(journal::JournalPath(view.folder.root)).Progress().result_json;
-  if (text.empty()) {
+  const std::optional<campaign::Answer> answer = campaign::StandingAnswer(view.folder.root);
+  if (!answer) {
     throw base::ConfigError(view.folder.root.string() +
                             ": has no result yet; without --recommended, draws of what its trials "
                             "say so far are taken");
   }
-  const campaign::Answer answer = campaign::ParseAnswer(text);
-  Eigen::VectorXd point(static_cast<Eigen::Index>(answer.parameters.size()));
+  Eigen::VectorXd point(static_cast<Eigen::Index>(answer->parameters.size()));
   for (Eigen::Index i = 0; i < point.size(); ++i) {
-    const campaign::ResultParameter& p = answer.parameters[static_cast<std::size_t>(i)];
+    const campaign::ResultParameter& p = answer->parameters[static_cast<std::size_t>(i)];
     point[i] = p.Range().ToUnit(p.value);
   }
   return point;

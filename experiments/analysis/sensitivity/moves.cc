@@ -21,35 +21,21 @@ using campaign::ParameterPlace;
 // A parameter that makes the mass of a drum's powder; it is moved as the mass.
 constexpr const char* kFill = "fill";
 
-// The field with a name, of a material or a pair.
-struct FieldNamed {
-  std::string_view name;
-  double& value;
-  void operator()(std::string_view key, double field, base::FieldInfo = {}) {
-    if (key == name) value = field;
-  }
-  void operator()(std::string_view key, const std::optional<double>& field, base::FieldInfo = {}) {
-    if (key == name && field) value = *field;
-  }
-};
-
-// What campaign::SetParameter sets, as it stands.
+// What campaign::SetParameter sets, as it stands; of a pair that does not state it, as it follows
+// from the two materials. 0 where the case says nothing of it.
 double ValueOf(const rigs::Case& c, const std::string& parameter) {
-  if (campaign::IsOfBulk(parameter)) return campaign::ParameterOf(c, parameter).value_or(0);
+  if (const auto stated = campaign::ParameterOf(c, parameter)) return *stated;
   const ParameterPlace place = campaign::PlaceOf(parameter);
+  if (!place.is_pair) return 0;
   const engine::Material& powder = c.powder.material;
   const auto& wall = place.body == rigs::kFloor ? c.materials.floor : c.materials.walls;
-  const engine::Material own =
-      place.body == rigs::kPowder ? powder : wall.value_or(rigs::WallMaterial()).Over(powder);
+  const engine::Material own = wall.value_or(rigs::WallMaterial()).Over(powder);
+  const engine::PairProperties pair = engine::Joined(powder, own, {});
   double value = 0;
-  FieldNamed visitor{place.property, value};
-  if (place.is_pair) {
-    const auto stated = rigs::StatedWith(c.pairs, place.body);
-    const engine::PairProperties all = engine::Joined(powder, own, stated);
-    engine::PairProperties::Visit(all, visitor);
-  } else {
-    engine::Material::Visit(own, visitor);
-  }
+  engine::PairProperties::Visit(
+      pair, [&](std::string_view key, const std::optional<double>& field, base::FieldInfo = {}) {
+        if (key == place.property) value = field.value_or(0);
+      });
   return value;
 }
 

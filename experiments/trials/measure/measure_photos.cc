@@ -76,25 +76,12 @@ void WriteOverlays(const MeasureRequest& request, const imaging::Experiment& exp
   base::ParallelFor({.num_items = std::ssize(files), .item_work = imaging::kPhotoWork}, write);
 }
 
-// What of an earlier call this one may not write anew: comparisons read all runs that there are.
-void RemoveFormer(const fs::path& out) {
-  fs::remove(out / "standard_deviation.png");
-  if (!fs::is_directory(out / "runs")) return;
-  std::vector<fs::path> former;
-  for (const auto& entry : fs::directory_iterator(out / "runs")) {
-    const fs::path& file = entry.path();
-    if (file.filename().string().starts_with("run_") && file.extension() == ".png") {
-      former.push_back(file);
-    }
-  }
-  for (const fs::path& file : former) fs::remove(file);
-}
-
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
   const fs::path& out = request.out;
   base::ClaimOutputFolder(out, "measure", InputsOf(request));
   fs::create_directories(out / "overlays");
-  RemoveFormer(out);
+  fs::remove(out / "standard_deviation.png");     // may not be written anew
+  base::RemoveFormerFiles(out / "runs", "run_");  // comparisons read all that there are
   if (!experiment.runs.empty()) fs::create_directories(out / "runs");
   imaging::WriteProfile(out / "aehp.png", experiment.aehp);
   if (!experiment.standard_deviation.pixels.empty()) {
