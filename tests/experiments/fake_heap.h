@@ -94,6 +94,8 @@ struct FakeEngineOptions {
   double mass_scatter = 1e-6;            // of the mass fallen, from seed to seed [kg]
   double density_scatter = 4;            // of the tapped density, from seed to seed [kg/m³]
   double density_by_scale = 0;           // that it gains for each 1 of the scale factor [kg/m³]
+
+  bool operator==(const FakeEngineOptions&) const = default;
 };
 
 class FakeEngine : public trials::TrialEngine {

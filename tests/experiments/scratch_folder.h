@@ -11,9 +11,11 @@ namespace talus {
 
 class ScratchFolder {
  public:
-  ScratchFolder()
-      : path_(Root() / ("talus_" + std::to_string(::getpid()) + "_" +
-                        ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+  // `purpose` tells it from others of the same test.
+  explicit ScratchFolder(const std::string& purpose = "")
+      : path_(Root() /
+              ("talus_" + std::to_string(::getpid()) + "_" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name() + purpose)) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

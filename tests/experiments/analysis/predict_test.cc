@@ -28,9 +28,8 @@ namespace fs = std::filesystem;
 class PredictTest : public campaign::CampaignFixture {
  protected:
   void SetUp() override {
-    folder_ = Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]},
+    folder_ = Finished(R"(, "coarse_graining": {"scale_factors": [2, 1]},
       "budget": {"simulations": 24}, "confirm": {"candidates": 1, "replicates": 2}, "workers": 1)");
-    campaign::RunFake(folder_, {});
     view_.emplace(campaign::ReadJointView(folder_));
   }
   Prediction Run(PredictOptions options, const campaign::FakeEngineOptions& engine = {}) const {

@@ -30,8 +30,7 @@ class SensitivityTest : public campaign::CampaignFixture {
       "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)";
 
   JointView Run() {
-    folder_ = Begin(kBudget);
-    campaign::RunFake(folder_, kBouncing);
+    folder_ = Finished(kBudget, kBouncing);
     return campaign::ReadJointView(folder_);
   }
   static SensitivityTable Find(const JointView& view,
@@ -102,8 +101,7 @@ TEST_F(SensitivityTest, ShiftOfTheAnswerIsWhatTheMovedThingDoes) {
 // far as it knows: what is simulated there says that they do not.
 TEST_F(SensitivityTest, AShiftThatDependsOnTheSetIsTheOneAtTheAnswer) {
   constexpr campaign::FakeEngineOptions kStretched{.restitution_times_rolling = 2};
-  folder_ = Begin(kBudget);
-  campaign::RunFake(folder_, kStretched);
+  folder_ = Finished(kBudget, kStretched);
   const SensitivityTable table =
       Find(campaign::ReadJointView(folder_), {{"restitution", "0.6"}}, kStretched);
   const FixedMove& move = Move(table, "restitution");
@@ -186,8 +184,7 @@ TEST_F(SensitivityTest, AnAnswerIsFollowedAsFarAsItsCoreTimeGoes) {
 // μ_r + 1.2 is beyond all that is searched.
 TEST_F(SensitivityTest, AValueThatNoSetFitsWithIsSaid) {
   constexpr campaign::FakeEngineOptions kFar{.restitution_as_rolling = 4};
-  folder_ = Begin(kBudget);
-  campaign::RunFake(folder_, kFar);
+  folder_ = Finished(kBudget, kFar);
   const SensitivityTable table =
       Find(campaign::ReadJointView(folder_), {{"restitution", "0.6"}}, kFar);
   EXPECT_TRUE(Move(table, "restitution").FitsNoSet());

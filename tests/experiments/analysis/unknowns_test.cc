@@ -33,9 +33,9 @@ class UnknownsTest : public campaign::CampaignFixture {
       .restitution_as_rolling = 0.2, .mass_scatter = 1e-7, .density_scatter = 0.5};
 
   JointView Run() {
-    folder_ = Begin(R"(, "coarse_graining": {"scale_factors": [2, 1]},
-      "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)");
-    campaign::RunFake(folder_, kBouncing);
+    folder_ = Finished(R"(, "coarse_graining": {"scale_factors": [2, 1]},
+      "budget": {"simulations": 24}, "confirm": {"candidates": 0}, "workers": 1)",
+                       kBouncing);
     return campaign::ReadJointView(folder_);
   }
   static campaign::CampaignParts Parts(const JointView& view) {

@@ -1,0 +1,113 @@
+// Which tests `talus next` ranks: the usual ones and those of a file, as `talus add-experiment`
+// takes them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/error.h"
+#include "experiments/analysis/next/usual_tests.h"
+#include "tests/experiments/next_fixture.h"
+
+namespace talus::analysis {
+namespace next_candidates_test {
+
+using campaign::JointView;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class NextCandidates : public NextFixture {};
+
+// The entry that `talus next` leaves for a test is one that `talus add-experiment` takes.
+TEST_F(NextCandidates, EntriesOfTestsHaveNamesThatAnExperimentMayHave) {
+  const JointView view = Run();
+  for (const TestCandidate& test : UsualTests(view)) {
+    EXPECT_THAT(ExperimentText(view, test), testing::Not(HasSubstr("/"))) << test.name;
+  }
+}
+
+// A test is simulated with the first experiment's own mass; added without it, it would be another.
+TEST_F(NextCandidates, EntriesOfTestsHaveTheMassThatTheyWereSimulatedWith) {
+  JointView view = Run();
+  const TestCandidate tapped = UsualTests(view)[3];
+  ASSERT_EQ(tapped.name, "tapped density");
+  EXPECT_THAT(ExperimentText(view, tapped), HasSubstr("\"mass\": 0.0005"));
+  auto experiments = campaign::ExperimentsOf(view.spec);
+  experiments.front().mass = 0.25e-3;  // half of the powder's
+  view.spec.experiment.reset();
+  view.spec.experiments = experiments;
+  EXPECT_THAT(ExperimentText(view, tapped), HasSubstr("\"mass\": 0.00025"));
+  EXPECT_LT(UsualTests(view)[3].rig->tapped_density.diameter, tapped.rig->tapped_density.diameter);
+}
+
+TEST_F(NextCandidates, WhatCannotBeSimulatedIsSaidAndNotTried) {
+  const JointView view = Run();
+  TestCandidate narrow{.name = "narrow"};
+  narrow.device = view.spec.device;
+  narrow.device->tube_inner_diameter = 2.2e-3;  // grains of the coarse factor are 0.8 mm
+  const TestCandidate taken{.name = campaign::ExperimentsOf(view.spec).front().name};
+  const NextTable table = Rank(view, {narrow, taken}, true);
+  EXPECT_THAT(Find(table, "narrow").what, HasSubstr("must be above three (scaled) grain"));
+  const bool said = std::ranges::any_of(table.candidates, [](const NextCandidate& candidate) {
+    return candidate.what.find("is that of an experiment of the campaign") != std::string::npos;
+  });
+  EXPECT_TRUE(said);
+  EXPECT_FALSE(fs::exists(folder_ / "next"));
+}
+
+// Each was simulated and ranked, and refused when it had been made.
+TEST_F(NextCandidates, WhatAddExperimentWouldRefuseIsNotRanked) {
+  const JointView view = Run();
+  TestCandidate fast{.name = "fast"};
+  fast.device = view.spec.device;
+  fast.device->lift_velocity = 50;  // mm/s, it was meant
+  TestCandidate unfilmed{.name = "unfilmed"};
+  unfilmed.rig.emplace().kind = rigs::RigKind::kDrum;
+  unfilmed.numbers.Of<rigs::Observable::kCohesiveIndex>() = {.standard_error = 0.1};
+  TestCandidate odd{.name = "odd"};
+  odd.numbers.Of<rigs::Observable::kTappedDensity>() = {.standard_error = 4};
+  const NextTable table = Rank(view, {fast, unfilmed, odd}, true);
+  EXPECT_THAT(Find(table, "fast").what,
+              HasSubstr("cannot be simulated: fast: device.lift_velocity"));
+  EXPECT_THAT(Find(table, "unfilmed").what, HasSubstr("cohesive_index: needs a camera"));
+  EXPECT_THAT(Find(table, "odd").what, HasSubstr("tapped_density: is not measured by the rig"));
+  EXPECT_FALSE(fs::exists(folder_ / "next"));
+}
+
+TEST_F(NextCandidates, CandidatesComeFromAFile) {
+  const fs::path file = scratch_.path() / "tests.json";
+  std::ofstream(file) << R"({"candidates": [{"name": "fast", "device": {"lift_velocity": "20 cm/s"},
+                                             "runs": 5},
+    {"name": "tapped", "rig": {"kind": "tapped_density"}, "filling": {"kind": "pour"},
+     "tapped_density": {"sd": "4 kg/m^3"}}]})";
+  const std::vector<TestCandidate> tests = LoadTests(file);
+  ASSERT_EQ(tests.size(), 2u);
+  EXPECT_EQ(tests[1].rig.value().kind, rigs::RigKind::kTappedDensity);
+  EXPECT_EQ(tests[1].numbers.Of<rigs::Observable::kTappedDensity>().value().standard_error, 4);
+  EXPECT_EQ(tests[0].runs, 5);
+  EXPECT_EQ(tests[0].device.value().lift_velocity, 0.2);
+  std::ofstream(file) << R"({"candidates": [{"runs": 0}]})";
+  EXPECT_THROW(LoadTests(file), base::ConfigError);
+  // Their simulations stand in folders of these names: one would be lost.
+  for (const char* other : {"fast lift", "fast-lift"}) {
+    std::ofstream(file) << R"({"candidates": [{"name": "fast lift"}, {"name": ")" << other
+                        << "\"}]}";
+    EXPECT_THROW(LoadTests(file), base::ConfigError) << other;
+  }
+}
+
+// It would be ranked, simulated and made, and then refused.
+TEST_F(NextCandidates, ATestThatCouldNotBeAddedSaysWhy) {
+  const JointView view = Run();
+  TestCandidate test{.name = "drum"};
+  test.rig.emplace().kind = rigs::RigKind::kDrum;
+  test.rig->drum.speed = 40;
+  EXPECT_THAT(WhyNot(view, test), HasSubstr("rig.speed: is 40, rad/s is so fast"));
+  const TestCandidate same{.name = view.record.experiments.front().name};
+  EXPECT_THAT(WhyNot(view, same), HasSubstr("is that of an experiment of the campaign"));
+  for (const TestCandidate& usual : UsualTests(view)) EXPECT_EQ(WhyNot(view, usual), "");
+}
+
+}  // namespace next_candidates_test
+}  // namespace talus::analysis
