@@ -122,6 +122,22 @@ TEST(CompareObjectives, ModelFindsTheMinimumBetweenTheTrialsAndItsTiedVolume) {
   EXPECT_NEAR(finding.from_model->tied_volume, 2 * half_width, 0.03);
 }
 
+// The parabola's bottom is not allowed: the least is at the border nearest to it.
+TEST(CompareObjectives, ModelsMinimumIsOneThatTheConstraintsAllow) {
+  std::vector<Sample> samples;
+  for (int i = 6; i <= 12; ++i) {
+    const double x = i / 12.0;
+    samples.push_back({x, 1 + 10 * (x - 0.37) * (x - 0.37)});
+  }
+  samples.push_back({0.5, 1 + 10 * 0.13 * 0.13 + 0.02});
+  Evidence evidence = OneParameter("sad_mm2", samples);
+  evidence.feasible = [](const Eigen::VectorXd& x) { return x[0] >= 0.5; };
+  const auto finding = Find(evidence, "sad");
+  ASSERT_TRUE(finding.from_model);
+  EXPECT_GE(finding.from_model->values[0], 0.5);
+  EXPECT_NEAR(finding.from_model->values[0], 0.5, 0.02);
+}
+
 TEST(CompareObjectives, SaysWhyAnObjectiveHasNoAnswer) {
   const Evidence evidence =
       OneParameter("repose_angle_1_mean_deg", {{0.1, 20}, {0.2, 21}}, kUndefined);

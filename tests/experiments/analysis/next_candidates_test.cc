@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "experiments/analysis/next/advise.h"
 #include "experiments/analysis/next/usual_tests.h"
 #include "tests/experiments/next_fixture.h"
 
@@ -73,6 +74,19 @@ TEST_F(NextCandidates, WhatAddExperimentWouldRefuseIsNotRanked) {
   EXPECT_THAT(Find(table, "unfilmed").what, HasSubstr("cohesive_index: needs a camera"));
   EXPECT_THAT(Find(table, "odd").what, HasSubstr("tapped_density: is not measured by the rig"));
   EXPECT_FALSE(fs::exists(folder_ / "next"));
+}
+
+TEST_F(NextCandidates, TwoAtOnceDoNotSimulateTheSameDesigns) {
+  const JointView view = Run();
+  fs::create_directories(folder_ / "next");
+  const campaign::CampaignLock other(folder_ / "next");
+  try {
+    Advise(folder_, {.simulate = true});
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another process"));
+  }
+  Advise(folder_, {});  // looking is for all
 }
 
 TEST_F(NextCandidates, CandidatesComeFromAFile) {

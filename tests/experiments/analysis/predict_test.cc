@@ -167,6 +167,26 @@ TEST_F(PredictTest, OneSetHasNoUncertaintyOfParameters) {
   EXPECT_EQ(best.draws[0].values[0], Result(folder_).parameters[0].value);
 }
 
+// A campaign that goes on has no answer until it ends again, whatever result.json still says.
+TEST_F(PredictTest, AnAnswerThatNoLongerStandsIsNotTaken) {
+  journal::Journal::Open(journal::JournalPath(folder_)).SetProgress({.state = "interrupted"});
+  ASSERT_TRUE(fs::exists(folder_ / "result.json"));
+  EXPECT_THAT(ErrorOf({.file = Taps(), .recommended = true}), HasSubstr("has no result yet"));
+}
+
+TEST_F(PredictTest, TwoAtOnceDoNotWriteTheSameRuns) {
+  const fs::path folder = folder_ / "predict" / "taps";
+  fs::create_directories(folder);
+  const campaign::CampaignLock other(folder);
+  try {
+    Run({.file = Taps(), .num_draws = 2, .num_seeds = 1});
+    FAIL();
+  } catch (const base::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another process"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "trials"));
+}
+
 TEST_F(PredictTest, AMeasuredNumberIsInsideOrAnotherDrawGivesItOrNoneDoes) {
   PredictOptions options{.file = Taps(), .num_draws = 8};
   const auto measured = [&](double density) {
