@@ -16,7 +16,7 @@ void SealTrial(Database& database, std::int64_t trial);
 void SealCampaign(Database& database);
 void SealAll(Database& database);
 
-// What does not match its checksum, in words; empty when all does, and for a schema that had none.
+// What does not match its checksum, in words; empty when all does.
 std::string BrokenSeal(Database& database);
 
 }  // namespace talus::journal

@@ -28,7 +28,8 @@ class Journal {
   static Journal Create(const std::filesystem::path& path, const CampaignRecord& campaign,
                         std::span<const TrialRecord> trials = {});
 
-  // To go on; brings an older schema up to date. Throws base::Error when the file is damaged.
+  // To go on. Throws base::Error when the file is damaged, and base::ConfigError when its schema is
+  // another.
   static Journal Open(const std::filesystem::path& path);
 
   // To look at while another process may be writing.

@@ -25,9 +25,9 @@ SCENES = {  # spheres as (position, velocity), gravity, floor, end [s]
 }
 
 
-def case(plate=None, models=None, pairs=None, **material):
+def case(plate=None, models=None, pairs=None, sizes=None, **material):
     return {"models": models or {}, "pairs": pairs or [], "rayleigh_fraction": 0.15, "powder": {"material": {**MATERIAL, **material}, "mass": "0.5 g",
-                       "sizes": {"kind": "mono", "diameter": DIAMETER}},
+                       "sizes": sizes or {"kind": "mono", "diameter": DIAMETER}},
             "device": {"tube_inner_diameter": "10 mm", "plate_diameter": "10 mm",
                        **({"plate_material": plate} if plate else {})}}
 
@@ -197,6 +197,61 @@ class Card(unittest.TestCase):
             self.assertIn("NOT INCLUDED: what a pair states itself, powder and plate: sliding_friction = 0.25",
                           card(self.folder, name, pairs=pairs))
         self.assertEqual(json.loads(card(self.folder, "json", pairs=pairs))["pairs"], pairs)
+
+    # Walls of the powder's material are not its grains: they keep the material's own values.
+    def test_what_two_grains_state_themselves_does_not_act_at_walls(self):
+        pairs = [{"between": ["powder", "powder"], "sliding_friction": 0.9}]
+        text = card(self.folder, "liggghts", pairs=pairs)
+        friction = re.search(r"coefficientFriction peratomtypepair (.*)", text).group(1).split()
+        self.assertEqual([float(word) for word in friction], [3, 0.9, 0.4, 0.4, 0.4, 0.4, 0.4, 0.4, 0.4, 0.4])
+        lammps = card(self.folder, "lammps", pairs=pairs)
+        self.assertRegex(lammps, r"pair_coeff \* \* .* mindlin NULL \S+ 0.9 ")
+        for wall in ("tube", "plate"):
+            self.assertRegex(lammps, rf"# fix {wall} .* mindlin NULL \S+ 0.4 ")
+
+    def test_walls_that_a_code_has_no_lines_for_are_said_to_be_missing(self):
+        for name in ("yade", "mercurydpm"):
+            self.assertIn("NOT INCLUDED: plate: sliding_friction = 0.8\n",
+                          card(self.folder, name, plate={"sliding_friction": 0.8}))
+
+    # LIGGGHTS refuses seeds that are not different primes, LAMMPS shares whose sum is not 1.
+    def test_grains_of_several_sizes_are_taken_as_they_are_written(self):
+        sizes = {"kind": "uniform", "min": "1 mm", "max": "2 mm"}
+        box = "region box block -0.02 0.02 -0.02 0.02 0 0.1\n"
+        head = "units si\natom_style {}\natom_modify map array\nboundary f f f\nnewton off\n{} vel yes\n" + box
+        decks = {"liggghts": head.format("granular", "communicate single") + "create_box 1 box\n"
+                             "neighbor 2e-4 bin\n{card}{grains}fix motion all nve/sphere\n"
+                             "fix in all insert/pack seed 32452867 distributiontemplate grains insert_every once "
+                             "overlapcheck yes particles_in_region 50 region box\nrun 10\n",
+                 "lammps": head.format("sphere", "comm_modify") + "create_box 1 box\nneighbor 2e-4 bin\n"
+                           "{card}fix weight all gravity 9.81 vector 0 0 -1\nfix motion all nve/sphere\n{grains}run 10\n"}
+        for program, deck in decks.items():
+            with self.subTest(program):
+                if not shutil.which(COMMANDS[program]):
+                    self.skipTest(program + " is not installed")
+                text = card(self.folder, program, sizes=sizes)
+                grains = [line[2:] for line in text.splitlines() if re.match("# fix grain", line)]
+                pour = re.search(r"# grains: (fix ID all pour .*)", text)
+                if pour:
+                    grains = [pour.group(1).replace("NUMBER", "50").replace("SEED", "10007").replace("region ID", "region box")
+                              .replace("fix ID", "fix in")]
+                self.assertEqual(len(grains), 6 if program == "liggghts" else 1)
+                (self.folder / "in.deck").write_text(deck.format(card=text, grains="\n".join(grains) + "\n"))
+                done = subprocess.run([COMMANDS[program], "-in", "in.deck"], cwd=self.folder, capture_output=True,
+                                      text=True)
+                self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr)
+
+    def test_what_lammps_cannot_damp_is_said(self):
+        self.assertIn("NOT INCLUDED: the restitution of 0.05 between powder and itself",
+                      card(self.folder, "lammps", restitution=0.05))
+        self.assertNotIn("NOT INCLUDED", card(self.folder, "lammps", restitution=0.13))
+
+    def test_the_published_jkr_is_told_from_its_variants(self):
+        variants = {"adhesion": "jkr", "jkr_rolling_limit": "from_pull_off", "jkr_sliding_spring": "shortened"}
+        for name in ("table", "lethe", "lammps"):
+            plain = card(self.folder, name, surface_energy=1e-4, models={"adhesion": "jkr"})
+            self.assertNotRegex(plain, "A6|A7")
+            self.assertRegex(card(self.folder, name, surface_energy=1e-4, models=variants), "(?s)A6.*A7")
 
     # Plate and tube as the card gives them, without their comment marks: a grain falls onto the plate.
     def test_walls_of_the_lammps_card_hold_a_grain(self):

@@ -48,7 +48,8 @@ struct CardTest {
 
 struct Card {
   std::string title;
-  // The powder first; walls only where they differ from it, and from those of the tests before.
+  // The powder first; walls only where they act on it otherwise than its grains, and differ from
+  // those of the tests before.
   std::vector<CardMaterial> materials;
   std::vector<engine::MaterialPair> pairs;  // what pairs of these state themselves
   engine::ContactModels models;

@@ -29,6 +29,10 @@ std::string TestMark(const Card& card, const CardTest& test);
 // that has no place for it; a line each behind `mark`.
 std::string PairsNotIncluded(const Card& card, int first_material, const std::string& mark);
 
+// Which walls are not as the powder, and in what, for a code whose lines are of the powder alone; a
+// line each behind `mark`.
+std::string WallsNotIncluded(const Card& card, const std::string& mark);
+
 // The restitution that `damping tsuji` of LAMMPS must be given to rebound with `restitution`, and
 // its polynomial α(e) (docs/foreign_engines.md).
 double TsujiAlpha(double restitution);

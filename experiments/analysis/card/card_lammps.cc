@@ -14,6 +14,9 @@
 namespace talus::analysis {
 namespace {
 
+constexpr double kLeastTsuji = 0.01;         // LAMMPS takes what is above 0
+constexpr double kLeastRestitution = 0.126;  // what it rebounds with then: √5 β(e) = α(0.01)
+
 // The pair's own Young's modulus and Poisson's ratio: LAMMPS makes E* and G* of one pair of values.
 struct PairInput {
   const engine::Material& a;
@@ -99,26 +102,59 @@ std::string LammpsWalls(const Card& card) {
   return text;
 }
 
-// `fix pour` counts grains: a class of volume share s has s/d³ of them, in proportion.
-std::string LammpsSizes(const Card& card) {
+// `fix pour` counts grains: a class of volume share s has s/d³ of them, in proportion. It refuses
+// shares that do not sum to 1 as they are written, so the largest is what the others leave.
+std::vector<std::string> NumberShares(const Card& card) {
   double total = 0;
   for (const CardSize& s : card.sizes) total += s.volume_share / std::pow(s.diameter, 3);
+  std::vector<std::string> shares;
+  std::size_t largest = 0;
+  for (const CardSize& s : card.sizes) {
+    shares.push_back(CardNumber(s.volume_share / std::pow(s.diameter, 3) / total));
+    if (std::stod(shares.back()) > std::stod(shares[largest])) largest = shares.size() - 1;
+  }
+  double left = 1;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (i != largest) left -= std::stod(shares[i]);
+  }
+  shares[largest] = base::ShortNumber(left, 15);
+  return shares;
+}
+
+std::string LammpsSizes(const Card& card) {
+  const std::vector<std::string> shares = NumberShares(card);
   std::string text = "# grains: fix ID all pour NUMBER 1 SEED region ID diam poly " +
                      std::to_string(card.sizes.size());
-  for (const CardSize& s : card.sizes) {
-    text += " " + CardNumber(s.diameter) + " " +
-            CardNumber(s.volume_share / std::pow(s.diameter, 3) / total);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    text += " " + CardNumber(card.sizes[i].diameter) + " " + shares[i];
   }
   const std::string density = CardNumber(card.materials.front().material.density);
   return text + " dens " + density + " " + density + "\n";
 }
 
-std::string LammpsRemarks(const Card& card) {
+// Nothing that `damping tsuji` is given damps as much as a very low restitution asks for.
+std::string RestitutionRemarks(const Card& card) {
   std::string text;
-  if (card.models.adhesion != engine::Adhesion::kNone) {
+  for (std::size_t i = 0; i < card.materials.size(); ++i) {
+    const double restitution =
+        engine::HarmonicMean(ActingOn(card, 0, i).restitution, ActingOn(card, i, 0).restitution);
+    if (restitution >= kLeastRestitution) continue;
+    text += "# NOT INCLUDED: the restitution of " + CardNumber(restitution) +
+            " between powder and " + (i == 0 ? "itself" : card.materials[i].name) +
+            ". `damping tsuji` ends at " + CardNumber(kLeastRestitution) + ", which stands here.\n";
+  }
+  return text;
+}
+
+std::string LammpsRemarks(const Card& card) {
+  std::string text = RestitutionRemarks(card);
+  if (card.models.adhesion == engine::Adhesion::kDmt) {
     text +=
         "# Adhesion raises the limits of sliding and rolling in LAMMPS, not in talus, and acts in "
         "contact only.\n";
+  } else if (card.models.adhesion == engine::Adhesion::kJkr &&
+             card.models.jkr_rolling_limit == engine::JkrRollingLimit::kNetForce) {
+    text += "# Adhesion raises the limit of rolling in LAMMPS, not in talus.\n";
   }
   if (card.models.rolling == engine::Rolling::kEpsd) {
     text +=
@@ -142,7 +178,7 @@ double TsujiAlpha(double e) {
 // nearly has.
 double TsujiRestitution(double restitution) {
   const double wanted = std::sqrt(5.0) * engine::DampingRatio(restitution);
-  double low = 0.01;
+  double low = kLeastTsuji;
   double high = 1;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;

@@ -23,7 +23,8 @@ std::string MercuryDpmCard(const Card& card) {
       powder.rolling_damping * std::sqrt(inertia * stiffness) / typical.r_star;
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   std::ostringstream text;
-  text << CardHead(card, "MercuryDPM", "// ") << PairsNotIncluded(card, 1, "// ")
+  text << CardHead(card, "MercuryDPM", "// ") << WallsNotIncluded(card, "// ")
+       << PairsNotIncluded(card, 1, "// ")
        << "// Converted: effective moduli, shear 3/2 G* (its spring is 2/3 of Mindlin's); rolling "
           "friction\n"
        << "// mu_r/2 (its arm is 2 R*); rolling stiffness and dissipation of a contact that bears "

@@ -32,6 +32,21 @@ std::string TestText(const CardTest& test) {
   return text + " (SI)";
 }
 
+// What differs from the published model, which the codes have.
+std::string JkrText(const engine::ContactModels& models, const std::string& mark) {
+  std::string text;
+  if (models.adhesion != engine::Adhesion::kJkr) return text;
+  if (models.jkr_rolling_limit == engine::JkrRollingLimit::kFromPullOff) {
+    text += mark +
+            "Rolling was bounded by the normal force above the pull-off, not by the net one "
+            "(docs/physics.md, A6).\n";
+  }
+  if (models.jkr_sliding_spring == engine::JkrSlidingSpring::kShortened) {
+    text += mark + "The tangential spring was shortened while it slides (docs/physics.md, A7).\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string CardHead(const Card& card, const std::string& code, const std::string& mark) {
@@ -58,6 +73,7 @@ std::string CardHead(const Card& card, const std::string& code, const std::strin
     text << mark << "Friction was bounded by the elastic normal force alone (docs/physics.md, T4); "
          << "most codes bound it by spring and dashpot.\n";
   }
+  text << JkrText(card.models, mark);
   for (const std::string& note : card.notes)
     text << mark << "Warning: " << base::OneLine(note) << '\n';
   return text.str();
@@ -92,6 +108,21 @@ std::string PairsNotIncluded(const Card& card, int first_material, const std::st
   for (const engine::MaterialPair& pair : card.pairs) {
     if (pair.second < first_material) continue;
     text += mark + "NOT INCLUDED: what a pair states itself, " + StatedText(card, pair) + "\n";
+  }
+  return text;
+}
+
+std::string WallsNotIncluded(const Card& card, const std::string& mark) {
+  const nlohmann::ordered_json powder = base::ToJson(card.materials.front().material);
+  std::string text;
+  for (std::size_t i = 1; i < card.materials.size(); ++i) {
+    std::string differs;
+    const nlohmann::ordered_json wall = base::ToJson(card.materials[i].material);
+    for (const auto& [key, value] : wall.items()) {
+      if (value == powder[key]) continue;
+      differs += (differs.empty() ? ": " : ", ") + key + " = " + CardNumber(value.get<double>());
+    }
+    if (!differs.empty()) text += mark + "NOT INCLUDED: " + card.materials[i].name + differs + "\n";
   }
   return text;
 }

@@ -19,7 +19,9 @@ std::size_t IndexOfWall(const rigs::Case& rig_case, int body, Card& card) {
   const engine::Material material = rigs::MaterialsOf(rig_case)[static_cast<std::size_t>(body)];
   const engine::PairProperties stated =
       engine::StatedOf(rigs::PairsOf(rig_case), rigs::kPowder, body);
-  if (!stated.Any() && Same(material, card.materials.front().material)) return 0;
+  // Walls of the powder's material are not its grains where two grains state something themselves.
+  const bool as_grains = !stated.Any() && !engine::StatedOf(card.pairs, 0, 0).Any();
+  if (as_grains && Same(material, card.materials.front().material)) return 0;
   for (std::size_t i = 1; i < card.materials.size(); ++i) {
     const CardMaterial& known = card.materials[i];
     if (known.body == body && Same(known.material, material) &&

@@ -39,7 +39,8 @@ std::string YadeCard(const Card& card) {
   const bool rolls = card.models.rolling == engine::Rolling::kEpsd;
   const bool adheres = card.models.adhesion == engine::Adhesion::kDmt;
   std::ostringstream text;
-  text << CardHead(card, "YADE (HertzMindlin)", "# ") << PairsNotIncluded(card, 1, "# ")
+  text << CardHead(card, "YADE (HertzMindlin)", "# ") << WallsNotIncluded(card, "# ")
+       << PairsNotIncluded(card, 1, "# ")
        << "# Converted: frictionAngle = atan(mu_t); eta = mu_r/2 (between grains; walls: mu_r); "
           "krot\n"
        << "# of a contact that bears ten grain weights. YADE's spring in rolling has no dashpot, "
