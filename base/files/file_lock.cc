@@ -7,14 +7,14 @@
 
 namespace talus::base {
 
-bool LockWithin(int descriptor, std::chrono::milliseconds patience,
-                std::chrono::milliseconds pause) {
+LockEnd LockWithin(int descriptor, std::chrono::milliseconds patience,
+                   std::chrono::milliseconds pause) {
   for (auto waited = std::chrono::milliseconds(0); waited <= patience; waited += pause) {
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
-    if (errno != EWOULDBLOCK && errno != EINTR) return false;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return LockEnd::kTaken;
+    if (errno != EWOULDBLOCK && errno != EINTR) return LockEnd::kNone;
     std::this_thread::sleep_for(pause);
   }
-  return false;
+  return LockEnd::kHeld;
 }
 
 }  // namespace talus::base

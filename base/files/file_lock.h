@@ -5,10 +5,19 @@
 
 namespace talus::base {
 
-// Takes the lock of an open file for this process and those it starts, flock(2), trying for
-// `patience`, again after each `pause`. Returns whether it was got; false at once where the file
-// system has no locks.
-bool LockWithin(int descriptor, std::chrono::milliseconds patience,
-                std::chrono::milliseconds pause);
+enum class LockEnd {
+  kTaken,
+  kHeld,  // by another process, all the time
+  kNone,  // the file system has no locks
+};
+
+// What is said of a file that must be locked, after its name.
+inline constexpr const char* kNoLocks =
+    ": cannot be locked: its file system has no locks; work in a folder on another one";
+
+// Takes the lock of an open file or folder for this process and those it starts, flock(2), trying
+// for `patience`, again after each `pause`.
+LockEnd LockWithin(int descriptor, std::chrono::milliseconds patience,
+                   std::chrono::milliseconds pause);
 
 }  // namespace talus::base

@@ -20,7 +20,7 @@
 #include "experiments/rigs/case/case_warnings.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/shown_number.h"
-#include "experiments/trials/engines/command_engine.h"
+#include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/optimize/optimize_problem.h"
 
 namespace talus::app {

@@ -137,13 +137,17 @@ void ValidateCase(const Case& c, base::Problems& problems) {
   if (problems.empty()) ValidateWithRig(c, problems);
 }
 
+void CompleteCase(Case& rig_case) {
+  engine::ReadSizeFile(rig_case.powder.sizes);
+  rig_case.SetMassByFill();
+  if (rig_case.rig.camera && !rig_case.frame) rig_case.frame = UsualFrame(rig_case);
+}
+
 Case LoadCase(const std::filesystem::path& path) { return LoadCase(base::ReadJsonFile(path)); }
 
 Case LoadCase(const base::JsonFile& file) {
   auto rig_case = base::LoadOptions<Case>(file);
-  engine::ReadSizeFile(rig_case.powder.sizes);
-  rig_case.SetMassByFill();
-  if (rig_case.rig.camera && !rig_case.frame) rig_case.frame = UsualFrame(rig_case);
+  CompleteCase(rig_case);
   base::Problems problems(file.path.string(), file.places);
   ValidateCase(rig_case, problems);
   problems.ThrowIfAny();

@@ -20,8 +20,11 @@ CaseSize EstimateCase(const Case& rig_case);
 // What no part of a case can see by itself, such as a tube that cannot hold the powder.
 void ValidateCase(const Case& rig_case, base::Problems& problems);
 
-// Reads, completes (a size file's content moves into the struct) and validates a case; throws one
-// ConfigError with everything that is wrong.
+// Fills in what follows from the rest: a size file's content, the mass of a drum's fill, the frame
+// of a camera that has none.
+void CompleteCase(Case& rig_case);
+
+// Reads, completes and validates a case; throws one ConfigError with everything that is wrong.
 Case LoadCase(const std::filesystem::path& path);
 Case LoadCase(const base::JsonFile& file);
 

@@ -49,7 +49,7 @@ def check_film(talus, root):
     plain = json.loads((root / "heap/result.json").read_text())
     # Filmed anew, though it is done already, and with the same result.
     run(talus, "simulate", root / "case.json", "--out", root / "heap", "--film", folder, "--quiet")
-    pictures = sorted(folder.iterdir())
+    pictures = sorted(folder.glob("*.png"))
     assert len(pictures) > 5 and pictures[0].name == "0001.png"
     again = json.loads((root / "heap/result.json").read_text())
     for result in (plain, again):
@@ -57,6 +57,13 @@ def check_film(talus, root):
     assert plain == again
     said = run(talus, "simulate", root / "case.json", "--out", root / "other", "--film", root / "heap.mp4", status=2)
     assert "ffmpeg" in said, said
+    # Before anything is simulated: no place for a file, and a folder of somebody's own.
+    (root / "mine").mkdir()
+    (root / "mine/0001.png").write_text("mine")
+    for place, why in [(root / "nowhere/heap.gif", "there is no folder"), (root / "mine", "holds files")]:
+        said = run(talus, "simulate", root / "case.json", "--out", root / "other", "--film", place, status=2)
+        assert why in said and not (root / "other").exists(), said
+    assert (root / "mine/0001.png").read_text() == "mine"
     (root / "scene.json").write_text('{"materials": [{}]}')
     said = run(talus, "simulate", root / "scene.json", "--out", root / "scene", "--film", film, status=2)
     assert "--film is for the case of a bulk test" in said, said

@@ -155,6 +155,52 @@ TEST_F(Simulate, CtrlCSavesACheckpointAndEndsWith130) {
   ExpectSameHeap("whole", "stopped");
 }
 
+// Nothing of an earlier input stands beside a result.
+TEST_F(Simulate, WhatAnEarlierInputHasLeftGoesWhenARunBeginsAnew) {
+  Write("case.json", kCase);
+  ASSERT_EQ(Talus("case.json --out out --quiet"), 0) << output_;
+  std::ofstream(folder_ / "out/notes.txt") << "mine";
+  std::ofstream(folder_ / "out/checkpoint.bin.tmp123") << "half";
+  std::string other = kCase;
+  const std::string outputs = R"("times": ["10 ms", "60 ms"], "csv": true)";
+  other.replace(other.find(outputs), outputs.size(), R"("vtp": true)");
+  Write("other.json", other);
+  EXPECT_EQ(Talus("other.json --out out --quiet"), 2);
+  EXPECT_THAT(output_, HasSubstr("of another input"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/heap.csv"));
+  ASSERT_EQ(Talus("other.json --out out --fresh --quiet"), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/heap.vtp"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/notes.txt"));
+  for (const char* gone : {"heap.csv", "state_0000.vtp", "checkpoint.bin.tmp123"}) {
+    EXPECT_FALSE(fs::exists(folder_ / "out" / gone)) << gone;
+  }
+}
+
+TEST_F(Simulate, TwoAtOnceDoNotMixInOneFolder) {
+  Write("case.json", LongCase());
+  Write("other.json", kCase);
+  EXPECT_EQ(Run(TALUS_BINARY_DIR
+                "/talus simulate case.json --out out --quiet & pid=$!; "
+                "until [ -e out/log.txt ]; do sleep 0.01; done; kill -STOP $pid; " TALUS_BINARY_DIR
+                "/talus simulate other.json --out out; echo status $?; kill -KILL $pid; wait $pid"),
+            137);
+  EXPECT_THAT(output_, AllOf(HasSubstr("another process simulates there"), HasSubstr("status 1")));
+  EXPECT_FALSE(fs::exists(folder_ / "out/result.json"));
+}
+
+// The film stands there before the result says that all does, and what a checkpoint has not kept is
+// said.
+TEST_F(Simulate, AFilmThatACheckpointHasCutIsSaidToBe) {
+  std::string filmed = LongCase();
+  filmed.replace(filmed.find("\"csv\": true"), 11, "\"film\": true");
+  Write("case.json", filmed);
+  EXPECT_EQ(Interrupted("out"), 130) << output_;
+  ASSERT_EQ(Talus("case.json --out out"), 0) << output_;
+  EXPECT_THAT(Read("out/log.txt"), HasSubstr("the film begins there"));
+  EXPECT_LE(fs::last_write_time(folder_ / "out/film.gif"),
+            fs::last_write_time(folder_ / "out/result.json"));
+}
+
 TEST_F(Simulate, ADamagedCheckpointIsSaidAndNotUsed) {
   Write("case.json", LongCase());
   EXPECT_EQ(Interrupted("out"), 130) << output_;

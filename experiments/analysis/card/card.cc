@@ -19,6 +19,7 @@
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/trials/engines/command_case.h"
 
 namespace talus::analysis {
 namespace {
@@ -150,7 +151,7 @@ engine::Material ActingOn(const Card& card, std::size_t material, std::size_t ot
 
 Card ReadCard(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return ReadCampaignCard(path);
-  Card card = CardOf(rigs::LoadCase(path));
+  Card card = CardOf(trials::LoadAnyCase(path));
   card.title = path.filename().string();
   return card;
 }

@@ -16,6 +16,7 @@
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/load_case.h"
+#include "experiments/trials/engines/command_case.h"
 #include "experiments/rigs/rig_list.h"
 #include "imaging/formats/spheres/sphere_files.h"
 
@@ -125,7 +126,7 @@ fs::path ExportVtk(const VtkExport& request) {
     throw base::ConfigError(heap.string() + ": is not there; --trial names another trial (" +
                             "`talus export` lists them)");
   }
-  const rigs::Case rig_case = rigs::LoadCase(trial / "case.json");
+  const rigs::Case rig_case = trials::LoadAnyCase(trial / "case.json");
   double top = 0;
   for (const base::Sphere& grain : imaging::ReadSpheres(heap)) {
     top = std::max(top, grain.position.z + grain.radius);

@@ -36,7 +36,12 @@ CampaignLock::CampaignLock(const std::filesystem::path& root) {
   const std::string path = (root / "campaign.lock").string();
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) base::ThrowUnwritten(path, errno);
-  if (!base::LockWithin(file_, kPatience, kPause)) {
+  const base::LockEnd end = base::LockWithin(file_, kPatience, kPause);
+  if (end == base::LockEnd::kNone) {
+    ::close(file_);
+    throw base::Error(path + base::kNoLocks);
+  }
+  if (end == base::LockEnd::kHeld) {
     char owner[32] = "";
     if (::read(file_, owner, sizeof owner - 1) <= 0) std::strcpy(owner, "unknown");
     ::close(file_);

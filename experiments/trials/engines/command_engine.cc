@@ -21,6 +21,7 @@
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
+#include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/measure/plate_check.h"
@@ -41,11 +42,6 @@ constexpr const char* kMpiLauncher = "mpirun";
 // The filled command, as a list.
 constexpr const char* kCommandFile = ".command.json";
 constexpr const char* kResultName = "result.json";
-
-std::string CaseText(const rigs::Case& rig_case, const CommandOptions& options) {
-  const CommandCase command_case{.heap = rig_case, .engine = options};
-  return base::JsonText(base::ToJson(command_case), 2) + "\n";
-}
 
 struct Measured {
   std::vector<fs::path> files{};  // the command's
@@ -226,33 +222,19 @@ bool IsLaunchedByUs(const CommandOptions& options, const TemplateFolder& templat
   return options.ranks.value_or(1) > 1 && !templates.Uses(options, "ranks");
 }
 
-void RunCommand(CommandEngine& engine, int threads, const fs::path& folder) {
-  runners::LocalRunner runner({.workers = 1, .threads_per_job = threads});
-  runners::Job job;
-  job.folder = fs::absolute(folder);
-  job.command = engine.Command(folder);
-  runner.Submit({&job, 1});
-  std::vector<runners::FinishedJob> finished;
-  while (finished.empty()) finished = runner.Wait(3600);
-  if (finished.front().ok()) return;
-  const std::string log = LastLogLines(folder);
-  throw base::Error("the command failed: " + finished.front().reason +
-                    (log.empty() ? "" : "; its log ends with: " + log));
-}
-
 }  // namespace
 
 CommandEngine::CommandEngine(const CommandOptions& options)
     : options_(options), templates_(options.templates.value()) {
   if (!options.templates_hash.empty() && options.templates_hash != templates_.Hash()) {
     throw base::ConfigError(options.templates->string() +
-                            ": the templates are not those that the campaign began with; put them "
-                            "back, or start another campaign");
+                            ": the templates are not those that it began with; put them back, or "
+                            "begin another campaign or run");
   }
 }
 
 void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) {
-  PrepareFolder(folder, "case.json", CaseText(rig_case, options_));
+  PrepareFolder(folder, "case.json", CaseText({.heap = rig_case, .engine = options_}));
   if (IsComplete(folder)) return;
   for (const char* ended : {kDone, kResultName}) fs::remove(folder / ended);
   RemoveResults(options_, folder);
@@ -281,6 +263,12 @@ std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
   }
   return command;
 }
+
+bool CommandEngine::HasPrepared(const fs::path& folder) {
+  return fs::exists(folder / kCommandFile);
+}
+
+void CommandEngine::Forget(const fs::path& folder) { fs::remove(folder / kDone); }
 
 bool CommandEngine::IsComplete(const fs::path& folder) {
   return fs::exists(folder / kDone) && IsAsMeasured(folder);
@@ -317,7 +305,7 @@ std::optional<std::string> CommandEngine::WhyNotTaken(const rigs::Case& rig_case
 bool CommandEngine::TakeOver(const rigs::Case& rig_case, const fs::path& from, const fs::path& to) {
   if (WhyNotTaken(rig_case, from)) return false;
   CopyFolder(from, to);
-  base::WriteFileAtomically(to / "case.json", CaseText(rig_case, options_));
+  base::WriteFileAtomically(to / "case.json", CaseText({.heap = rig_case, .engine = options_}));
   return true;
 }
 
@@ -341,49 +329,6 @@ void CheckCommand(const CommandOptions& options, const CommandCheck& check,
       "\"" + options.command.front() +
           "\" is not found, or not executable: neither on the PATH nor, if it has a "
           "\"/\", in the templates' folder");
-}
-
-CommandCase LoadCommandCase(const base::JsonFile& file) {
-  auto command_case = base::LoadOptions<CommandCase>(file);
-  engine::ReadSizeFile(command_case.heap.powder.sizes);
-  base::Problems problems(file.path.string(), file.places);
-  rigs::ValidateCase(command_case.heap, problems);
-  problems.Require(
-      command_case.heap.frame || command_case.heap.rig.kind != rigs::RigKind::kLiftedTube, "frame",
-      "is missing: the result is measured in it");
-  problems.Within("engine", [&] {
-    CheckCommand(command_case.engine,
-                 {.rig_case = command_case.heap, .calibrated = {}, .elsewhere = false}, problems);
-  });
-  problems.ThrowIfAny();
-  return command_case;
-}
-
-void SimulateCommandCase(const CommandCase& command_case, const fs::path& folder, bool fresh) {
-  const fs::path own_case = folder / "case.json";
-  const bool ours = fs::exists(own_case) &&
-                    base::ReadFile(own_case) == CaseText(command_case.heap, command_case.engine);
-  if (!ours && fs::exists(folder) && !fs::is_empty(folder)) {
-    throw base::ConfigError(folder.string() +
-                            ": holds other files, which a trial's folder may not; name another "
-                            "with --out");
-  }
-  if (fresh) fs::remove(folder / kDone);
-  CommandEngine engine(command_case.engine);
-  engine.Prepare(command_case.heap, folder);
-  try {
-    if (!engine.IsComplete(folder)) RunCommand(engine, command_case.heap.threads, folder);
-    engine.Collect(command_case.heap, folder);
-  } catch (const base::Error& error) {
-    nlohmann::ordered_json result;
-    result["kind"] = kKind;
-    result["status"] = "failed";
-    result["talus_version"] = base::Version();
-    result["reason"] = error.what();
-    base::WriteFileAtomically(folder / kResultName,
-                              base::WithChecksum(base::JsonText(result, 2) + "\n"));
-    throw base::Error(error.what());  // the input was good, whatever kind of error a result is
-  }
 }
 
 }  // namespace talus::trials

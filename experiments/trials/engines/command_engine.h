@@ -20,6 +20,10 @@ class CommandEngine : public TrialEngine {
 
   void Prepare(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::vector<std::string> Command(const std::filesystem::path& folder) override;
+  // Whether a command has been prepared there.
+  static bool HasPrepared(const std::filesystem::path& folder);
+  // From now on what the command has left there does not count.
+  static void Forget(const std::filesystem::path& folder);
   bool IsComplete(const std::filesystem::path& folder) override;
   TrialOutput Collect(const rigs::Case& rig_case, const std::filesystem::path& folder) override;
   std::optional<std::string> WhyNotTaken(const rigs::Case& rig_case,
@@ -41,27 +45,5 @@ struct CommandCheck {
 };
 void CheckCommand(const CommandOptions& options, const CommandCheck& check,
                   base::Problems& problems);
-
-// A case.json of such an engine: that of a heap test with one more key, `engine`.
-struct CommandCase {
-  rigs::Case heap;
-  CommandOptions engine;
-
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    rigs::Case::Visit(self.heap, visit);
-    visit("engine", self.engine,
-          {.required = true, .doc = "another engine: its templates, command and result"});
-  }
-  void Validate(base::Problems& problems) const { heap.Validate(problems); }
-};
-
-CommandCase LoadCommandCase(const base::JsonFile& file);
-
-// `talus simulate` for a file of this kind: the whole trial in `folder`, which is new, empty or the
-// same case's; `fresh` runs it again where it is complete. Throws base::Error with the reason when
-// it fails.
-void SimulateCommandCase(const CommandCase& command_case, const std::filesystem::path& folder,
-                         bool fresh);
 
 }  // namespace talus::trials

@@ -35,11 +35,10 @@ journal::MetricRecord ScalarOf(const std::string& name, std::optional<double> va
   return scalar;
 }
 
-// Masses, lengths, times and ratios; an angle may lie on either side.
+// Masses, lengths, times and most others; an angle may lie on either side.
 void RequirePossible(const std::string& file, const std::vector<journal::MetricRecord>& scalars) {
   for (const journal::MetricRecord& scalar : scalars) {
-    const rigs::ObservableInfo* info = rigs::FindObservable(scalar.name);
-    if (info == nullptr || info->dimension == base::Dimension::kAngle) continue;
+    if (rigs::BoundsOf(scalar.name).low < 0) continue;
     if (scalar.undefined.empty() && scalar.value < 0) {
       throw base::Error("left " + file + " with \"" + scalar.name + "\" " +
                         base::ShortNumber(scalar.value) + ", which cannot be negative");
@@ -75,7 +74,12 @@ nlohmann::json ParseOnce(const std::string& text) {
 
 std::vector<journal::MetricRecord> ParseJsonScalars(const std::string& text) {
   const auto root = ParseOnce(text);
-  if (!root.is_object()) throw base::Error("left a scalars.json that is no JSON object");
+  if (!root.is_object()) {
+    const bool nan =
+        text.find("NaN") != std::string::npos || text.find("Infinity") != std::string::npos;
+    throw base::Error(std::string("left a scalars.json that is no JSON object") +
+                      (nan ? ": JSON has no NaN and no Infinity; write null for no value" : ""));
+  }
   std::vector<journal::MetricRecord> scalars;
   for (const auto& [name, value] : root.items()) {
     if (!value.is_number() && !value.is_null()) {

@@ -51,10 +51,13 @@ OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem
   lock_ = Open(root_ / "optimize.lock", O_RDWR);
   constexpr std::chrono::milliseconds kPatience{2000};
   constexpr std::chrono::milliseconds kPause{50};
-  if (!base::LockWithin(lock_, kPatience, kPause)) {
+  const base::LockEnd end = base::LockWithin(lock_, kPatience, kPause);
+  if (end != base::LockEnd::kTaken) {
     ::close(lock_);
     throw base::Error(root_.string() +
-                      ": another process works on this search; end it first, or wait");
+                      (end == base::LockEnd::kNone
+                           ? base::kNoLocks
+                           : ": another process works on this search; end it first, or wait"));
   }
   CheckProblem(command);
   Load();

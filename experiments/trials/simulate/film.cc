@@ -1,6 +1,8 @@
 #include "experiments/trials/simulate/film.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -8,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "base/text/number_text.h"
 #include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/gif_file.h"
@@ -60,18 +63,33 @@ imaging::Camera CameraOf(std::vector<base::Sphere> powder, double plate_diameter
   return imaging::WholeHeap(powder, plate_diameter, width * most / camera.height);
 }
 
+std::string Lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+// Endings of what people ask for; "film.v2" is a folder.
+void RequireFormat(const std::filesystem::path& out) {
+  constexpr std::array kOthers{".mp4", ".webm", ".avi",  ".mov", ".mkv", ".mpg",
+                               ".png", ".jpg",  ".jpeg", ".bmp", ".tif", ".tiff"};
+  const std::string ending = Lower(out.extension().string());
+  if (std::ranges::find(kOthers, ending) == kOthers.end()) return;
+  throw base::ConfigError(
+      "--film: writes .gif, or one PNG a frame into a folder, not \"" + ending +
+      "\"; make it of the folder: ffmpeg -framerate 16 -i FOLDER/%04d.png film.mp4");
+}
+
+bool IsGifName(const std::filesystem::path& out) {
+  return Lower(out.extension().string()) == ".gif";
+}
+
 bool IsUpright(const engine::OpenCylinder& tube) { return std::abs(tube.axis.z) > 0.999; }
 
 }  // namespace
 
 Film::Film(std::filesystem::path out, const rigs::Case& rig_case, FilmSize size)
     : out_(std::move(out)), size_(size) {
-  const std::string ending = out_.extension().string();
-  if (ending == ".mp4" || ending == ".webm" || ending == ".avi" || ending == ".mov") {
-    throw base::ConfigError(
-        "--film: writes .gif, or one PNG a frame into a folder, not \"" + ending +
-        "\"; make it of the folder: ffmpeg -framerate 16 -i FOLDER/%04d.png film" + ending);
-  }
+  RequireFormat(out_);
   if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) {
     plate_diameter_ = rig_case.rig.lifted_tube.plate_diameter;
   }
@@ -119,15 +137,28 @@ void Film::Write() const {
     frames.push_back(imaging::RenderSpheres(scene.spheres, camera));
     for (const engine::OpenCylinder& tube : scene.tubes) DrawTube(tube, camera, frames.back());
   }
-  if (out_.extension() == ".gif") {
+  if (IsGifName(out_)) {
     const double frame_time = kLength / static_cast<double>(size_.most_frames);
     base::WriteFileAtomically(out_, imaging::EncodeGif(frames, frame_time));
     return;
   }
-  std::filesystem::create_directories(out_);
+  base::RemoveFormerFiles(out_, "0");  // a longer film's frames, "0001.png"
   for (std::size_t i = 0; i < frames.size(); ++i) {
     imaging::WritePng(out_ / (base::FileNumber(static_cast<std::int64_t>(i) + 1) + ".png"),
                       frames[i]);
+  }
+}
+
+void ClaimFilm(const std::filesystem::path& out) {
+  RequireFormat(out);
+  if (!IsGifName(out)) return base::ClaimOutputFolder(out, "simulate --film");
+  const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder)) {
+    throw base::ConfigError("--film " + out.string() + ": there is no folder " + folder.string() +
+                            "; make it, or name another");
+  }
+  if (std::filesystem::is_directory(out)) {
+    throw base::ConfigError("--film " + out.string() + ": is a folder; name a file");
   }
 }
 

@@ -50,4 +50,8 @@ class Film {
   double interval_ = 0;  // between two frames; 0: each slice of the simulation [s]
 };
 
+// Makes what a film is to be written into, before anything is simulated. Throws ConfigError where
+// there is no place for the file, and for a folder that holds anything but an earlier film.
+void ClaimFilm(const std::filesystem::path& out);
+
 }  // namespace talus::trials

@@ -1,7 +1,12 @@
 #include "experiments/trials/simulate/run_folder.h"
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -10,6 +15,7 @@
 #include "base/error.h"
 #include "base/files/checked_text.h"
 #include "base/files/file.h"
+#include "base/files/file_lock.h"
 #include "base/files/output_folder.h"
 #include "base/interrupt.h"
 #include "base/json/json_file.h"
@@ -49,6 +55,29 @@ class Stopwatch {
   engine::RunTiming earlier_;
 };
 
+// Held while this process simulates in the folder; it goes with the process, however that ends.
+class RunLock {
+ public:
+  explicit RunLock(const fs::path& folder)
+      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    constexpr std::chrono::milliseconds kPatience{2000};  // of one that is just being killed
+    constexpr std::chrono::milliseconds kPause{20};
+    if (folder_ < 0) return;  // reading and writing say why
+    if (base::LockWithin(folder_, kPatience, kPause) != base::LockEnd::kHeld) return;
+    ::close(folder_);
+    throw base::Error(folder.string() +
+                      ": another process simulates there; name another --out, or wait");
+  }
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+  ~RunLock() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+
+ private:
+  int folder_;
+};
+
 std::optional<nlohmann::json> ResultIn(const fs::path& folder) {
   if (!fs::exists(folder / kResult)) return std::nullopt;
   const auto result = nlohmann::json::parse(base::ReadFile(folder / kResult), nullptr, false);
@@ -75,6 +104,7 @@ struct Started {
   std::unique_ptr<engine::Run> run;
   engine::RunTiming earlier;
   std::string message;
+  bool goes_on = false;
 };
 
 Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
@@ -84,9 +114,10 @@ Started StartOrGoOn(const RunJob& job, const RunFolderOptions& options) {
     try {
       const engine::RunCheckpoint checkpoint = engine::Unpack(base::ReadFile(path));
       if (checkpoint.input_hash != job.input_hash) RefuseFolder(options.folder, "checkpoint");
-      Started started{.run = job.go_on(checkpoint), .earlier = checkpoint.timing, .message = ""};
-      started.message = "goes on from " + path.string();
-      return started;
+      return {.run = job.go_on(checkpoint),
+              .earlier = checkpoint.timing,
+              .message = "goes on from " + path.string(),
+              .goes_on = true};
     } catch (const base::ConfigError&) {
       throw;
     } catch (const base::Error& error) {  // the result is the same, only later
@@ -115,8 +146,39 @@ void RequireOwnFolder(const RunJob& job, const fs::path& folder) {
                           "overwrite; name a new folder with --out");
 }
 
-void PrepareFolder(const RunJob& job, const fs::path& folder) {
-  base::MakeOutputFolder(folder);
+// "heap.vtp", "state_0001.vtp", "profile_2.png".
+bool IsWrittenByRuns(const fs::path& file) {
+  constexpr std::array kNames{"heap.vtp",  "heap.csv",  "profile.png", "film.gif",
+                              "final.vtp", "final.csv", "series.csv",  kCheckpoint};
+  const std::string name = file.filename();
+  if (std::ranges::find(kNames, name) != kNames.end()) return true;
+  const fs::path ending = file.extension();
+  return (name.starts_with("state_") && (ending == ".vtp" || ending == ".csv")) ||
+         (name.starts_with("profile_") && ending == ".png");
+}
+
+// "checkpoint.bin.tmp6981": what was being written when a process was killed.
+bool IsHalfWritten(const fs::path& file) {
+  constexpr std::string_view kMark = ".tmp";
+  const std::string ending = file.extension();
+  return ending.starts_with(kMark) && ending.size() > kMark.size() &&
+         std::all_of(ending.begin() + kMark.size(), ending.end(),
+                     [](unsigned char c) { return std::isdigit(c); });
+}
+
+void RemoveFormer(const RunJob& job, const fs::path& folder, bool anew) {
+  std::vector<fs::path> former;
+  std::error_code absent;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& file = entry.path();
+    if (!entry.is_regular_file() || fs::equivalent(file, job.source, absent)) continue;
+    if (IsHalfWritten(file) || (anew && IsWrittenByRuns(file))) former.push_back(file);
+  }
+  for (const fs::path& file : former) fs::remove(file);
+}
+
+void PrepareFolder(const RunJob& job, const fs::path& folder, bool anew) {
+  RemoveFormer(job, folder, anew);
   base::WriteFileAtomically(folder / ".talus", std::string(kCommand) + "\n",
                             base::Outlives::kProgram);
   std::error_code absent;
@@ -183,17 +245,21 @@ std::string Summary(const engine::RunProgress& end, const engine::RunTiming& tim
 void DriveRun(const RunJob& job, const RunFolderOptions& options) {
   const fs::path& folder = options.folder;
   RequireOwnFolder(job, folder);
+  base::MakeOutputFolder(folder);
+  const RunLock lock(folder);
   if (!options.fresh && IsDone(job, folder)) {
     RunLog(folder, options.quiet).Line(folder.string() + ": is done already");
     return;
   }
   Started started = StartOrGoOn(job, options);
-  PrepareFolder(job, folder);
+  PrepareFolder(job, folder, !started.goes_on);
   RunLog log(folder, options.quiet);
   const Stopwatch watch(started.earlier);
   if (!started.message.empty()) log.Line(started.message);
+  if (started.goes_on && !job.lost_at_checkpoint.empty()) log.Line(job.lost_at_checkpoint);
   try {
     Loop(job, *started.run, folder, watch, log);
+    job.write();
     started.run->WriteResults(watch.Total());
   } catch (const base::Interrupted&) {
     throw;

@@ -1,6 +1,7 @@
 // Drives a run in its folder to the end: progress, checkpoints, interruption, results.
 //
-// A folder holds one input's run. Its checkpoint is gone on from; its result is kept.
+// A folder holds one input's run, by one process at a time. Its checkpoint is gone on from; its
+// result is kept. What a run that begins anew finds of an earlier one goes.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,10 @@ struct RunJob {
   std::function<std::unique_ptr<engine::Run>(const engine::RunCheckpoint&)> go_on;
   // Called at the start and after each slice.
   std::function<void(const engine::Run&)> look = [](const engine::Run&) {};
+  // What is written besides, before the result says that all is there.
+  std::function<void()> write = [] {};
+  // What a run that goes on from a checkpoint lacks; empty if nothing.
+  std::string lost_at_checkpoint{};
 };
 
 struct RunFolderOptions {
@@ -33,7 +38,8 @@ struct RunFolderOptions {
 };
 
 // Throws base::Interrupted after SIGINT or SIGTERM, when a checkpoint has been saved; base::Error
-// when the run fails, which result.json then says; ConfigError before anything is written.
+// when the run fails, which result.json then says, or another process simulates there;
+// ConfigError before anything is written.
 void DriveRun(const RunJob& job, const RunFolderOptions& options);
 
 }  // namespace talus::trials

@@ -9,8 +9,9 @@
 #include "experiments/rigs/case/case_text.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/rig_run.h"
-#include "experiments/trials/engines/command_engine.h"
+#include "experiments/trials/engines/command_case.h"
 #include "experiments/trials/simulate/film.h"
+#include "experiments/trials/simulate/simulate_command.h"
 
 namespace talus::trials {
 namespace {
@@ -49,11 +50,14 @@ void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
   RunFolderOptions options = all.run;
   const rigs::Case rig_case = rigs::LoadCase(input);
   std::optional<Film> film;
+  std::string lost;
   if (!all.film.empty()) {
+    ClaimFilm(all.film);
     film.emplace(all.film, rig_case, FilmSize{});
     options.fresh = true;  // a film begins with the filling
   } else if (rig_case.outputs.film) {
     film.emplace(options.folder / kTrialFilmName, rig_case, kTrialFilm);
+    lost = "the film begins there: what came before was not kept";
   }
   RunJob job{.kind = std::string(base::NameOf(rig_case.rig.kind)),
              .input_hash = rigs::CaseHash(rig_case),
@@ -68,14 +72,16 @@ void SimulateTest(base::JsonFile input, const SimulateOptions& all) {
                  }};
   if (film) {
     job.look = [&](const engine::Run& run) { film->Look(static_cast<const rigs::RigRun&>(run)); };
+    job.write = [&] { film->Write(); };
+    job.lost_at_checkpoint = lost;
   }
   DriveRun(job, options);
-  if (film) film->Write();
 }
 
 void SimulateCommand(base::JsonFile input, const SimulateOptions& options) {
   RefuseFilm(input, options);
-  SimulateCommandCase(LoadCommandCase(input), options.run.folder, options.run.fresh);
+  const auto& [folder, fresh, quiet] = options.run;
+  SimulateCommandCase(LoadCommandCase(input), {.folder = folder, .fresh = fresh, .quiet = quiet});
 }
 
 constexpr InputKind kKinds[] = {

@@ -15,6 +15,7 @@
 #include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
+#include "experiments/trials/simulate/simulate_command.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
@@ -57,7 +58,8 @@ class CommandEngineTest : public ::testing::Test {
 
   // The whole trial, as a campaign has it run.
   TrialOutput Run(const rigs::Case& rig_case = SmallCase()) {
-    SimulateCommandCase({.heap = rig_case, .engine = options_}, root_ / "trial", false);
+    SimulateCommandCase({.heap = rig_case, .engine = options_},
+                        {.folder = root_ / "trial", .quiet = true});
     return {.profile = imaging::ReadGrayImage(root_ / "trial/profile.png"), .note = {}};
   }
   std::string FailureOf() {
@@ -100,6 +102,39 @@ TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
   EXPECT_THAT(Text("trial/case.json"), HasSubstr("\"command\""));
 }
 
+// The folder's own case tells which templates its result is of.
+TEST_F(CommandEngineTest, ARunOfOtherTemplatesIsNotTakenForThisOne) {
+  Deck("run.sh", "echo '{\"angle_deg\": 25}' >scalars.json");
+  std::ofstream(root_ / "case.json") << R"({"powder": {"material": {"density": 2500},
+    "sizes": {"kind": "mono", "diameter": "1 mm"}},
+    "rig": {"kind": "drum", "diameter": "20 mm", "width": "10 mm", "speed": "2 rad/s", "fill": 0.3},
+    "engine": {"templates": "deck", "command": ["sh", "run.sh"]}})";
+  const auto simulate = [&](bool fresh) {
+    const CommandCase own = LoadCommandCase(base::ReadJsonFile(root_ / "case.json"));
+    EXPECT_GT(own.heap.powder.mass, 0);  // by the drum's fill
+    SimulateCommandCase(own, {.folder = root_ / "trial", .fresh = fresh, .quiet = true});
+  };
+  simulate(false);
+  simulate(false);
+  Deck("run.sh", "echo '{\"angle_deg\": 30}' >scalars.json");
+  EXPECT_THAT(FailureOf([&] { simulate(false); }), HasSubstr("templates that have changed since"));
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("25"));
+  simulate(true);
+  EXPECT_THAT(Text("trial/result.json"), HasSubstr("30"));
+  // Who draws or exports the run needs no templates.
+  fs::remove_all(root_ / "deck");
+  EXPECT_EQ(LoadAnyCase(root_ / "trial/case.json").rig.kind, rigs::RigKind::kDrum);
+}
+
+TEST_F(CommandEngineTest, ACohesionMayBeBelowZeroAndNotANumberIsSaid) {
+  std::ofstream(root_ / "scalars.json") << R"({"cohesion_pa": -20})";
+  EXPECT_EQ(ReadScalars(root_).front().value, -20);
+  std::ofstream(root_ / "scalars.json") << R"({"mass_fallen_kg": -20})";
+  EXPECT_THAT(FailureOf([&] { ReadScalars(root_); }), HasSubstr("cannot be negative"));
+  std::ofstream(root_ / "scalars.json") << R"({"cohesion_pa": NaN})";
+  EXPECT_THAT(FailureOf([&] { ReadScalars(root_); }), HasSubstr("write null for no value"));
+}
+
 // Any rig will do: its keys are placeholders, its numbers stand in a file.
 TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
   rigs::Case drum = SmallCase();
@@ -109,7 +144,8 @@ TEST_F(CommandEngineTest, NumbersOfAnyRigAreReadFromJsonOrCsv) {
   const auto scalars_of = [&] {
     CommandEngine engine(options_);
     fs::remove_all(root_ / "trial");
-    SimulateCommandCase({.heap = drum, .engine = options_}, root_ / "trial", false);
+    SimulateCommandCase({.heap = drum, .engine = options_},
+                        {.folder = root_ / "trial", .quiet = true});
     return engine.Collect(drum, root_ / "trial").scalars;
   };
   Deck("run.sh", R"(echo '{"angle_deg": {{ rig_speed }}5, "angle_sd_deg": null}' >scalars.json)");
