@@ -13,8 +13,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr double kMaxOverlap = 0.25;  // of the smaller radius
-constexpr int kMaxReports = 20;       // a wrong unit would give millions
+constexpr int kMaxReports = 20;  // a wrong unit would give millions
 
 class OverlapCheck {
  public:

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "base/text/number_text.h"
 #include "engine/bodies/wall_motion.h"
 #include "engine/bodies/wall_set.h"
 #include "engine/overlap_check.h"
@@ -75,8 +76,9 @@ void ValidateSpeeds(const Scene& scene, base::Problems& problems) {
     const double speed = base::Norm(p.velocity);
     if (speed * dt <= 0.1 * p.radius) continue;
     problems.Within(Item("particles", i), [&] {
-      problems.Require(false, "velocity", speed * dt / p.radius,
-                       "radii a step: must be at most 0.1; make time_step smaller");
+      problems.Add("velocity", "moves it by " + base::ShortNumber(speed * dt / p.radius) +
+                                   " of its radius in a time step, above the 0.1 that holds; make "
+                                   "time_step smaller");
     });
   }
 }

@@ -110,6 +110,9 @@ void Strategy::Tell(const py::dict& values, const py::object& value, const py::o
         "tell: needs a value, an image of a strategy with a target, or "
         "failed=True");
   }
+  if (!failed && image.is_none() && field_) {
+    throw base::ConfigError("image: is missing; a strategy with a target learns from images");
+  }
   if (!image.is_none() && !field_) {
     throw base::ConfigError("image: the strategy has no target to compare it with");
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -122,6 +123,26 @@ void SetTimeStep(const SceneSpec& spec, Scene& scene) {
   }
 }
 
+// Whether it may head a column of series.csv.
+bool IsColumnName(const std::string& name) {
+  return name.find_first_of(",\"\n\r") == std::string::npos;
+}
+
+// Walls without a name are numbered.
+void ValidateColumns(const SceneSpec& scene, base::Problems& problems) {
+  if (!scene.outputs.interval) return;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    problems.Require(IsColumnName(scene.walls[i].name), "walls[" + std::to_string(i) + "].name",
+                     "must not have commas, quotes or line breaks: it heads columns of series.csv");
+  }
+  std::set<std::string> sections;
+  for (std::size_t i = 0; i < scene.outputs.sections.size(); ++i) {
+    problems.Require(sections.insert(scene.outputs.sections[i].name).second,
+                     "outputs.sections[" + std::to_string(i) + "].name",
+                     "is that of another section: it heads columns of series.csv");
+  }
+}
+
 }  // namespace
 
 int MaterialIndex(const SceneSpec& spec, const std::string& name) {
@@ -154,8 +175,8 @@ void StopSpec::Validate(base::Problems& problems) const {
 }
 
 void SectionSpec::Validate(base::Problems& problems) const {
-  problems.Require(!name.empty() && name.find_first_of(",\"\n") == std::string::npos, "name",
-                   "must not be empty or have commas or quotes");
+  problems.Require(!name.empty() && IsColumnName(name), "name",
+                   "must not be empty or have commas, quotes or line breaks");
   problems.Require(base::IsFinite(position), "position", "must be finite");
   problems.Require(base::IsFinite(direction) && Norm(direction) > 0, "direction",
                    "must be finite and not zero");
@@ -192,6 +213,7 @@ void SceneSpec::Validate(base::Problems& problems) const {
                      "materials[" + std::to_string(i) + "].name", "must be given once, not empty");
   }
   ValidatePairs(*this, problems);
+  ValidateColumns(*this, problems);
   RequireMaterials(*this, spheres, "spheres", problems);
   RequireMaterials(*this, sphere_files, "sphere_files", problems);
   RequireMaterials(*this, fills, "fills", problems);

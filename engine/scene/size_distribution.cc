@@ -112,10 +112,17 @@ double Inverse(const std::vector<double>& edges, const std::vector<double>& sums
   return edges[i - 1] + (edges[i] - edges[i - 1]) * (q - sums[i - 1]) / (sums[i] - sums[i - 1]);
 }
 
+// `owner`: the kind that needs it. Cut-offs may be given for all kinds but one size.
 void RequireGiven(base::Problems& problems, const char* key, const std::optional<double>& value,
-                  bool needed, const std::string& kind) {
-  if (needed && !value) problems.Add(key, "is missing; sizes of kind \"" + kind + "\" need it");
-  if (value) {
+                  SizeKind owner, const SizeDistribution& s) {
+  const std::string kind(base::NameOf(s.kind));
+  if (s.kind == owner && !value) {
+    problems.Add(key, "is missing; sizes of kind \"" + kind + "\" need it");
+  }
+  const bool is_cut_off = owner == SizeKind::kUniform && s.kind != SizeKind::kMono;
+  if (value && s.kind != owner && !is_cut_off) {
+    problems.Add(key, "does not belong to sizes of kind \"" + kind + "\"; remove it");
+  } else if (value) {
     problems.Require(*value > 0 && std::isfinite(*value), key, *value, "must be positive");
   }
 }
@@ -148,14 +155,13 @@ void RequireLists(base::Problems& problems, const SizeDistribution& s) {
 }  // namespace
 
 void SizeDistribution::Validate(base::Problems& problems) const {
-  const std::string name(base::NameOf(kind));
-  RequireGiven(problems, "diameter", diameter, kind == SizeKind::kMono, name);
-  RequireGiven(problems, "mean", mean, kind == SizeKind::kNormal, name);
-  RequireGiven(problems, "standard_deviation", standard_deviation, kind == SizeKind::kNormal, name);
-  RequireGiven(problems, "median", median, kind == SizeKind::kLogNormal, name);
-  RequireGiven(problems, "sigma", sigma, kind == SizeKind::kLogNormal, name);
-  RequireGiven(problems, "min", min, kind == SizeKind::kUniform, name);
-  RequireGiven(problems, "max", max, kind == SizeKind::kUniform, name);
+  RequireGiven(problems, "diameter", diameter, SizeKind::kMono, *this);
+  RequireGiven(problems, "mean", mean, SizeKind::kNormal, *this);
+  RequireGiven(problems, "standard_deviation", standard_deviation, SizeKind::kNormal, *this);
+  RequireGiven(problems, "median", median, SizeKind::kLogNormal, *this);
+  RequireGiven(problems, "sigma", sigma, SizeKind::kLogNormal, *this);
+  RequireGiven(problems, "min", min, SizeKind::kUniform, *this);
+  RequireGiven(problems, "max", max, SizeKind::kUniform, *this);
   const bool lists = kind == SizeKind::kClasses || kind == SizeKind::kCumulative;
   if (lists) RequireLists(problems, *this);
   problems.Require(lists || (diameters.empty() && shares.empty()), "diameters",

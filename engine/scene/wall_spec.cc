@@ -87,10 +87,12 @@ std::vector<MotionStep> BuildMotion(const WallSpec& spec, const Vec3& gravity) {
   return motion;
 }
 
+constexpr int kMostTaps = 100'000;  // no device taps so often
+
 void ValidateTaps(const TapSpec& taps, base::Problems& problems) {
   problems.Require(taps.start >= 0 && std::isfinite(taps.start), "taps.start", taps.start,
                    "must not be negative");
-  problems.Require(taps.count > 0, "taps.count", taps.count, "must be positive");
+  problems.RequireFromTo("taps.count", taps.count, 1, kMostTaps);
   problems.Require(taps.height > 0 && std::isfinite(taps.height), "taps.height", taps.height,
                    "must be positive");
   problems.Require(taps.interval > 0 && std::isfinite(taps.interval), "taps.interval",
@@ -138,8 +140,9 @@ void WallSpec::Validate(base::Problems& problems) const {
   problems.Require(base::IsFinite(position), "position", "must be finite");
   problems.Require(base::IsFinite(direction) && Norm(direction) > 0, "direction",
                    "must be finite and not zero");
-  ValidateMotion(BuildMotion(*this, {0, 0, -9.81}), problems);
   if (taps) ValidateTaps(*taps, problems);
+  if (!problems.empty()) return;  // a motion of what is out of range may have no end
+  ValidateMotion(BuildMotion(*this, {0, 0, -9.81}), problems);
   problems.Require(!taps || motion.empty(), "taps", "excludes motion; give one of the two");
   problems.Require(!pivot || base::IsFinite(*pivot), "pivot", "must be finite");
   problems.Require(!removed_at || *removed_at > 0, "removed_at", removed_at.value_or(0),

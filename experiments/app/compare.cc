@@ -41,6 +41,9 @@ void WriteComparison(const analysis::ComparedCampaign& compared, const std::file
   const auto shown = analysis::TrialsToShow(compared.evidence, compared.findings);
   std::vector<analysis::Picture> pictures = analysis::ProfilePictures(compared.evidence, shown);
   pictures.push_back(analysis::SideBySide(compared.evidence, shown));
+  for (const char* former : {"anhp_trial_", "signed_map_trial_"}) {
+    base::RemoveFormerFiles(out, former);
+  }
   for (const analysis::Picture& picture : pictures) {
     if (picture.png.empty()) continue;
     base::WriteFileAtomically(out / (picture.name + ".png"), picture.png);
@@ -61,6 +64,7 @@ void RunBatches(const CompareArguments& arguments) {
   const std::filesystem::path& out = arguments.out;
   if (!out.empty()) {
     base::ClaimOutputFolder(out, "compare");
+    base::RemoveFormerFiles(out, "batches_");
     base::WriteFileAtomically(out / "batches.html", analysis::BatchesPage(comparison));
     base::WriteFileAtomically(out / "batches.csv", analysis::BatchesCsv(comparison));
     base::WriteFileAtomically(out / "batches.json",

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/error.h"
 #include "base/files/output_folder.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_schema.h"
@@ -46,8 +47,9 @@ void AddOptimizeCommand(CLI::App& app) {
                         options->command);  // refuses what it cannot use before anything is written
       base::ClaimOutputFolder(options->output.folder, "optimize", inputs);
     }
-    const std::string result = trials::Optimize(problem, options->command, options->output);
-    if (options->output.folder.empty()) std::cout << result;
+    const trials::OptimizeEnd end = trials::Optimize(problem, options->command, options->output);
+    if (options->output.folder.empty()) std::cout << end.result << std::flush;
+    if (end.interrupted) throw base::Interrupted("interrupted; the same command goes on");
   });
 }
 

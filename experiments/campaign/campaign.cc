@@ -63,6 +63,8 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
     const bool started = asked == base::Interrupt::kNone && StartTrials(interrupt);
     if (MayTell(asked) && TellEnded()) continue;  // what follows is planned before more is told
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
+      parts_.runner->CancelUnsent();
+      for (const runners::FinishedJob& job : parts_.runner->Wait(0)) HandleEnd(job);
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
     }
@@ -71,6 +73,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
       return End(asked);
     }
     ShowStatus();
+    ShowTrouble();
     for (const runners::FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
   }
 }
@@ -239,6 +242,7 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (found == running_.end()) return;
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
+  if (job.end == runners::JobEnd::kCancelled) return;  // a later process begins it again
   if (job.duration > 0) trial.duration_s = job.duration;
   if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;
@@ -366,6 +370,12 @@ void Campaign::Report(const journal::TrialRecord& trial) {
   TrialProgress progress = ProgressOf(trial, record_, ReferenceOf(trial), spec_.objective);
   progress.best = best_ && best_->second == trial.id;
   console_.Trial(progress);
+}
+
+void Campaign::ShowTrouble() {
+  const std::string trouble = parts_.runner->Trouble();
+  if (!trouble.empty() && trouble != trouble_) console_.Line("warning: " + trouble);
+  trouble_ = trouble;
 }
 
 void Campaign::ShowStatus() {

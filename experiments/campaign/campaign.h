@@ -93,6 +93,7 @@ class Campaign {
   // Names the trial's experiment, where trials differ by experiment or scale factor.
   void Report(const journal::TrialRecord& trial);
   void ShowStatus();
+  void ShowTrouble();
   double Elapsed() const;  // [s], all sessions
   const Reference& ReferenceOf(const journal::TrialRecord& trial) const {
     return references_[static_cast<std::size_t>(trial.experiment)];
@@ -111,6 +112,7 @@ class Campaign {
   std::deque<journal::TrialRecord> waiting_;             // to be run, when there is room
   std::vector<EndedTrial> ended_;                        // to be told, in their turn
   std::map<std::int64_t, int> reruns_;                   // of trials that others have ended
+  std::string trouble_;                                  // of the queue, as last told
   std::optional<std::pair<double, std::int64_t>> best_;  // value and trial
   std::optional<Answer> result_;
   Clock::time_point start_;

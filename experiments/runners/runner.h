@@ -76,6 +76,12 @@ class Runner {
 
   // Stops a job with everything it has started; Wait reports it as cancelled.
   virtual void Cancel(std::int64_t id) = 0;
+
+  // Why jobs that were taken on cannot be begun for now, in words; empty if nothing is the matter.
+  virtual std::string Trouble() const { return ""; }
+
+  // Takes back the jobs that a queue has not got yet; Wait reports them as cancelled.
+  virtual void CancelUnsent() {}
 };
 
 // What Open MPI must be told where several trials share a machine. It would bind the ranks of each

@@ -81,6 +81,20 @@ void AddJobs(std::ostream& out, const Batch& batch) {
   out << "esac\n";
 }
 
+// Functions of the script: the time [µs], also with a bash before version 5, and the file that says
+// how a task has ended: its status, its time [µs] and its processor time [ms].
+void AddEnd(std::ostream& out, const Batch& batch) {
+  out << "now() {\n"
+      << "  if [ -n \"$EPOCHREALTIME\" ]; then echo \"${EPOCHREALTIME//[!0-9]/}\"\n"
+      << "  else echo $(($(date +%s%N) / 1000)); fi\n"
+      << "}\n"
+      << "write_end() {\n"
+      << "  echo " << batch.number << " $task $1 $2 $3 ${SLURM_RESTART_COUNT:-0} $(hostname) end >"
+      << kTaskEndFile << ".part\n"
+      << "  mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"
+      << "}\n";
+}
+
 }  // namespace
 
 std::string BatchScript(const Batch& batch, const SlurmOptions& options,
@@ -95,6 +109,10 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   }
   AddJobs(out, batch);
   out << "cd \"$folder\" || exit 1\n";
+  AddEnd(out, batch);
+  // A set-up that fails is none of the trial: it ends as a command that is not there does.
+  out << "trap 'exit 143' TERM\n"
+      << "trap 'left=$?; [ $left -gt 128 ] || write_end 127 0 0' EXIT\n";
   if (!options.modules.empty()) {
     out << "module load";
     for (const std::string& module : options.modules) out << ' ' << base::ShellQuoted(module);
@@ -103,17 +121,16 @@ std::string BatchScript(const Batch& batch, const SlurmOptions& options,
   for (const std::string& line : options.setup) out << line << '\n';
   out << "export OMP_NUM_THREADS=" << options.cores << " OMP_WAIT_POLICY=passive\n";
   for (const auto& [name, value] : kSharingRanks) out << "export " << name << '=' << value << '\n';
-  out << "started=${EPOCHREALTIME//[!0-9]/}\n"
+  out << "trap - EXIT TERM\n"
+      << "started=$(now)\n"
       << "\"${command[@]}\" >log.txt 2>&1 </dev/null\n"
       << "status=$?\n"
-      << "took=$((${EPOCHREALTIME//[!0-9]/} - started))\n";
+      << "took=$(($(now) - started))\n";
   // /proc/PID/stat, fields 16 and 17: processor time of the children that have ended, in ticks.
   out << "stat=$(</proc/$$/stat)\n"
       << "fields=(${stat##*) })\n"
       << "cpu=$(((fields[13] + fields[14]) * 1000 / $(getconf CLK_TCK)))\n"
-      << "echo " << batch.number << " $task $status $took $cpu ${SLURM_RESTART_COUNT:-0} "
-      << "$(hostname) end >" << kTaskEndFile << ".part\n"
-      << "mv " << kTaskEndFile << ".part " << kTaskEndFile << "\n"
+      << "write_end $status $took $cpu\n"
       << "log=" << base::ShellQuoted(TaskLog(stem, "").string()) << "\n"
       << "log=${log%.log}$task.log\n"
       << "[ -s \"$log\" ] || rm -f \"$log\"\n"

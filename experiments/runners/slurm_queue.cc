@@ -83,7 +83,16 @@ SubmitReply SlurmQueue::Submit(const std::filesystem::path& script,
                            "Slurm backup controller in standby", "job submit limit"}) {
     reply.try_again = reply.try_again || reply.error.find(text) != std::string::npos;
   }
+  // Slurm says the same of a job that is too large: only one that others fill may have room later.
+  if (reply.error.find("job submit limit") != std::string::npos && HasNoJobs()) {
+    reply.try_again = false;
+  }
   return reply;
+}
+
+bool SlurmQueue::HasNoJobs() const {
+  const ToolResult queue = RunTool({"squeue", "--me", "--noheader", "--format=%i"});
+  return queue.ok() && queue.output.find_first_not_of(" \n") == std::string::npos;
 }
 
 std::optional<SlurmStates> SlurmQueue::States(const std::set<std::string>& jobs) const {

@@ -54,6 +54,10 @@ class SlurmQueue {
   std::string Find(const std::string& job_name) const;
 
   void Cancel(const std::string& job) const;
+
+ private:
+  // Whether this user has nothing queued or running; false where Slurm does not answer.
+  bool HasNoJobs() const;
 };
 
 // The job's number in the answer of `sbatch --parsable`, "1234" or "1234;cluster"; "" if none.

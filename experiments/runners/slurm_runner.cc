@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <random>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -93,6 +94,22 @@ std::optional<TaskEnd> EndOf(const Job& job, std::int64_t batch, int index) {
   return ours ? end : std::nullopt;
 }
 
+// The last line of what the set-up has said, if anything.
+std::string SetUpText(const std::string& log) {
+  std::string last;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last.empty() ? "" : " of the set-up: " + last.substr(0, 200);
+}
+
+// By whatever names: through a link, with "./" before it.
+bool IsSameFolder(const fs::path& a, const fs::path& b) {
+  std::error_code absent;
+  return a == b || fs::equivalent(a, b, absent);
+}
+
 }  // namespace
 
 SlurmRunner::SlurmRunner(const SlurmOptions& options, const fs::path& campaign)
@@ -158,6 +175,7 @@ void SlurmRunner::SubmitBatch(std::vector<Task> tasks) {
 void SlurmRunner::SendBatch(std::int64_t batch) {
   const InheritedLock lock(folder_ / "lock");
   const SubmitReply reply = queue_.Submit(BatchFile(batch, ".sh"), BatchFile(batch, ".job"));
+  refusal_ = reply.try_again ? reply.error : "";
   std::vector<Task> refused;
   for (auto& [id, task] : tasks_) {
     if (task.batch != batch) continue;
@@ -197,7 +215,7 @@ const Batch* SlurmRunner::LastRecordOf(const Job& job, int& submissions) const {
   for (const auto& [number, batch] : records_) {
     const bool has = std::any_of(batch.jobs.begin(), batch.jobs.end(), [&](const Job& recorded) {
       return recorded.id == job.id && recorded.attempt >= job.attempt &&
-             recorded.folder == job.folder;
+             IsSameFolder(recorded.folder, job.folder);
     });
     if (!has) continue;
     last = &batch;
@@ -264,7 +282,11 @@ void SlurmRunner::CollectEndFiles() {
     // Slurm has to say why a command was killed: for its memory, for its time, or by nobody.
     if (end && end->status <= 128) ended.emplace_back(task, *end);
   }
-  for (const auto& [task, end] : ended) Report(task, FinishedBy(task.job.id, end));
+  for (const auto& [task, end] : ended) {
+    FinishedJob finished = FinishedBy(task.job.id, end);
+    if (finished.end == JobEnd::kNotStarted) finished.reason += SetUpText(LogOf(task));
+    Report(task, std::move(finished));
+  }
 }
 
 void SlurmRunner::Poll() {
@@ -294,12 +316,15 @@ void SlurmRunner::JudgeEnded() {
   for (const std::int64_t id : ended) Judge(tasks_.at(id));
 }
 
+// What Slurm and the script's own set-up have said; Slurm's lines come last.
+std::string SlurmRunner::LogOf(const Task& task) const {
+  constexpr std::size_t kEndOfLog = 65536;
+  return base::ReadTail(TaskLog(BatchFile(task.batch, ""), std::to_string(task.index)), kEndOfLog);
+}
+
 // `task` is gone from the list when it was reported.
 void SlurmRunner::Judge(Task task) {
-  constexpr std::size_t kEndOfLog = 65536;  // Slurm's own lines come last
-  const std::string log =
-      base::ReadTail(TaskLog(BatchFile(task.batch, ""), std::to_string(task.index)), kEndOfLog);
-  const Verdict verdict = VerdictOf(*task.ended, log);
+  const Verdict verdict = VerdictOf(*task.ended, LogOf(task));
   const auto end = EndOf(task.job, task.batch, task.index);
   const auto waited = std::chrono::duration<double>(Clock::now() - task.ended_since).count();
   if (end && verdict.await_result) {
@@ -351,6 +376,21 @@ void SlurmRunner::Cancel(std::int64_t id) {
   }
   const Task task = found->second;
   Report(task, Finished(id, JobEnd::kCancelled, "was cancelled"));
+}
+
+std::string SlurmRunner::Trouble() const {
+  const bool any =
+      std::ranges::any_of(tasks_, [](const auto& t) { return t.second.array.empty(); });
+  if (!any || refusal_.empty()) return "";
+  return "sbatch: " + refusal_ + "; it is asked again and again";
+}
+
+void SlurmRunner::CancelUnsent() {
+  std::vector<std::int64_t> unsent;
+  for (const auto& [id, task] : tasks_) {
+    if (task.array.empty()) unsent.push_back(id);
+  }
+  for (const std::int64_t id : unsent) Cancel(id);
 }
 
 }  // namespace talus::runners

@@ -31,6 +31,8 @@ class SlurmRunner : public Runner {
   bool Adopt(const Job& job, const std::string& name) override;
   std::vector<FinishedJob> Wait(double seconds) override;
   void Cancel(std::int64_t id) override;
+  std::string Trouble() const override;
+  void CancelUnsent() override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -64,6 +66,7 @@ class SlurmRunner : public Runner {
   void Poll();
   void JudgeEnded();
   void Judge(Task task);
+  std::string LogOf(const Task& task) const;
   void Requeue(Task task, const std::string& reason);
   void Report(const Task& task, FinishedJob finished);
 
@@ -74,6 +77,7 @@ class SlurmRunner : public Runner {
   std::int64_t last_batch_ = 0;
   std::map<std::int64_t, Batch> records_;  // of earlier processes, by number
   std::map<std::int64_t, Task> tasks_;     // unfinished, by job id
+  std::string refusal_;                    // what sbatch said when it took the last one not yet
   Clock::time_point last_poll_;
   std::vector<FinishedJob> finished_;
 };

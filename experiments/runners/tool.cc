@@ -48,29 +48,76 @@ void KeepEnd(std::string& errors) {
   if (errors.size() > kMost) errors.erase(0, errors.size() - kMost / 2);
 }
 
-// Reads both until they are closed. Returns why it was given up, "" if it was not.
-std::string Collect(std::array<Pipe, 2>& pipes, ToolResult& result, Clock::time_point end,
-                    std::size_t most_output) {
-  std::string* texts[] = {&result.output, &result.errors};
-  std::array<pollfd, 2> open{pollfd{pipes[0].ends[0], POLLIN, 0}, {pipes[1].ends[0], POLLIN, 0}};
-  while (open[0].fd >= 0 || open[1].fd >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    if (left.count() <= 0) return "gave no answer in time";
-    if (::poll(open.data(), open.size(), static_cast<int>(left.count())) < 0) continue;
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (open[i].fd < 0 || open[i].revents == 0) continue;
-      char bytes[4096];
-      const ssize_t count = ::read(open[i].fd, bytes, sizeof bytes);
-      if (count > 0) texts[i]->append(bytes, static_cast<std::size_t>(count));
-      KeepEnd(result.errors);
-      if (result.output.size() > most_output) {
-        return "printed more than " + std::to_string(most_output >> 20) + " MiB";
-      }
-      if (count == 0 || (count < 0 && errno != EINTR)) open[i].fd = -1;
+// A command that runs, and what it has printed so far.
+class RunningTool {
+ public:
+  RunningTool(pid_t pid, std::array<Pipe, 2>& pipes, const ToolOptions& options)
+      : pid_(pid),
+        options_(options),
+        open_{pollfd{pipes[0].ends[0], POLLIN, 0}, {pipes[1].ends[0], POLLIN, 0}} {}
+
+  // Until the command itself has ended: what it has left in the background may keep the pipes open.
+  ToolResult Finish(const std::string& name) {
+    const auto cap = std::chrono::duration<double>(std::min(options_.time_cap, 1e9));
+    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(cap);
+    std::string given_up;
+    while (given_up.empty() && !HasEnded()) {
+      Read(kPause);
+      given_up = WhyGiveUp(end);
     }
+    if (!given_up.empty()) {
+      ::kill(-pid_, SIGKILL);
+      while (!HasEnded()) Read(kPause);
+    }
+    while (Read(std::chrono::milliseconds(0))) {
+    }
+    if (given_up.empty()) given_up = WhyGiveUp(Clock::time_point::max());
+    if (!given_up.empty()) result_.errors += name + " " + given_up;
+    result_.status = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+    if (!given_up.empty() && result_.status == 0) result_.status = 1;
+    return std::move(result_);
   }
-  return {};
-}
+
+ private:
+  static constexpr std::chrono::milliseconds kPause{5};
+
+  bool HasEnded() {
+    if (!has_ended_) has_ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    return has_ended_;
+  }
+
+  // Whether anything was read, of what there is now or comes within the pause.
+  bool Read(std::chrono::milliseconds pause) {
+    std::string* texts[] = {&result_.output, &result_.errors};
+    if (::poll(open_.data(), open_.size(), static_cast<int>(pause.count())) <= 0) return false;
+    bool any = false;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (open_[i].fd < 0 || open_[i].revents == 0) continue;
+      char bytes[65536];
+      const ssize_t count = ::read(open_[i].fd, bytes, sizeof bytes);
+      if (count > 0) texts[i]->append(bytes, static_cast<std::size_t>(count));
+      any |= count > 0;
+      if (count == 0 || (count < 0 && errno != EINTR)) open_[i].fd = -1;
+    }
+    KeepEnd(result_.errors);
+    return any && result_.output.size() <= options_.most_output;
+  }
+
+  std::string WhyGiveUp(Clock::time_point end) const {
+    if (result_.output.size() > options_.most_output) {
+      return "printed more than " + std::to_string(options_.most_output >> 20) + " MiB";
+    }
+    if (Clock::now() >= end) return "gave no answer in time";
+    return !has_ended_ && options_.is_stopped() ? "was stopped" : "";
+  }
+
+  pid_t pid_;
+  const ToolOptions& options_;
+  std::array<pollfd, 2> open_;
+  ToolResult result_;
+  int status_ = 0;
+  bool has_ended_ = false;
+};
 
 // The pipe holds it all before anyone reads, so that nothing waits for a command that never does.
 void Fill(Pipe& pipe, const std::string& input) {
@@ -121,7 +168,6 @@ int Spawn(const std::vector<std::string>& command, const ToolOptions& options, c
 }  // namespace
 
 ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options) {
-  ToolResult result;
   Pipe input;
   Fill(input, options.input);
   std::array<Pipe, 2> pipes;
@@ -131,21 +177,13 @@ ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& o
     throw base::Error(std::string("no process can be started: ") + std::strerror(code));
   }
   if (code != 0) {
-    return {.status = 127, .output = {}, .errors = command[0] + ": " + std::strerror(code)};
+    return {.status = 127,
+            .output = {},
+            .errors = command[0] + ": " + std::strerror(code),
+            .started = false};
   }
   for (Pipe& pipe : pipes) pipe.CloseWriter();
-  const auto cap = std::chrono::duration<double>(std::min(options.time_cap, 1e9));
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(cap);
-  const std::string given_up = Collect(pipes, result, end, options.most_output);
-  if (!given_up.empty()) {
-    ::kill(-pid, SIGKILL);
-    result.errors += command[0] + " " + given_up;
-  }
-  int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
+  return RunningTool(pid, pipes, options).Finish(command[0]);
 }
 
 std::filesystem::path FindProgram(const std::string& program, const std::filesystem::path& folder) {

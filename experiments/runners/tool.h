@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ struct ToolResult {
   int status = 0;      // exit status; 127 when it cannot be run, 128 + n when ended by signal n
   std::string output;  // standard output
   std::string errors;  // standard error
+  bool started = true;
 
   bool ok() const { return status == 0; }
 };
@@ -23,10 +25,12 @@ struct ToolOptions {
   // By which a ProcessGuard ends it with us; "": it goes on, as sbatch must.
   std::string mark{};
   std::size_t most_output = std::size_t{64} << 20;  // [bytes], after which it is killed
+  // Asked several times a second: whether to kill it now.
+  std::function<bool()> is_stopped = [] { return false; };
 };
 
-// `command[0]` is looked up on the PATH. Throws base::Error only when the system has no process
-// left.
+// Returns when the command has ended, whatever it has left running. `command[0]` is looked up on
+// the PATH. Throws base::Error only when the system has no process left.
 ToolResult RunTool(const std::vector<std::string>& command, const ToolOptions& options = {});
 
 // Where a program is: from `folder` on if its name has a "/", else on the PATH; empty when it is

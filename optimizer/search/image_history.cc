@@ -35,6 +35,11 @@ double ErrorOf(const ImageModel& model, const CodedImages& data) {
                  surrogate::Pool({.points = data.Points(), .values = data.values}).values);
 }
 
+bool AreAlike(const std::vector<Eigen::VectorXd>& vectors, int count) {
+  return std::all_of(vectors.begin(), vectors.begin() + count,
+                     [&](const Eigen::VectorXd& vector) { return vector == vectors.front(); });
+}
+
 }  // namespace
 
 ImageHistory::ImageHistory(const FieldObjective& objective, std::uint64_t seed)
@@ -83,10 +88,15 @@ void ImageHistory::Choose(int count, bool deterministic) {
   double lowest = ErrorOfValues(First(codes_.front(), count), deterministic);
   const CodedImages data = First(codes_.front(), count);
   const double sd = Rms(data.values.array() - data.values.mean());
+  if (!(sd > 0)) {
+    verdict_ = "all values are the same so far";
+    return;
+  }
   verdict_ = "left out, each of the better half is missed by " + Percent(lowest / sd) +
              " of their standard deviation by a process of the values";
   if (!deterministic) lowest *= kPreference;
   for (const Coded& coded : codes_) {
+    if (AreAlike(coded.vectors, count)) continue;  // no mode tells them apart
     const CodedImages fields = First(coded, count);
     const ImageModel model(coded.code, objective_, fields,
                            {.deterministic = deterministic, .seed = seed_}, nullptr);
@@ -94,7 +104,7 @@ void ImageHistory::Choose(int count, bool deterministic) {
     verdict_ += ", by " + Percent(error / sd) + " by modes of " + coded.code->name();
     if (!(error < lowest)) continue;
     lowest = error;
-    left_out_share_ = sd > 0 ? error / sd : 0;
+    left_out_share_ = error / sd;
     choice_.coded = &coded;
     choice_.state = model.state();
     break;

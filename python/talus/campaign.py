@@ -2,6 +2,7 @@
 import html
 import json
 import numbers
+import os
 import pathlib
 import sqlite3
 
@@ -18,14 +19,30 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     if isinstance(spec, dict):
         if out is None:
             raise ConfigError("out: is needed for a spec that is no file")
-        file = pathlib.Path(out).with_suffix(".json")
-        file.write_text(json.dumps(spec, indent=1))
+        file = _write_spec(spec, out)
     else:
         file = pathlib.Path(spec)
     folder = pathlib.Path(out) if out is not None else pathlib.Path(file.stem)
     program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
                 (["--hold-out", hold_out] if hold_out is not None else []), progress)
     return Campaign(folder)
+
+
+def _write_spec(spec, out):
+    """The dictionary as OUT.json, which may be there already only if it says the same."""
+    def number(value):
+        if isinstance(value, numbers.Integral):
+            return int(value)
+        if isinstance(value, numbers.Real):
+            return float(value)
+        raise ConfigError(f"spec: has a {type(value).__name__}, which JSON has not: {value!r}")
+
+    text = json.dumps(spec, indent=1, default=number)
+    file = pathlib.Path(f"{os.fspath(out)}.json")
+    if file.exists() and file.read_text() != text:
+        raise ConfigError(f"{file}: is there already and says something else; name another `out`, or take it away")
+    file.write_text(text)
+    return file
 
 
 class Campaign:
@@ -38,7 +55,8 @@ class Campaign:
             raise FileNotFoundError(f"{self.folder}: holds no campaign; `talus calibrate SPEC` begins one")
 
     def _query(self, text, *values):
-        journal = sqlite3.connect(f"file:{self.folder.resolve()}/journal.sqlite?mode=ro", uri=True)
+        file = (self.folder.resolve() / "journal.sqlite").as_uri()
+        journal = sqlite3.connect(file + "?mode=ro", uri=True)
         try:
             return journal.execute(text, values).fetchall()
         finally:
@@ -115,7 +133,11 @@ class Campaign:
             raise FileNotFoundError(f"{file}: is not there; a campaign writes its posterior when it ends "
                                     "with enough trials for one")
         draws = pandas.read_csv(file)
-        draws.columns = self.parameters
+        parameters = self.parameters
+        if len(draws.columns) != len(parameters):
+            raise FileNotFoundError(f"{file}: is of other parameters, which the campaign had before; it writes "
+                                    "its posterior anew when it ends")
+        draws.columns = parameters
         draws.attrs = {"units": self.units, "ranges": self.ranges}
         return draws
 
@@ -237,8 +259,7 @@ class Campaign:
 
     def report(self):
         """Writes the report and returns its path."""
-        import subprocess
-        subprocess.run([program.program(), "report", self.folder], check=True, stdout=subprocess.DEVNULL)
+        program.call("report", program.path(self.folder))
         return self.folder / "report" / "report.html"
 
     def _rows(self):

@@ -2,6 +2,7 @@
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -30,12 +31,17 @@ def _raise(code, text):
     raise Error(words)
 
 
-def ask(*arguments):
-    """What a verb says with --json."""
-    ended = subprocess.run([program(), *map(str, arguments), "--json"], capture_output=True, text=True)
+def call(*arguments):
+    """What a verb prints."""
+    ended = subprocess.run([program(), *map(str, arguments)], capture_output=True, text=True)
     if ended.returncode:
         _raise(ended.returncode, ended.stderr)
-    return json.loads(ended.stdout)
+    return ended.stdout
+
+
+def ask(*arguments):
+    """What a verb says with --json."""
+    return json.loads(call(*arguments, "--json"))
 
 
 class Progress:
@@ -83,8 +89,9 @@ def run(arguments, progress):
         try:
             for line in process.stdout:
                 tell(json.loads(line))
-        except KeyboardInterrupt:  # the program has heard it, too, and ends by itself
-            process.wait()
+        except BaseException:  # Ctrl-C, or the user's own function: the campaign can be resumed
+            process.send_signal(signal.SIGTERM)
+            process.communicate()  # so that it need not wait for us to read
             raise
         words = process.stderr.read()
     if process.returncode:

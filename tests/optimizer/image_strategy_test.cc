@@ -191,6 +191,18 @@ TEST(ImageStrategy, FallsBackToTheValuesWhereImagesTellNothing) {
   EXPECT_LT(value(answer.point), 0.01);
 }
 
+// An empty plate, whatever the parameters: there is nothing to learn, and nothing to fall over.
+TEST(ImageStrategy, ServesImagesThatAreAllTheSame) {
+  const std::vector<float> empty(static_cast<std::size_t>(kHeapSize.num_pixels()), 0.0F);
+  for (const std::vector<float>& target : {HeapImage(kTruth, 0, 0), empty}) {
+    const FieldObjective objective = SadTo(target);
+    const auto strategy = Make(StrategyKind::kAuto, objective);
+    RunFor(
+        *strategy, objective, [&](const Eigen::VectorXd&, std::uint64_t) { return empty; }, 12);
+    EXPECT_TRUE(strategy->Recommend().point.allFinite());
+  }
+}
+
 TEST(ImageStrategy, MinimisesAnyMetricOfThePredictedImage) {
   // How far the share of powder is from what it is at the truth: met along a curve.
   const auto share = [](std::span<const float> field) {

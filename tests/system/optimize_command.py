@@ -46,7 +46,7 @@ elif kind == "profile":
 elif kind == "csv":
     rows = heap(p["a"], p["b"])
     number = p.get("seed", 1000003) - 1000003
-    if "kill" in sys.argv and number == 8:
+    if os.environ.get("KILL_AT") == str(number):
         os.kill(os.getppid(), signal.SIGKILL)
     name = f"heap_{number}.csv"
     pathlib.Path(name).write_text("\n".join(",".join(map(str, row)) for row in rows) + "\n")

@@ -172,7 +172,10 @@ TEST_F(Optimize, ResumesAfterAKillWithTheSameResult) {
   Write("problem.json", "{\"target\": " + out_ + ", \"evaluations\": 12, \"workers\": 2" +
                             ", \"parameters\": " + std::string(kUnitSquare) + "}");
   ASSERT_EQ(Talus("problem.json --out whole --quiet -- " + kCommand + "csv"), 0) << errors_;
-  ASSERT_EQ(Talus("problem.json --out killed --quiet -- " + kCommand + "csv kill"), 128 + 9);
+  ASSERT_EQ(
+      Run("KILL_AT=8 " TALUS_BINARY_DIR "/talus optimize problem.json --out killed --quiet -- " +
+          kCommand + "csv"),
+      128 + 9);
   EXPECT_FALSE(fs::exists(folder_ / "killed/result.json"));
   ASSERT_EQ(Talus("problem.json --out killed -- " + kCommand + "csv"), 0) << errors_;
   EXPECT_THAT(errors_, HasSubstr("goes on after"));
@@ -253,6 +256,58 @@ TEST_F(Optimize, AFolderOfAnotherProblemIsLeftAlone) {
   EXPECT_EQ(Talus("two.json --out search --quiet -- " + kCommand + "bowl"), 2);
   EXPECT_THAT(errors_, HasSubstr("holds a search of another problem"));
   EXPECT_EQ(base::ReadFile(folder_ / "search/evaluations.jsonl"), before);
+}
+
+// The values are of the command, the target and the table that they were made with.
+TEST_F(Optimize, OtherInputsThanAFolderWasMadeWithAreNoticed) {
+  const std::string rest =
+      ", \"evaluations\": 3, \"parameters\": " + std::string(kUnitSquare) + "}";
+  ASSERT_EQ(Run("echo '{\"a\": 0.6, \"b\": 0.3, \"seed\": 0}' | " + kCommand + "profile"), 0);
+  Write("problem.json", R"({"target": {"profile": "heap_0.png"})" + rest);
+  const std::string search = "--out search --quiet -- " + kCommand + "profile";
+  ASSERT_EQ(Talus("problem.json " + search), 0) << errors_;
+  EXPECT_EQ(Talus("./problem.json " + search), 0) << errors_;  // by another name
+  EXPECT_EQ(Talus("problem.json --out search --quiet -- " + kCommand + "field"), 2);
+  EXPECT_THAT(errors_, HasSubstr("holds what another command has answered"));
+  ASSERT_EQ(Run("echo '{\"a\": 0.2, \"b\": 0.3, \"seed\": 0}' | " + kCommand + "profile"), 0);
+  EXPECT_EQ(Talus("problem.json " + search), 2);
+  EXPECT_THAT(errors_, HasSubstr("holds a search of another problem"));
+  Write("search/problem.json", "{}");
+  EXPECT_EQ(Talus("problem.json " + search), 2);
+  EXPECT_THAT(errors_, HasSubstr("problem.json: is damaged"));
+}
+
+// Ctrl-C lets the evaluations end that run, SIGTERM does not; neither counts them as failed.
+TEST_F(Optimize, AnInterruptionIsSaidAndEndsWith130) {
+  Write("problem.json", "{\"evaluations\": 50, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write("slow.sh", "touch started; sleep 1; echo '{\"value\": 1}'\n");
+  Write("endless.sh", "touch started; sleep 300\n");
+  const auto interrupted = [&](const std::string& script, const std::string& signal) {
+    fs::remove(folder_ / "started");
+    return Run(TALUS_BINARY_DIR "/talus optimize problem.json --out " + script + ".out -- sh " +
+               script + " & pid=$!; until [ -e started ]; do sleep 0.01; done; kill -" + signal +
+               " $pid; wait $pid");
+  };
+  EXPECT_EQ(interrupted("slow.sh", "INT"), 130);
+  EXPECT_THAT(errors_, HasSubstr("press Ctrl-C again to drop them"));
+  EXPECT_THAT(base::ReadFile(folder_ / "slow.sh.out/result.json"), HasSubstr("\"interrupted\""));
+  EXPECT_EQ(interrupted("endless.sh", "TERM"), 130);
+  EXPECT_EQ(base::ReadFile(folder_ / "endless.sh.out/evaluations.jsonl"), "");
+}
+
+// A missing program in a script is a failed evaluation; what says why stands at the end.
+TEST_F(Optimize, AFailureSaysWhatTheCommandSaidLast) {
+  Write("problem.json", "{\"evaluations\": 9, \"parameters\": " + std::string(kUnitSquare) + "}");
+  Write(
+      "fails.sh",
+      "[ -e first ] || { touch first; echo '{\"value\": 1}'; exit; }\n"
+      "for i in $(seq 50); do echo Traceback line $i >&2; done; echo KeyError: mu >&2; exit 127\n");
+  ASSERT_EQ(Talus("problem.json --out search --quiet -- sh fails.sh"), 0) << errors_;
+  EXPECT_THAT(base::ReadFile(folder_ / "search/evaluations.jsonl"),
+              HasSubstr("Traceback line 50\\nKeyError: mu"));
+  Write("crash.sh", "kill -SEGV $$\n");
+  EXPECT_EQ(Talus("problem.json --quiet -- sh crash.sh"), 1);
+  EXPECT_THAT(errors_, HasSubstr("was ended by signal 11"));
 }
 
 }  // namespace optimize_test

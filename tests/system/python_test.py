@@ -105,6 +105,11 @@ def check_images_as_evaluations():
         for values in strategy.ask():
             strategy.tell(values, image=image(round(values["height"])))
     assert abs(strategy.answer()["values"]["height"] - 17) < 1.5, strategy.answer()
+    raises(talus.ConfigError, "learns from images", strategy.tell, {"height": 3}, 1.0)
+    empty = talus.Strategy([{"name": "height", "low": 2, "high": 38}], seed=2, target=image(17))
+    for _ in range(12):
+        for values in empty.ask():
+            empty.tell(values, image=image(0))
     raises(talus.ConfigError, "size of the target", strategy.tell, {"height": 3},
            image=numpy.zeros((5, 5), dtype=numpy.uint8))
 
@@ -204,6 +209,24 @@ def check_campaign(program, root):
     assert campaign.resume(add_simulations=1, progress=False).trials().shape[0] >= 4
     assert campaign.report().stat().st_size > 1e5
     check_inference_data(campaign)
+    check_calibrate_arguments(root, spec)
+
+
+def check_calibrate_arguments(root, spec):
+    """A dictionary's numbers may be numpy's; its file, beside the campaign, takes no other's place."""
+    folder = root / "a#1 %41? powder 1.5"
+    quick = {**spec, "budget": {"simulations": numpy.int64(2)}, "strategy": {"kind": "sobol", "num_points": 2}}
+    assert len(talus.calibrate(quick, out=folder, progress=False).trials()) == 2
+    assert json.loads((root / "a#1 %41? powder 1.5.json").read_text())["budget"] == {"simulations": 2}
+    (root / "mine.json").write_text("{} // mine")
+    raises(talus.ConfigError, "is there already", talus.calibrate, quick, out=root / "mine", progress=False)
+    assert (root / "mine.json").read_text() == "{} // mine"
+    raises(talus.ConfigError, "which JSON has not", talus.calibrate, {**spec, "seed": {1}}, out=root / "set")
+
+    def fails(event):
+        raise RuntimeError("mine")
+
+    raises(RuntimeError, "mine", talus.calibrate, {**spec, "name": "again"}, out=root / "again", progress=fails)
 
 
 def check_profiles(campaign):

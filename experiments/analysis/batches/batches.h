@@ -104,8 +104,9 @@ struct BatchComparison {
   std::vector<BatchPictures> pictures{};
   std::vector<BatchNumber> numbers{};
   std::vector<BatchVerdict> verdicts{};  // of all but the first batch
+  std::vector<std::string> warnings{};   // what speaks against the comparison
 
-  TALUS_FIELDS(batches, parameters, together, pictures, numbers, verdicts);
+  TALUS_FIELDS(batches, parameters, together, pictures, numbers, verdicts, warnings);
 };
 
 // At least two folders. `matters` is the difference that counts of a parameter, by name and as text

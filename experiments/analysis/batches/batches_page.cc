@@ -26,6 +26,9 @@ std::string Verdicts(const BatchComparison& c) {
             "; all that was measured together differs so by chance with probability " +
             base::ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + ")</li>\n";
   }
+  for (const std::string& warning : c.warnings) {
+    list += "<li>Warning: " + base::MarkupText(warning) + "</li>\n";
+  }
   return list + "</ul>\n";
 }
 

@@ -71,6 +71,7 @@ std::string BatchesText(const BatchComparison& c) {
               ShortNumber(c.verdicts[b - 1].measured_by_chance, 2) + " by chance\n";
     }
   }
+  for (const std::string& warning : c.warnings) text += "  warning: " + warning + "\n";
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include "base/nearest.h"
 #include "base/problems.h"
 #include "base/random.h"
+#include "experiments/analysis/batches/batch_warnings.h"
 #include "experiments/analysis/batches/batches.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
@@ -108,6 +109,14 @@ void RequireSameParameters(const std::vector<Batch>& batches) {
   }
 }
 
+double MatterOf(const std::string& parameter, const std::string& text) {
+  try {
+    return campaign::ParseProperty(parameter, text);
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError("--matters " + parameter + ": " + error.what());
+  }
+}
+
 std::vector<double> MattersOf(const Batch& first, const std::map<std::string, std::string>& given) {
   std::vector<double> matters;
   base::Problems problems;
@@ -116,8 +125,8 @@ std::vector<double> MattersOf(const Batch& first, const std::map<std::string, st
     constexpr double kShare = 0.1;  // of the searched range
     const auto own = given.find(p.name);
     matters.push_back(own == given.end() ? kShare * (p.high - p.low)
-                                         : campaign::ParseProperty(p.name, own->second));
-    problems.Require(matters.back() > 0, p.name, matters.back(), "must be positive");
+                                         : MatterOf(p.name, own->second));
+    problems.Require(matters.back() > 0, "--matters " + p.name, matters.back(), "must be positive");
   }
   for (const auto& [name, value] : given) {
     if (std::ranges::find(names, name) != names.end()) continue;
@@ -323,6 +332,13 @@ BatchComparison CompareBatches(const std::vector<fs::path>& folders,
   for (std::size_t b = 1; b < batches.size(); ++b) {
     comparison.verdicts.push_back(VerdictOf(comparison, b));
   }
+  const auto warn = [&](const std::vector<std::string>& more) {
+    comparison.warnings.insert(comparison.warnings.end(), more.begin(), more.end());
+  };
+  for (std::size_t b = 1; b < batches.size(); ++b) {
+    warn(OtherConditions(batches.front().view, batches[b].view));
+  }
+  for (const Batch& batch : batches) warn(AlarmsOf(batch.view));
   return comparison;
 }
 

@@ -1,7 +1,9 @@
 #include "experiments/analysis/export/paraview.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +13,14 @@
 #include "base/json/json_text.h"
 #include "base/text/number_text.h"
 #include "experiments/analysis/export/wall_mesh.h"
+#include "experiments/campaign/answer/standing_answer.h"
 #include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/campaign/record/reference.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/load_case.h"
-#include "experiments/trials/engines/command_case.h"
 #include "experiments/rigs/rig_list.h"
+#include "experiments/trials/engines/command_case.h"
 #include "imaging/formats/spheres/sphere_files.h"
 
 namespace talus::analysis {
@@ -25,8 +28,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first trial that confirms, else the best of the first experiment.
+// Whether it is of the set that the campaign recommends now; it may have recommended others before.
+bool IsOfAnswer(const journal::TrialRecord& trial, const campaign::Answer& answer) {
+  constexpr double kSame = 1e-9;  // of a range: a value that was written as decimals
+  if (trial.unit.size() != answer.parameters.size()) return false;
+  for (std::size_t i = 0; i < trial.unit.size(); ++i) {
+    const campaign::ResultParameter& p = answer.parameters[i];
+    if (std::abs(p.Range().ToUnit(p.value) - trial.unit[i]) > kSame) return false;
+  }
+  return true;
+}
+
+// The first trial that confirms the recommended set, else the best of the first experiment.
 std::int64_t TrialToShow(const fs::path& campaign) {
+  const std::optional<campaign::Answer> answer = campaign::StandingAnswer(campaign);
   journal::Journal journal = journal::Journal::OpenReadOnly(journal::JournalPath(campaign));
   const journal::CampaignRecord record = journal.Campaign();
   const campaign::CampaignSpec spec = campaign::ParseSpecText(record.spec_json);
@@ -35,7 +50,8 @@ std::int64_t TrialToShow(const fs::path& campaign) {
   double least = 0;
   for (const journal::TrialRecord& trial : journal.Trials()) {
     if (trial.status != journal::TrialStatus::kOk || trial.experiment != 0) continue;
-    if (trial.kind == journal::TrialKind::kConfirm) return trial.id;
+    const bool confirms = trial.kind == journal::TrialKind::kConfirm;
+    if (confirms && answer && IsOfAnswer(trial, *answer)) return trial.id;
     const double value =
         references[static_cast<std::size_t>(trial.experiment)].Value(trial).value_or(0);
     if (trial.scale_factor != spec.coarse_graining.scale_factor) continue;

@@ -4,6 +4,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/error.h"
+#include "base/text/number_text.h"
+#include "engine/overlap_check.h"
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/rigs/filling/pouring.h"
@@ -20,6 +23,12 @@ engine::Filling FillDensely(const Case& c, const engine::FillRegion& region, std
                                     .max_sweeps = c.rules.fill_max_sweeps,
                                     .seed = c.seed};
   engine::Filling filling = engine::Fill(radii, request);
+  if (filling.max_overlap > engine::kMaxOverlap) {
+    throw base::ConfigError("rules.fill_max_sweeps: is " + std::to_string(request.max_sweeps) +
+                            ", after which grains overlap by " +
+                            base::ShortNumber(filling.max_overlap) +
+                            " of a radius, above the 0.25 that holds; raise it");
+  }
   for (std::size_t i = 0; i < radii.size(); ++i) {
     scene.particles.push_back({.id = first_id + static_cast<std::int64_t>(i),
                                .material = 0,

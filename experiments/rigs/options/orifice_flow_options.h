@@ -37,7 +37,8 @@ struct OrificeFlowOptions {
     problems.Require(!(orifice >= diameter), "orifice", orifice,
                      "must be below the diameter of the cylinder");
     problems.Require(!cone_angle || (*cone_angle > 0 && *cone_angle < std::numbers::pi),
-                     "cone_angle", cone_angle.value_or(0), "must be in (0, 180 deg)");
+                     "cone_angle", cone_angle.value_or(0),
+                     "must be in (0, 180 deg); a bare number is in rad: write \"60 deg\"");
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "base/field.h"
 #include "base/problems.h"
+#include "engine/overlap_check.h"
 #include "experiments/rigs/options/require.h"
 
 namespace talus::rigs {
@@ -60,7 +61,8 @@ struct PhaseRules {
           {.doc = "grains this many largest diameters below the plate leave the scene, > 0"});
   }
   void Validate(base::Problems& problems) const {
-    RequirePositive(problems, "fill_max_overlap", fill_max_overlap);
+    problems.Require(fill_max_overlap > 0 && fill_max_overlap <= engine::kMaxOverlap,
+                     "fill_max_overlap", fill_max_overlap, "must be in (0, 0.25]");
     RequirePositive(problems, "fill_max_sweeps", fill_max_sweeps);
     RequirePositive(problems, "leave_depth", leave_depth);
     if (lift_max_time) RequirePositive(problems, "lift_max_time", *lift_max_time);

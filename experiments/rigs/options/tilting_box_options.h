@@ -40,7 +40,9 @@ struct TiltingBoxOptions {
                      "lip_height", lip_height.value_or(0), "must not be negative, and at most 2 m");
     problems.Require(rate > 0 && std::isfinite(rate), "rate", rate, "must be positive");
     problems.Require(largest_angle > 0 && largest_angle <= std::numbers::pi / 2, "largest_angle",
-                     largest_angle, "must be positive and at most 90 deg");
+                     largest_angle,
+                     "must be positive and at most 90 deg; a bare number is in rad: write "
+                     "\"60 deg\"");
   }
 };
 

@@ -1,6 +1,9 @@
 #include "experiments/trials/optimize/evaluator.h"
 
+#include <cctype>
 #include <cmath>
+#include <csignal>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,9 +17,34 @@ namespace {
 
 constexpr double kLargest = 1e100;  // squares of it are summed up
 
-std::string Excerpt(const std::string& text) {
-  constexpr std::size_t kLongest = 200;
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " …";
+constexpr std::size_t kLongest = 200;  // bytes of an excerpt
+
+bool IsInsideCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+std::string Beginning(const std::string& text) {
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while (end > 0 && IsInsideCharacter(text[end])) --end;
+  return text.substr(0, end) + " …";
+}
+
+// What is printed on standard error says at its end what was wrong.
+std::string Ending(std::string text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  if (text.size() <= kLongest) return text;
+  std::size_t begin = text.size() - kLongest;
+  while (begin < text.size() && IsInsideCharacter(text[begin])) ++begin;
+  return "… " + text.substr(begin);
+}
+
+std::string FailureOf(const runners::ToolResult& result) {
+  const int signal = result.status - 128;
+  const std::string end =
+      signal > 0 && signal < NSIG
+          ? "was ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")"
+          : "exit status " + std::to_string(result.status);
+  const std::string said = Ending(result.errors);
+  return end + (said.empty() ? "" : ": " + said);
 }
 
 AnswerImage TargetImage(const OptimizeTarget& target) {
@@ -54,24 +82,22 @@ std::string Evaluator::InputOf(const Eigen::VectorXd& point, std::uint64_t seed)
   return base::JsonText(input) + "\n";
 }
 
-Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed,
-                         const std::string& mark) const {
+Evaluated Evaluator::Run(const Eigen::VectorXd& point, std::uint64_t seed, const std::string& mark,
+                         const std::function<bool()>& is_stopped) const {
   Evaluated evaluated{.observation = {.point = point}, .failure = {}};
   const runners::ToolResult result = runners::RunTool(command_, {.time_cap = problem_.time_cap,
                                                                  .output_file = {},
                                                                  .input = InputOf(point, seed),
-                                                                 .mark = mark});
+                                                                 .mark = mark,
+                                                                 .is_stopped = is_stopped});
   runners::KillMarked(mark);
-  if (result.status == 127) {
-    throw base::Error("the command cannot be run: " + Excerpt(result.errors));
-  }
+  if (!result.started) throw base::Error("the command cannot be run: " + Ending(result.errors));
   if (result.ok()) {
     const std::string wrong = TakeAnswer(result.output, evaluated.observation);
     if (wrong.empty()) return evaluated;
-    evaluated.failure = "the command's answer " + wrong + "; it wrote: " + Excerpt(result.output);
+    evaluated.failure = "the command's answer " + wrong + "; it wrote: " + Beginning(result.output);
   } else {
-    evaluated.failure =
-        "exit status " + std::to_string(result.status) + ": " + Excerpt(result.errors);
+    evaluated.failure = FailureOf(result);
   }
   evaluated.observation.failed = true;
   return evaluated;

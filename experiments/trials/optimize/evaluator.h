@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +34,11 @@ class Evaluator {
 
   // An exit status other than 0, the time cap and an answer that makes no sense are failures, which
   // are results. What the command has started carries `mark`, see process_guard.h, and has ended
-  // when this returns. Throws base::Error only when the command cannot be started.
-  Evaluated Run(const Eigen::VectorXd& point, std::uint64_t seed, const std::string& mark) const;
+  // when this returns; it is ended once `is_stopped`. Throws base::Error only when the command
+  // cannot be started.
+  Evaluated Run(
+      const Eigen::VectorXd& point, std::uint64_t seed, const std::string& mark,
+      const std::function<bool()>& is_stopped = [] { return false; }) const;
 
  private:
   // What is wrong with the answer, in words; empty when it was taken.

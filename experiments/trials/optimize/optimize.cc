@@ -1,9 +1,11 @@
 #include "experiments/trials/optimize/optimize.h"
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -21,6 +23,7 @@ using json = nlohmann::ordered_json;
 
 // Nothing has worked by then: the command is wrong, not the parameters.
 constexpr int kHopeless = 8;
+constexpr const char* kInterrupted = "interrupted";
 
 class OptimizeLoop {
  public:
@@ -35,7 +38,7 @@ class OptimizeLoop {
     processes_.emplace();  // after the folder, whose lock it keeps until all has ended
   }
 
-  std::string Run() {
+  OptimizeEnd Run() {
     TellRecorded();
     std::string stopped = num_told() == 0 ? "" : WhyStop(false);
     while (stopped.empty()) {
@@ -48,14 +51,14 @@ class OptimizeLoop {
     const std::string result =
         base::JsonText(OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped), 2) + "\n";
     if (folder_) folder_->WriteResult(result);
-    return result;
+    return {.result = result, .interrupted = stopped == kInterrupted};
   }
 
  private:
   int num_told() const { return tally_.num_evaluations; }
 
   std::string WhyStop(bool nothing_left) {
-    if (guard_.Asked() != base::Interrupt::kNone) return "interrupted";
+    if (guard_.Asked() != base::Interrupt::kNone) return kInterrupted;
     if (num_told() >= problem_.evaluations) return "all evaluations are used";
     if (nothing_left) return "the strategy has no more points";
     const auto reason = strategy_->WhyStop();
@@ -84,7 +87,8 @@ class OptimizeLoop {
     }
     const Evaluated evaluated =
         evaluator_.Run(point, problem_.seed * 1000003 + static_cast<std::uint64_t>(number),
-                       processes_->MarkOf(number));
+                       processes_->MarkOf(number), [this] { return IsDropped(); });
+    if (IsDropped()) throw base::Interrupted("interrupted; the same command goes on");
     const int width = evaluator_.field() == nullptr ? 0 : evaluator_.field()->width;
     if (folder_) folder_->Record(number, evaluated, width);
     return evaluated;
@@ -99,9 +103,20 @@ class OptimizeLoop {
         return Evaluate(point, number);
       }));
     }
-    for (auto& one : running) one.wait();
+    for (auto& one : running) Await(one, running.size());
     for (auto& one : running) Tell(one.get());
     if (num_told() >= kHopeless && tally_.num_failed == num_told()) AllFailed();
+  }
+
+  bool IsDropped() const { return guard_.Asked() == base::Interrupt::kDrop; }
+
+  void Await(std::future<Evaluated>& one, std::size_t num_running) {
+    constexpr std::chrono::milliseconds kPause{50};
+    while (one.wait_for(kPause) != std::future_status::ready) {
+      if (guard_.Asked() == base::Interrupt::kNone || std::exchange(announced_, true)) continue;
+      std::cerr << "ends when the " << num_running
+                << " running evaluations have ended; press Ctrl-C again to drop them" << std::endl;
+    }
   }
 
   [[noreturn]] void AllFailed() const {
@@ -138,11 +153,12 @@ class OptimizeLoop {
   base::InterruptGuard guard_;
   SearchTally tally_;
   std::string last_failure_;
+  bool announced_ = false;
 };
 
 }  // namespace
 
-std::string Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
+OptimizeEnd Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
                      const OptimizeOutput& output) {
   return OptimizeLoop(problem, command, output).Run();
 }

@@ -16,8 +16,13 @@ struct OptimizeOutput {
   bool quiet = false;  // no progress on standard error
 };
 
-// The recommendation as JSON: docs/optimize.md lists the keys.
-std::string Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
+struct OptimizeEnd {
+  std::string result;        // the recommendation as JSON: docs/optimize.md lists the keys
+  bool interrupted = false;  // by Ctrl-C: more could be asked
+};
+
+// Throws base::Interrupted after a second Ctrl-C or SIGTERM, which end the evaluations at once.
+OptimizeEnd Optimize(const OptimizeProblem& problem, const std::vector<std::string>& command,
                      const OptimizeOutput& output);
 
 }  // namespace talus::trials

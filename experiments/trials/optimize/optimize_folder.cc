@@ -23,6 +23,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr const char* kProblem = "problem.json";
+constexpr const char* kRecommendation = "result.json";
 constexpr const char* kLog = "evaluations.jsonl";
 constexpr const char* kImageChecksum = "image_checksum_xxh3";
 
@@ -37,7 +38,22 @@ int Open(const std::filesystem::path& path, int flags) {
 // What must stay the same for the recorded evaluations to count.
 json Lasting(json problem) {
   for (const char* key : {"evaluations", "workers", "time_cap", "time_cap_s"}) problem.erase(key);
+  // By what was read, not by the name of the file.
+  if (problem.contains("target")) problem["target"].erase("profile");
+  problem.erase("candidates");
   return problem;
+}
+
+// Checksums of the files that the problem names.
+json ReadFiles(const OptimizeProblem& problem) {
+  json read = json::object();
+  if (problem.target && !problem.target->profile.empty()) {
+    read["target"] = ChecksumOf(base::ReadFile(problem.target->profile));
+  }
+  if (!problem.space.candidates.empty()) {
+    read["candidates"] = ChecksumOf(base::ReadFile(problem.space.candidates));
+  }
+  return read;
 }
 
 std::vector<double> ToList(const Eigen::VectorXd& point) { return {point.begin(), point.end()}; }
@@ -61,6 +77,7 @@ OptimizeFolder::OptimizeFolder(std::filesystem::path root, const OptimizeProblem
   }
   CheckProblem(command);
   Load();
+  std::filesystem::remove(root_ / kRecommendation);  // of a search that had ended, and goes on
   log_ = Open(root_ / kLog, O_WRONLY | O_APPEND);
 }
 
@@ -72,21 +89,27 @@ OptimizeFolder::~OptimizeFolder() {
 void OptimizeFolder::CheckProblem(const std::vector<std::string>& command) const {
   const std::filesystem::path path = root_ / kProblem;
   const json now = base::ToJson(problem_);
+  const json read = ReadFiles(problem_);
   if (std::filesystem::exists(path)) {
     const std::string bytes = base::ReadFile(path);
-    const std::string text = base::CheckedText(bytes, path.string()).value_or(bytes);
-    const json before = json::parse(text, nullptr, false);
+    const std::optional<std::string> text = base::IfWhole(bytes);
+    const json before = json::parse(text.value_or(""), nullptr, false);
     if (!before.is_object() || !before.contains("problem")) {
       throw base::ConfigError(path.string() + ": is damaged; give another folder as --out");
     }
-    if (Lasting(before["problem"]) != Lasting(now)) {
+    if (Lasting(before["problem"]) != Lasting(now) || before["read"] != read) {
       throw base::ConfigError(root_.string() +
                               ": holds a search of another problem (see its problem.json); only "
                               "evaluations, workers and time_cap may change. Give another folder "
                               "as --out");
     }
+    if (before["command"] != json(command)) {
+      throw base::ConfigError(root_.string() + ": holds what another command has answered, " +
+                              base::JsonText(before["command"]) +
+                              "; give that one, or another folder as --out");
+    }
   }
-  const json both{{"problem", now}, {"command", command}};
+  const json both{{"problem", now}, {"read", read}, {"command", command}};
   base::WriteFileAtomically(path, base::WithChecksum(base::JsonText(both, 2) + "\n"));
 }
 
@@ -173,7 +196,7 @@ void OptimizeFolder::Record(int number, const Evaluated& evaluated, int image_wi
 }
 
 void OptimizeFolder::WriteResult(const std::string& json) const {
-  base::WriteFileAtomically(root_ / "result.json", base::WithChecksum(json));
+  base::WriteFileAtomically(root_ / kRecommendation, base::WithChecksum(json));
 }
 
 }  // namespace talus::trials

@@ -131,10 +131,11 @@ int Count(const std::string& text, const std::string& part) {
 class BatchesTest : public campaign::CampaignFixture {
  protected:
   // A campaign that has met a heap of these, from which so much has fallen.
-  fs::path Run(const std::string& name, double sliding, const std::string& fallen = "23 mg") const {
+  fs::path Run(const std::string& name, double sliding, const std::string& fallen = "23 mg",
+               const std::string& more = "") const {
     const fs::path spec = campaign::WriteFakeSpec(scratch_.path() / (name + "_in"),
                                                   R"(, "budget": {"simulations": 24},
-        "confirm": {"candidates": 0}, "workers": 1)");
+        "confirm": {"candidates": 0}, "workers": 1)" + more);
     imaging::WritePng(spec.parent_path() / "map.png", campaign::DrawHeap(sliding, 0.2, 12345));
     std::string text = base::ReadFile(spec);
     const auto replace = [&](const std::string& from, const std::string& to) {
@@ -193,10 +194,36 @@ TEST_F(BatchesTest, WhatWasWeighedIsComparedToo) {
   EXPECT_THAT(BatchesPage(c), HasSubstr("Numbers measured"));
 }
 
+// A difference of the parameters may come of another device, or of a campaign that warns of itself.
+TEST_F(BatchesTest, WhatSpeaksAgainstAComparisonIsSaid) {
+  const fs::path first = Run("first", 0.4);
+  const BatchComparison alike = CompareBatches({first, Run("equal", 0.4)}, {});
+  EXPECT_THAT(BatchesText(alike), testing::Not(HasSubstr("other conditions")));
+  const fs::path slow = Run("slow", 0.4, "23 mg", R"(, "device": {"lift_velocity": "2 cm/s"})");
+  const BatchComparison c = CompareBatches({first, slow}, {});
+  EXPECT_THAT(BatchesText(c), HasSubstr("slow: other conditions than in"));
+  EXPECT_THAT(BatchesText(c), HasSubstr("lift_velocity is 0.01 there and 0.02 here"));
+  EXPECT_THAT(BatchesPage(c), HasSubstr("lift_velocity"));
+  std::size_t num_alarms = 0;
+  for (const fs::path& folder : {first, slow}) {
+    for (const campaign::Alarm& alarm : Result(folder).warnings) {
+      EXPECT_THAT(BatchesText(c), HasSubstr(campaign::AlarmText(alarm)));
+      ++num_alarms;
+    }
+  }
+  EXPECT_GT(num_alarms, 0u);
+}
+
 TEST_F(BatchesTest, OtherParametersAreRefused) {
   const fs::path first = Run("first", 0.4);
   EXPECT_THROW(CompareBatches({first, first}, {{"slidin_friction", "0.1"}}), base::ConfigError);
   EXPECT_THROW(CompareBatches({first, first}, {{"sliding_friction", "-1"}}), base::ConfigError);
+  try {
+    CompareBatches({first, first}, {{"sliding_friction", "wide"}});
+    FAIL();
+  } catch (const base::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("--matters sliding_friction: \"wide\""));
+  }
 }
 
 }  // namespace batches_test

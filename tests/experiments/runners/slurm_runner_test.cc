@@ -300,6 +300,64 @@ TEST_F(SlurmRunnerTest, RefusedBatchIsReportedAndABusyClusterIsTriedAgain) {
   EXPECT_TRUE(finished[0].ok());
 }
 
+TEST_F(SlurmRunnerTest, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
+  SlurmRunner runner(options_, root_ / "campaign");
+  EXPECT_EQ(runner.Trouble(), "");
+  Put("hold_sbatch", "sbatch: error: Unable to contact slurm controller (connect failure)");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  EXPECT_THAT(runner.Trouble(), HasSubstr("Unable to contact slurm controller"));
+  runner.CancelUnsent();
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
+  EXPECT_EQ(runner.Trouble(), "");
+}
+
+// Slurm says the same of a queue that is full for now and of a job that is too large for ever.
+TEST_F(SlurmRunnerTest, AJobThatIsTooLargeIsRefusedOnceNothingElseIsQueued) {
+  SlurmRunner runner(options_, root_ / "campaign");
+  Put("hold_sbatch",
+      "sbatch: error: Job violates accounting/QOS policy (job submit limit, user's size and/or "
+      "time "
+      "limits)");
+  Put("queue", "77|RUNNING|None\n");
+  const Job jobs[] = {Shell(1, "true")};
+  runner.Submit(jobs);
+  EXPECT_TRUE(Finish(runner, 1, 0.5).empty());
+  Put("queue", "");
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("QOS policy"));
+}
+
+// It would count as failed trials of the parameters, and teach the search that they fail.
+TEST_F(SlurmRunnerTest, ASetUpThatFailsIsNoFailureOfTheTrial) {
+  options_.setup = {"echo no such module >&2; exit 1"};
+  SlurmRunner runner(options_, root_ / "campaign");
+  Program("sbatch", std::string(kSbatch).replace(std::string(kSbatch).find(">/dev/null 2>&1; done"),
+                                                 21, R"(>"${2%.sh}-$task.log" 2>&1; done)"));
+  const Job jobs[] = {Shell(1, "touch ran")};
+  runner.Submit(jobs);
+  const auto finished = Finish(runner, 1);
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_EQ(finished[0].end, JobEnd::kNotStarted);
+  EXPECT_THAT(finished[0].reason, HasSubstr("no such module"));
+  EXPECT_FALSE(fs::exists(root_ / "trials/1/ran"));
+}
+
+TEST_F(SlurmRunnerTest, AFolderByAnotherNameHasTheSameJobs) {
+  Put("hold", "");  // the job does not end
+  const Job job = Shell(1, "true");
+  const Job jobs[] = {job};
+  SlurmRunner(options_, root_ / "campaign").Submit(jobs);
+  fs::create_directory_symlink(root_, root_ / "link");
+  Job again = job;
+  again.folder = root_ / "link" / "." / "trials" / "1";
+  EXPECT_TRUE(SlurmRunner(options_, root_ / "link" / "campaign").Adopt(again, ""));
+}
+
 TEST_F(SlurmRunnerTest, CancelledJobIsReportedOnceSlurmHasStoppedIt) {
   Put("hold", "");
   SlurmRunner runner(options_, root_ / "campaign");
@@ -392,6 +450,28 @@ TEST(Tool, GivesOutputStatusAndAnEndToWhatHangs) {
       RunTool({"sleep", "100"}, {.time_cap = 0.1, .output_file = std::filesystem::path()});
   EXPECT_FALSE(hung.ok());
   EXPECT_THAT(hung.errors, HasSubstr("gave no answer in time"));
+}
+
+// What a command leaves in the background keeps its pipes open; what closes them may hang all the
+// same.
+TEST(Tool, WaitsForTheCommandAndForNothingElse) {
+  const auto seconds = [](const std::string& script, const ToolOptions& options,
+                          ToolResult& result) {
+    const auto start = std::chrono::steady_clock::now();
+    result = RunTool({"sh", "-c", script}, options);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  ToolResult result;
+  EXPECT_LT(seconds("sleep 100 & echo out", {.time_cap = 60}, result), 50);
+  EXPECT_EQ(result.output, "out\n");
+  EXPECT_TRUE(result.ok());
+  EXPECT_LT(seconds("exec >&- 2>&-; sleep 100", {.time_cap = 0.2}, result), 50);
+  EXPECT_FALSE(result.ok());
+  int asked = 0;
+  const ToolOptions stopped{.time_cap = 60, .is_stopped = [&] { return ++asked > 3; }};
+  EXPECT_LT(seconds("sleep 100", stopped, result), 50);
+  EXPECT_FALSE(result.ok());
+  EXPECT_THAT(result.errors, HasSubstr("was stopped"));
 }
 
 }  // namespace slurm_runner_test
