@@ -63,8 +63,7 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
     const bool started = asked == base::Interrupt::kNone && StartTrials(interrupt);
     if (MayTell(asked) && TellEnded()) continue;  // what follows is planned before more is told
     if (asked == base::Interrupt::kDrain && !std::exchange(announced, true)) {
-      parts_.runner->CancelUnsent();
-      for (const runners::FinishedJob& job : parts_.runner->Wait(0)) HandleEnd(job);
+      for (const std::int64_t id : parts_.runner->TakeBackUnsent()) running_.erase(id);
       console_.Line("ends when the " + std::to_string(running_.size()) +
                     " running trials have ended; press Ctrl-C again to drop them");
     }
@@ -242,7 +241,6 @@ void Campaign::HandleEnd(const runners::FinishedJob& job) {
   if (found == running_.end()) return;
   journal::TrialRecord trial = std::move(found->second);
   running_.erase(found);
-  if (job.end == runners::JobEnd::kCancelled) return;  // a later process begins it again
   if (job.duration > 0) trial.duration_s = job.duration;
   if (job.cpu_time > 0) trial.cpu_s = job.cpu_time;
   if (!job.host.empty()) trial.host = job.host;

@@ -80,8 +80,9 @@ class Runner {
   // Why jobs that were taken on cannot be begun for now, in words; empty if nothing is the matter.
   virtual std::string Trouble() const { return ""; }
 
-  // Takes back the jobs that a queue has not got yet; Wait reports them as cancelled.
-  virtual void CancelUnsent() {}
+  // Takes back the jobs that a queue has not got yet, and returns their ids: Wait does not report
+  // them.
+  virtual std::vector<std::int64_t> TakeBackUnsent() { return {}; }
 };
 
 // What Open MPI must be told where several trials share a machine. It would bind the ranks of each

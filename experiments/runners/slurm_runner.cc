@@ -385,12 +385,13 @@ std::string SlurmRunner::Trouble() const {
   return "sbatch: " + refusal_ + "; it is asked again and again";
 }
 
-void SlurmRunner::CancelUnsent() {
+std::vector<std::int64_t> SlurmRunner::TakeBackUnsent() {
   std::vector<std::int64_t> unsent;
   for (const auto& [id, task] : tasks_) {
     if (task.array.empty()) unsent.push_back(id);
   }
-  for (const std::int64_t id : unsent) Cancel(id);
+  for (const std::int64_t id : unsent) tasks_.erase(id);
+  return unsent;
 }
 
 }  // namespace talus::runners

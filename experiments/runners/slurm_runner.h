@@ -32,7 +32,7 @@ class SlurmRunner : public Runner {
   std::vector<FinishedJob> Wait(double seconds) override;
   void Cancel(std::int64_t id) override;
   std::string Trouble() const override;
-  void CancelUnsent() override;
+  std::vector<std::int64_t> TakeBackUnsent() override;
 
  private:
   using Clock = std::chrono::steady_clock;

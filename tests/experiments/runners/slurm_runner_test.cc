@@ -307,11 +307,11 @@ TEST_F(SlurmRunnerTest, WhatABusyClusterHasNotTakenIsSaidAndMayBeTakenBack) {
   const Job jobs[] = {Shell(1, "true")};
   runner.Submit(jobs);
   EXPECT_THAT(runner.Trouble(), HasSubstr("Unable to contact slurm controller"));
-  runner.CancelUnsent();
-  const auto finished = Finish(runner, 1);
-  ASSERT_EQ(finished.size(), 1u);
-  EXPECT_EQ(finished[0].end, JobEnd::kCancelled);
+  EXPECT_THAT(runner.TakeBackUnsent(), ElementsAre(1));
   EXPECT_EQ(runner.Trouble(), "");
+  fs::remove(root_ / "hold_sbatch");
+  EXPECT_TRUE(Finish(runner, 1, 0.3).empty());
+  EXPECT_FALSE(fs::exists(root_ / "submitted"));
 }
 
 // Slurm says the same of a queue that is full for now and of a job that is too large for ever.
