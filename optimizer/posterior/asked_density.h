@@ -21,9 +21,6 @@
 
 namespace talus::optimizer {
 
-// ln p of points of the unit cube, one a row, up to a constant.
-using LogDensityFunction = std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>;
-
 class AskedDensity {
  public:
   // `joint`: a sample of the density over all that is searched.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "base/median.h"
 
@@ -10,7 +11,8 @@ namespace talus::optimizer {
 namespace {
 
 constexpr int kDrawsApart = 300;
-constexpr double kReach = 0.35;       // between draws that are tried to be joined, unit cube
+constexpr double kReach = 0.35;       // between draws that are tried first, unit cube
+constexpr int kTriesFar = 10;         // of two parts that are further apart
 constexpr int kMostTries = 2000;      // of midpoints, each a density
 constexpr double kLeastShare = 0.02;  // of the draws
 constexpr double kDip = 1.0;  // in ln density: a dip by less is the surrogate's own unevenness
@@ -36,15 +38,14 @@ struct Pair {
   std::size_t b = 0;
 };
 
-// `places`: the draws' coordinates that are asked for.
-std::vector<Pair> NearPairs(const Eigen::MatrixXd& places) {
+// All, the nearest first. `places`: the draws' coordinates that are asked for.
+std::vector<Pair> PairsByDistance(const Eigen::MatrixXd& places) {
   std::vector<Pair> pairs;
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
-      const double distance = (places.row(i) - places.row(j)).norm();
-      if (distance < kReach) {
-        pairs.push_back({distance, static_cast<std::size_t>(i), static_cast<std::size_t>(j)});
-      }
+      pairs.push_back({.distance = (places.row(i) - places.row(j)).norm(),
+                       .a = static_cast<std::size_t>(i),
+                       .b = static_cast<std::size_t>(j)});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
@@ -96,12 +97,18 @@ std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
   density = Eigen::VectorXd(density(inside));
   Components components(inside.size());
   int tries = 0;
-  for (const Pair& pair : NearPairs(places)) {
-    if (components.Root(pair.a) == components.Root(pair.b)) continue;
+  // Of many parameters few draws have a neighbour within reach. What is left apart then is tried
+  // further, a pair of each two parts: a way that leaves the region between all others proves
+  // little.
+  std::map<std::pair<std::size_t, std::size_t>, int> tried;
+  for (const Pair& pair : PairsByDistance(places)) {
+    std::size_t a = components.Root(pair.a);
+    std::size_t b = components.Root(pair.b);
+    if (a == b) continue;
+    if (a > b) std::swap(a, b);
+    if (pair.distance >= kReach && ++tried[{a, b}] > kTriesFar) continue;
     if (++tries > kMostTries) break;
-    if (IsJoined(posterior, draws, pair, sample.region_log_density)) {
-      components.Join(pair.a, pair.b);
-    }
+    if (IsJoined(posterior, draws, pair, sample.region_log_density)) components.Join(a, b);
   }
   std::map<std::size_t, std::vector<Eigen::Index>> members;
   for (std::size_t i = 0; i < inside.size(); ++i) {

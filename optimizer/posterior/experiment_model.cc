@@ -27,12 +27,18 @@ double SurrogateCaution(double num_finest) {
   return kOfMany * std::sqrt(1 + kFew / std::max(1.0, num_finest));
 }
 
+void ExperimentModel::TakeForFinest(double times) {
+  constexpr double kMostBeyond = 6;  // bench/optimizers/RECORD.md
+  const double num = times * num_finest_;
+  caution_ = SurrogateCaution(setup_.levels->is_extrapolated() ? std::min(num, kMostBeyond) : num);
+}
+
 ExperimentModel::ExperimentModel(const Setup& setup, const OutputData& data,
                                  const OutputState* frozen)
     : setup_(setup),
       outputs_({.levels = *setup.levels, .scalars = setup.target->scalars}, data, frozen) {
   num_finest_ = static_cast<double>(std::ranges::count(data.level, setup_.levels->finest()));
-  caution_ = SurrogateCaution(num_finest_);
+  TakeForFinest(1);
   measured_ = Eigen::VectorXd::Zero(num_outputs());
   error_ = Eigen::VectorXd::Ones(num_outputs());
   matched_ = Eigen::VectorXd::Ones(num_outputs());

@@ -21,7 +21,9 @@ namespace talus::optimizer {
 
 // The surrogate's sd is taken for so many times as large in the misfit: point-estimated
 // hyper-parameters and constant noise make it overconfident where the posterior selects, the more
-// the fewer evaluations there are at the finest scale factor (bench/optimizers/README.md).
+// the fewer evaluations there are at the finest scale factor (bench/optimizers/README.md). Where
+// the target is finer still, no number of them tells how the discrepancy goes on: six count at
+// most.
 double SurrogateCaution(double num_finest);
 
 // Misfit of the predicted outputs from the measured ones, one point a row.
@@ -123,7 +125,7 @@ class ExperimentModel {
   // From now on the surrogate is trusted as one of so many times the evaluations at the finest
   // scale factor.
   double caution() const { return caution_; }
-  void TakeForFinest(double times) { caution_ = SurrogateCaution(times * num_finest_); }
+  void TakeForFinest(double times);
 
   double weight() const { return setup_.target->weight; }
   bool has_image() const { return setup_.code != nullptr; }
@@ -134,7 +136,7 @@ class ExperimentModel {
   // Without the implausibility, which wants the posterior's temper.
   ExperimentStanding StandingAt(const Eigen::VectorXd& x) const;
 
-  // Each scalar at the target, expected and its surrogate's sd, in its own unit; one a column.
+  // Each scalar at the target, its median and its surrogate's sd, in its own unit; one a column.
   std::vector<Moments> Scalars(const Eigen::MatrixXd& points) const;
 
   // The outputs of one simulation: the coefficients of its image and its numbers, compressed; NaN

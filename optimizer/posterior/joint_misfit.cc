@@ -35,6 +35,7 @@ void JointMisfit::Temper(const Eigen::MatrixXd& stacked) {
     misfits.push_back((inverse_root_ * z).squaredNorm() / share);
   }
   coverage_.count = static_cast<int>(misfits.size());
+  if (misfits.empty()) return;
   const double expected = RobustQuantile(stacked.cols(), kRegion);
   const auto covered = [&](double temper) {
     return static_cast<double>(std::count_if(misfits.begin(), misfits.end(),

@@ -1,13 +1,10 @@
 #include "optimizer/posterior/posterior.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "base/random.h"
-#include "optimizer/designs/r_sequence.h"
+#include "optimizer/posterior/importance_sample.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::optimizer {
@@ -65,77 +62,6 @@ std::vector<int> TestOfOutputs(const std::vector<ExperimentModel>& models) {
   return test;
 }
 
-// Draws round weighted points: a mixture of normal kernels, whose density can be asked.
-class KernelMixture {
- public:
-  KernelMixture(Eigen::MatrixXd centres, const Eigen::MatrixXd& covariance)
-      : centres_(std::move(centres)), factor_(covariance) {}
-
-  Eigen::MatrixXd Draw(Eigen::Index count, base::Random& random) const {
-    Eigen::MatrixXd points(count, centres_.cols());
-    for (Eigen::Index i = 0; i < count; ++i) {
-      Eigen::VectorXd z(centres_.cols());
-      for (double& one : z) one = random.Normal();
-      points.row(i) = centres_.row(i % centres_.rows()) + (factor_.matrixL() * z).transpose();
-    }
-    return points;
-  }
-
-  // One a row.
-  Eigen::VectorXd LogDensity(const Eigen::MatrixXd& points) const {
-    const double log_root = Eigen::MatrixXd(factor_.matrixL()).diagonal().array().log().sum();
-    const double log_root_two_pi = 0.5 * std::log(2 * std::numbers::pi);
-    const double constant = -log_root - log_root_two_pi * static_cast<double>(centres_.cols()) -
-                            std::log(static_cast<double>(centres_.rows()));
-    const Eigen::MatrixXd white = factor_.matrixL().solve(points.transpose());
-    const Eigen::MatrixXd centres = factor_.matrixL().solve(centres_.transpose());
-    Eigen::VectorXd density(points.rows());
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      const Eigen::VectorXd squared =
-          (centres.colwise() - white.col(i)).colwise().squaredNorm().transpose();
-      density[i] = constant + LogSumExp(-0.5 * squared);
-    }
-    return density;
-  }
-
- private:
-  Eigen::MatrixXd centres_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-};
-
-// A round's proposal, and how many draws are from it.
-struct Round {
-  KernelMixture mixture;
-  double num_draws = 0;
-};
-
-// Log density of each point (rows) in each round (columns), times its draws. `known` has the
-// earlier points in the earlier rounds, which are most of the pairs.
-Eigen::MatrixXd LogsIn(const std::vector<Round>& rounds, const Eigen::MatrixXd& points,
-                       const Eigen::MatrixXd& known) {
-  Eigen::MatrixXd logs(points.rows(), static_cast<Eigen::Index>(rounds.size()));
-  logs.topLeftCorner(known.rows(), known.cols()) = known;
-  for (Eigen::Index m = 0; m < logs.cols(); ++m) {
-    const Round& round = rounds[static_cast<std::size_t>(m)];
-    const Eigen::Index left = points.rows() - (m < known.cols() ? known.rows() : 0);
-    logs.col(m).tail(left) =
-        round.mixture.LogDensity(points.bottomRows(left)).array() + std::log(round.num_draws);
-  }
-  return logs;
-}
-
-KernelMixture MixtureOf(const Eigen::MatrixXd& points, const Eigen::VectorXd& weight,
-                        base::Random& random) {
-  constexpr int kCentres = 120;
-  constexpr double kWidth = 0.25;  // of the sample's own sd: a curved valley stays thin
-  const Eigen::RowVectorXd mean = weight.transpose() * points;
-  const Eigen::MatrixXd centred = points.rowwise() - mean;
-  Eigen::MatrixXd covariance =
-      kWidth * kWidth * centred.transpose() * weight.asDiagonal() * centred;
-  covariance.diagonal().array() += 1e-6;
-  return {points(Resample(weight, kCentres, random), Eigen::all), covariance};
-}
-
 }  // namespace
 
 Posterior::Posterior(std::vector<ExperimentModel> models, const std::vector<OutputData>& data,
@@ -184,46 +110,9 @@ Eigen::VectorXd Posterior::LogDensity(const std::vector<OutputMoments>& outputs,
 
 PosteriorSample Posterior::Sample(const Domain& domain, int num_start, double softness,
                                   std::uint64_t seed) const {
-  constexpr std::size_t kRounds = 4;
-  constexpr double kEnough = 600;  // effective draws
-  base::Random random(seed, base::Stream("posterior"));
-  PosteriorSample sample;
-  sample.points = Inside(domain, RSequence(num_start, domain.num_parameters, seed));
-  const double share_inside = static_cast<double>(sample.points.rows()) / num_start;
-  const auto first = static_cast<double>(sample.points.rows());
-  const int num_prior = prior_.IsUniform() ? 0 : num_start;
-  sample.points = optimizer::Stack(
-      sample.points, Inside(domain, prior_.Draw(num_prior, domain.num_parameters, seed)));
-  sample.log_density = LogDensity(sample.points, softness);
-  std::vector<Round> rounds;
-  Eigen::MatrixXd in_rounds(sample.points.rows(), 0);
-  for (;;) {
-    // Balance heuristic: the proposal is the mixture of all rounds.
-    Eigen::MatrixXd logs(sample.points.rows(), in_rounds.cols() + (num_prior > 0 ? 2 : 1));
-    logs.col(0).setConstant(std::log(first / share_inside));
-    logs.middleCols(1, in_rounds.cols()) = in_rounds;
-    if (num_prior > 0) {
-      logs.rightCols(1) = prior_.LogDensity(sample.points).array() + std::log(1.0 * num_prior);
-    }
-    Eigen::VectorXd log_volume(sample.points.rows());
-    for (Eigen::Index i = 0; i < logs.rows(); ++i) log_volume[i] = -LogSumExp(logs.row(i));
-    const Eigen::VectorXd log_weight = sample.log_density + log_volume;
-    sample.volume = log_volume.array().exp();
-    sample.weight = (log_weight.array() - LogSumExp(log_weight)).exp();
-    if (rounds.size() == kRounds || 1 / sample.weight.squaredNorm() > kEnough) break;
-    rounds.push_back({.mixture = MixtureOf(sample.points, sample.weight, random)});
-    const Eigen::MatrixXd drawn = rounds.back().mixture.Draw(num_start / 2, random);
-    rounds.back().num_draws = static_cast<double>(drawn.rows());
-    const Eigen::MatrixXd more = Inside(domain, drawn);
-    const Eigen::Index before = sample.points.rows();
-    sample.points.conservativeResize(before + more.rows(), Eigen::NoChange);
-    sample.points.bottomRows(more.rows()) = more;
-    sample.log_density.conservativeResize(before + more.rows());
-    sample.log_density.tail(more.rows()) = LogDensity(more, softness);
-    in_rounds = LogsIn(rounds, sample.points, in_rounds);
-  }
-  sample.SetRegion();
-  return sample;
+  const auto density = [&](const Eigen::MatrixXd& points) { return LogDensity(points, softness); };
+  return SampleByImportance(density, {.domain = &domain, .prior = &prior_, .num_start = num_start},
+                            seed);
 }
 
 double Posterior::Implausibility(std::size_t experiment, const Eigen::VectorXd& x) const {

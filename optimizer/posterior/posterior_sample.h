@@ -3,11 +3,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/random.h"
 
 namespace talus::optimizer {
+
+// ln p of points of the unit cube, one a row, up to a constant.
+using LogDensityFunction = std::function<Eigen::VectorXd(const Eigen::MatrixXd&)>;
 
 // ln Σ exp(x)
 double LogSumExp(const Eigen::VectorXd& x);

@@ -33,7 +33,8 @@ Feasibility::Feasibility(const History& history) {
   // where nothing is known, evaluations work.
   const surrogate::GaussianProcessState state{
       .hyper = {.length = Eigen::VectorXd::Constant(points.cols(), 0.25),
-                .noise = Eigen::VectorXd::Constant(1, 0.3)},
+                .noise = Eigen::VectorXd::Constant(1, 0.3),
+                .constant = 0},
       .centre = 1,
       .scale = 0.5};
   process_ =

@@ -98,9 +98,27 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   }
 }
 
+// Of the evaluations that are fitted to: images that are all the same have no modes, and a number
+// that is undefined in all of them, or in all but one, no surrogate.
+bool PosteriorStrategy::HasOutputs(const OutputData& data) {
+  const auto count = static_cast<std::size_t>(SizeToFit(data.size(), kFewest));
+  const auto vectors = std::span(data.vectors).first(std::min(count, data.vectors.size()));
+  const bool images_differ = std::ranges::any_of(
+      vectors, [&](const Eigen::VectorXd& vector) { return vector != vectors.front(); });
+  const auto scalars = std::span(data.scalars).first(count);
+  const std::size_t num_scalars = scalars.front().size();
+  for (std::size_t s = 0; s < num_scalars; ++s) {
+    const auto num_defined = std::ranges::count_if(
+        scalars, [&](const std::vector<double>& all) { return std::isfinite(all[s]); });
+    if (num_defined < 2) return false;
+  }
+  return images_differ || num_scalars > 0;
+}
+
 bool PosteriorStrategy::CanModel() const {
-  return std::all_of(told_.begin(), told_.end(),
-                     [](const Told& told) { return told.size() >= kFewest; });
+  return std::all_of(told_.begin(), told_.end(), [](const Told& told) {
+    return told.size() >= kFewest && HasOutputs(told.by_code[told.code()]);
+  });
 }
 
 ExperimentModel::Setup PosteriorStrategy::SetupOf(std::size_t experiment) const {

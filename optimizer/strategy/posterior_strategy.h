@@ -98,6 +98,7 @@ class PosteriorStrategy : public Strategy {
 
   static constexpr int kFewest = 6;  // evaluations of an experiment that a model can stand on
 
+  static bool HasOutputs(const OutputData& data);
   Proposal Next(std::span<const Proposal> asked);
   // Whether the stopping rule has something to judge.
   bool HasDesign();

@@ -43,7 +43,7 @@ double Covariance::TargetValue(const PairTerms& terms) const {
 }
 
 double Covariance::Value(const PairTerms& terms) const {
-  const double target = kConstantSd * kConstantSd + terms.target_share * TargetValue(terms);
+  const double target = hyper_.constant * hyper_.constant + terms.target_share * TargetValue(terms);
   if (terms.shared_growth == 0) return target;
   const double u = hyper_.scale->discrepancy;
   return target + terms.shared_growth * u * u * (1 + terms.p / 2 + terms.discrepancy_rho.value);
@@ -85,7 +85,7 @@ Eigen::ArrayXd Covariance::Column(const CovarianceRows& rows, Eigen::Index count
   Eigen::ArrayXd value = hyper_.trend * hyper_.trend * (p + p * p) +
                          hyper_.signal * hyper_.signal * CorrelationsAt(kernel_, q);
   if (hyper_.scale) value *= rows.TargetShares(growth, count);
-  value += kConstantSd * kConstantSd;
+  value += hyper_.constant * hyper_.constant;
   if (!hyper_.scale || growth == 0 || !rows.any_growth()) return value;
   const ScaleTerm& scale = *hyper_.scale;
   const Eigen::ArrayXd rho = CorrelationsAt(kernel_, q / (scale.length_ratio * scale.length_ratio));

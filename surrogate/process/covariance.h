@@ -29,9 +29,6 @@
 
 namespace talus::surrogate {
 
-// c: wide enough that the mean of the values costs nothing, since they are scaled to mean 0.
-inline constexpr double kConstantSd = 2;
-
 // Points as columns, d × n, so that one point is contiguous, and the growth g of each.
 struct Sites {
   Eigen::MatrixXd columns;

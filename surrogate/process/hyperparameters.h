@@ -19,6 +19,9 @@ struct ScaleTerm {
   double length_ratio = 1;   // λ
 };
 
+// Wide enough that the mean of the values costs nothing, since they are scaled to mean 0.
+inline constexpr double kConstantSd = 2;
+
 // Standard deviations in units of the scaled values; lengths in warped coordinates.
 struct Hyperparameters {
   Eigen::VectorXd length = {};  // ℓ, one a coordinate
@@ -27,6 +30,7 @@ struct Hyperparameters {
   Eigen::VectorXd noise = {};   // n of one evaluation, one a scale factor
   Eigen::VectorXd warp = {};    // strength of each coordinate (warp.h); empty: none
   std::optional<ScaleTerm> scale = {};
+  double constant = kConstantSd;  // c; 0: values that are far from all others go to the centre
 };
 
 struct LogNormal {

@@ -137,6 +137,16 @@ TEST(AskedDensity, BranchesAreOfWhatIsAskedFor) {
   EXPECT_NEAR(branches[0].point[0], 0.5, 0.05);
 }
 
+// Of six parameters no draw of 300 has a neighbour within a third of the ranges.
+TEST(AskedDensity, ABroadRegionOfManyParametersIsOneBranch) {
+  const auto flat = [](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
+    return Eigen::VectorXd::Zero(x.rows());
+  };
+  const PosteriorSample joint = SampleOf(flat, 6);
+  const AskedDensity asked(flat, {.num_parameters = 6}, joint, 1);
+  EXPECT_EQ(FindBranches(asked, asked.Sample(joint), 1).size(), 1u);
+}
+
 TEST(AskedDensity, WithoutNuisancesIsTheDensityItself) {
   const Normal normal = Correlated();
   const Domain domain{.num_parameters = 4};

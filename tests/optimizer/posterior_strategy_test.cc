@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/random.h"
 #include "optimizer/designs/design.h"
@@ -313,6 +314,21 @@ TEST(PosteriorStrategy, FailedSimulationsAreNotProposedAgain) {
     }
   }
   EXPECT_LT(strategy->Recommend().point[0], 0.7);
+}
+
+// A drum that never shows a surface has no angle: the search goes on with its design, and answers
+// what it can.
+TEST(PosteriorStrategy, ANumberThatIsNeverDefinedEndsNoSearch) {
+  const Twin twin;
+  auto strategy = twin.Make();
+  for (int i = 0; i < 24; ++i) {
+    Observation told = twin.Simulate(strategy->AskAt(1, {}).front(), i);
+    if (i < 16) told.scalars[1] = std::numeric_limits<double>::quiet_NaN();
+    strategy->Tell(told);
+    if (i != 15) continue;
+    EXPECT_FALSE(strategy->Recommend().posterior.has_value());
+  }
+  EXPECT_TRUE(strategy->Recommend().posterior.has_value());
 }
 
 TEST(PosteriorStrategy, TwoExperimentsAreEachSimulatedAndDecideTogether) {

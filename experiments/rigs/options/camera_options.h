@@ -64,7 +64,7 @@ struct CameraOptions {
     problems.RequireFromTo("frames", frames, 1, kMostFrames);
     problems.Require((interval > 0 && std::isfinite(interval)) || (frames == 1 && interval == 0),
                      "interval", interval,
-                     "must be positive: pictures at one time are one picture");
+                     "must be given and positive: pictures at one time are one picture");
     ValidateTimes(problems);
     problems.Require(start >= 0 && std::isfinite(start), "start", start, "must not be negative");
     problems.Require(closing >= 0 && std::isfinite(closing), "closing", closing,
