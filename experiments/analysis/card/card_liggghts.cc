@@ -3,6 +3,7 @@
 // state them or mixed here by (P5).
 #include <sstream>
 
+#include "base/prime.h"
 #include "base/text/name.h"
 #include "experiments/analysis/card/card_formats.h"
 
@@ -88,27 +89,14 @@ std::string LiggghtsWalls(const Card& card, const std::string& model) {
   return text;
 }
 
-// LIGGGHTS wants primes above 10 000, each once.
-int NextSeed(int seed) {
-  const auto is_prime = [](int n) {
-    for (int i = 2; i * i <= n; ++i) {
-      if (n % i == 0) return false;
-    }
-    return true;
-  };
-  do ++seed;
-  while (!is_prime(seed));
-  return seed;
-}
-
 // particledistribution/discrete weighs its templates by mass.
 std::string LiggghtsSizes(const Card& card) {
   std::string templates;
   std::string distribution;
-  int seed = 10000;
+  std::uint64_t seed = 10000;  // LIGGGHTS wants primes above, each once
   for (std::size_t i = 0; i < card.sizes.size(); ++i) {
     const std::string id = "grain" + std::to_string(i + 1);
-    seed = NextSeed(seed);
+    seed = base::PrimeFrom(seed + 1);
     templates += "# fix " + id + " all particletemplate/sphere " + std::to_string(seed) +
                  " atom_type 1 density constant " +
                  CardNumber(card.materials.front().material.density) + " radius constant " +
@@ -116,8 +104,8 @@ std::string LiggghtsSizes(const Card& card) {
     distribution += " " + id + " " + CardNumber(card.sizes[i].volume_share);
   }
   return "# grains:\n" + templates + "# fix grains all particledistribution/discrete " +
-         std::to_string(NextSeed(seed)) + " " + std::to_string(card.sizes.size()) + distribution +
-         "\n";
+         std::to_string(base::PrimeFrom(seed + 1)) + " " + std::to_string(card.sizes.size()) +
+         distribution + "\n";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "base/prime.h"
 #include "base/random.h"
 #include "base/text/number_text.h"
 #include "engine/scene/size_distribution.h"
@@ -16,19 +17,10 @@ namespace {
 // LAMMPS and LIGGGHTS refuse seeds from 900 million on, and 0.
 std::uint64_t PlainSeed(std::uint64_t seed) { return 1 + seed % 899999999; }
 
-bool IsPrime(std::uint64_t n) {
-  for (std::uint64_t d = 2; d * d <= n; ++d) {
-    if (n % d == 0) return false;
-  }
-  return n > 1;
-}
-
 // LIGGGHTS wants primes above 10000. Seeds that follow each other must not meet in one prime, so
 // that they are scattered first.
 std::uint64_t PrimeSeed(std::uint64_t seed) {
-  std::uint64_t prime = 10007 + base::Mix64(seed) % 800000000;
-  while (!IsPrime(prime)) ++prime;
-  return prime;
+  return base::PrimeFrom(10007 + base::Mix64(seed) % 800000000);
 }
 
 using Scalars = std::map<std::string, std::string, std::less<>>;

@@ -148,7 +148,7 @@ void RequireOwnFolder(const RunJob& job, const fs::path& folder) {
 
 // "heap.vtp", "state_0001.vtp", "profile_2.png".
 bool IsWrittenByRuns(const fs::path& file) {
-  constexpr std::array kNames{"heap.vtp",  "heap.csv",  "profile.png", "film.gif",
+  constexpr std::array kNames{"heap.vtp",  "heap.csv",  "profile.png", "from_above.png", "film.gif",
                               "final.vtp", "final.csv", "series.csv",  kCheckpoint};
   const std::string name = file.filename();
   if (std::ranges::find(kNames, name) != kNames.end()) return true;
@@ -157,11 +157,14 @@ bool IsWrittenByRuns(const fs::path& file) {
          (name.starts_with("profile_") && ending == ".png");
 }
 
-// "checkpoint.bin.tmp6981": what was being written when a process was killed.
+// "checkpoint.bin.tmp6981": what a run was writing when it was killed. What a campaign writes into
+// the folder of a trial is not ours.
 bool IsHalfWritten(const fs::path& file) {
   constexpr std::string_view kMark = ".tmp";
   const std::string ending = file.extension();
-  return ending.starts_with(kMark) && ending.size() > kMark.size() &&
+  const fs::path whole = file.stem();
+  return (IsWrittenByRuns(whole) || whole == kResult) && ending.starts_with(kMark) &&
+         ending.size() > kMark.size() &&
          std::all_of(ending.begin() + kMark.size(), ending.end(),
                      [](unsigned char c) { return std::isdigit(c); });
 }
