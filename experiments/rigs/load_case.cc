@@ -145,8 +145,9 @@ void CompleteCase(Case& rig_case) {
 
 Case LoadCase(const std::filesystem::path& path) { return LoadCase(base::ReadJsonFile(path)); }
 
-Case LoadCase(const base::JsonFile& file) {
-  auto rig_case = base::LoadOptions<Case>(file);
+Case LoadCase(const base::JsonFile& file) { return Completed(base::LoadOptions<Case>(file), file); }
+
+Case Completed(Case rig_case, const base::JsonFile& file) {
   CompleteCase(rig_case);
   base::Problems problems(file.path.string(), file.places);
   ValidateCase(rig_case, problems);

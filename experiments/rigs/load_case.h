@@ -24,6 +24,9 @@ void ValidateCase(const Case& rig_case, base::Problems& problems);
 // of a camera that has none.
 void CompleteCase(Case& rig_case);
 
+// The case that a file holds, complete and validated; throws as LoadCase does.
+Case Completed(Case rig_case, const base::JsonFile& file);
+
 // Reads, completes and validates a case; throws one ConfigError with everything that is wrong.
 Case LoadCase(const std::filesystem::path& path);
 Case LoadCase(const base::JsonFile& file);

@@ -36,12 +36,7 @@ CommandCase LoadCommandCase(const base::JsonFile& file) {
 rigs::Case LoadAnyCase(const std::filesystem::path& path) {
   const base::JsonFile file = base::ReadJsonFile(path);
   if (!file.root.is_object() || !file.root.contains("engine")) return rigs::LoadCase(file);
-  rigs::Case heap = base::LoadOptions<CommandCase>(file).heap;
-  rigs::CompleteCase(heap);
-  base::Problems problems(file.path.string(), file.places);
-  rigs::ValidateCase(heap, problems);
-  problems.ThrowIfAny();
-  return heap;
+  return rigs::Completed(base::LoadOptions<CommandCase>(file).heap, file);
 }
 
 }  // namespace talus::trials
