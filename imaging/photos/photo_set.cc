@@ -1,7 +1,6 @@
 #include "imaging/photos/photo_set.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text/counted.h"
+#include "base/text/lower.h"
 #include "base/text/printable.h"
 #include "imaging/photos/photo_pattern.h"
 
@@ -40,9 +40,7 @@ struct ByNumber {
 using Views = std::map<std::string, std::filesystem::path, ByNumber>;
 
 bool EndsLike(const std::filesystem::path& file, std::span<const std::string_view> endings) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::find(endings, ending) != endings.end();
+  return std::ranges::find(endings, base::Lower(file.extension().string())) != endings.end();
 }
 
 bool IsImage(const std::filesystem::path& file) {

@@ -23,7 +23,6 @@ using json = nlohmann::ordered_json;
 
 // Nothing has worked by then: the command is wrong, not the parameters.
 constexpr int kHopeless = 8;
-constexpr const char* kInterrupted = "interrupted";
 
 class OptimizeLoop {
  public:
@@ -51,14 +50,15 @@ class OptimizeLoop {
     const std::string result =
         base::JsonText(OptimizeResult(problem_, strategy_->Recommend(), tally_, stopped), 2) + "\n";
     if (folder_) folder_->WriteResult(result);
-    return {.result = result, .interrupted = stopped == kInterrupted};
+    return {.result = result, .interrupted = interrupted_};
   }
 
  private:
   int num_told() const { return tally_.num_evaluations; }
 
   std::string WhyStop(bool nothing_left) {
-    if (guard_.Asked() != base::Interrupt::kNone) return kInterrupted;
+    interrupted_ = guard_.Asked() != base::Interrupt::kNone;
+    if (interrupted_) return "interrupted";
     if (num_told() >= problem_.evaluations) return "all evaluations are used";
     if (nothing_left) return "the strategy has no more points";
     const auto reason = strategy_->WhyStop();
@@ -153,7 +153,8 @@ class OptimizeLoop {
   base::InterruptGuard guard_;
   SearchTally tally_;
   std::string last_failure_;
-  bool announced_ = false;
+  bool announced_ = false;    // that Ctrl-C was heard
+  bool interrupted_ = false;  // which ended the search
 };
 
 }  // namespace

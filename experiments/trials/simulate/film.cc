@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/files/output_folder.h"
+#include "base/text/lower.h"
 #include "base/text/number_text.h"
 #include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/gif_file.h"
@@ -63,16 +63,11 @@ imaging::Camera CameraOf(std::vector<base::Sphere> powder, double plate_diameter
   return imaging::WholeHeap(powder, plate_diameter, width * most / camera.height);
 }
 
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 // Endings of what people ask for; "film.v2" is a folder.
 void RequireFormat(const std::filesystem::path& out) {
   constexpr std::array kOthers{".mp4", ".webm", ".avi",  ".mov", ".mkv", ".mpg",
                                ".png", ".jpg",  ".jpeg", ".bmp", ".tif", ".tiff"};
-  const std::string ending = Lower(out.extension().string());
+  const std::string ending = base::Lower(out.extension().string());
   if (std::ranges::find(kOthers, ending) == kOthers.end()) return;
   throw base::ConfigError(
       "--film: writes .gif, or one PNG a frame into a folder, not \"" + ending +
@@ -80,7 +75,7 @@ void RequireFormat(const std::filesystem::path& out) {
 }
 
 bool IsGifName(const std::filesystem::path& out) {
-  return Lower(out.extension().string()) == ".gif";
+  return base::Lower(out.extension().string()) == ".gif";
 }
 
 bool IsUpright(const engine::OpenCylinder& tube) { return std::abs(tube.axis.z) > 0.999; }
@@ -89,7 +84,6 @@ bool IsUpright(const engine::OpenCylinder& tube) { return std::abs(tube.axis.z) 
 
 Film::Film(std::filesystem::path out, const rigs::Case& rig_case, FilmSize size)
     : out_(std::move(out)), size_(size) {
-  RequireFormat(out_);
   if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) {
     plate_diameter_ = rig_case.rig.lifted_tube.plate_diameter;
   }

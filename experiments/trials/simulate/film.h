@@ -22,8 +22,7 @@ inline constexpr const char* kTrialFilmName = "film.gif";
 
 class Film {
  public:
-  // A file that ends with .gif, or a folder for one PNG a frame. Throws ConfigError for a film that
-  // needs another program.
+  // A file that ends with .gif, or a folder for one PNG a frame (ClaimFilm).
   Film(std::filesystem::path out, const rigs::Case& rig_case, FilmSize size);
 
   // Keeps the scene as it is now, if it is time for a frame. However long the test, there are at
@@ -50,8 +49,9 @@ class Film {
   double interval_ = 0;  // between two frames; 0: each slice of the simulation [s]
 };
 
-// Makes what a film is to be written into, before anything is simulated. Throws ConfigError where
-// there is no place for the file, and for a folder that holds anything but an earlier film.
+// Makes what a film is to be written into, before anything is simulated. Throws ConfigError for a
+// film that needs another program, where there is no place for the file, and for a folder that
+// holds anything but an earlier film.
 void ClaimFilm(const std::filesystem::path& out);
 
 }  // namespace talus::trials

@@ -1,10 +1,10 @@
 #include "imaging/formats/spheres/sphere_columns.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/lower.h"
 #include "imaging/formats/spheres/text_cursor.h"
 
 namespace talus::imaging {
@@ -65,9 +65,7 @@ void RequireOneOfEach(std::span<const std::string> names, const std::string& fil
 }  // namespace
 
 std::optional<ColumnMeaning> MeaningOf(std::string_view name) {
-  std::string lower(Trimmed(name));
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string lower = base::Lower(std::string(Trimmed(name)));
   const std::optional<double> unit = CutUnit(lower);
   for (const Known& known : kKnown) {
     if (known.name == lower) return ColumnMeaning{known.part, known.factor, unit};
