@@ -86,7 +86,9 @@ def calibrate(options, folder, tests, densities, seed):
                  "budget": {"core_time": f"{options.core_time} s"}, "confirm": {"candidates": 0}, "next": {"share": 0}}
     (folder / f"{tests}.json").write_text(json.dumps(campaign, indent=1))
     if not (folder / tests / "result.json").exists():
-        subprocess.run([options.talus, "calibrate", folder / f"{tests}.json", "--out", folder / tests, "--quiet"], check=True)
+        begun = (folder / tests / "journal.sqlite").exists()
+        subprocess.run([options.talus, *(["resume", folder / tests] if begun else
+                                         ["calibrate", folder / f"{tests}.json", "--out", folder / tests]), "--quiet"], check=True)
     return folder / tests
 
 
