@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
+#include "base/problems.h"
 #include "base/text/number_text.h"
 #include "optimizer/space/point_rows.h"
 
@@ -50,6 +51,9 @@ Strategy::Strategy(const py::list& parameters, const py::dict& options, std::uin
       base::LoadOptions<optimizer::ParameterSpace>(base::ParseJson(JsonOf(space), "parameters"));
   const auto read =
       base::LoadOptions<optimizer::StrategyOptions>(base::ParseJson(JsonOf(options), "options"));
+  base::Problems problems("options", {});
+  read.ValidateUse(false, problems);
+  problems.ThrowIfAny();
   if (!(pixel_area > 0 && pixel_area <= kLargestPixel)) {
     throw base::ConfigError("pixel_area: must be positive and at most 1e12");
   }

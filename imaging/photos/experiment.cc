@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/error.h"
 #include "imaging/formats/images/map_file.h"
+#include "imaging/photos/copied_photos.h"
 #include "imaging/photos/film.h"
 #include "imaging/photos/heap_breaks.h"
 #include "imaging/photos/measured_runs.h"
@@ -111,6 +113,7 @@ void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
     if (auto doubt = DoubtOfOneHeap(run)) result.warnings.push_back(std::move(*doubt));
   }
   WarnOfViews(result.runs, result.warnings);
+  std::ranges::move(WarningsOfCopies(result.runs), std::back_inserter(result.warnings));
 }
 
 Experiment MeasureFilm(const ExperimentOptions& options) {

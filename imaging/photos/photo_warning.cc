@@ -65,6 +65,9 @@ std::string Reason(const PhotoWarning& warning) {
     case PhotoDoubt::kOtherLight:
       return "lit otherwise than the others: " + Times(warning.value) + " " + warning.reason +
              " than most; lamp or exposure have changed: look at its outline, or take it again";
+    case PhotoDoubt::kCopied:
+      return "is the same file as " + warning.reason +
+             ": a copy is no other heap, and runs of copies agree better than heaps do";
   }
   return {};
 }
@@ -72,7 +75,7 @@ std::string Reason(const PhotoWarning& warning) {
 bool IsOfSetUp(PhotoDoubt doubt) {
   return doubt == PhotoDoubt::kNoPowder || doubt == PhotoDoubt::kTouchesFrame ||
          doubt == PhotoDoubt::kBesidePlate || doubt == PhotoDoubt::kOverexposed ||
-         doubt == PhotoDoubt::kOtherLight;
+         doubt == PhotoDoubt::kOtherLight || doubt == PhotoDoubt::kCopied;
 }
 
 }  // namespace

@@ -27,14 +27,16 @@ enum class PhotoDoubt {
   kViewDisagrees,  // value: NEBP / median NEBP of all views [-]
   kOverexposed,    // value: share of the background at full white [-]
   kOtherLight,     // `reason` ("darker") than most by the factor `value` [-]
+  kCopied,         // the same file as `reason`, of an earlier run
 };
 
 struct PhotoWarning {
   PhotoDoubt doubt = PhotoDoubt::kLeftOut;
   std::filesystem::path photo{};  // empty where it is of all
   double value = 0;               // as the doubt says
-  std::string reason{};           // of kLeftOut, kUnread, kSeveralHeaps, kRunDisagrees, kOtherLight
-  int num_photos = 1;             // that share the doubt; `photo` and `value` are of the worst
+  std::string reason{};  // of kLeftOut, kUnread, kSeveralHeaps, kRunDisagrees, kOtherLight,
+                         // kCopied
+  int num_photos = 1;    // that share the doubt; `photo` and `value` are of the worst
 };
 
 // The same doubt about more than three photographs is a fault of the set-up: one warning, at the
@@ -87,5 +89,6 @@ struct talus::base::Names<talus::imaging::PhotoDoubt> {
                                     std::pair{"beside_plate", kBesidePlate},
                                     std::pair{"view_disagrees", kViewDisagrees},
                                     std::pair{"overexposed", kOverexposed},
-                                    std::pair{"other_light", kOtherLight}};
+                                    std::pair{"other_light", kOtherLight},
+                                    std::pair{"copied", kCopied}};
 };

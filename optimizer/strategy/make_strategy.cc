@@ -87,6 +87,30 @@ void StrategyOptions::Validate(base::Problems& problems) const {
   }
 }
 
+void StrategyOptions::ValidateUse(bool in_campaign, base::Problems& problems) const {
+  using enum StrategyKind;
+  const StrategyOptions usual;
+  const bool models_one_objective = HasModel(kind) && !(in_campaign && kind == kAuto);
+  const std::string models = in_campaign ? "\"gp\" and \"rbf\"" : "\"auto\", \"gp\" and \"rbf\"";
+  const auto require = [&](bool is_read, bool is_usual, std::string_view key,
+                           const std::string& readers) {
+    problems.Require(is_read || is_usual, key,
+                     "is not read by the strategy \"" + std::string(base::NameOf(kind)) +
+                         "\" but by " + readers + ": leave it out");
+  };
+  require(HasModel(kind), num_initial == usual.num_initial, "num_initial",
+          "\"auto\", \"gp\" and \"rbf\"");
+  require(models_one_objective && kind != kRbf, stop_multiple == usual.stop_multiple,
+          "stop_multiple",
+          in_campaign ? "\"gp\", and posterior.stop_share ends \"auto\"" : "\"auto\" and \"gp\"");
+  require(models_one_objective, max_replicates == usual.max_replicates, "max_replicates", models);
+  require(models_one_objective, exact == usual.exact, "exact", models);
+  require(kind == kLhs || kind == kSobol, num_points == usual.num_points, "num_points",
+          "\"lhs\" and \"sobol\"");
+  require(kind == kGrid, levels.empty(), "levels", "\"grid\"");
+  require(kind == kGrid, refine_best == usual.refine_best, "refine_best", "\"grid\"");
+}
+
 void StrategyOptions::ValidateFor(int num_parameters, bool continuous,
                                   base::Problems& problems) const {
   problems.Require(continuous || TakesLists(kind), "kind",

@@ -44,14 +44,14 @@ struct StrategyOptions {
           {.doc = "auto, gp, rbf: size of the initial design; 0 for 2 d + 3 with d "
                   "parameters, d + 3 on an exact table"});
     visit("stop_multiple", self.stop_multiple,
-          {.doc = "auto, gp: stops when less than this times the noise standard "
-                  "deviation of one evaluation is left to gain; 0 never"});
+          {.doc = "gp, auto of one objective: stops when less than this times the noise "
+                  "standard deviation of one evaluation is left to gain; 0 never"});
     visit("max_replicates", self.max_replicates,
-          {.doc = "auto, gp, rbf: deliberate repeats beside the first one, in all; of a "
-                  "list of candidates, how often each may be evaluated"});
+          {.doc = "gp, rbf, auto of one objective: deliberate repeats beside the first one, in "
+                  "all; of a list of candidates, how often each may be evaluated"});
     visit("exact", self.exact,
-          {.doc = "auto, gp, rbf: the same parameters always give the same value, so "
-                  "that nothing is repeated"});
+          {.doc = "gp, rbf, auto of one objective: the same parameters always give the same "
+                  "value, so that nothing is repeated"});
     visit("num_points", self.num_points, {.doc = "lhs, sobol: size of the design, 1 to 10000"});
     visit("levels", self.levels,
           {.doc = "grid: values of each parameter, in their order; 8 each if not given"});
@@ -59,6 +59,9 @@ struct StrategyOptions {
           {.doc = "grid: so many of the best are refined by half steps; 0 for none"});
   }
   void Validate(base::Problems& problems) const;
+
+  // What a person has set and the kind does not read; `in_campaign`: "auto" is a calibration's own.
+  void ValidateUse(bool in_campaign, base::Problems& problems) const;
 
   // What only shows once the space is known; `continuous`: with neither levels nor candidates.
   void ValidateFor(int num_parameters, bool continuous, base::Problems& problems) const;

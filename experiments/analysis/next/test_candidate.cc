@@ -123,6 +123,9 @@ campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandida
   only.name = test.name;
   only.numbers = {};
   if (test.rig) only.rig = test.rig;
+  if (campaign::KindOf(only) != rigs::RigKind::kLiftedTube) {
+    only.device = rigs::MaterialsOf(*only.device);
+  }
   if (test.device) only.device = test.device;
   if (test.pairs) only.pairs = test.pairs;
   if (test.filling) only.filling = test.filling;

@@ -44,9 +44,10 @@ enum class AlarmKind {
   kBesidePlate,
   kViewDisagrees,
   kOverexposed,
-  kOtherLight
+  kOtherLight,
+  kCopied
 };
-constexpr AlarmKind LastOf(AlarmKind) { return AlarmKind::kOtherLight; }
+constexpr AlarmKind LastOf(AlarmKind) { return AlarmKind::kCopied; }
 
 struct Alarm;
 

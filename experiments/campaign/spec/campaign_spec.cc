@@ -233,6 +233,9 @@ std::vector<ExperimentSpec> ExperimentsOf(const CampaignSpec& spec) {
   for (ExperimentSpec& experiment : list) {
     if (!experiment.rig) experiment.rig = spec.rig;
     if (!experiment.device) experiment.device = spec.device;
+    if (KindOf(experiment) != rigs::RigKind::kLiftedTube) {
+      experiment.device = rigs::MaterialsOf(*experiment.device);
+    }
     if (!experiment.pairs) experiment.pairs = spec.pairs;
     if (!experiment.filling) experiment.filling = spec.filling;
     if (!experiment.rules) experiment.rules = spec.rules;
@@ -260,6 +263,7 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
     const optimizer::ParameterSpace space = SpaceOf(spec);
     space.Validate(problems);
     problems.Within("strategy", [&] {
+      spec.strategy.ValidateUse(true, problems);
       spec.strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(),
                                 problems);
     });

@@ -55,6 +55,10 @@ struct ExperimentSpec {
   void Validate(base::Problems& problems) const;
 };
 
+inline rigs::RigKind KindOf(const ExperimentSpec& experiment) {
+  return experiment.rig.value_or(rigs::RigOptions{}).kind;
+}
+
 // A case with its rig and device, and nothing else.
 rigs::Case RigOf(const ExperimentSpec& experiment);
 

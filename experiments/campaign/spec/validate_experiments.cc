@@ -132,6 +132,21 @@ void CheckWalls(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all
   }
 }
 
+// Tubes and plates that nobody reads: of an experiment with another rig, and the campaign's where
+// no experiment is a lifted tube.
+void CheckDevices(const CampaignSpec& spec, const std::vector<ExperimentSpec>& all,
+                  base::Problems& problems) {
+  for (std::size_t i = 0; spec.experiments && i < all.size(); ++i) {
+    const std::optional<rigs::Device>& own = (*spec.experiments)[i].device;
+    const std::string place = "experiments[" + std::to_string(i) + "].device";
+    if (own) rigs::RequireNoTube(KindOf(all[i]), *own, place, problems);
+  }
+  const bool has_tube = std::ranges::any_of(
+      all, [](const ExperimentSpec& e) { return KindOf(e) == rigs::RigKind::kLiftedTube; });
+  if (!has_tube && !all.empty())
+    rigs::RequireNoTube(KindOf(all.front()), spec.device, "device", problems);
+}
+
 // An answer needs another experiment than the one that is held out.
 void CheckHoldOut(const CampaignSpec& spec, base::Problems& problems) {
   if (!spec.hold_out) return;
@@ -167,6 +182,7 @@ void ValidateExperiments(const CampaignSpec& spec, base::Problems& problems) {
       std::any_of(all.begin(), all.end(), [](const ExperimentSpec& e) { return IsDrum(e.rig); });
   problems.Require(!spec.parameters || !spec.parameters->fill || has_drum, "parameters.fill",
                    "has no effect: it is a drum's; leave it out");
+  CheckDevices(spec, all, problems);
   CheckNamedWalls(spec, all, problems);
   CheckPlausible(spec, all, problems);
   if (!spec.experiments) {

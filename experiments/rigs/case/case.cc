@@ -10,6 +10,7 @@
 #include "imaging/spheres/projection.h"
 
 namespace talus::rigs {
+
 void Powder::Validate(base::Problems& problems) const {
   problems.Require(mass >= 0 && std::isfinite(mass), "mass", mass, "must be positive");
 }
@@ -31,6 +32,7 @@ void CaseOutputs::Validate(base::Problems& problems) const {
 
 void Case::Validate(base::Problems& problems) const {
   ValidatePairs(pairs, problems);
+  RequireNoTube(rig.kind, rig.lifted_tube, "device", problems);
   const bool has_fill = rig.kind == RigKind::kDrum && rig.drum.fill;
   problems.Require(powder.mass != 0 || has_fill, "powder.mass",
                    "is missing or 0, must be positive (a drum may have rig.fill instead)");

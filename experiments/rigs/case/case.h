@@ -16,28 +16,14 @@
 #include "engine/laws/material.h"
 #include "engine/scene/pair_spec.h"
 #include "engine/scene/size_distribution.h"
+#include "experiments/rigs/case/device.h"
 #include "experiments/rigs/options/filling_rule.h"
-#include "experiments/rigs/options/lifted_tube_options.h"
 #include "experiments/rigs/options/rig_options.h"
 #include "experiments/rigs/options/rules.h"
 #include "experiments/rigs/options/wall_material.h"
 #include "imaging/heap/profile.h"
 
 namespace talus::rigs {
-
-// The key `device` of a case and of an experiment: the tube and the plate of the lifted tube, and
-// what the walls and the floor of any rig are made of.
-struct Device : LiftedTubeOptions {
-  std::optional<WallMaterial> tube_material{};   // the walls of other rigs
-  std::optional<WallMaterial> plate_material{};  // their floor
-
-  template <class Self, class Visitor>
-  static void Visit(Self& self, Visitor&& visit) {
-    LiftedTubeOptions::Visit(self, visit);
-    visit("tube_material", self.tube_material, {.doc = "where it differs from the powder's"});
-    visit("plate_material", self.plate_material, {.doc = "where it differs from the powder's"});
-  }
-};
 
 // The key `material` of a powder. The laws' numbers have usual values, the density of a grain has
 // none.

@@ -21,6 +21,8 @@ struct LiftedTubeOptions {
   double plate_height = 0.005;  // of the solid cylinder [m], > 0
   double lift_velocity = 0.01;  // v_l [m/s], > 0
 
+  bool operator==(const LiftedTubeOptions&) const = default;
+
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
     using base::Dimension;

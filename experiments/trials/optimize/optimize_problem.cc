@@ -23,6 +23,7 @@ void OptimizeProblem::Validate(base::Problems& problems) const {
                      "must not be \"seed\": the command is given one under that name");
   }
   problems.Within("strategy", [&] {
+    strategy.ValidateUse(false, problems);
     strategy.ValidateFor(static_cast<int>(space.Free().size()), space.IsContinuous(), problems);
   });
   problems.Require(evaluations >= 1, "evaluations", evaluations, "must be at least 1");
