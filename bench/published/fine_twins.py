@@ -4,7 +4,7 @@
 
 Each truth is drawn at random in the ranges of the example's spec. Three heaps of it at the scale factor --true, and three on
 a plate of 30 mm, are photographed: 16 views each, dark grains on a dark plate against the light. The example's spec is
-calibrated on them at --scale-factors, for --true, which it never simulates:
+calibrated on them at --scale-factors, for --true, which it simulates only where --scale-factors names it:
 
   heap  the photographs of the heap alone, the test that the method was published with
   all   these, those of the wide plate, and the bulk density in the tube, known to a hundredth

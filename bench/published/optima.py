@@ -17,7 +17,7 @@ or 1.5 with equal weights beforehand. A heap of grains f times as large has f^-3
 --beyond         predicts at this scale factor instead and, where heaps of it are made, says what they show
 --make           makes one heap there of each of these sets first; the first set is 1
 
-Heaps are kept in FOLDER and not made twice. All default ones: 25 core minutes for Ti6Al4V, 15 for Al6061.
+Heaps are kept in FOLDER and not made twice. All default ones: 28 core minutes for Ti6Al4V, 12 for Al6061.
 """
 import argparse
 import concurrent.futures
