@@ -42,7 +42,7 @@ History<double> HistoryOf(const PairBlock& block, int lane, const Units& units) 
 }
 
 // What a run of contacts does to its wall. The force acts where the sphere's surface meets the
-// wall's; rolling resistance is left out.
+// wall's; rolling resistance acts as on another sphere (R5).
 WallLoad LoadOf(const SimulationState& state, const Chunk& chunk, const PairRun& run,
                 ScalarLaw law) {
   const WallView& wall = state.walls.views()[run.wall];
@@ -55,11 +55,13 @@ WallLoad LoadOf(const SimulationState& state, const Chunk& chunk, const PairRun&
     const Contact<double> contact = WallContact(state.particles, i, wall);
     if (!(contact.overlap > -pair.adhesion_gap)) continue;
     History<double> history = HistoryOf(block, lane, state.units);
-    const Vec3 on_wall = -ToVec3(law(pair, contact, state.dt, history).force);
+    const Response<double> on_sphere = law(pair, contact, state.dt, history);
+    const Vec3 on_wall = -ToVec3(on_sphere.force);
     const double distance = state.particles.Radius(i) - contact.overlap;
     const Vec3 place = state.particles.Position(i) + distance * ToVec3(contact.normal);
     load.force += on_wall;
     load.torque += Cross(place - ToVec3(Broadcast<double>(wall.pivot)), on_wall);
+    load.torque -= ToVec3(on_sphere.rolling);
   }
   return load;
 }

@@ -15,6 +15,8 @@ namespace talus::engine {
 
 namespace {
 
+constexpr double kMostOfRadius = 0.1;  // way in a time step
+
 std::string Item(const char* list, std::size_t index) {
   return std::string(list) + "[" + std::to_string(index) + "]";
 }
@@ -65,6 +67,15 @@ void ValidateStep(const Scene& scene, base::Problems& problems) {
   ValidateTurns(scene.gravity_turns, "gravity_turns", problems);
 }
 
+void ValidateWallSpeeds(const Scene& scene, base::Problems& problems) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Particle& p : scene.particles) smallest = std::min(smallest, p.radius);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    problems.Within(Item("walls", i),
+                    [&] { ValidateSpeed(scene.walls[i], smallest, TimeStep(scene), problems); });
+  }
+}
+
 void ValidateSpeeds(const Scene& scene, base::Problems& problems) {
   const double dt = TimeStep(scene);
   const double limit = kMaxRayleighFraction * SmallestRayleighTime(scene);
@@ -72,18 +83,36 @@ void ValidateSpeeds(const Scene& scene, base::Problems& problems) {
                    "must not exceed 0.4 Rayleigh times of the smallest sphere, " +
                        std::to_string(limit * 1e6) + " us");
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-    const Particle& p = scene.particles[i];
-    const double speed = base::Norm(p.velocity);
-    if (speed * dt <= 0.1 * p.radius) continue;
-    problems.Within(Item("particles", i), [&] {
-      problems.Add("velocity", "moves it by " + base::ShortNumber(speed * dt / p.radius) +
-                                   " of its radius in a time step, above the 0.1 that holds; make "
-                                   "time_step smaller");
-    });
+    problems.Within(Item("particles", i), [&] { ValidateSpeed(scene.particles[i], dt, problems); });
   }
+  ValidateWallSpeeds(scene, problems);
 }
 
 }  // namespace
+
+void ValidateSpeed(const Particle& p, double time_step, base::Problems& problems) {
+  const double moves = base::Norm(p.velocity) * time_step / p.radius;
+  if (!(moves <= kMostOfRadius)) {
+    problems.Add("velocity", "moves it by " + base::ShortNumber(moves) +
+                                 " of its radius in a time step, above the 0.1 that holds; make "
+                                 "time_step smaller");
+  }
+  const double turns = base::Norm(p.angular_velocity) * time_step;
+  if (!(turns <= 1)) {
+    problems.Add("angular_velocity", "turns it by " + base::ShortNumber(turns) +
+                                         " rad in a time step, above the 1 that holds; make "
+                                         "time_step smaller");
+  }
+}
+
+void ValidateSpeed(const Wall& wall, double smallest_radius, double time_step,
+                   base::Problems& problems) {
+  const double moves = MaxPrescribedSpeed(wall) * time_step / smallest_radius;
+  if (moves <= kMostOfRadius) return;
+  problems.Add("motion", "moves the wall by " + base::ShortNumber(moves) +
+                             " radii of the smallest sphere in a time step, above the 0.1 that "
+                             "holds; make it slower, or time_step smaller");
+}
 
 double SmallestRayleighTime(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();

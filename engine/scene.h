@@ -36,6 +36,12 @@ inline constexpr double kMaxRayleighFraction = 0.40;
 // The shortest Rayleigh time of a scene's spheres [s], infinite without any.
 double SmallestRayleighTime(const Scene& scene);
 
+// A way in one step above a tenth of its radius, or a turn above 1 rad, is a problem.
+void ValidateSpeed(const Particle& p, double time_step, base::Problems& problems);
+// The same of a wall and the smallest radius that it meets.
+void ValidateSpeed(const Wall& wall, double smallest_radius, double time_step,
+                   base::Problems& problems);
+
 // Δt that the scene asks for [s]: `time_step`, or `rayleigh_fraction` of the smallest t_R.
 double TimeStep(const Scene& scene);
 

@@ -14,7 +14,7 @@ namespace talus::engine {
 
 namespace {
 
-double SmallestRadius(std::span<const Particle> particles) {
+double SmallestOf(std::span<const Particle> particles) {
   double smallest = INFINITY;
   for (const Particle& p : particles) smallest = std::min(smallest, p.radius);
   return std::isfinite(smallest) ? smallest : 1.0;
@@ -52,7 +52,7 @@ std::unique_ptr<SimulationState> Start(const Scene& scene) {
   state->particles.Assign(scene.particles, scene.materials);
   state->walls = WallSet(scene.walls);
   state->walls.SetTime(0, state->dt);
-  state->tuner = SkinTuner(SmallestRadius(scene.particles));
+  state->tuner = SkinTuner(SmallestOf(scene.particles));
   state->RebuildAll();
   state->reference_speed = ReferenceSpeed(*state);
   state->speed_limit = SpeedLimit(*state);
@@ -73,6 +73,7 @@ void ValidateAdded(const SimulationState& state, const Particle& p,
   const double rayleigh = RayleighTime(state.materials[p.material], p.radius);
   problems.Require(state.dt <= kMaxRayleighFraction * rayleigh, "time_step", state.dt,
                    "exceeds 0.4 Rayleigh times of a sphere that is added");
+  ValidateSpeed(p, state.dt, problems);
 }
 
 // After a change of how walls move.
@@ -102,7 +103,19 @@ std::vector<Particle> Simulation::Particles() const { return state_->FullStep();
 std::vector<ContactInfo> Simulation::Contacts() const { return state_->Contacts(); }
 std::vector<WallLoad> Simulation::WallLoads() const { return state_->WallLoads(); }
 Vec3 Simulation::Gravity() const { return state_->gravity; }
+const std::vector<TurnStep>& Simulation::GravityTurns() const { return state_->gravity_turns; }
 const std::vector<Wall>& Simulation::Walls() const { return state_->walls.walls(); }
+
+std::vector<bool> Simulation::ResistsSpin() const {
+  const std::size_t num = state_->materials.size();
+  const bool rolls = state_->models.rolling != Rolling::kNone;
+  std::vector<bool> resists(num, false);
+  for (std::size_t k = 0; k < num * num; ++k) {
+    const PairConstants& pair = state_->constants[k];
+    if (pair.sliding_friction > 0 || (rolls && pair.rolling_friction > 0)) resists[k / num] = true;
+  }
+  return resists;
+}
 
 EnergySums Simulation::Energies() const {
   EnergySums sums;
@@ -167,7 +180,9 @@ void Simulation::Add(std::span<const Particle> spheres) {
   std::unordered_set<std::int64_t> ids(state.particles.ids.begin(), state.particles.ids.end());
   for (const Particle& p : spheres) ValidateAdded(state, p, ids, problems);
   problems.ThrowIfAny();
-  if (state.particles.num == 0) state.tuner = SkinTuner(SmallestRadius(spheres));
+  const double smallest = SmallestOf(spheres);
+  if (state.particles.num == 0) state.tuner = SkinTuner(smallest);
+  state.tuner.Admit(smallest);
   std::vector<Particle> behind(spheres.begin(), spheres.end());
   for (Particle& p : behind) p.velocity -= 0.5 * state.dt * state.gravity;  // half a step (M3)
   state.particles.Append(behind, state.materials);

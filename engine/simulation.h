@@ -75,6 +75,10 @@ class Simulation {
   ListStatistics Statistics() const;
 
   Vec3 Gravity() const;  // now [m/s²]
+  const std::vector<TurnStep>& GravityTurns() const;
+
+  // Of each material, whether friction or rolling resistance with any other slows a spin.
+  std::vector<bool> ResistsSpin() const;
 
   // From now on gravity turns as `turns` says (times absolute); what was prescribed is dropped.
   void SetGravityTurns(std::vector<TurnStep> turns);

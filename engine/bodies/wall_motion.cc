@@ -69,6 +69,20 @@ double MaxAngularVelocity(std::span<const MotionStep> motion) {
   return speed;
 }
 
+double EndOf(std::span<const MotionStep> motion) {
+  if (motion.empty()) return 0;
+  const MotionStep& last = motion.back();
+  const bool rests = base::Norm(last.velocity) == 0 && base::Norm(last.acceleration) == 0 &&
+                     base::Norm(last.angular_velocity) == 0;
+  return rests ? last.time : std::numeric_limits<double>::infinity();
+}
+
+double EndOf(std::span<const TurnStep> turns) {
+  if (turns.empty()) return 0;
+  const bool rests = base::Norm(turns.back().angular_velocity) == 0;
+  return rests ? turns.back().time : std::numeric_limits<double>::infinity();
+}
+
 // Rodrigues: a cos φ + (k × a) sin φ + k (k·a)(1 − cos φ), with k φ the rotation.
 Vec3 Turned(const Vec3& a, const Vec3& rotation) {
   const double angle = base::Norm(rotation);

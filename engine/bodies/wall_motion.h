@@ -23,6 +23,10 @@ Vec3 TurnOver(std::span<const TurnStep> turns, double time, double time_step);  
 double MaxVelocity(std::span<const MotionStep> motion);
 double MaxAngularVelocity(std::span<const MotionStep> motion);
 
+// From when on it is at rest [s]: infinity where the last entry still moves, 0 without entries.
+double EndOf(std::span<const MotionStep> motion);
+double EndOf(std::span<const TurnStep> turns);
+
 // `a` turned about `rotation`, by its length [rad].
 Vec3 Turned(const Vec3& a, const Vec3& rotation);
 

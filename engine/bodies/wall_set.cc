@@ -245,14 +245,16 @@ double WallSet::MaxSpeed() const {
   return speed;
 }
 
+double MaxPrescribedSpeed(const Wall& wall) {
+  WallShape shape = wall.shape;
+  const ShapeParts s = Parts(shape);
+  const double reach = base::Norm(s.point - wall.pivot.value_or(s.point)) + Extent(s);
+  return MaxVelocity(wall.motion) + reach * MaxAngularVelocity(wall.motion);
+}
+
 double WallSet::MaxPrescribedSpeed() const {
   double speed = 0;
-  for (const Wall& wall : walls_) {
-    WallShape shape = wall.shape;
-    const ShapeParts s = Parts(shape);
-    const double reach = base::Norm(s.point - wall.pivot.value_or(s.point)) + Extent(s);
-    speed = std::max(speed, MaxVelocity(wall.motion) + reach * MaxAngularVelocity(wall.motion));
-  }
+  for (const Wall& wall : walls_) speed = std::max(speed, engine::MaxPrescribedSpeed(wall));
   for (const Press& press : presses_) speed = std::max(speed, FreeSpeed(press));
   return speed;
 }

@@ -16,6 +16,9 @@ namespace talus::engine {
 // plane that turns.
 void ValidateWall(const Wall& wall, int num_materials, base::Problems& problems);
 
+// Largest speed that its surface is to have at any time by its prescribed motion [m/s].
+double MaxPrescribedSpeed(const Wall& wall);
+
 class WallSet {
  public:
   WallSet() = default;

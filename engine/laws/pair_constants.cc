@@ -32,6 +32,10 @@ double PairSurfaceEnergy(const Material& a, const Material& b) {  // P6
   return a.surface_energy + b.surface_energy - difference * difference;
 }
 
+// The range of (A2) grows as γ^(-1/2): below this, pull-off holds no grain of a micrometre, and
+// each would be listed with all within some twenty [J/m²].
+constexpr double kLeastOfDmt = 1e-10;
+
 void AddAdhesion(const Material& a, const Material& b, const ContactModels& models,
                  PairConstants& pair) {
   pair.surface_energy = PairSurfaceEnergy(a, b);
@@ -42,7 +46,11 @@ void AddAdhesion(const Material& a, const Material& b, const ContactModels& mode
     pair.rolling_pull_off = from_pull_off ? 1.5 * pair.pull_off : 0;
     pair.keeps_spring = models.jkr_sliding_spring == JkrSlidingSpring::kKept;
   }
-  if (models.adhesion != Adhesion::kDmt || pair.pull_off == 0) return;
+  if (models.adhesion != Adhesion::kDmt) return;
+  if (pair.surface_energy < kLeastOfDmt) {
+    pair.pull_off = 0;
+    return;
+  }
   pair.hamaker = (a.hamaker_constant + b.hamaker_constant) / 2 / 6;  // P7
   pair.plateau_gap = std::sqrt(pair.hamaker / pair.pull_off);        // A2, R* cancels
   pair.adhesion_gap = pair.plateau_gap / std::sqrt(models.adhesion_cutoff);

@@ -23,9 +23,8 @@ constexpr std::int64_t kChunksTogether = 4;  // two or four threads share them e
 // their other pairs, their walls and their motion come one after the other.
 constexpr std::int64_t kPanelSize = 1024;
 
-// An overlap of spheres, in parts of the distance at which surfaces meet, that no contact law is
-// meant for.
-constexpr double kMaxOverlapShare = 0.5;
+// An overlap of spheres, in radii of the smaller, that no contact law is meant for.
+constexpr double kMaxOverlap = 1;
 
 // As far as that a sphere may sink into a wall, in its radii. Between two lists it moves by less
 // than the skin, 0.6 radii at most: from a higher place to one as far behind the wall takes more,
@@ -151,11 +150,13 @@ void ContactList::FindSpheres(const RebuildInput& input, const Panel& panel, Scr
           {static_cast<std::int32_t>(i), j, static_cast<std::int32_t>(a * num_materials + b)});
     };
     for (const std::int32_t j : scratch.found.touching) {
-      const double limit = (1 - kMaxOverlapShare) * (p.Radius(i) + p.Radius(j));
+      const double limit =
+          p.Radius(i) + p.Radius(j) - kMaxOverlap * std::min(p.Radius(i), p.Radius(j));
       const Vec3 offset = p.Position(j) - p.Position(i);
       if (!(base::Dot(offset, offset) > limit * limit)) {
         throw base::Error("spheres " + std::to_string(p.ids[i]) + " and " +
-                          std::to_string(p.ids[j]) + " overlap by more than half of their size");
+                          std::to_string(p.ids[j]) +
+                          " overlap by more than the radius of the smaller");
       }
       add(j, scratch.touching);
     }

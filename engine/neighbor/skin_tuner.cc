@@ -21,6 +21,12 @@ SkinTuner::SkinTuner(double smallest_radius)
       smallest_(kSmallestSkin * smallest_radius),
       largest_(kLargestSkin * smallest_radius) {}
 
+void SkinTuner::Admit(double radius) {
+  smallest_ = std::min(smallest_, kSmallestSkin * radius);
+  largest_ = std::min(largest_, kLargestSkin * radius);
+  skin_ = std::min(skin_, largest_);
+}
+
 double SkinTuner::BestSkin() const {
   if (steps_ == 0) return skin_;
   const double used_a_step = used_ / static_cast<double>(steps_);

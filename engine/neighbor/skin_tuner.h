@@ -21,6 +21,10 @@ class SkinTuner {
   double skin() const { return skin_; }  // [m]
   std::int64_t num_rebuilds() const { return num_rebuilds_; }
 
+  // Spheres of this radius are there from now on: the skin keeps to its bounds for the smallest.
+  // The list is to be made anew.
+  void Admit(double radius);
+
   // A step has moved nothing by more than `distance`. True when the list may miss a contact unless
   // CheckDisplacement says otherwise.
   bool Step(double distance) {

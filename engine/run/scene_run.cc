@@ -10,6 +10,7 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "engine/bodies/wall_motion.h"
 #include "engine/run/resisted_spins.h"
 #include "engine/run/state_file.h"
 #include "engine/scene/scene_json.h"
@@ -36,7 +37,7 @@ SceneRun::SceneRun(const SceneSpec& spec, const Scene& scene, std::filesystem::p
       folder_(std::move(folder)),
       simulation_(scene),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
-      pours_(BuildPours(spec_, simulation_.num_particles())),
+      pours_(BuildPours(spec_, simulation_.time_step(), simulation_.num_particles())),
       series_(spec_),
       check_steps_(CheckSteps(spec.stop, simulation_.time_step())),
       messages_(SceneWarnings(spec, scene)) {
@@ -52,7 +53,7 @@ SceneRun::SceneRun(const SceneSpec& spec, std::filesystem::path folder,
       simulation_(Simulation::Restore(checkpoint.simulation, spec.threads)),
       states_(folder_, spec.outputs.times, Formats(spec.outputs)),
       state_(base::LoadOptions<SceneRunState>(base::ParseJson(checkpoint.state, "checkpoint"))),
-      pours_(BuildPours(spec_, state_.num_at_start)),
+      pours_(BuildPours(spec_, simulation_.time_step(), state_.num_at_start)),
       series_(spec_),
       check_steps_(CheckSteps(spec.stop, simulation_.time_step())) {
   states_.SkipUntil(simulation_.time());
@@ -131,37 +132,37 @@ void SceneRun::CheckStop() {
   if (!state_.stop_reason.empty()) messages_.push_back("ended by stop." + state_.stop_reason);
 }
 
-// What lies still before its gate opens or its box tilts is not at its end.
+// What lies still before its gate opens, or while its box tilts, is not at its end.
 double SceneRun::LastEvent() const {
   double last = 0;
   for (const Wall& wall : simulation_.Walls()) {
-    if (!wall.motion.empty()) last = std::max(last, wall.motion.back().time);
-    last = std::max(last, wall.removal_time.value_or(0));
+    last = std::max(last, wall.removal_time.value_or(EndOf(wall.motion)));
   }
-  if (!spec_.gravity_turns.empty()) last = std::max(last, spec_.gravity_turns.back().time);
-  return last;
+  return std::max(last, EndOf(simulation_.GravityTurns()));
 }
 
-// Without friction nothing resists any spin, so that it does not count.
 bool SceneRun::AtRest() {
   double kinetic = 0;
   double weight = 0;
   const double gravity = Norm(spec_.gravity);
   const std::vector<Particle> particles = simulation_.Particles();
+  const std::vector<bool> resists_spin = simulation_.ResistsSpin();
   const std::vector<Vec3> spins = ResistedSpins(particles, simulation_.Contacts());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Particle& p = particles[i];
-    const Material& material = spec_.materials[static_cast<std::size_t>(p.material)].material;
+    const auto number = static_cast<std::size_t>(p.material);
+    const Material& material = spec_.materials[number].material;
     const double square = p.radius * p.radius;
     const double cube = material.density * p.radius * square;
     kinetic += cube * Dot(p.velocity, p.velocity) / 2;
-    if (material.sliding_friction > 0) kinetic += cube * 0.2 * square * Dot(spins[i], spins[i]);
+    if (resists_spin[number]) kinetic += cube * 0.2 * square * Dot(spins[i], spins[i]);
     weight += cube * gravity * 2 * p.radius;
   }
   state_.energy_ratio = weight > 0 ? kinetic / weight : 0;
   const bool all_done = NextPourTime() == std::numeric_limits<double>::infinity() &&
                         simulation_.time() >= LastEvent();
-  const bool quiet = all_done && kinetic < *spec_.stop.energy_fraction * weight;
+  const bool quiet =
+      all_done && (particles.empty() || kinetic < *spec_.stop.energy_fraction * weight);
   state_.quiet_steps = quiet ? state_.quiet_steps + check_steps_ : 0;
   const auto held = static_cast<double>(state_.quiet_steps - check_steps_);
   return quiet && held * simulation_.time_step() >= spec_.stop.hold_time * (1 - 1e-9);

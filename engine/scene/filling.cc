@@ -85,9 +85,15 @@ class Grid {
       low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
       high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
     }
-    nx_ = Count(high_.x - low_.x);
-    ny_ = Count(high_.y - low_.y);
-    nz_ = Count(high_.z - low_.z);
+    const Vec3 size = high_ - low_;
+    const double most = 1e6 + 64 * static_cast<double>(x.size());
+    const auto cells = [&] {
+      return (1 + size.x / cell_) * (1 + size.y / cell_) * (1 + size.z / cell_);
+    };
+    while (cells() > most) cell_ *= 1.25;  // few grains in a large region
+    nx_ = Count(size.x);
+    ny_ = Count(size.y);
+    nz_ = Count(size.z);
     first_.assign(static_cast<std::size_t>(nx_) * ny_ * nz_ + 1, 0);
     members_.resize(x.size());
     for (const Vec3& p : x) ++first_[Cell(p) + 1];
@@ -239,7 +245,7 @@ Filling Fill(std::span<const double> radii, const FillRequest& request) {
 
 std::string TooManyGrains(double num_grains) {
   constexpr double kBytesOfGrain = 1000;  // state, neighbour list and what the filling needs
-  constexpr double kMostIndices = 2e9;
+  constexpr double kMostIndices = 2.6e8;  // of eight numbers each, counted in 32 bits
   const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   if (num_grains <= std::min(memory / kBytesOfGrain, kMostIndices)) return {};

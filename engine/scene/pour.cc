@@ -136,6 +136,10 @@ double Pour::Interval() const { return slab_ / speed_; }
 
 double Pour::Duration() const { return cum_.empty() ? 0 : cum_.back() / plan_.rate; }
 
+double Pour::MaxSpeed() const { return speed_ + std::numbers::sqrt2 * plan_.scatter; }
+
+double Pour::SmallestRadius() const { return std::ranges::min(plan_.radii); }
+
 double Pour::NextTime(const PourState& state) const {
   if (Done(state)) return std::numeric_limits<double>::infinity();
   return plan_.start + static_cast<double>(state.num_batches) * Interval();

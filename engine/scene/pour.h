@@ -98,6 +98,8 @@ class Pour {
   bool Done(const PourState& state) const;
   double NextTime(const PourState& state) const;  // of the next batch [s]; infinity when done
   double Duration() const;                        // if nothing waits [s]
+  double MaxSpeed() const;                        // of a grain at the mouth [m/s]
+  double SmallestRadius() const;                  // [m]
   double slab() const { return slab_; }  // height above the mouth in which grains appear [m]
 
   // Puts in the batches that are due, without those grains that find no room. Call it at the first

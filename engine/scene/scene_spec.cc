@@ -33,6 +33,13 @@ void RequireMaterials(const SceneSpec& spec, const std::vector<T>& list, const s
   }
 }
 
+// Why grains of this volume cannot be drawn; empty when they can.
+std::string BadMass(double volume, const SizeCurve& curve) {
+  const double num_grains = volume / curve.mean_volume();
+  if (num_grains < 0.5) return "is less than half of one grain; check the units";
+  return TooManyGrains(num_grains);
+}
+
 // Before a grain is drawn: what cannot fit would be tried for ever.
 void RequireRoom(const FillSpec& fill, double volume, const SizeCurve& curve,
                  base::Problems& problems) {
@@ -46,8 +53,8 @@ void RequireRoom(const FillSpec& fill, double volume, const SizeCurve& curve,
                    fill.mass,
                    "must be less: its grains alone take above 64 % of the "
                    "region's volume; enlarge the region, or leave its height out");
-  const std::string too_many = TooManyGrains(volume / curve.mean_volume());
-  problems.Require(too_many.empty(), "mass", too_many);
+  const std::string bad_mass = BadMass(volume, curve);
+  problems.Require(bad_mass.empty(), "mass", bad_mass);
 }
 
 void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
@@ -71,6 +78,11 @@ void AddFill(const SceneSpec& spec, std::size_t index, Scene& scene) {
     throw base::ConfigError(
         "fills[" + std::to_string(index) +
         "].region: is too small for the mass; enlarge it or leave its height out");
+  }
+  const auto is_outside = [&](const Vec3& p) { return spec.domain && !spec.domain->Contains(p); };
+  if (std::ranges::any_of(filling.positions, is_outside)) {
+    throw base::ConfigError("fills[" + std::to_string(index) +
+                            "].region: reaches out of the domain, where grains vanish");
   }
   for (std::size_t i = 0; i < radii.size(); ++i) {
     scene.particles.push_back({.id = static_cast<std::int64_t>(scene.particles.size()),
@@ -100,6 +112,23 @@ void RequireMouths(const SceneSpec& spec) {
     throw base::ConfigError("pours[" + std::to_string(i) +
                             "].mouth_diameter: must be above two diameters of the largest sphere");
   }
+}
+
+// The grains fall through nothing unseen, and along the gravity that they were planned for.
+void RequireGoodStream(const SceneSpec& spec, std::size_t index, double time_step,
+                       const Pour& pour) {
+  base::Problems problems;
+  problems.Within("pours[" + std::to_string(index) + "]", [&] {
+    problems.Require(pour.MaxSpeed() * time_step <= 0.1 * pour.SmallestRadius(), "rate",
+                     pour.plan().rate,
+                     "kg/s make a stream so fast that grains move by more than a tenth of their "
+                     "radius in a time step; pour less at a time, by a wider mouth");
+    const double turns = spec.gravity_turns.empty() ? INFINITY : spec.gravity_turns.front().time;
+    problems.Require(pour.plan().start + pour.Duration() <= turns, "start",
+                     "pours when gravity_turns has begun, but along the gravity of the start: end "
+                     "it before");
+  });
+  problems.ThrowIfAny();
 }
 
 // The step must suit what is there and what comes.
@@ -229,6 +258,10 @@ void SceneSpec::Validate(base::Problems& problems) const {
     problems.Require(domain->Contains(spheres[i].position),
                      "spheres[" + std::to_string(i) + "].position", "is outside the domain");
   }
+  for (std::size_t i = 0; domain && i < pours.size(); ++i) {
+    problems.Require(domain->Contains(pours[i].mouth), "pours[" + std::to_string(i) + "].mouth",
+                     "is outside the domain");
+  }
   problems.Require(base::IsFinite(gravity), "gravity", "must be finite");
   problems.Require(!stop.energy_fraction || Norm(gravity) > 0, "stop.energy_fraction",
                    "compares the energy with m g d, which is 0 without gravity; end by time or "
@@ -282,7 +315,7 @@ Scene BuildScene(const SceneSpec& spec) {
   return scene;
 }
 
-std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres) {
+std::vector<Pour> BuildPours(const SceneSpec& spec, double time_step, std::int64_t num_spheres) {
   std::vector<Pour> pours;
   for (std::size_t i = 0; i < spec.pours.size(); ++i) {
     const PourSpec& pour = spec.pours[i];
@@ -290,9 +323,9 @@ std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres) {
     const double density = spec.materials[static_cast<std::size_t>(material)].material.density;
     const std::uint64_t seed = base::Random(spec.seed, base::Stream("pours"), i).Next();
     const SizeCurve curve(pour.sizes);
-    const std::string too_many = TooManyGrains(pour.mass / density / curve.mean_volume());
-    if (!too_many.empty()) {
-      throw base::ConfigError("pours[" + std::to_string(i) + "].mass: " + too_many);
+    const std::string bad_mass = BadMass(pour.mass / density, curve);
+    if (!bad_mass.empty()) {
+      throw base::ConfigError("pours[" + std::to_string(i) + "].mass: " + bad_mass);
     }
     std::vector<double> radii = DrawDiameters(curve, pour.mass / density);
     for (double& r : radii) r /= 2;
@@ -310,6 +343,7 @@ std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres) {
     plan.rate = pour.rate.value_or(BeverlooRate(plan));
     num_spheres += static_cast<std::int64_t>(plan.radii.size());
     pours.emplace_back(std::move(plan));
+    RequireGoodStream(spec, i, time_step, pours.back());
   }
   return pours;
 }

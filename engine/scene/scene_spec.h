@@ -227,7 +227,8 @@ void ReadSphereFiles(SceneSpec& spec);
 // or the time step is too long for what is poured.
 Scene BuildScene(const SceneSpec& spec);
 
-// What is poured, in the order of the spec, with the numbers that follow those of the scene.
-std::vector<Pour> BuildPours(const SceneSpec& spec, std::int64_t num_spheres);
+// What is poured, in the order of the spec, with the numbers that follow those of the scene. Throws
+// ConfigError for a stream too fast for the time step, or that outlasts the gravity it falls by.
+std::vector<Pour> BuildPours(const SceneSpec& spec, double time_step, std::int64_t num_spheres);
 
 }  // namespace talus::engine

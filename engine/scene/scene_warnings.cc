@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace talus::engine {
 
@@ -19,12 +20,26 @@ std::vector<std::string> AdhesionWarnings(const ContactModels& models,
   return {};
 }
 
+namespace {
+
+template <class Bulk>
+void AddLostSizes(const SceneSpec& spec, const Bulk& bulk, std::vector<std::string>& warnings) {
+  const auto material = static_cast<std::size_t>(MaterialIndex(spec, bulk.material));
+  const double density = spec.materials[material].material.density;
+  std::string lost = LostSizes(SizeCurve(bulk.sizes), bulk.mass / density);
+  if (!lost.empty()) warnings.push_back(std::move(lost));
+}
+
+}  // namespace
+
 std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene) {
   std::vector<Material> surfaces = scene.materials;
   for (const MaterialPair& pair : scene.pairs) {
     surfaces.push_back(With(scene.materials[pair.first], pair.stated));
   }
   std::vector<std::string> warnings = AdhesionWarnings(scene.models, surfaces);
+  for (const FillSpec& fill : spec.fills) AddLostSizes(spec, fill, warnings);
+  for (const PourSpec& pour : spec.pours) AddLostSizes(spec, pour, warnings);
   const double dt = TimeStep(scene);
   const double share = dt / SmallestRayleighTime(scene);
   if (share > kWarnRayleighFraction * (1 + 1e-9)) {

@@ -13,7 +13,8 @@ namespace talus::engine {
 std::vector<std::string> AdhesionWarnings(const ContactModels& models,
                                           const std::vector<Material>& materials);
 
-// These, a time step above 0.20 of the Rayleigh time (M4), and states that come after the end.
+// These, grains too few for their distribution, a time step above 0.20 of the Rayleigh time (M4),
+// and states that come after the end.
 std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene);
 
 }  // namespace talus::engine

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/text/number_text.h"
+
 namespace talus::engine {
 namespace {
 
@@ -174,6 +176,10 @@ void SizeDistribution::Validate(base::Problems& problems) const {
                    "must be given: three standard deviations below the mean is not positive");
   problems.Require(breaks.back() >= breaks.front(), "max", breaks.back(),
                    "must not be below the smallest diameter");
+  const Curve curve = CurveOf(*this);
+  const bool is_cut = breaks.back() > breaks.front();
+  problems.Require(!is_cut || curve.share_below(breaks.back()) > curve.share_below(breaks.front()),
+                   min ? "min" : "max", "leaves no grains: the distribution has none between");
 }
 
 SizeCurve::SizeCurve(const SizeDistribution& sizes) {
@@ -232,6 +238,19 @@ std::vector<double> DrawDiameters(const SizeCurve& curve, double volume) {
     diameters = draw(n);
   }
   return diameters;
+}
+
+std::string LostSizes(const SizeCurve& curve, double volume) {
+  constexpr double kManyGrains = 1e6;  // of which no distribution that is used loses a class
+  constexpr double kLittle = 0.05;     // of D90
+  const double num_grains = volume / curve.mean_volume();
+  if (!(num_grains >= 1 && num_grains < kManyGrains)) return {};
+  const double drawn = SampleVolumeQuantile(DrawDiameters(curve, volume), 0.9);
+  const double stated = curve.VolumeQuantile(0.9);
+  if (drawn >= (1 - kLittle) * stated) return {};
+  return "the grains' D90 is " + base::ShortNumber(drawn / stated, 2) +
+         " of the distribution's: so few grains (" + base::ShortNumber(num_grains, 3) +
+         ") have hardly any of its coarse end; take more powder, or finer grains";
 }
 
 double SampleVolumeQuantile(std::span<const double> diameters, double q) {

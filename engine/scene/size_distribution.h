@@ -93,6 +93,10 @@ class SizeCurve {
 // quantiles (i + 1/2)/n by number, so that the sample follows the curve as closely as n grains can.
 std::vector<double> DrawDiameters(const SizeCurve& curve, double volume);
 
+// What drawing from a distribution so wide that few grains make up its coarse end loses of it;
+// empty where that is little.
+std::string LostSizes(const SizeCurve& curve, double volume);
+
 // Diameter [m] that the share `q` of the total volume of `diameters` is finer than.
 double SampleVolumeQuantile(std::span<const double> diameters, double q);
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,10 +22,15 @@ using Row = std::vector<std::string>;
 
 constexpr std::uint64_t kLargestSizeFile = 16u << 20;  // [bytes]; instruments write some kB
 
+struct TableRow {
+  std::vector<double> numbers;  // NaN where a field is no number
+  int line = 0;
+};
+
 struct Table {
   std::string head;  // all lines above the numbers, in lower case
   Row titles;        // of the columns, in lower case; units of a line below appended
-  std::vector<std::vector<double>> rows;
+  std::vector<TableRow> rows;
 };
 
 [[noreturn]] void Refuse(const std::filesystem::path& path, const std::string& why) {
@@ -97,7 +103,9 @@ std::vector<std::string> Lines(std::string_view text) {
   return lines;
 }
 
-// The first block of lines that hold two numbers or more, and the line of titles above it.
+// The first block of lines that hold two numbers or more, and the line of titles above it. Blank
+// lines part nothing. A line that begins with a number and has no second one may be the last, as an
+// edge without a class.
 Table ReadTable(std::string text, const std::filesystem::path& path) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     Refuse(path, "is UTF-16; export or save it as UTF-8");
@@ -106,14 +114,27 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
   const char separator = SeparatorOf(plain);
   Table table;
   std::vector<Row> above;
+  int line_number = 0;
+  std::optional<int> broken;
   for (const std::string& line : Lines(plain)) {
+    ++line_number;
     const Row fields = Split(line, separator);
+    if (fields.empty()) continue;
     std::vector<double> numbers;
     for (const std::string& field : fields) numbers.push_back(Number(field));
     const auto num_valid =
         std::count_if(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
     if (num_valid >= 2 && std::isfinite(numbers[0])) {
-      table.rows.push_back(std::move(numbers));
+      for (std::size_t c = 0; c < fields.size(); ++c) {
+        if (fields[c].empty()) numbers[c] = 0;  // as instruments write a class with nothing in it
+      }
+      if (broken) {
+        Refuse(path, "line " + std::to_string(*broken) +
+                         ": has no share, and the table goes on below: complete or remove it");
+      }
+      table.rows.push_back({std::move(numbers), line_number});
+    } else if (!table.rows.empty() && std::isfinite(numbers[0])) {
+      if (!broken) broken = line_number;
     } else if (!table.rows.empty()) {
       break;
     } else {
@@ -122,7 +143,7 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
     }
   }
   if (table.rows.size() < 2) Refuse(path, "has no table of diameters and shares");
-  const std::size_t num_columns = table.rows.front().size();
+  const std::size_t num_columns = table.rows.front().numbers.size();
   table.titles.resize(num_columns);
   const std::size_t first = above.size() > 2 ? above.size() - 2 : 0;
   for (std::size_t i = first; i < above.size(); ++i) {
@@ -252,10 +273,13 @@ void ReadSizeText(std::string text, SizeDistribution& sizes) {
   const std::string& title = table.titles[columns.diameter];
   const double unit = UnitOf(path, title, table.head);
   std::vector<std::pair<double, double>> points;
-  for (const auto& row : table.rows) {
+  for (const auto& [row, line] : table.rows) {
     if (row.size() <= columns.diameter || !(row[columns.diameter] > 0)) continue;
     const double share = row.size() > columns.share ? row[columns.share] : 0;
-    points.emplace_back(row[columns.diameter] * unit, std::isfinite(share) ? share : 0);
+    if (!std::isfinite(share)) {
+      Refuse(path, "line " + std::to_string(line) + ": its share is not a number");
+    }
+    points.emplace_back(row[columns.diameter] * unit, share);
   }
   std::sort(points.begin(), points.end());  // some instruments list the coarse end first
   if (points.size() < 2) Refuse(path, "has less than two diameters above zero");

@@ -31,8 +31,9 @@ struct ReportArguments {
 // What a newer page would show: nothing is written while it stays the same.
 std::string StateOf(const analysis::Evidence& evidence) {
   std::string state = evidence.state;
-  for (const analysis::TrialEvidence& trial : evidence.trials)
-    state += base::NameOf(trial.state).front();
+  for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
+    for (const analysis::TrialEvidence& trial : *trials) state += base::NameOf(trial.state).front();
+  }
   return state;
 }
 

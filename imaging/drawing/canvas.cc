@@ -121,7 +121,9 @@ std::vector<double> Ticks(double low, double high, int count) {
   }
   std::vector<double> ticks;
   const double first = std::ceil(low / step - 1e-9);
-  for (double k = first; k * step <= high + 1e-9 * step; ++k) ticks.push_back(k * step);
+  // Counted: a large k may not change by one more.
+  const double num = std::min(20.0, std::floor(high / step + 1e-9) - first + 1);
+  for (int i = 0; i < num; ++i) ticks.push_back((first + i) * step);
   return ticks;
 }
 

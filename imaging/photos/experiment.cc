@@ -15,6 +15,7 @@
 #include "imaging/photos/photo_reading.h"
 #include "imaging/photos/photo_set.h"
 #include "imaging/photos/placement.h"
+#include "imaging/photos/sad_from_others.h"
 #include "imaging/photos/scale_mark.h"
 #include "imaging/spheres/projection.h"
 
@@ -69,12 +70,9 @@ GrayImage StandardDeviation(const std::vector<GrayImage>& images) {
 }
 
 NoiseFloor LeaveOneOut(const std::vector<GrayImage>& images, const Profile& aehp) {
-  NoiseFloor floor;
-  for (std::size_t left = 0; left < images.size(); ++left) {
-    std::vector<GrayImage> others = images;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left));
-    floor.sad_px.push_back(Sad(images[left], MeanImage(others)));
-    floor.mean_sad_px += floor.sad_px.back() / static_cast<double>(images.size());
+  NoiseFloor floor{.sad_px = SadFromOthers(images)};
+  for (const double sad : floor.sad_px) {
+    floor.mean_sad_px += sad / static_cast<double>(images.size());
   }
   const double pixel = aehp.frame.pixel_size * 1e3;  // [mm]
   floor.mean_sad_mm2 = floor.mean_sad_px * pixel * pixel;

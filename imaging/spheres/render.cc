@@ -119,7 +119,7 @@ class Picture {
 
 ColorImage RenderSpheres(std::span<const base::Sphere> spheres, const Camera& camera) {
   Picture picture(camera);
-  picture.DrawPlate();
+  if (camera.plate_diameter > 0) picture.DrawPlate();
   for (const base::Sphere& sphere : spheres) picture.DrawSphere(sphere);
   return picture.Take();
 }

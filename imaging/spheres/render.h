@@ -18,7 +18,7 @@ struct Camera {
   double pixel_size = 0;      // [m], > 0
   double center_x = 0;        // of the plate [px] from the left edge
   double baseline = 0;        // the plate's centre [px] from the top edge
-  double plate_diameter = 0;  // [m]
+  double plate_diameter = 0;  // [m]; 0: no plate is drawn
   double azimuth = 0;         // turned about z [rad]
   double elevation = 0;       // above the horizontal [rad], in [0, π/2)
 };

@@ -50,7 +50,6 @@ Repeats FindRepeats(const History& history) {
 Answer BestObserved(std::span<const Observation> told, const Domain& domain,
                     const std::string& how) {
   Answer answer;
-  answer.credible.resize(static_cast<std::size_t>(domain.num_parameters));
   answer.correlation = Eigen::MatrixXd::Identity(domain.num_parameters, domain.num_parameters);
   answer.model = "no model: the best observation of " + how;
   const Observation* best = nullptr;

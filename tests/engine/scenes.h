@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "engine/laws/pair_constants.h"
@@ -31,6 +32,28 @@ inline Scene EmptySpace(const Material& material) {
   scene.models.rolling = Rolling::kNone;
   scene.gravity = {0, 0, 0};
   return scene;
+}
+
+// Every law that a contact can have.
+inline std::vector<ContactModels> AllModels() {
+  std::vector<ContactModels> all;
+  for (const Adhesion adhesion : {Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr}) {
+    for (const Rolling rolling :
+         {Rolling::kNone, Rolling::kConstant, Rolling::kViscous, Rolling::kEpsd, Rolling::kEpsd2}) {
+      all.push_back({.adhesion = adhesion, .rolling = rolling});
+    }
+  }
+  all.push_back({.coulomb_limit = CoulombLimit::kElasticForce});
+  all.push_back({.adhesion = Adhesion::kJkr,
+                 .jkr_rolling_limit = JkrRollingLimit::kFromPullOff,
+                 .jkr_sliding_spring = JkrSlidingSpring::kShortened});
+  return all;
+}
+
+inline std::string NameOf(const ContactModels& models) {
+  const auto name = [](auto value) { return std::string(base::NameOf(value)); };
+  return name(models.adhesion) + ", " + name(models.rolling) + ", " + name(models.coulomb_limit) +
+         ", " + name(models.jkr_sliding_spring);
 }
 
 // Length of an undamped Hertz impact: 2.9432… δ_max/v, with (15/16) m* v² = Y* √R* δ_max^(5/2).

@@ -446,6 +446,56 @@ class ReportInABrowser(unittest.TestCase):
         self.assertGreater(first, 3)
         self.assertEqual(first, pages())
 
+    # An experiment may have no trial of its own yet; and what fails in one chart leaves the others on paper.
+    def test_a_chart_without_data_leaves_the_others(self):
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
+        missing = self.driver.execute_script(
+            "return within({...D, objectives: D.objectives.map((o) => ({...o, absent: 'no trial'}))}, () => "
+            "card(spaceChart())) === null && within({...D, trials: {...D.trials, state: D.trials.id.map(() => 'running')}},"
+            " () => card(convergenceChart())) === null")
+        self.assertTrue(missing)
+        charts = self.driver.execute_script(
+            "const fail = () => { throw new Error('broken'); };"
+            "return talusCharts.unshift({id: 'broken', start: fail, toPaper: fail, redraw: fail}) - 1")
+        self.driver.execute_cdp_cmd("Page.printToPDF", {})
+        self.assertEqual(len(self.driver.find_elements(By.CSS_SELECTOR, "canvas.paper")), charts)
+        self.driver.get_log("browser")  # the console names the broken one
+
+    # The library labels powers of ten only, of which less than a decade may hold none.
+    def test_a_short_logarithmic_axis_has_labels(self):
+        self.open_report("posterior", 60, 2, "finished", coarse_design=True)
+        for low, high, ticks in ((0.2, 0.9, [0.2, 0.5]), (0.02, 0.6, [0.02, 0.05, 0.1, 0.2, 0.5]), (1e-6, 1e-2, None),
+                                 (0.31, 0.38, [0.32, 0.34, 0.36, 0.38]), (2e-5, 9e-5, [2e-5, 5e-5])):
+            self.assertEqual(self.numbers_of(f"ticksBetween({low}, {high}) || null"), ticks)
+        labels = self.driver.execute_script(
+            "const p = {symbol: 'a', unit: '', low: .2, high: .9, log: true};"
+            "const made = chart('short', 'short', '', () => ({xAxis: parameterAxis(p), yAxis: valueAxis('b'), series: []}));"
+            "document.getElementById('main').append(made.figure);"
+            "talusCharts[talusCharts.length - 1].start();"
+            "return echarts.getInstanceByDom(document.getElementById('short')).getModel().getComponent('xAxis').axis"
+            ".getViewLabels().map((label) => label.formattedLabel)")
+        self.assertEqual(labels, ["0.2", "0.5"])
+        self.check_log()
+
+    # What no synthetic campaign has: the page's functions with other data.
+    def test_words_for_what_is_rare(self):
+        self.open_report("two", 40, 2, "running")
+
+        def text(changes, make):
+            return self.driver.execute_script(
+                f"const made = within({{...D, {changes}}}, () => {make}); return made && made.textContent")
+        self.assertEqual(
+            text("campaign: {...D.campaign, state: 'finished', counts: {searched: 0, reused: 0, confirming: 0, failed: 4}}",
+                 "notYet()"), "No trial succeeded: 4 failed (see Failures).")
+        best = text("campaign: {...D.campaign, num_experiments: 2, experiment: 'box', objective: {...D.campaign.objective, "
+                    "is_distance: true, reference: 0, value_title: 'AOR 2, off by'}}", "bestSoFar()")
+        self.assertTrue(best.startswith("Best so far of box: AOR 2, off by"), best)
+        row = ("{experiment: 'a', what: 'b', simulated: '', measured: 'c', judgement: '', implausibility: null, "
+               "meets: 'unknown', held_out: false}")
+        self.assertNotIn("..", text("", f"fitList({{fit: [{row}]}})"))
+        tile = text("", "valueTile({...D.parameters[0], nuisance: true}, {value: .5, low: .4, high: .6})")
+        self.assertIn("not asked for", tile)
+
     # WebGL draws it with a camera of its own, on a screen of any density.
     def test_the_space_of_three_parameters_is_on_paper(self):
         self.open_report("three", 60, 3, "finished")

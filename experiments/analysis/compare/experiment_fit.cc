@@ -70,6 +70,7 @@ FitRow ShapeRow(const Answer& answer, const campaign::ResultExperiment& experime
   row.meets = fit.meets;
   const ResultConfirmed* confirmed = ConfirmedOf(answer, record.name);
   if (confirmed != nullptr && confirmed->profile_sad_mm2) {
+    row.is_confirmed = true;
     row.simulated = SimulatedShape(*confirmed);
     row.judgement = ShapeJudgement(fit, record.num_heaps);
     return row;
@@ -112,6 +113,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
   const bool is_confirmed =
       confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
+  row.is_confirmed = is_confirmed;
   if (is_confirmed) {
     row.simulated = shown(confirmed->scalars[index].mean) + ending + " as the mean of " +
                     base::Counted(confirmed->num_trials, "simulation") +
@@ -152,28 +154,34 @@ std::vector<FitRow> FitRows(const Answer& answer, const journal::CampaignRecord&
   return rows;
 }
 
-std::string FitSentence(const std::vector<FitRow>& rows) {
-  std::vector<std::string> met, missed, open;
+namespace {
+
+// "The mass of "heap" and …" of the rows that are so; empty without.
+std::string Names(const std::vector<FitRow>& rows, Meets meets, bool simulated) {
+  std::vector<std::string> names;
   for (const FitRow& row : rows) {
-    (row.meets == Meets::kYes  ? met
-     : row.meets == Meets::kNo ? missed
-                               : open)
-        .push_back(NameOf(row));
+    if (row.meets == meets && row.is_confirmed == simulated) names.push_back(NameOf(row));
   }
+  return base::Listed(names);
+}
+
+}  // namespace
+
+std::string FitSentence(const std::vector<FitRow>& rows) {
   std::string text;
-  if (!met.empty()) {
-    text = "With these values a simulation gives " + base::Listed(met) +
-           " as closely as the measurement itself is known.";
-  }
-  if (!missed.empty()) {
-    text += (text.empty() ? "With these values a simulation misses " : " It misses ") +
-            base::Listed(missed) + ".";
-  }
-  if (!open.empty()) {
-    text += (text.empty() ? "" : " ") +
-            std::string("The few simulations with these values do not tell how well ") +
-            base::Listed(open) + (open.size() == 1 ? " is" : " are") + " met.";
-  }
+  const auto add = [&](bool simulated, Meets meets, const std::string& before,
+                       const std::string& after) {
+    const std::string names = Names(rows, meets, simulated);
+    if (!names.empty()) text += (text.empty() ? "" : " ") + before + names + after + ".";
+  };
+  add(true, Meets::kYes, "With these values simulations give ",
+      " within the errors of measurement and simulations");
+  add(true, Meets::kNo, "With these values simulations miss ", "");
+  add(false, Meets::kYes, "The model expects ", " within the errors of measurement and prediction");
+  add(false, Meets::kNo, "The model expects to miss ", "");
+  add(true, Meets::kUnknown,
+      "The few simulations with these values do not tell how well they meet ", "");
+  add(false, Meets::kUnknown, "No simulation with these values tells how well they meet ", "");
   return text;
 }
 

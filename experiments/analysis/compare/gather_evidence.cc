@@ -135,7 +135,7 @@ void AddTimes(Evidence& evidence, double elapsed) {
   double cpu = 0;
   for (const auto* trials : {&evidence.trials, &evidence.of_others}) {
     for (const TrialEvidence& trial : *trials) {
-      if (trial.state == journal::TrialStatus::kRunning) continue;
+      if (trial.state == journal::TrialStatus::kRunning || trial.purpose == "reused") continue;
       wall += trial.seconds;
       cpu += trial.cpu_seconds;
     }
@@ -165,9 +165,9 @@ std::string MachineText() {
          std::to_string(std::thread::hardware_concurrency()) + " processors";
 }
 
-std::string SeedsText(const std::vector<TrialEvidence>& trials) {
-  if (trials.empty()) return "none drawn yet";
-  return std::to_string(trials.size()) + " trials, each with its own in tables/trials.csv";
+std::string SeedsText(std::size_t num_trials) {
+  if (num_trials == 0) return "none drawn yet";
+  return std::to_string(num_trials) + " trials, each with its own in tables/";
 }
 
 // Without a name the first that has images, or the first of all where none has.
@@ -232,7 +232,7 @@ void AddVersions(const journal::CampaignRecord& record, Evidence& evidence) {
                        {"strategy", evidence.strategy},
                        {"spec", record.spec_path},
                        {"hash of the spec", record.spec_hash},
-                       {"seeds", SeedsText(evidence.trials)}};
+                       {"seeds", SeedsText(evidence.trials.size() + evidence.of_others.size())}};
 }
 
 std::shared_ptr<journal::Journal> OpenJournal(const std::filesystem::path& campaign) {

@@ -58,10 +58,11 @@ ModelEvidence ModelOf(const std::shared_ptr<optimizer::PosteriorStrategy>& strat
 
 void AddModel(const std::filesystem::path& campaign, Evidence& evidence,
               std::span<Evidence> others) {
-  const bool any = std::ranges::any_of(evidence.trials, [](const TrialEvidence& trial) {
+  const auto tells = [](const TrialEvidence& trial) {
     return trial.state == journal::TrialStatus::kOk && trial.purpose != "confirm";
-  });
-  if (!any) {
+  };
+  if (std::ranges::none_of(evidence.trials, tells) &&
+      std::ranges::none_of(evidence.of_others, tells)) {
     evidence.model_absent = "no trial has succeeded yet";
     return;
   }

@@ -13,6 +13,13 @@ void WritePicture(const std::filesystem::path& folder, const Picture& picture) {
   base::WriteFileAtomically(folder / (picture.name + ".png"), picture.png);
 }
 
+// Names are those of folders already (base::RequireName), but for these two.
+std::string OwnFolder(const Evidence& evidence) {
+  const std::string& name = evidence.experiments.at(evidence.experiment);
+  if (name != "." && name != "..") return name;
+  return "experiment_" + std::to_string(evidence.experiment + 1);
+}
+
 // Each experiment's in a folder of its own, the shown one's in `folder`.
 void WriteFigures(const ReportData& data, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
@@ -27,7 +34,18 @@ void WriteFigures(const ReportData& data, const std::filesystem::path& folder) {
     for (const Picture* picture : {&view.mean, &view.different}) WritePicture(folder, *picture);
   }
   for (const ReportData& other : data.others) {
-    WriteFigures(other, folder / other.evidence.experiments.at(other.evidence.experiment));
+    WriteFigures(other, folder / OwnFolder(other.evidence));
+  }
+}
+
+// … and so are the tables.
+void WriteTables(const ReportData& data, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const NamedText& table : ReportTables(data)) {
+    base::WriteFileAtomically(folder / (table.name + ".csv"), table.text);
+  }
+  for (const ReportData& other : data.others) {
+    WriteTables(other, folder / OwnFolder(other.evidence));
   }
 }
 
@@ -37,10 +55,7 @@ std::filesystem::path WriteReport(const ReportData& data, const std::filesystem:
                                   const PageOptions& page) {
   base::ClaimOutputFolder(folder, "report");
   WriteFigures(data, folder / "figures");
-  std::filesystem::create_directories(folder / "tables");
-  for (const NamedText& table : ReportTables(data)) {
-    base::WriteFileAtomically(folder / "tables" / (table.name + ".csv"), table.text);
-  }
+  WriteTables(data, folder / "tables");
   if (const std::string summary = SummaryPage(data); !summary.empty()) {
     base::WriteFileAtomically(folder / "summary.html", summary);
   }

@@ -8,8 +8,8 @@
 
 namespace talus::analysis {
 
-// report.html, summary.html once there is an answer, figures/*.png (those of further experiments in
-// folders of their names), and tables/*.csv under `folder`, each written atomically.
+// report.html, summary.html once there is an answer, figures/*.png and tables/*.csv (those of
+// further experiments in folders of their names) under `folder`, each written atomically.
 // Returns the page's path.
 std::filesystem::path WriteReport(const ReportData& data, const std::filesystem::path& folder,
                                   const PageOptions& page = {});

@@ -34,7 +34,7 @@ const SearchEvaluation* BestOf(const SearchFolder& search) {
   return best;
 }
 
-// The range of the values, a twentieth wider on each side.
+// The range of the values, a twentieth wider on each side, and by more than rounding.
 SvgAxis ValueAxis(const SearchFolder& search) {
   SvgAxis axis{.title = "value"};
   std::optional<double> low, high;
@@ -43,7 +43,8 @@ SvgAxis ValueAxis(const SearchFolder& search) {
     low = std::min(low.value_or(*one.value), *one.value);
     high = std::max(high.value_or(*one.value), *one.value);
   }
-  const double margin = *high > *low ? 0.05 * (*high - *low) : 0.5;
+  const double rounding = 1e-6 * std::max(std::abs(*low), std::abs(*high));
+  const double margin = *high > *low ? std::max(0.05 * (*high - *low), rounding) : 0.5;
   axis.low = *low - margin;
   axis.high = *high + margin;
   return axis;

@@ -10,6 +10,7 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
+#include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
@@ -27,15 +28,24 @@ std::string PriorText(const ResultParameter& p) {
          base::ShortNumber(p.prior->high) + ")";
 }
 
+std::string RangeText(const ResultParameter& p) {
+  if (!std::isfinite(p.credible_low)) return "no range without a model";
+  return "90 % in " + base::ShortNumber(p.credible_low) + " … " +
+         base::ShortNumber(p.credible_high);
+}
+
 std::string ParameterLines(const Answer& result) {
   std::string text;
+  std::size_t width = 18;
+  for (const ResultParameter& p : result.parameters) width = std::max(width, p.name.size() + 2);
+  bool is_known = true;
   for (const ResultParameter& p : result.parameters) {
     if (p.nuisance) continue;
-    text += "  " + Padded(p.name, 18) + Padded(base::ShortNumber(p.value) + " " + p.unit, 18) +
-            "90 % in " + base::ShortNumber(p.credible_low) + " … " +
-            base::ShortNumber(p.credible_high) + PriorText(p) + "\n";
+    is_known = is_known && std::isfinite(p.credible_low);
+    text += "  " + Padded(p.name, width) + Padded(base::ShortNumber(p.value) + " " + p.unit, 18) +
+            RangeText(p) + PriorText(p) + "\n";
   }
-  if (AskedParameters(result).size() > 1) text += "  (90 % for all of them together)\n";
+  if (is_known && AskedParameters(result).size() > 1) text += "  (90 % for all of them together)\n";
   for (const ResultParameter& p : result.parameters) {
     if (p.nuisance) text += "  nuisance          " + NuisanceText(p, p.name) + PriorText(p) + "\n";
   }
@@ -55,7 +65,8 @@ std::string ObjectiveText(const Answer& answer, const ResultExperiment& experime
   if (confirmed == nullptr || !std::isfinite(confirmed->mean)) return text;
   text += (text.empty() ? "" : ", ") + std::string("confirmed ") +
           base::ShortNumber(ComparableOf(answer, *confirmed)) + unit;
-  if (confirmed->over_floor) {
+  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
+  if (is_sad && confirmed->over_floor) {
     text += " (" + base::PlainNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
             base::PlainNumber(*experiment.noise_floor, 2) + ")";
   }
@@ -93,8 +104,9 @@ std::string ExperimentLines(const Answer& answer) {
     const ResultConfirmed* confirmed = ConfirmedOf(answer, e.name);
     const std::string objective = ObjectiveText(answer, e, confirmed);
     const std::string numbers = NumbersText(e, confirmed);
-    text += "  " + Padded(e.name + "  ", 18) + objective +
-            (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
+    std::string line = objective + (objective.empty() || numbers.empty() ? "" : "; ") + numbers;
+    if (line.empty()) line = "not simulated again";
+    text += "  " + Padded(e.name + "  ", 18) + line;
     if (const ResultStanding* standing = StandingOf(answer, e.name)) {
       text += "; implausibility " + base::PlainNumber(standing->implausibility, 2) +
               ModelErrorText(*standing);

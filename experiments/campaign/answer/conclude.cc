@@ -15,6 +15,7 @@
 #include "experiments/campaign/answer/representatives.h"
 #include "experiments/campaign/plan/cores.h"
 #include "experiments/rigs/case/device_text.h"
+#include "imaging/photos/sad_from_others.h"
 #include "imaging/spheres/projection.h"
 
 namespace talus::campaign {
@@ -54,6 +55,10 @@ ResultConfirmed ConfirmedOf(const std::vector<const journal::TrialRecord*>& tria
     journal::TrialRecord mean;
     mean.metrics = reference.Measure(imaging::MeanImage(profiles));
     confirmed.profile_sad_mm2 = mean.Metric(journal::InfoOf(journal::Objective::kSad).metric);
+  }
+  if (profiles.size() > 1) {
+    const double pixel = reference.frame()->pixel_size * 1e3;  // [mm]
+    confirmed.spread_mm2 = base::SampleOf(imaging::SadFromOthers(profiles)).mean * pixel * pixel;
   }
   if (confirmed.profile_sad_mm2 && record.noise_mm2) {
     confirmed.over_floor = *confirmed.profile_sad_mm2 / *record.noise_mm2;

@@ -15,6 +15,7 @@
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/joint_view.h"
 #include "experiments/journal/objective.h"
+#include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
 namespace {
@@ -67,6 +68,33 @@ std::string KnownText(const ConsideredParameter& p) {
   if (p.prior)
     text += ", its mean " + base::PlainNumber(p.prior->offset, 2) + " sd off the prior's";
   return text + "\n";
+}
+
+// "    mass fallen 10.3 mg ± 0.5 predicted, 5.1 mg ± 0.7 measured"
+std::string NumbersText(const ConsideredSet& c, const ResultStanding& standing) {
+  const auto record = std::ranges::find(c.records, standing.name, &journal::ExperimentRecord::name);
+  std::string text;
+  for (std::size_t i = 0; record != c.records.end() && i < standing.numbers.size(); ++i) {
+    const journal::ScalarRecord& measured = record->scalars.at(i);
+    const auto shown = [&](double value) { return rigs::ShownNumber(measured.name, value); };
+    text += "    " + rigs::SpokenName(measured.name) + " " + shown(standing.numbers[i].predicted) +
+            " ± " + shown(standing.numbers[i].predicted_sd) + " predicted, " +
+            shown(measured.value) + " ± " + shown(measured.standard_error) + " measured\n";
+  }
+  return text;
+}
+
+std::string NearText(const ConsideredSet& c, const NearTrial& near) {
+  std::string text = "    trial " + std::to_string(near.trial.id);
+  if (c.records.size() > 1) {
+    text += " of " + c.records.at(static_cast<std::size_t>(near.trial.experiment)).name;
+  }
+  text += " at " + SetText(c.parameters, near.trial.native) + ", scale factor " +
+          base::ShortNumber(near.trial.scale_factor) + ": ";
+  return text +
+         (near.objective ? base::ShortNumber(*near.objective) + " " + c.objective_unit
+                         : std::string(base::NameOf(near.trial.status))) +
+         "\n";
 }
 
 }  // namespace
@@ -128,6 +156,7 @@ ConsideredSet ConsiderSet(const std::filesystem::path& root,
       .credible_level = {},
       .experiments = {},
       .nearest = NearestTrials(view.trials, view.references, point),
+      .records = view.record.experiments,
       .objective_unit = std::string(journal::InfoOf(view.spec.objective).unit)};
   if (strategy->CanModel()) {
     const optimizer::Answer answer = strategy->Recommend();
@@ -162,16 +191,10 @@ std::string ConsideredText(const ConsideredSet& c) {
               base::ShortNumber(c.target_scale_factor) + ", ";
     }
     text += "implausibility " + base::ShortNumber(e.implausibility) + "\n";
+    text += NumbersText(c, e);
   }
   text += "  nearest trials\n";
-  for (const NearTrial& near : c.nearest) {
-    text += "    trial " + std::to_string(near.trial.id) + " at " +
-            SetText(c.parameters, near.trial.native) + ", scale factor " +
-            base::ShortNumber(near.trial.scale_factor) + ": " +
-            (near.objective ? base::ShortNumber(*near.objective) + " " + c.objective_unit
-                            : std::string(base::NameOf(near.trial.status))) +
-            "\n";
-  }
+  for (const NearTrial& near : c.nearest) text += NearText(c, near);
   return text;
 }
 

@@ -42,7 +42,8 @@ struct ConsideredSet {
                                          // while there are too few trials
   double surrogate_narrowing = 0;        // as ResultPosterior's
   std::vector<ResultStanding> experiments;
-  std::vector<NearTrial> nearest;  // the nearest first
+  std::vector<NearTrial> nearest;                  // the nearest first
+  std::vector<journal::ExperimentRecord> records;  // of all experiments, in the campaign's order
   std::string objective_unit;
 };
 

@@ -17,6 +17,7 @@ constexpr double kFarImage = 3;  // standard errors: SADs are skewed (tests coun
 constexpr double kMostShare = 0.05;  // of the powder's area
 
 // The square of a mean profile's SAD falls as a² + b²/n with its n heaps: b, from one heap and all.
+// Not from one heap that is black and white: it is as far from a mean as from another of its kind.
 double ScatterOfOne(const ResultConfirmed& confirmed) {
   if (!confirmed.profile_sad_mm2 || !confirmed.sad_mm2 || confirmed.num_trials < 2) return 0;
   const double n = confirmed.num_trials;
@@ -47,8 +48,9 @@ Meets ImageMeets(const Answer& answer, const ResultExperiment& experiment,
     return beyond > ChanceOf(answer, experiment, confirmed) ? Meets::kNo : Meets::kUnknown;
   }
   const double own = SadWithoutScatter(confirmed);
+  const double scatter = std::max(ScatterOfOne(confirmed), confirmed.spread_mm2.value_or(0));
   const bool misses = experiment.powder_area && own > kMostShare * *experiment.powder_area &&
-                      own > kCloseRuns * ScatterOfOne(confirmed);
+                      own > kCloseRuns * scatter;
   return misses ? Meets::kNo : Meets::kUnknown;
 }
 

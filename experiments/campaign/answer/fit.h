@@ -5,7 +5,8 @@
 // from the experiment's as its runs are from the mean of the others (the noise floor), and missed
 // when it is farther by three standard errors of the mean of so many simulations. Without runs it
 // is missed when the set itself, the scatter of its pictures taken off, is more than 5 % of the
-// powder's area and 1.5 times that scatter away.
+// powder's area and 1.5 times that scatter away, or 1.5 times as far as the confirming trials are
+// from each other: a map may be of one heap.
 //
 // A number is met within two standard errors, those of the measurement and of the simulations
 // together, and missed beyond

@@ -40,6 +40,7 @@ struct ResultConfirmed {
   int degrees = 0;
   std::optional<double> profile_sad_mm2{};  // SAD of their mean profile
   std::optional<double> over_floor{};       // … over the experiment's noise floor
+  std::optional<double> spread_mm2{};  // mean SAD of each one's profile from that of the others
   std::vector<ResultScalar> scalars{};
 
   static constexpr base::FieldKey kKeys[] = {{"mean", "objective_mean"},
@@ -49,7 +50,7 @@ struct ResultConfirmed {
                                              {"profile_sad_mm2", "mean_profile_sad_mm2"},
                                              {"over_floor", "mean_profile_sad_over_noise_floor"}};
   TALUS_FIELDS(name, num_trials, mean, standard_error, sad_mm2, sad_standard_error, degrees,
-               profile_sad_mm2, over_floor, scalars);
+               profile_sad_mm2, over_floor, spread_mm2, scalars);
 };
 
 // A set that was simulated again with fresh seeds.

@@ -67,6 +67,9 @@ std::vector<std::string> SetUpWarnings(const Case& c) {
     if (!text.empty()) warnings.push_back(std::move(text));
   };
   if (c.rig.kind == RigKind::kLiftedTube) warn(FillingWarning(c));
+  const double f = c.coarse_graining.scale_factor;
+  const double volume = c.powder.mass / c.powder.material.density;
+  warn(engine::LostSizes(engine::SizeCurve(c.powder.sizes), volume / (f * f * f)));
   if (c.rayleigh_fraction > kUsualRayleighFraction) {
     warn("rayleigh_fraction is above 0.3: heaps have been compared up to there only");
   }

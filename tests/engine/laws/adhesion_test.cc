@@ -54,6 +54,18 @@ TEST(DmtContact, PullReachesAcrossTheGapAndNoFarther) {
   }
 }
 
+// Its range grows as γ^(-1/2): a search near its lower bound listed every pair of a heap.
+TEST(DmtContact, WhatHoldsNothingReachesNowhere) {
+  Material material = testing::Glass();
+  const ContactModels models{.adhesion = Adhesion::kDmt};
+  for (const double surface_energy : {1e-6, 2e-10, 1e-11, 1e-15}) {
+    material.surface_energy = surface_energy;
+    const PairConstants pair = MakePairConstants(material, material, models);
+    EXPECT_EQ(pair.pull_off > 0, surface_energy > 1e-10) << surface_energy;
+    EXPECT_LT(pair.adhesion_gap, 1e-4) << surface_energy;
+  }
+}
+
 // Hangs from a ceiling under a load that grows by 1 % of what is expected at a time: the first that
 // it does not bear [N]. A step overshoots by as much at most.
 double PullOff(Adhesion adhesion, double expected) {

@@ -49,14 +49,15 @@ TEST_P(AllLaws, LinearMomentumIsConservedToRoundOff) {
   EXPECT_LT(base::Norm(after.linear - before.linear), 1e-12 * before.scale);
   EXPECT_NE(after.linear, before.linear);  // they did collide
 }
-INSTANTIATE_TEST_SUITE_P(Engine, AllLaws,
-                         ::testing::Combine(::testing::Values(Adhesion::kNone, Adhesion::kDmt,
-                                                              Adhesion::kJkr),
-                                            ::testing::Values(Rolling::kNone, Rolling::kConstant,
-                                                              Rolling::kViscous, Rolling::kEpsd)));
+INSTANTIATE_TEST_SUITE_P(
+    Engine, AllLaws,
+    ::testing::Combine(::testing::Values(Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr),
+                       ::testing::Values(Rolling::kNone, Rolling::kConstant, Rolling::kViscous,
+                                         Rolling::kEpsd, Rolling::kEpsd2)));
 
 // (T3) takes both levers from the centres to the surfaces, which overlap: angular momentum changes
-// by force times overlap. At 3e-3 of the radius and a few impacts each that is below 1e-3.
+// by force times overlap: by 8e-6 of this scale as it happens, where a lever wrong by half would
+// make some 7e-4 of it.
 TEST(Conservation, AngularMomentumChangesByTheOverlapsLeverOnly) {
   Scene scene = testing::EmptySpace(testing::Glass());
   scene.particles = testing::Cloud({.speed = 0.1});
@@ -64,7 +65,7 @@ TEST(Conservation, AngularMomentumChangesByTheOverlapsLeverOnly) {
   const Momenta before = MomentaOf(simulation, scene.materials[0]);
   simulation.Advance(5000);
   const Momenta after = MomentaOf(simulation, scene.materials[0]);
-  EXPECT_LT(base::Norm(after.angular - before.angular), 1e-3 * before.scale * 12.6e-3);
+  EXPECT_LT(base::Norm(after.angular - before.angular), 3e-5 * before.scale * 12.6e-3);
 }
 
 // In a box, sampled densely: what is stored in contacts can come back, so the kinetic energy may

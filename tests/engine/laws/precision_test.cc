@@ -68,17 +68,16 @@ class Reference {
 };
 
 struct Case {
-  Adhesion adhesion;
-  Rolling rolling;
+  ContactModels models;
   double radius;  // [m]
 };
 
 // Two unequal spheres, apart at first, far from the origin, that meet at an angle and with spin.
 Scene Meeting(const Case& c) {
   Material material = testing::Glass();
-  material.surface_energy = c.adhesion == Adhesion::kNone ? 0 : 3e-2 * c.radius;
+  material.surface_energy = c.models.adhesion == Adhesion::kNone ? 0 : 3e-2 * c.radius;
   Scene scene = testing::EmptySpace(material);
-  scene.models = {.adhesion = c.adhesion, .rolling = c.rolling};
+  scene.models = c.models;
   const double speed = 0.1;
   scene.time_step = 0.1 * RayleighTime(material, 0.7 * c.radius);
   const Vec3 far = 50 * c.radius * Vec3{1, -2, 3};
@@ -95,26 +94,22 @@ Scene Meeting(const Case& c) {
 // DMT, whose pull fades within nanometres); a factor of a law that were wrong by 1e-5 would show.
 TEST(Precision, CollisionsAreThoseOfDoublePrecision) {
   for (const double radius : {1e-6, 1e-4, 1e-2}) {
-    for (const Adhesion adhesion : {Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr}) {
-      for (const Rolling rolling :
-           {Rolling::kNone, Rolling::kConstant, Rolling::kViscous, Rolling::kEpsd}) {
-        SCOPED_TRACE(::testing::Message() << "radius " << radius << ", " << base::NameOf(adhesion)
-                                          << ", " << base::NameOf(rolling));
-        const Scene scene = Meeting({adhesion, rolling, radius});
-        Reference reference(scene);
-        Simulation simulation(scene);
-        bool touched = false;
-        for (int step = 0; step < 300; ++step) {
-          simulation.Advance(1);
-          reference.Advance();
-          touched |= !simulation.Contacts().empty();
-        }
-        EXPECT_TRUE(touched);
-        const auto a = simulation.Particles(), b = reference.Particles();
-        for (int i = 0; i < 2; ++i) {
-          EXPECT_LT(base::Norm(a[i].velocity - b[i].velocity), 3e-6 * 0.1);
-          EXPECT_LT(radius * base::Norm(a[i].angular_velocity - b[i].angular_velocity), 3e-6 * 0.1);
-        }
+    for (const ContactModels& models : testing::AllModels()) {
+      SCOPED_TRACE(::testing::Message() << "radius " << radius << ", " << testing::NameOf(models));
+      const Scene scene = Meeting({models, radius});
+      Reference reference(scene);
+      Simulation simulation(scene);
+      bool touched = false;
+      for (int step = 0; step < 300; ++step) {
+        simulation.Advance(1);
+        reference.Advance();
+        touched |= !simulation.Contacts().empty();
+      }
+      EXPECT_TRUE(touched);
+      const auto a = simulation.Particles(), b = reference.Particles();
+      for (int i = 0; i < 2; ++i) {
+        EXPECT_LT(base::Norm(a[i].velocity - b[i].velocity), 3e-6 * 0.1);
+        EXPECT_LT(radius * base::Norm(a[i].angular_velocity - b[i].angular_velocity), 3e-6 * 0.1);
       }
     }
   }

@@ -173,32 +173,30 @@ class Kernels : public ::testing::Test {
 // Instruction sets round differently: a fused multiplication here, a reciprocal root there. One
 // oblique impact of 60 steps keeps the differences near 6e-8 of the speeds, grown by the steps.
 TEST_F(Kernels, AgreeOnACollisionToRoundOff) {
-  for (const Adhesion adhesion : {Adhesion::kNone, Adhesion::kDmt, Adhesion::kJkr}) {
-    for (const Rolling rolling :
-         {Rolling::kNone, Rolling::kConstant, Rolling::kViscous, Rolling::kEpsd}) {
-      Scene scene = Busy(1);
-      scene.models = {.adhesion = adhesion, .rolling = rolling};
-      scene.walls.clear();
-      scene.particles = {
-          {.id = 0, .radius = 1e-3, .position = {0, 0, 0.02}, .velocity = {0.2, 0.1, 0}},
-          {.id = 1,
-           .radius = 7e-4,
-           .position = {1.7e-3 - 1e-7, 0, 0.02},
-           .angular_velocity = {9, 9, 9}}};
-      std::vector<std::vector<Particle>> results;
-      for (const KernelTable* kernels : AvailableKernels()) {
-        setenv("TALUS_SIMD", kernels->name, 1);
-        Simulation simulation(scene);
-        simulation.Advance(60);
-        EXPECT_STREQ(simulation.Statistics().kernels, kernels->name);
-        results.push_back(simulation.Particles());
-      }
-      for (const auto& result : results) {
-        for (std::size_t i = 0; i < 2; ++i) {
-          EXPECT_LT(base::Norm(result[i].velocity - results[0][i].velocity), 1e-7);
-          EXPECT_LT(1e-3 * base::Norm(result[i].angular_velocity - results[0][i].angular_velocity),
-                    1e-7);
-        }
+  for (const ContactModels& models : testing::AllModels()) {
+    SCOPED_TRACE(testing::NameOf(models));
+    Scene scene = Busy(1);
+    scene.models = models;
+    scene.walls.clear();
+    scene.particles = {
+        {.id = 0, .radius = 1e-3, .position = {0, 0, 0.02}, .velocity = {0.2, 0.1, 0}},
+        {.id = 1,
+         .radius = 7e-4,
+         .position = {1.7e-3 - 1e-7, 0, 0.02},
+         .angular_velocity = {9, 9, 9}}};
+    std::vector<std::vector<Particle>> results;
+    for (const KernelTable* kernels : AvailableKernels()) {
+      setenv("TALUS_SIMD", kernels->name, 1);
+      Simulation simulation(scene);
+      simulation.Advance(60);
+      EXPECT_STREQ(simulation.Statistics().kernels, kernels->name);
+      results.push_back(simulation.Particles());
+    }
+    for (const auto& result : results) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LT(base::Norm(result[i].velocity - results[0][i].velocity), 1e-7);
+        EXPECT_LT(1e-3 * base::Norm(result[i].angular_velocity - results[0][i].angular_velocity),
+                  1e-7);
       }
     }
   }

@@ -230,5 +230,34 @@ TEST(ContactList, FindsSmallSpheresAmongLargeOnes) {
   }
 }
 
+// The skin is at most 0.6 radii of the smallest sphere, also of one that comes after a larger: else
+// it passes the disc between two lists.
+TEST(ContactList, ASmallSphereThatComesLaterGoesThroughNoWallUnseen) {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.materials[0].youngs_modulus = 6e4;
+  scene.time_step = 2e-6;
+  scene.particles = {{.id = 0, .radius = 0.01, .position = {0.1, 0, 0}}};
+  scene.walls = {{.name = "disc", .shape = Disc{.center = {}, .radius = 0.01}}};
+  Simulation simulation(scene);
+  const std::vector<Particle> small{
+      {.id = 1, .radius = 1e-4, .position = {0, 0, 1e-3}, .velocity = {0, 0, -4.5}}};
+  simulation.Add(small);
+  EXPECT_LE(simulation.Statistics().skin, 0.6e-4);
+  EXPECT_THROW(simulation.Advance(300), base::Error);  // seen, as the law cannot hold it
+}
+
+// Deeper than the centre of the smaller no law is meant for: half of both radii would be five of
+// it.
+TEST(ContactList, ASmallSphereDeepInALargeOneEndsTheRun) {
+  Scene scene = testing::EmptySpace(testing::Glass());
+  scene.materials[0].youngs_modulus = 6e4;
+  scene.time_step = 1e-6;
+  scene.particles = {
+      {.id = 0, .radius = 2e-3, .position = {0, 0, 0}},
+      {.id = 1, .radius = 2e-4, .position = {0, 0, 2.25e-3}, .velocity = {0, 0, -15}}};
+  Simulation simulation(scene);
+  EXPECT_THROW(simulation.Advance(100), base::Error);
+}
+
 }  // namespace neighbor_test
 }  // namespace talus::engine

@@ -213,6 +213,24 @@ TEST(WallLoads, ForceAndTorqueOfAWeight) {
   EXPECT_NEAR(load.torque.y / (weight * 5e-3), 1, 1e-6);  // r × F = (5 mm)(−W)(x × z) = +y
 }
 
+// Of a sphere that rolls over the middle of a plate the weight has no lever. What resists its
+// rolling turns the plate by μ_r R N along with it: without it nothing would.
+TEST(WallLoads, RollingResistanceTurnsTheWall) {
+  Material material = Rough();
+  material.rolling_friction = 0.2;
+  Scene scene = testing::EmptySpace(material);
+  scene.models.rolling = Rolling::kConstant;
+  scene.gravity = {0, 0, -kGravity};
+  scene.particles = {{.radius = 1e-3,
+                      .position = {0, 0, 1e-3 - RestOverlap(material)},
+                      .velocity = {0.1, 0, 0},
+                      .angular_velocity = {0, 100, 0}}};
+  scene.walls = {{.name = "plate", .shape = Disc{.center = {}, .radius = 0.01}}};
+  Simulation simulation(scene);
+  const double weight = SphereMass(scene.materials[0], 1e-3) * kGravity;
+  EXPECT_NEAR(simulation.WallLoads()[0].torque.y / (0.2 * 1e-3 * weight), 1, 0.01);
+}
+
 TEST(Add, ASphereThatComesLaterFallsFromThen) {
   Scene scene = testing::EmptySpace(Rough());
   scene.gravity = {0, 0, -kGravity};
@@ -232,6 +250,13 @@ TEST(Add, ASphereThatComesLaterFallsFromThen) {
   small[0].id = 8;
   small[0].radius = 1e-6;
   EXPECT_THROW(simulation.Add(small), base::ConfigError);  // the step is too long for it
+  std::vector<Particle> fast = one;
+  fast[0].id = 9;
+  fast[0].velocity = {0, 0, -200};
+  EXPECT_THROW(simulation.Add(fast), base::ConfigError);  // and here, by a fifth of the radius
+  fast[0].velocity = {};
+  fast[0].angular_velocity = {0, 2e6, 0};
+  EXPECT_THROW(simulation.Add(fast), base::ConfigError);
 }
 
 TEST(MovingScene, ARestartGoesOnWithTheSameBits) {

@@ -173,6 +173,14 @@ TEST(SizeFile, AMillionEmptyClassesAreDroppedAtOnce) {
   EXPECT_EQ(sizes.diameters.size(), 3u);
 }
 
+// Blank lines part nothing; below another title another table begins; the last edge has no class.
+TEST(SizeFile, BlankLinesAndEmptyFieldsEndNoTable) {
+  const SizeDistribution sizes = ReadText(
+      "lower (um);vol % in\n100;10\n\n200;30\n300;;7\n400;60\n500\nD50 (um);D90 (um)\n210;390\n");
+  EXPECT_EQ(sizes.shares, (std::vector<double>{10, 30, 0, 60}));
+  EXPECT_NEAR(sizes.diameters[2], 300e-6, 1e-12);
+}
+
 TEST(SizeFile, OfMoreThanSixteenMebibytesIsRefused) {
   const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "large.csv";
   std::ofstream(path) << "size (um),% in class\n10,50\n20,50\n";
@@ -196,6 +204,11 @@ TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
   EXPECT_THAT(error("nothing here"), HasSubstr("has no table"));
   EXPECT_THAT(error("size (um),% over\n1,100\n2,0\n"), HasSubstr("coarser"));
   EXPECT_THAT(error("size (um),% under\n1,50\n2,40\n3,100\n"), HasSubstr("shares[1]"));
+  // What follows used to be left out without a word.
+  EXPECT_THAT(error("size (um),% under\n1,20\n2\n3,60\n4,100\n"),
+              HasSubstr("line 3: has no share"));
+  EXPECT_THAT(error("size (um),% under,n\n1,20,3\n2,n/a,4\n3,60,3\n4,100,1\n"),
+              HasSubstr("line 3: its share is not a number"));
   EXPECT_THAT(error("\xFF\xFE"
                     "s"),
               HasSubstr("UTF-16"));

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -11,15 +12,18 @@
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/charts/svg_chart.h"
+#include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/data/tables.h"
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/page.h"
+#include "experiments/analysis/report/page/summary.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/write_report.h"
 #include "experiments/campaign/answer/answer.h"
 #include "imaging/formats/images/image_file.h"
 #include "imaging/heap/metrics.h"
+#include "optimizer/designs/r_sequence.h"
 #include "tests/experiments/synthetic_campaign.h"
 #include "tests/experiments/synthetic_journal.h"
 
@@ -76,6 +80,29 @@ TEST_F(Report, TextOfTheSpecCannotEndTheScript) {
   EXPECT_EQ(data["trials"]["id"].size(), Data().evidence.trials.size());
 }
 
+TEST(PageTemplate, WhatIsPutInIsNotSearchedForPlaceholders) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_trials = 4});
+  evidence.name = "{{js}} {{data}} {{none}}";
+  const std::string page = ReportPage(MakeReportData(evidence));
+  EXPECT_THAT(page, HasSubstr("<title>{{js}} {{data}} {{none}} – calibration report</title>"));
+  const auto from = page.find("id=\"data\">") + std::string("id=\"data\">").size();
+  const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
+  EXPECT_EQ(data["campaign"]["name"], evidence.name);
+}
+
+// A distance from the measured angle must not read as the angle.
+TEST(PageHead, ADistanceFromTheMeasurementIsCalledOne) {
+  Evidence evidence = test::MakeSyntheticCampaign();
+  const auto titles = [&] {
+    const json page = json::parse(PageJson(MakeReportData(evidence)));
+    EXPECT_EQ(page["campaign"]["objective"]["value_title"], page["headline"]["objective_title"]);
+    return page["headline"]["objective_title"];
+  };
+  EXPECT_EQ(titles(), "SAD");
+  evidence.objective = "aor2";
+  EXPECT_EQ(titles(), "AOR 2, off by");
+}
+
 TEST_F(Report, FailedTrialsHaveNoNumbersButTheirReason) {
   const json data = json::parse(PageJson(Data()));
   ASSERT_EQ(data["trials"]["state"][12], "failed");
@@ -128,6 +155,32 @@ TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
     EXPECT_THAT(chart, HasSubstr(tick));
   }
   EXPECT_THAT(chart, Not(HasSubstr("e-0")));
+}
+
+// Only powers of ten were ticks: an axis of less than a decade had one or none.
+TEST(SvgChart, AShortLogarithmicAxisHasTicks) {
+  const std::string chart = SvgChart({.title = "x", .low = 0.2, .high = 0.9, .log = true},
+                                     {.title = "y", .low = 0.31, .high = 0.38, .log = true})
+                                .Text();
+  for (const char* tick : {">0.2<", ">0.5<", ">0.32<", ">0.34<", ">0.36<"}) {
+    EXPECT_THAT(chart, HasSubstr(tick));
+  }
+}
+
+// 0.3 and the next number: k steps and k + 1 are the same.
+TEST(SvgChart, AnAxisAsShortAsTheRoundingOfItsEndsIsDrawn) {
+  const std::string chart = SvgChart({.title = "x", .low = 0.3, .high = std::nextafter(0.3, 1)},
+                                     {.title = "y", .low = 2, .high = 2})
+                                .Text();
+  EXPECT_LT(chart.size(), 10000u);
+}
+
+TEST_F(Report, OutlinesOfTheExperimentAreMarked) {
+  const json outlines = json::parse(PageJson(Data()))["outlines"];
+  ASSERT_GT(outlines.size(), 1u);
+  for (const json& outline : outlines) {
+    EXPECT_EQ(outline["experiment"], outline["title"] == "experiment (AEHP)");
+  }
 }
 
 TEST_F(Report, OutlinesEndOnThePlateWithinIt) {
@@ -340,6 +393,28 @@ TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {
                         base::ShortNumber(shown.credible_high, 3) + ")"));
 }
 
+TEST(NextSteps, NumbersAreMeasuredAgainAndNotPhotographed) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.reference.aehp = {};
+  evidence.answer->experiments[0].has_image = false;
+  std::string all;
+  for (const NextStep& step : NextSteps(evidence, {})) all += step.what + "; ";
+  EXPECT_THAT(all, HasSubstr("Repeat the measurement"));
+  EXPECT_THAT(all, Not(HasSubstr("Photograph")));
+  EXPECT_THAT(MethodsText(MakeReportData(evidence)), Not(HasSubstr("images")));
+}
+
+TEST(Nuisances, AreSaidNotToBeAskedFor) {
+  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
+  evidence.parameters[1].range.is_nuisance = true;
+  const ReportData data = MakeReportData(evidence);
+  EXPECT_EQ(json::parse(PageJson(data))["parameters"][1]["nuisance"], true);
+  EXPECT_THAT(SummaryPage(data), HasSubstr(", not asked for</td>"));
+  const std::string text = MethodsText(data);
+  EXPECT_NE(text.find("(integrated out)"), std::string::npos);
+  EXPECT_EQ(text.find("(integrated out)"), text.rfind("(integrated out)"));
+}
+
 // Nobody asks for a nuisance itself: where the others do not hang on it, to measure it is no step.
 TEST(NextSteps, ANuisanceThatLeavesTheOthersAsTheyAreIsNotToBeMeasured) {
   Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
@@ -412,6 +487,49 @@ TEST(RegionHistory, HasOnePointForEachNumberOfTrials) {
   EXPECT_EQ(json::parse(PageJson(data))["region_history"][1][0], 59);
   Follow(MakeReportData(test::MakeSyntheticCampaign({.num_trials = 12})), history);  // no model
   EXPECT_EQ(history.size(), 2u);
+}
+
+TEST(RegionHistory, CountsTheTrialsOfAllExperiments) {
+  ReportData data = MakeReportData(test::MakeSyntheticCampaign({.num_parameters = 2}));
+  data.evidence.of_others.assign(3, TrialEvidence{});
+  data.evidence.of_others[0].state = journal::TrialStatus::kRunning;
+  std::vector<RegionPoint> history;
+  Follow(data, history);
+  EXPECT_EQ(history.at(0).num_trials, 62);
+}
+
+// Draws as a posterior that knows nothing makes them: a third of an even sequence of 6000 points.
+TEST(Marginals, AFlatDensityOfOneOfSixParametersHasNoStripes) {
+  const Eigen::MatrixXd even = optimizer::RSequence(6000, 6, 1);
+  Evidence evidence;
+  evidence.parameters.assign(
+      6, {.range = {.name = "a", .low = 0, .high = 1}, .symbol = "a", .unit = "", .column = "a"});
+  evidence.model.emplace().draws = even(Eigen::seqN(0, 2000, 3), Eigen::all);
+  for (const Marginal& marginal : Marginals(evidence)) {
+    for (const double density : marginal.density) EXPECT_NEAR(density, 1, 0.08);
+  }
+}
+
+// ".." would be the folder above.
+TEST(WriteReport, TablesOfFurtherExperimentsStandInFoldersOfTheirOwn) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "talus_report_tables";
+  std::filesystem::remove_all(folder);
+  std::vector<Evidence> others(2,
+                               test::MakeSyntheticCampaign({.num_trials = 4, .concluded = false}));
+  Evidence shown = others[0];
+  for (std::size_t i = 0; i < 2; ++i) others[i].experiment = i + 1;
+  shown.experiments = others[0].experiments = others[1].experiments = {"heap", "wide plate", ".."};
+  others[0].trials.pop_back();
+  WriteReport(MakeReportData(shown, others), folder);
+  const auto lines = [&](const char* file) {
+    const std::string text = base::ReadFile(folder / "tables" / file);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines("trials.csv"), 5);
+  EXPECT_EQ(lines("wide plate/trials.csv"), 4);
+  EXPECT_EQ(lines("experiment_3/trials.csv"), 5);
+  EXPECT_FALSE(std::filesystem::exists(folder / "trials.csv"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(RepresentativeViews, RecommendedStandsInTheMiddleWithWhatTheModelExpects) {

@@ -231,8 +231,9 @@ TEST_F(Fit, IsSaidOfEachMeasurementAndInASentence) {
   EXPECT_EQ(rows[1].judgement, "5 standard errors of the measurement away");
   EXPECT_EQ(rows[1].meets, Meets::kNo);
   EXPECT_EQ(analysis::FitSentence(rows),
-            "With these values a simulation gives the shape of \"heap\" as closely as the "
-            "measurement itself is known. It misses the tapped density of \"tapped\".");
+            "With these values simulations give the shape of \"heap\" within the errors of "
+            "measurement and simulations. With these values simulations miss the tapped density of "
+            "\"tapped\".");
 }
 
 TEST_F(Fit, AnExperimentThatNoSetMeetsIsMissedHoweverNearItsImageMayBe) {
@@ -253,6 +254,10 @@ TEST_F(Fit, WithoutAFreshSeedIsWhatTheModelExpects) {
   EXPECT_EQ(rows[0].meets, Meets::kUnknown);
   EXPECT_EQ(rows[1].simulated, "predicted 1478 ± 2 kg/m³");
   EXPECT_EQ(rows[1].meets, Meets::kYes);
+  EXPECT_EQ(analysis::FitSentence(rows),
+            "The model expects the tapped density of \"tapped\" within the errors of measurement "
+            "and prediction. No simulation with these values tells how well they meet the shape of "
+            "\"heap\".");
   // 10 off where the measurement is known to 4: 2.5 of it, but the model knows its own to 6.
   standings.back().numbers = {{.predicted = 1470, .predicted_sd = 6}};
   const auto unsure = analysis::FitRows(result_, record_);

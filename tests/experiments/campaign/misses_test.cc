@@ -49,6 +49,11 @@ TEST(Misses, AnImageThatTheSetMissesIsSaid) {
   EXPECT_FALSE(alarms[0].value);
   EXPECT_NEAR(alarms[0].share.value(), 294.0 / 2770, 1e-12);
   EXPECT_THAT(AlarmText(alarms[0]), HasSubstr("misses the shape of \"heap\" by 11 % of"));
+  // One run in black and white is as far from a mean of many as from another one.
+  HeapOf(answer).spread_mm2 = 250;
+  EXPECT_THAT(MissAlarms(answer), IsEmpty());
+  HeapOf(answer).spread_mm2 = 100;
+  EXPECT_THAT(MissAlarms(answer), SizeIs(1));
   HeapOf(answer).profile_sad_mm2 = 180;  // of 300 for one picture: they scatter by 290
   EXPECT_THAT(MissAlarms(answer), IsEmpty());
   HeapOf(answer).profile_sad_mm2 = 100;  // 3.6 % of the area

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <span>
 
 #include "base/text/markup.h"
 #include "base/text/number_text.h"
@@ -51,24 +53,50 @@ std::string TickText(double tick) {
   return text.starts_with("1 × ") ? text.substr(std::string_view("1 × ").size()) : text;
 }
 
-// Powers of ten within a logarithmic axis, else about five round values.
-std::vector<double> TicksOf(const SvgAxis& axis) {
-  std::vector<double> ticks;
-  if (axis.log) {
-    const double first = std::ceil(std::log10(axis.low) - 1e-9);
-    for (double power = first; power <= std::log10(axis.high) + 1e-9; ++power) {
-      ticks.push_back(std::pow(10.0, power));
-    }
-    return ticks;
-  }
+// About five round values, and at most 20: of an axis that is no longer than the rounding of its
+// ends, k + 1 is k.
+std::vector<double> EvenTicks(const SvgAxis& axis) {
+  constexpr int kMost = 20;
   const double rough = (axis.high - axis.low) / 5;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   const double factor = rough / power;
   const double step = power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10);
-  for (double k = std::ceil(axis.low / step - 1e-9); k * step <= axis.high + 1e-9 * step; ++k) {
-    ticks.push_back(k * step + 0.0);  // no "-0"
+  if (!(step > 0)) return {axis.low};
+  const double first = std::ceil(axis.low / step - 1e-9);
+  std::vector<double> ticks;
+  for (int k = 0; k < kMost; ++k) {
+    const double tick = (first + k) * step + 0.0;  // no "-0"
+    if (tick > axis.high + 1e-9 * step || (k > 0 && tick == ticks.back())) break;
+    ticks.push_back(tick);
   }
   return ticks;
+}
+
+// The digits of every power of ten that a logarithmic axis holds.
+std::vector<double> DecadeTicks(const SvgAxis& axis, std::span<const double> digits) {
+  std::vector<double> ticks;
+  const int first = static_cast<int>(std::floor(std::log10(axis.low)));
+  const int last = static_cast<int>(std::ceil(std::log10(axis.high)));
+  for (int power = first; power <= last; ++power) {
+    for (const double digit : digits) {
+      const double tick = digit * std::pow(10.0, power);
+      if (tick < axis.low * (1 - 1e-9) || tick > axis.high * (1 + 1e-9)) continue;
+      ticks.push_back(tick);
+    }
+  }
+  return ticks;
+}
+
+// Of a logarithmic axis its powers of ten; where fewer than two fit 1, 2 and 5 of each; where fewer
+// than two of these do, and of a linear axis, round values.
+std::vector<double> TicksOf(const SvgAxis& axis) {
+  if (!axis.log) return EvenTicks(axis);
+  constexpr double kDigits[] = {1, 2, 5};
+  for (const std::size_t count : {std::size_t{1}, std::size(kDigits)}) {
+    std::vector<double> ticks = DecadeTicks(axis, std::span(kDigits).first(count));
+    if (ticks.size() > 1) return ticks;
+  }
+  return EvenTicks(axis);
 }
 
 double Share(const SvgAxis& axis, double value) {

@@ -44,7 +44,7 @@ std::string Answered(const Evidence& evidence) {
       word += " (90 % credible range " + base::ShortNumber(v.credible_low, 3) + " to " +
               base::ShortNumber(v.credible_high, 3) + ")";
     }
-    words.push_back(word);
+    words.push_back(word + (p.range.is_nuisance ? " (integrated out)" : ""));
   }
   return " The recommended set is " + base::Listed(words) + "." + Confirmed(evidence);
 }
@@ -62,9 +62,12 @@ std::string Measured(const ReportData& data) {
     words.push_back("the " + row.what + " of \"" + row.experiment + "\" (" + row.measured + ")");
   }
   if (words.empty()) return "";
+  const bool has_images = std::ranges::any_of(data.evidence.answer->experiments,
+                                              &campaign::ResultExperiment::has_image);
   return " Simulations were compared with " + base::Listed(words) +
-         "; images after projection into the frame of the experiment's average profile, by the "
-         "SAD.";
+         (has_images ? "; images after projection into the frame of the experiment's average "
+                       "profile, by the SAD."
+                     : ".");
 }
 
 struct Counts {

@@ -28,12 +28,17 @@ OutlineCurve MakeOutline(const std::string& title, const imaging::Profile& profi
 
 namespace {
 
+// ", picture 2" of a film's pictures, from 1.
+std::string WhichPicture(const imaging::Frame& frame, int picture) {
+  return frame.num_pictures() > 1 ? ", picture " + std::to_string(picture) : "";
+}
+
 // Adds an outline for each picture of a film.
-void AddOutlines(const std::string& title, const imaging::Profile& profile, ReportData& data) {
-  const int num_pictures = profile.frame.num_pictures();
-  for (int i = 0; i < num_pictures; ++i) {
-    const std::string which = num_pictures > 1 ? ", picture " + std::to_string(i + 1) : "";
-    data.outlines.push_back(MakeOutline(title + which, imaging::PictureOf(profile, i)));
+void AddOutlines(const OutlineCurve& like, const imaging::Profile& profile, ReportData& data) {
+  for (int i = 0; i < profile.frame.num_pictures(); ++i) {
+    data.outlines.push_back(MakeOutline(like.title + WhichPicture(profile.frame, i + 1),
+                                        imaging::PictureOf(profile, i)));
+    data.outlines.back().is_experiment = like.is_experiment;
   }
 }
 
@@ -51,7 +56,8 @@ void AddRemains(ReportData& data) {
     map.width = size.width;
     map.height = size.height;
     map.name = "remains_" + file.stem().string();
-    map.title = "What remains at the recommended set";
+    map.title = "What remains at the recommended set" +
+                WhichPicture(evidence.reference.aehp.frame, remains.picture);
   }
 }
 
@@ -63,13 +69,14 @@ void AddProfileViews(ReportData& data) {
   data.measures.push_back(
       {"experiment", reference.has_image() ? "AEHP" : "measured", reference.metrics});
   if (reference.has_image()) {
-    AddOutlines("experiment (AEHP)", reference.aehp, data);
+    AddOutlines({.title = "experiment (AEHP)", .x = {}, .height = {}, .is_experiment = true},
+                reference.aehp, data);
   }
   for (const ShownTrial& s : shown) {
     const std::string name = "trial " + std::to_string(s.trial->id);
     data.measures.push_back({name, s.why, s.trial->metrics});
     if (const auto profile = data.evidence.profile(s.trial->id)) {
-      AddOutlines(name + ", " + s.why, *profile, data);
+      AddOutlines({.title = name + ", " + s.why, .x = {}, .height = {}}, *profile, data);
     }
   }
   data.pictures = ProfilePictures(data.evidence, shown);

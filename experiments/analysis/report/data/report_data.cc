@@ -66,11 +66,12 @@ double RegionShare(const ReportData& data) {
 }
 
 void Follow(const ReportData& data, std::vector<RegionPoint>& history) {
-  const RegionPoint now{
-      .num_trials = std::count_if(
-          data.evidence.trials.begin(), data.evidence.trials.end(),
-          [](const TrialEvidence& trial) { return trial.state != journal::TrialStatus::kRunning; }),
-      .share = RegionShare(data)};
+  RegionPoint now{.num_trials = 0, .share = RegionShare(data)};
+  for (const auto* trials : {&data.evidence.trials, &data.evidence.of_others}) {
+    now.num_trials += std::ranges::count_if(*trials, [](const TrialEvidence& trial) {
+      return trial.state != journal::TrialStatus::kRunning;
+    });
+  }
   if (std::isnan(now.share)) return;
   if (!history.empty() && history.back().num_trials == now.num_trials) return;
   history.push_back(now);

@@ -25,6 +25,7 @@ struct OutlineCurve {
   std::string title;
   std::vector<double> x;       // from the plate's centre [m]
   std::vector<double> height;  // above the plate [m]
+  bool is_experiment = false;  // of the AEHP, not of a trial
 };
 
 // A profile's metrics, in the order of Evidence::metrics.
@@ -73,7 +74,7 @@ ReportData MakeReportData(Evidence evidence, std::vector<Evidence> others = {});
 // closest; undefined without a posterior.
 double RegionShare(const ReportData& data);
 
-// Adds where the answer stands now, once for each number of trials.
+// Adds where the answer stands now, once for each number of trials, of all experiments.
 void Follow(const ReportData& data, std::vector<RegionPoint>& history);
 
 }  // namespace talus::analysis

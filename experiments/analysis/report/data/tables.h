@@ -7,7 +7,8 @@
 
 namespace talus::analysis {
 
-// {name of the file without ending, content}: trials, objectives, ten_best, measures, outlines.
+// {name of the file without ending, content}: trials, objectives, ten_best, measures, outlines. Of
+// the experiment that is shown; `others` have their own.
 std::vector<NamedText> ReportTables(const ReportData& data);
 
 }  // namespace talus::analysis

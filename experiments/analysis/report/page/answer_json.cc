@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "experiments/analysis/compare/criterion.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/analysis/report/page/json_parts.h"
 #include "experiments/analysis/report/views/answer_words.h"
@@ -61,7 +62,9 @@ PageValue WidthJson(const WidthView& view) {
 // What the campaign minimised, whatever experiment is shown.
 PageValue ObjectiveOf(const Evidence& evidence) {
   for (const journal::ObjectiveInfo& info : journal::kObjectives) {
-    if (info.key == evidence.objective) return {{"title", info.title}, {"unit", info.unit}};
+    if (info.key == evidence.objective) {
+      return {{"title", ValueTitle(CriterionOf(info))}, {"unit", info.unit}};
+    }
   }
   return {{"title", evidence.objective}, {"unit", ""}};
 }

@@ -46,6 +46,7 @@ PageValue ObjectiveJson(const ReportData& data) {
   return {{"key", own.info.key},
           {"metric", ShownName(own.info.metric)},
           {"title", own.info.title},
+          {"value_title", ValueTitle(own.info)},
           {"unit", own.info.unit},
           {"is_distance", own.info.is_distance},
           {"is_sad", own.info.is_sad},
@@ -82,6 +83,7 @@ PageValue ParametersJson(const Evidence& evidence) {
                      {"title", WordsOf(p.range.name)},
                      {"symbol", p.symbol},
                      {"unit", p.unit},
+                     {"nuisance", p.range.is_nuisance},
                      {"low", NumberJson(p.range.low)},
                      {"high", NumberJson(p.range.high)},
                      {"log", p.range.scale == optimizer::Scale::kLog}};

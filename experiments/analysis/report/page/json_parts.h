@@ -3,8 +3,10 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "experiments/analysis/compare/criterion.h"
 #include "experiments/analysis/report/data/report_data.h"
 
 namespace talus::analysis {
@@ -20,6 +22,9 @@ PageValue ListJson(const Range& range, Function&& make) {
   for (const auto& element : range) list.push_back(make(element));
   return list;
 }
+
+// What a criterion's value is called, as its metric is not where it is a distance: "AOR 2, off by".
+std::string ValueTitle(const Criterion& criterion);
 
 // The picture stands in the page itself; null where there is none.
 PageValue UriJson(const Picture& picture);

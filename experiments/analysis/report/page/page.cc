@@ -1,5 +1,8 @@
 #include "experiments/analysis/report/page/page.h"
 
+#include <algorithm>
+#include <array>
+#include <span>
 #include <string_view>
 
 #include "base/replaced.h"
@@ -10,35 +13,57 @@
 namespace talus::analysis {
 namespace {
 
-void Replace(std::string& text, std::string_view what, std::string_view with) {
-  text.replace(text.find(what), what.size(), with);
+// What stands in the template for {{name}}.
+struct PagePart {
+  std::string_view name;
+  std::string_view text;
+};
+
+// In one pass: what is put in, such as a campaign's name, is never searched for a placeholder.
+std::string Filled(std::string_view page, std::span<const PagePart> parts) {
+  std::string filled;
+  for (auto at = page.find("{{"); at != std::string_view::npos; at = page.find("{{")) {
+    const auto end = page.find("}}", at);
+    const std::string_view name = page.substr(at + 2, end - at - 2);
+    filled += page.substr(0, at);
+    filled += std::ranges::find(parts, name, &PagePart::name)->text;
+    page.remove_prefix(end + 2);
+  }
+  return filled += page;
+}
+
+std::string Scripts() {
+  return std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
+         std::string(page_files::kSearchChartsJs) + std::string(page_files::kSpaceChartsJs) +
+         std::string(page_files::kProfileChartsJs) + std::string(page_files::kOverlayJs) +
+         std::string(page_files::kTrialTableJs) + std::string(page_files::kPredictionsJs) +
+         std::string(page_files::kAnswerJs) + std::string(page_files::kRunningJs) +
+         std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
+}
+
+// As long as the campaign runs.
+std::string Reloading(const ReportData& data, const PageOptions& options) {
+  if (options.reload <= 0 || data.evidence.state != "running") return "";
+  return "<meta http-equiv=\"refresh\" content=\"" + std::to_string(options.reload) + "\">";
 }
 
 }  // namespace
 
 std::string ReportPage(const ReportData& data, const PageOptions& options) {
-  std::string page(page_files::kPageHtml);
-  const std::string scripts =
-      std::string(page_files::kFormatJs) + std::string(page_files::kChartsJs) +
-      std::string(page_files::kSearchChartsJs) + std::string(page_files::kSpaceChartsJs) +
-      std::string(page_files::kProfileChartsJs) + std::string(page_files::kOverlayJs) +
-      std::string(page_files::kTrialTableJs) + std::string(page_files::kPredictionsJs) +
-      std::string(page_files::kAnswerJs) + std::string(page_files::kRunningJs) +
-      std::string(page_files::kSectionsJs) + std::string(page_files::kPageJs);
-  // The data come last: what they hold is never searched for a placeholder.
-  Replace(page, "{{title}}", base::MarkupText(data.evidence.name) + " – calibration report");
-  const bool reloads = options.reload > 0 && data.evidence.state == "running";
-  Replace(page, "{{reload}}",
-          reloads
-              ? "<meta http-equiv=\"refresh\" content=\"" + std::to_string(options.reload) + "\">"
-              : "");
-  Replace(page, "{{css}}", ColorProperties() + std::string(page_files::kPageCss));
-  Replace(page, "{{js}}", scripts);
-  Replace(page, "{{echarts}}", page_files::kEchartsMinJs);
-  Replace(page, "{{echarts_gl}}", page_files::kEchartsGlMinJs);
+  const std::string title = base::MarkupText(data.evidence.name) + " – calibration report";
+  const std::string reload = Reloading(data, options);
+  const std::string css = ColorProperties() + std::string(page_files::kPageCss);
+  const std::string scripts = Scripts();
   // JSON inside a script element: a `<` could end it.
-  Replace(page, "{{data}}", base::Replaced(PageJson(data), "<", "\\u003c"));
-  return page;
+  const std::string json = base::Replaced(PageJson(data), "<", "\\u003c");
+  const std::array<PagePart, 7> parts{{{"title", title},
+                                       {"reload", reload},
+                                       {"css", css},
+                                       {"data", json},
+                                       {"echarts", page_files::kEchartsMinJs},
+                                       {"echarts_gl", page_files::kEchartsGlMinJs},
+                                       {"js", scripts}}};
+  return Filled(page_files::kPageHtml, parts);
 }
 
 }  // namespace talus::analysis

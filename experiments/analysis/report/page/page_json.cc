@@ -25,6 +25,10 @@ PageValue NumbersJson(const std::vector<double>& values) {
   return list;
 }
 
+std::string ValueTitle(const Criterion& criterion) {
+  return criterion.is_distance ? criterion.title + ", off by" : criterion.title;
+}
+
 PageValue UriJson(const Picture& picture) {
   if (picture.png.empty()) return nullptr;
   return "data:image/png;base64," + Base64(picture.png);
@@ -44,6 +48,7 @@ PageValue FindingJson(const ObjectiveFinding& f) {
   return {{"key", f.info.key},
           {"metric", ShownName(f.info.metric)},
           {"title", f.info.title},
+          {"value_title", ValueTitle(f.info)},
           {"unit", f.info.unit},
           {"is_distance", f.info.is_distance},
           {"reference", shown(f.reference)},
@@ -110,7 +115,7 @@ PageValue OutlineJson(const OutlineCurve& outline) {
   for (std::size_t i = 0; i < outline.x.size(); ++i) {
     points.push_back({NumberJson(1e3 * outline.x[i]), NumberJson(1e3 * outline.height[i])});
   }
-  return {{"title", outline.title}, {"points", points}};
+  return {{"title", outline.title}, {"experiment", outline.is_experiment}, {"points", points}};
 }
 
 PageValue PictureJson(const Picture& picture) {

@@ -108,13 +108,22 @@ std::string ParameterTable(const Evidence& evidence) {
     const ParameterInfo& info = evidence.parameters[k];
     const std::string unit = info.unit.empty() ? "" : " " + info.unit;
     const std::string name = info.range.name == info.symbol ? "" : " (" + info.range.name + ")";
+    const std::string asked = info.range.is_nuisance ? ", not asked for" : "";
     rows += Element(
-        "tr", Text("td", info.symbol + name) +
-                  Text("td", ShownOrDash(p.value) + unit, "style=\"font-weight:650\"") +
+        "tr", Text("td", info.symbol + name + asked) +
+                  Text("td", ShownOrDash(p.value) + unit,
+                       asked.empty() ? "style=\"font-weight:650\"" : "") +
                   Text("td", ShownOrDash(p.credible_low) + " to " + ShownOrDash(p.credible_high)) +
                   Text("td", ShownOrDash(p.searched_low) + " to " + ShownOrDash(p.searched_high)));
   }
-  return Element("table", rows) + Text("p", "* for all parameters together", "class=\"soft\"");
+  const bool all_asked = std::ranges::none_of(
+      evidence.parameters, [](const ParameterInfo& p) { return p.range.is_nuisance; });
+  return Element("table", rows) +
+         Text("p",
+              all_asked
+                  ? "* for all parameters together"
+                  : "* for all parameters asked for together; of one not asked for, by itself",
+              "class=\"soft\"");
 }
 
 // The region over the two parameters that it ties closest.

@@ -68,16 +68,55 @@ void FindNearest(const std::vector<const TrialEvidence*>& trials, const Eigen::V
   }
 }
 
+campaign::ExperimentSpec ExperimentOf(const Evidence& evidence) {
+  const campaign::CampaignSpec spec = campaign::ParseSpecText(evidence.spec_json);
+  return campaign::ExperimentsOf(spec).at(evidence.experiment);
+}
+
+// Of the other rigs the powder lies in a drum, a box or a bed, and is measured from the front.
+bool HeapsOnPlate(const Evidence& evidence) {
+  const rigs::RigKind kind = ExperimentOf(evidence).rig->kind;
+  return kind == rigs::RigKind::kLiftedTube || kind == rigs::RigKind::kFunnelHeap;
+}
+
+// From the front, all grains in a picture so many pixels wide; no plate.
+imaging::Camera FrontOf(const std::vector<base::Sphere>& grains, int width) {
+  constexpr double kMargin = 0.03;     // of the powder's width, each side
+  constexpr double kMostHeight = 1.2;  // of the picture's width
+  const base::Sphere& any = grains.front();
+  double left = any.position.x, right = left, bottom = any.position.z, top = bottom;
+  for (const base::Sphere& s : grains) {
+    left = std::min(left, s.position.x - s.radius);
+    right = std::max(right, s.position.x + s.radius);
+    bottom = std::min(bottom, s.position.z - s.radius);
+    top = std::max(top, s.position.z + s.radius);
+  }
+  const double margin = kMargin * (right - left);
+  const double high = top - bottom + 2 * margin;
+  imaging::Camera camera{.width = width};
+  camera.pixel_size = std::max((right - left + 2 * margin) / width, high / (kMostHeight * width));
+  camera.height = static_cast<int>(high / camera.pixel_size + 0.5);
+  camera.center_x = width / 2.0 - (left + right) / 2 / camera.pixel_size;
+  camera.baseline = (top + margin) / camera.pixel_size;
+  return camera;
+}
+
+imaging::ColorImage DrawnHeap(const Evidence& evidence, const std::vector<base::Sphere>& grains) {
+  if (!HeapsOnPlate(evidence)) {
+    return imaging::RenderSpheres(grains, FrontOf(grains, kRenderedWidth));
+  }
+  const double plate = evidence.reference.aehp.frame.plate_diameter;
+  const auto on_plate = imaging::GrainsOnPlate(grains, plate);
+  return imaging::RenderSpheres(on_plate, imaging::WholeHeap(on_plate, plate, kRenderedWidth));
+}
+
 void AddHeap(const Evidence& evidence, std::size_t index, RepresentativeView& view) {
   if (view.trial == nullptr || !evidence.reference.has_image()) return;
   const std::vector<base::Sphere> grains = GrainsOf(evidence, view.trial->id);
   if (grains.empty()) return;
-  const double plate = evidence.reference.aehp.frame.plate_diameter;
-  const auto on_plate = imaging::GrainsOnPlate(grains, plate);
-  const imaging::Camera camera = imaging::WholeHeap(on_plate, plate, kRenderedWidth);
-  view.heap = MakePicture("heap_" + std::to_string(index + 1),
-                          "Heap of trial " + std::to_string(view.trial->id),
-                          imaging::RenderSpheres(on_plate, camera));
+  view.heap =
+      MakePicture("heap_" + std::to_string(index + 1),
+                  "Heap of trial " + std::to_string(view.trial->id), DrawnHeap(evidence, grains));
 }
 
 // The spec's photographs of one run: a camera's few views say enough.
@@ -94,11 +133,6 @@ imaging::ExperimentOptions FirstRun(imaging::ExperimentOptions options) {
   options.runs.resize(1);
   options.allow_missing_views = true;
   return options;
-}
-
-campaign::ExperimentSpec ExperimentOf(const Evidence& evidence) {
-  const campaign::CampaignSpec spec = campaign::ParseSpecText(evidence.spec_json);
-  return campaign::ExperimentsOf(spec).at(evidence.experiment);
 }
 
 // Views spread evenly over those there are.
@@ -135,6 +169,16 @@ imaging::Camera CameraOf(const imaging::Frame& frame, const Box& box) {
           .center_x = frame.center_x - box.left,
           .baseline = frame.baseline - box.top,
           .plate_diameter = frame.plate_diameter};
+}
+
+// As the photographs show the grains.
+imaging::ColorImage SeenBy(imaging::Camera camera, const Evidence& evidence,
+                           const std::vector<base::Sphere>& grains) {
+  if (HeapsOnPlate(evidence)) {
+    return imaging::RenderSpheres(imaging::GrainsOnPlate(grains, camera.plate_diameter), camera);
+  }
+  camera.plate_diameter = 0;
+  return imaging::RenderSpheres(grains, camera);
 }
 
 }  // namespace
@@ -184,9 +228,9 @@ PhotoOverlay MakeOverlay(const Evidence& evidence, const std::vector<ShownTrial>
   overlay.pixel_mm = 1e3 * frame.pixel_size;
   overlay.center_x = camera.center_x;
   overlay.baseline = camera.baseline;
-  overlay.simulated = MakePicture(
-      "simulated_beside_photograph", "trial " + std::to_string(overlay.trial->id),
-      imaging::RenderSpheres(imaging::GrainsOnPlate(grains, frame.plate_diameter), camera));
+  overlay.simulated =
+      MakePicture("simulated_beside_photograph", "trial " + std::to_string(overlay.trial->id),
+                  SeenBy(camera, evidence, grains));
   try {
     AddPhotographs(evidence, box, overlay);
   } catch (const base::ConfigError& error) {  // moved or renamed since: the report goes without

@@ -139,7 +139,8 @@ std::vector<Marginal> Marginals(const Evidence& evidence) {
   std::vector<Marginal> marginals;
   for (std::size_t k = 0; k < evidence.parameters.size(); ++k) {
     const auto density_of = [&](const Eigen::MatrixXd& draws) {
-      return MarginalDensity(draws.col(static_cast<Eigen::Index>(k)), kMarginalCells);
+      return MarginalDensity(draws.col(static_cast<Eigen::Index>(k)), kMarginalCells,
+                             static_cast<int>(draws.cols()));
     };
     const ModelEvidence& model = *evidence.model;
     const bool uniform = model.prior_draws.rows() == 0;

@@ -78,20 +78,33 @@ void AddMeasuring(const Evidence& evidence, std::size_t k, std::vector<NextStep>
   if (step.remaining < kWorthAWord) steps.push_back(step);
 }
 
-// The experiment's own error falls with the root of its runs; no range can fall faster.
-void AddPhotographing(const Evidence& evidence, std::vector<NextStep>& steps) {
+// As many runs again, which only photographs count.
+NextStep MoreRuns(const Evidence& evidence) {
+  if (evidence.experiments.size() > 1) {
+    return {.what = "Repeat every measurement",
+            .cost = "as many runs again of each test; no simulation",
+            .leaves = {}};
+  }
+  if (!evidence.reference.has_image()) {
+    return {.what = "Repeat the measurement",
+            .cost = "as many runs of the test again; no simulation",
+            .leaves = {}};
+  }
   const int runs = evidence.reference.num_heaps;
+  return {.what = "Photograph " + base::Counted(runs, "more heap"),
+          .cost = base::Counted(runs, "more run") + " of the test; no simulation",
+          .leaves = {}};
+}
+
+// The experiment's own error falls with the root of its runs; no range can fall faster.
+void AddRepeating(const Evidence& evidence, std::vector<NextStep>& steps) {
   const double factor = std::sqrt(0.5);
   const auto dimension = static_cast<double>(evidence.parameters.size());
-  const bool several = evidence.experiments.size() > 1;
-  steps.push_back({.what = several ? "Repeat every measurement"
-                                   : "Photograph " + base::Counted(runs, "more heap"),
-                   .cost = several
-                               ? "as many runs again of each test; no simulation"
-                               : base::Counted(runs, "more run") + " of the test; no simulation",
-                   .leaves = "ranges at best " + base::ShortNumber(factor, 2) +
-                             " times as wide as now, where the measurements' scatter sets them",
-                   .remaining = std::pow(factor, dimension)});
+  NextStep step = MoreRuns(evidence);
+  step.leaves = "ranges at best " + base::ShortNumber(factor, 2) +
+                " times as wide as now, where the measurements' scatter sets them";
+  step.remaining = std::pow(factor, dimension);
+  steps.push_back(step);
 }
 
 void AddSecondTest(const Evidence& evidence, std::vector<NextStep>& steps) {
@@ -231,7 +244,7 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
       if (campaign::CanBeMeasuredDirectly(name)) AddMeasuring(evidence, k, steps);
     }
     AddSecondTest(evidence, steps);
-    AddPhotographing(evidence, steps);
+    AddRepeating(evidence, steps);
   }
   // The table has more simulations among its candidates.
   if (has_draws && (!table || campaign::AsksForSimulations(*evidence.answer))) {

@@ -10,8 +10,10 @@
 
 namespace talus::analysis {
 
-// Density over the unit interval at the middles of `num_cells` cells; its mean is 1.
-std::vector<double> MarginalDensity(const Eigen::VectorXd& draws, int num_cells);
+// Density over the unit interval at the middles of `num_cells` cells; its mean is 1. `draws` is one
+// column of those of `num_parameters`.
+std::vector<double> MarginalDensity(const Eigen::VectorXd& draws, int num_cells,
+                                    int num_parameters = 1);
 
 // For each of num_cells × num_cells cells, x fastest: the least of the credible levels of the draws
 // that reach it, or 1. Cells below 0.9 are the shadow of the joint 90 % region on the plane of two

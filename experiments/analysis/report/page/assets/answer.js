@@ -6,10 +6,12 @@ function valueTile(p, v) {
   const clamp = (x) => Math.min(100, Math.max(0, x));
   const ranged = v.low !== null && v.high !== null;
   const from = ranged ? clamp(place(v.low)) : 0, to = ranged ? clamp(place(v.high)) : 0;
-  return element("div", {class: "value"},
-    element("div", {class: "what"}, p.symbol + " ", element("span", {}, p.title)),
+  return element("div", {class: p.nuisance ? "value nuisance" : "value"},
+    element("div", {class: "what"}, p.symbol + " ", element("span", {}, p.title),
+      p.nuisance ? element("strong", {}, " not asked for") : null),
     element("div", {class: "number"}, format(v.value), " ", element("small", {}, p.unit)),
-    element("div", {class: "range"}, ranged ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit)
+    element("div", {class: "range"}, ranged ? "90\u00a0% range " + format(v.low) + " to " + formatUnit(v.high, p.unit) +
+      (p.nuisance ? ", by itself" : "")
       : "no range: too few trials for a model"),
     element("div", {class: "track", "aria-hidden": "true"},
       ranged ? element("div", {class: "band", style: `left:${from}%;width:${to - from}%`}) : null,
@@ -47,9 +49,10 @@ function closestPair() {
 }
 
 // The kind of answer, for who meets it for the first time.
+const numAsked = D.parameters.filter((p) => !p.nuisance).length;
 const kindText = {
-  point: "One answer: with a probability of 90\u00a0% " + (D.parameters.length === 1 ? "the value lies in its range."
-    : (D.parameters.length === 2 ? "both values lie in their ranges" : "all values lie in their ranges") + " at once."),
+  point: "One answer: with a probability of 90\u00a0% " + (numAsked === 1 ? "the value lies in its range."
+    : (numAsked === 2 ? "both values lie in their ranges" : "all values lie in their ranges") + " at once."),
   curve: "The parameters trade against each other: every set along the curve fits. Take a whole set from it; never " +
     "combine the values of two.",
   region: "More than one answer: every set in the region fits as well as the errors of measurements and model allow.",
@@ -74,6 +77,9 @@ function alarms() {
 
 const meetsText = {yes: "✓ fits", no: "✗ misses", unknown: "? open"};
 
+const judged = (row) => [row.judgement, row.implausibility === null ? ""
+  : "implausibility " + format(row.implausibility, 2)].filter(Boolean).join("; ");
+
 // Each measurement beside what the recommended set gives of it.
 function fitList(h) {
   if (!h.fit.length) return null;
@@ -84,8 +90,7 @@ function fitList(h) {
       row.held_out ? element("div", {}, "Held out: not used for the answer.") : null,
       element("div", {}, "Simulated: " + (row.simulated || "not yet") + "."),
       element("div", {}, "Measured: " + row.measured + "."),
-      element("div", {}, row.judgement + (row.implausibility === null ? "" : (row.judgement ? "; " : "") +
-        "implausibility " + format(row.implausibility, 2)) + ".")))),
+      judged(row) ? element("div", {}, judged(row) + ".") : null))),
     element("p", {class: "note"}, (D.campaign.has_image ? "SAD: area by which two silhouettes differ. " : "") + (implausible ?
       "Implausibility: misfit of the experiment in standard deviations, all errors counted; above 3 no set fits." : "")));
 }
@@ -207,7 +212,7 @@ function representativeHeaps(h) {
       element("img", {src: set.uri, alt: "Simulated heap of trial " + set.trial, width: set.width, height: set.height}),
       element("figcaption", {}, "Trial " + set.trial + (D.campaign.num_experiments > 1 ? " of " + D.campaign.experiment : "") +
         (set.distance > .01 ? ", the nearest simulated, at " + setText(set.trial_values) : "") +
-        ": " + o.title + " " + formatUnit(set.trial_objective, o.unit) + (set.expected === null ? "" :
+        ": " + o.value_title + " " + formatUnit(set.trial_objective, o.unit) + (set.expected === null ? "" :
           "; expected of the mean heap " + formatUnit(set.expected, o.unit) +
           (set.expected_sd === null ? "" : " ± " + format(set.expected_sd, 2))) + ".")) : null));
 }

@@ -33,20 +33,30 @@ const fontFamily = getComputedStyle(document.body).fontFamily;
 
 window.talusCharts = [];  // {id, drawn, redraw}: drawn whether seen yet or not
 
+// One chart that fails must not take the others with it; the console has what went wrong.
+function onEachChart(act) {
+  for (const made of window.talusCharts) {
+    try {
+      act(made);
+    } catch (error) {
+      console.error(made.id, error);
+    }
+  }
+}
 function redrawAll() {
   readTheme();
-  for (const made of window.talusCharts) made.redraw();
+  onEachChart((made) => made.redraw());
 }
 window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
 // Charts are drawn when they scroll into view; on paper all of them are, as pictures in light colours. The pictures
 // must stand before the pages are laid out: what grows afterwards pushes the end of the page off the paper.
-window.addEventListener("beforeprint", () => window.talusCharts.forEach((made) => {
-  made.start();
-  made.toPaper();
-}));
+window.addEventListener("beforeprint", () => {
+  onEachChart((made) => made.start());
+  onEachChart((made) => made.toPaper());
+});
 window.matchMedia("print").addEventListener("change", (e) => {
   redrawAll();
-  if (e.matches) window.talusCharts.forEach((made) => made.toPaper());
+  if (e.matches) onEachChart((made) => made.toPaper());
 });
 
 const hasWebGl = (() => {
@@ -138,15 +148,46 @@ function scaleLook(factor) {
   return {symbol: symbols[k % symbols.length], itemStyle: {color: palette[k % palette.length], opacity: .8}};
 }
 
-const nameOf = (p) => p.symbol + (p.unit ? " (" + p.unit + ")" : "");
+const withUnit = (title, unit) => title + (unit ? " (" + unit + ")" : "");
+const nameOf = (p) => withUnit(p.symbol, p.unit);
 
-// A parameter's axis over its whole search range, on its own scale.
-const parameterAxis = (p, vertical = false) => ({
-  type: p.log ? "log" : "value", min: p.low, max: p.high, name: nameOf(p), nameLocation: "middle",
-  nameGap: vertical ? 50 : 30, nameTextStyle: {color: ink, fontSize: 13}, axisLine: {onZero: false, lineStyle: {color: axisLine}},
-  axisTick: {show: true}, splitLine: {lineStyle: {color: line}},
-  axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true},
-});
+// What a search minimises: a quantity, or how far it comes out from the measured one.
+const inWords = (o) => o.is_distance ? "distance from the measured " + o.title : o.title;
+
+// Ticks of a logarithmic axis that holds fewer than two powers of ten, which are all that the library labels: 1, 2 and
+// 5 of each decade; where fewer than two of these fit, about five even steps. Undefined: the powers do.
+function ticksBetween(low, high) {
+  const inside = (x) => x >= low * (1 - 1e-9) && x <= high * (1 + 1e-9);
+  const round = (x) => Number(x.toPrecision(12));
+  const powers = [];
+  for (let k = Math.floor(Math.log10(low)); k <= Math.ceil(Math.log10(high)); ++k) powers.push(k);
+  const some = (digits) => powers.flatMap((k) => digits.map((digit) => round(digit * 10 ** k))).filter(inside);
+  if (some([1]).length > 1) return undefined;
+  if (some([1, 2, 5]).length > 1) return some([1, 2, 5]);
+  const rough = (high - low) / 5, power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * [1, 2, 5, 10].find((digit) => rough <= digit * power * (1 + 1e-9));
+  const first = Math.ceil(low / step - 1e-9);
+  return Array.from({length: 12}, (_, k) => round((first + k) * step)).filter(inside);
+}
+
+// The scale of an axis from low to high.
+function scaleOf(log, low, high) {
+  const customValues = log ? ticksBetween(low, high) : undefined;
+  return {type: log ? "log" : "value", min: low, max: high, axisTick: {show: true, customValues},
+    axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true, customValues}};
+}
+
+// A parameter's axis on its own scale, over its whole search range or a part of it, whose ends are no round values.
+const parameterAxis = (p, {vertical = false, low = p.low, high = p.high} = {}) => {
+  const scale = scaleOf(p.log, low, high);
+  if (!scale.axisLabel.customValues) {
+    scale.axisLabel.showMinLabel = low === p.low ? undefined : false;
+    scale.axisLabel.showMaxLabel = high === p.high ? undefined : false;
+  }
+  return {...scale, name: nameOf(p), nameLocation: "middle", nameGap: vertical ? 50 : 30,
+    nameTextStyle: {color: ink, fontSize: 13}, axisLine: {onZero: false, lineStyle: {color: axisLine}},
+    splitLine: {lineStyle: {color: line}}};
+};
 const valueAxis = (name, more = {}) => ({
   type: "value", name, nameLocation: "middle", nameGap: 46, nameTextStyle: {color: ink, fontSize: 13},
   axisLine: {show: true, onZero: false, lineStyle: {color: axisLine}}, axisTick: {show: true},

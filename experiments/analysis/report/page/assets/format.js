@@ -31,6 +31,8 @@ const formatUnit = (x, unit, digits) =>
 const percent = (x) => (x === null || x === undefined) ? "–"
     : x > 0 && x < 0.001 ? "< 0.1 %" : format(100 * x, x < 0.1 ? 2 : 3) + " %";
 
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
 function duration(seconds) {
   if (seconds === null || !Number.isFinite(seconds)) return "–";
   if (seconds < 120) return format(seconds, 3) + " s";

@@ -13,17 +13,18 @@ function eachExperiment(make) {
   return columns.length ? [element("div", {class: "grid two experiments"}, columns.map(([view, parts]) =>
     element("div", {}, element("h3", {}, view.campaign.experiment), parts)))] : [];
 }
-const card = (figure) => element("div", {class: "card"}, figure);
+const card = (figure) => figure && element("div", {class: "card"}, figure);
 
 const modelLead = () => "All from the model that gives the answer: the posterior of the parameters, given every " +
   "simulation and what was measured. " +
-  (D.slices.length ? "The slices show the expected " + D.campaign.objective.title + " through the " +
+  (D.slices.length ? "The slices show the expected " + inWords(D.campaign.objective) + " through the " +
     (D.headline ? "recommended set" : "best set so far") +
     ", with 90\u00a0% bands." : "");
 
 function modelSection() {
   if (!D.model) {
-    return D.model_absent ? [element("div", {class: "notice"}, element("p", {}, "No model: " + D.model_absent))] : [];
+    return D.model_absent ? [element("div", {class: "notice"}, element("p", {}, 
+      D.model_absent.startsWith("no model") ? capital(D.model_absent) : "No model: " + D.model_absent))] : [];
   }
   const grid = (charts) => charts.length ? element("div", {class: "grid three stacked"}, charts) : null;
   return [grid([...D.marginals.map((m, k) => card(marginalChart(m, k))), ...D.pairs.map((p, k) => card(pairChart(p, k)))]),

@@ -1,3 +1,11 @@
+// The experiment's stand out; of a film it has several, told apart by their dashes.
+function outlineLooks() {
+  const own = D.outlines.filter((o) => o.experiment), others = D.outlines.filter((o) => !o.experiment);
+  return D.outlines.map((o) => o.experiment
+    ? {width: 3, color: ink, type: ["solid", "dashed", "dotted"][own.indexOf(o) % 3]}
+    : {width: 1.7, color: palette[others.indexOf(o) % palette.length]});
+}
+
 // The outlines over each other, in millimetres, with one scale for width and height.
 function outlineChart() {
   const all = D.outlines.flatMap((o) => o.points);
@@ -5,7 +13,7 @@ function outlineChart() {
   const top = Math.max(...all.map((p) => p[1])) * 1.08;
   return chart("outlines", "Outlines at half intensity",
       "The highest powder above each point of the plate. Width and height are drawn to one scale.", (width) => {
-    const inner = width - margins.left - margins.right;
+    const inner = width - margins.left - margins.right, looks = outlineLooks();
     return {
       height_px: Math.round(inner * top / (2 * reach)) + margins.top + margins.bottom + 26,
       grid: {...margins, top: margins.top + 26},
@@ -18,8 +26,7 @@ function outlineChart() {
         axisLabel: {color: soft, formatter: tick, showMaxLabel: false}}),
       series: [
         ...D.outlines.map((o, k) => ({type: "line", name: o.title, data: o.points, symbol: "none",
-          connectNulls: false, lineStyle: {width: k === 0 ? 3 : 1.7, color: k === 0 ? ink : palette[k - 1]},
-          itemStyle: {color: k === 0 ? ink : palette[k - 1]}, triggerLineEvent: true})),
+          connectNulls: false, lineStyle: looks[k], itemStyle: {color: looks[k].color}, triggerLineEvent: true})),
         {type: "line", data: [[-D.plate_mm / 2, 0], [D.plate_mm / 2, 0]], symbol: "none", silent: true,
          lineStyle: {color: axisLine, width: 5}},
       ],

@@ -1,9 +1,10 @@
-// How the search went: the objective trial by trial, and the time each trial took.
+// How the search went: the objective trial by trial, and the time each trial took. Null where no trial has any yet.
 function convergenceChart() {
   const m = D.metrics.findIndex((metric) => metric.name === D.campaign.objective.metric);
   const t = D.trials, o = D.campaign.objective;
   const value = (i) => o.is_distance ? Math.abs(t.metrics[m][i] - o.reference) : t.metrics[m][i];
-  const all = doneTrials().filter((i) => t.metrics[m][i] !== null);
+  const all = m < 0 ? [] : doneTrials().filter((i) => t.metrics[m][i] !== null);
+  if (!all.length) return null;
   const best = [];
   let least = Infinity;
   for (const i of all) {
@@ -24,7 +25,8 @@ function convergenceChart() {
     ? {symbol: "circle", itemStyle: {color: palette[k % palette.length], opacity: .8}}
     : name.endsWith("confirm") ? {symbol: "diamond", itemStyle: {color: starColor}}
     : scaleLook(t.scale[shown.find((i) => kindOf(i) === name)]);
-  const top = Math.max(...shown.map(value));
+  const drawn = [...all.map(value), ...(o.noise_floor === null ? [] : [o.noise_floor])];
+  const top = drawn.reduce((a, b) => Math.max(a, b)), lowest = drawn.reduce((a, b) => Math.min(a, b));
   let logarithmic = false;
   const option = () => ({
     grid: margins,
@@ -33,8 +35,7 @@ function convergenceChart() {
     tooltip: {...tooltipStyle, trigger: "item",
               formatter: (e) => e.data && e.data[2] !== undefined ? lines(trialText(e.data[2])) : ""},
     xAxis: valueAxis("trial", {nameGap: 28, min: 0, max: Math.max(1, last), minInterval: 1}),
-    yAxis: valueAxis(o.title + " (" + o.unit + ")",
-                     logarithmic ? {type: "log", min: "dataMin"} : {min: 0}),
+    yAxis: valueAxis(withUnit(o.value_title, o.unit), logarithmic ? scaleOf(true, lowest, top) : {min: 0}),
     series: [
       ...(noise && !logarithmic ? [
         {type: "line", step: "end", data: best.map(([x, y]) => [x, Math.max(0, y - noise)]),
@@ -54,13 +55,13 @@ function convergenceChart() {
         data: shown.filter((i) => kindOf(i) === name).map((i) => [t.id[i], value(i), i])})),
     ],
   });
-  const made = chart("convergence", o.title + " of each trial, and the best so far",
+  const made = chart("convergence", capital(inWords(o)) + " of each trial, and the best so far",
       "Each point is one simulation" + (scaleFactors.length > 1 ? "; the best is of those at scale factor " +
         tick(D.campaign.scale_factor) : "") + ". The axis starts at zero unless it is logarithmic. " +
       (all.length > shown.length ? shown.length + " of " + all.length + " trials are drawn. " : "") +
       (t.state.includes("failed") ? "Failed trials have no value and are listed below." : ""), option);
   made.figure.insertBefore(element("div", {class: "row"}, element("label", {},
-      element("input", {type: "checkbox", disabled: !(top > 0 && least > 0),
+      element("input", {type: "checkbox", disabled: !(lowest > 0 && top > lowest),
                         onchange: (e) => { logarithmic = e.target.checked; made.redraw(); }}),
       "logarithmic axis")), made.figure.children[1]);
   return made.figure;
@@ -70,6 +71,7 @@ function timeChart() {
   const t = D.trials;
   const all = t.id.map((_, i) => i).filter((i) => t.seconds[i] !== null);
   const shown = thin(all, 3000);
+  if (!shown.length) return null;
   return chart("times", "Time of each simulation", "Wall time of one trial on one worker.", () => ({
     grid: margins, legend: legendStyle,
     tooltip: {...tooltipStyle, formatter: (e) =>

@@ -15,7 +15,7 @@ function standing() {
 function sensitivityTable() {
   const h = D.headline;
   if (!h || !h.sobol_total.length) return [];
-  return [element("div", {class: "card"}, element("h3", {}, "What " + D.campaign.objective.title + " depends on"),
+  return [element("div", {class: "card"}, element("h3", {}, "What the " + inWords(D.campaign.objective) + " depends on"),
     table("Sensitivity", [{title: "Parameter", text: true}, {title: "alone (first-order Sobol index)"},
            {title: "with its interactions (total)"}],
       D.parameters.map((p, k) => [p.symbol, shareBar(h.sobol_first[k]), shareBar(h.sobol_total[k])])))];

@@ -1,11 +1,13 @@
 // The parameter space: where the trials lie, which each objective prefers, and what the model says.
 
-// Three dimensions when there are three parameters and the browser has WebGL, else two.
+// Three dimensions when there are three parameters and the browser has WebGL, else two. Null before any objective has a
+// value: there is nothing to colour by.
 function spaceChart() {
   const t = D.trials, n = D.parameters.length;
   const three = n >= 3 && hasWebGl;
   const axes = three ? [0, 1, 2] : n >= 2 ? [0, 1] : [0];
   const answered = D.objectives.filter((o) => !o.absent);
+  if (!answered.length) return null;
   const own = Math.max(0, answered.findIndex((o) => o.key === D.campaign.objective.key));
   // -1: by scale factor, where there are several: their objectives do not compare.
   let colorBy = scaleFactors.length > 1 ? -1 : own;
@@ -38,7 +40,7 @@ function spaceChart() {
     const numTrialSeries = series.length;
     answered.forEach((objective, k) => series.push({
       type: kind, name: "ten best by " + objective.title, symbolSize: 15 + 3 * k,
-      itemStyle: {color: "rgba(255,255,255,0)", borderColor: palette[k], borderWidth: 2, opacity: 1},
+      itemStyle: {color: "rgba(255,255,255,0)", borderColor: palette[k % palette.length], borderWidth: 2, opacity: 1},
       data: objective.trials.best.map((b) => {
         const i = rowOf.get(b.trials[0]);
         return [...at(b.values), ...extra(i), b.objective, i];
@@ -60,14 +62,14 @@ function spaceChart() {
       visualMap: byScale ? undefined : {seriesIndex: 0, dimension: axes.length + (n === 1 ? 1 : 0), min: low, max: high,
         inRange: {color: [...sequence].reverse()}, calculable: false, orient: "horizontal",
         left: 0, bottom: 0, itemWidth: 12, itemHeight: narrow ? 90 : 150,
-        text: ["≥ " + format(high) + " " + o.unit, o.title + "  " + format(low)],
+        text: ["≥ " + formatUnit(high, o.unit), o.value_title + "  " + format(low)],
         textStyle: {color: soft}},
       series,
     };
     if (!three) {
       return {...common, grid: {...margins, bottom: 92}, xAxis: parameterAxis(D.parameters[axes[0]]),
-        yAxis: n === 1 ? valueAxis(o.title + " (" + o.unit + ")", {min: 0})
-          : parameterAxis(D.parameters[axes[1]], true)};
+        yAxis: n === 1 ? valueAxis(withUnit(o.value_title, o.unit), {min: 0})
+          : parameterAxis(D.parameters[axes[1]], {vertical: true})};
     }
     const axis = (k) => {
       const p = D.parameters[axes[k]];
@@ -114,16 +116,16 @@ function sliceChart(slice, k) {
   const p = D.parameters[slice.parameter], o = D.campaign.objective;
   const v = D.headline ? D.headline.values[slice.parameter] : null;
   const banded = slice.high[0] !== null;
-  return chart("slice-" + k, "Expected " + o.title + " along " + p.symbol, "", () => ({
+  return chart("slice-" + k, "Expected " + inWords(o) + " along " + p.symbol, "", () => ({
     grid: {...margins, top: 24},
     tooltip: {...tooltipStyle, trigger: "axis", formatter: (list) => {
       const i = list[0].dataIndex;
       return lines([p.symbol + " = " + formatUnit(slice.x[i], p.unit),
-        "expected " + o.title + " = " + formatUnit(slice.mean[i], o.unit),
+        "expected " + inWords(o) + " = " + formatUnit(slice.mean[i], o.unit),
         ...(banded ? ["90 %: " + format(slice.low[i]) + " to " + formatUnit(slice.high[i], o.unit)] : [])]);
     }},
     xAxis: parameterAxis(p),
-    yAxis: valueAxis(o.title + " (" + o.unit + ")", {min: 0}),
+    yAxis: valueAxis(withUnit(o.value_title, o.unit), {min: 0}),
     series: [
       ...(banded ? [{type: "line", stack: "band", data: slice.x.map((x, i) => [x, slice.low[i]]), symbol: "none",
        lineStyle: {opacity: 0}, silent: true},
@@ -163,13 +165,12 @@ function marginalChart(marginal, k) {
   }), "small").figure;
 }
 
-// The first and the last edge of cells to show: the region with some room, not all that was searched.
+// The part of an axis to show: the cells of the region with some room, not all that was searched.
 function zoomed(inside, edges) {
   const cells = inside.map((some, k) => some ? k : -1).filter((k) => k >= 0);
   if (!cells.length) return {};
   const from = cells[0], to = cells[cells.length - 1] + 1, room = Math.max(3, Math.ceil(.5 * (to - from)));
-  return {min: edges[Math.max(0, from - room)], max: edges[Math.min(edges.length - 1, to + room)],
-    axisLabel: {color: soft, fontSize: 12, formatter: tick, hideOverlap: true, showMinLabel: false, showMaxLabel: false}};
+  return {low: edges[Math.max(0, from - room)], high: edges[Math.min(edges.length - 1, to + room)]};
 }
 
 const regionShade = (level) => regionShades[level < .5 ? 0 : 1];
@@ -199,7 +200,7 @@ function pairChart(pair, k, id = "pair-" + k, size = "small") {
       px.symbol + ": " + format(pair.x[e.data[0]]) + " to " + formatUnit(pair.x[e.data[0] + 1], px.unit),
       py.symbol + ": " + format(pair.y[e.data[1]]) + " to " + formatUnit(pair.y[e.data[1] + 1], py.unit),
       meaning(e.data[2])])},
-    xAxis: {...parameterAxis(px), ...zoomX}, yAxis: {...parameterAxis(py, true), ...zoomY},
+    xAxis: parameterAxis(px, zoomX), yAxis: parameterAxis(py, {vertical: true, ...zoomY}),
     series: [
       {type: "custom", progressive: 0, data: pair.value.map((v, c) => [c % nx, Math.floor(c / nx), v])
          .filter((cell) => cell[2] < .9),
