@@ -1,6 +1,7 @@
 #include "engine/scene/scene_json.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/json/json_reader.h"
 #include "base/json/json_writer.h"
@@ -59,6 +60,7 @@ LoadedScene LoadScene(base::JsonFile file) {
   }
   try {
     loaded.scene = BuildScene(loaded.spec);
+    BuildPours(loaded.spec, TimeStep(loaded.scene), std::ssize(loaded.scene.particles));
   } catch (const base::ConfigError& error) {
     throw base::ConfigError(path.string() + ": " + error.what());
   }

@@ -120,9 +120,8 @@ void RequireGoodStream(const SceneSpec& spec, std::size_t index, double time_ste
   base::Problems problems;
   problems.Within("pours[" + std::to_string(index) + "]", [&] {
     problems.Require(pour.MaxSpeed() * time_step <= 0.1 * pour.SmallestRadius(), "rate",
-                     pour.plan().rate,
-                     "kg/s make a stream so fast that grains move by more than a tenth of their "
-                     "radius in a time step; pour less at a time, by a wider mouth");
+                     "makes a stream in which grains move by more than a tenth of their radius in "
+                     "a time step: pour less at a time, or by a wider mouth");
     const double turns = spec.gravity_turns.empty() ? INFINITY : spec.gravity_turns.front().time;
     problems.Require(pour.plan().start + pour.Duration() <= turns, "start",
                      "pours when gravity_turns has begun, but along the gravity of the start: end "

@@ -91,11 +91,18 @@ def command_case():
     return good
 
 
+def without_device():
+    good = example("scenes/heap_case.json")
+    del good["device"]
+    return good
+
+
 GOOD = {  # name: content, and how it is tried
     "spec": (spec, ["validate", "{}"]),
     "joint": (joint, ["validate", "{}"]),
     "searched_pair": (searched_pair, ["validate", "{}"]),
     "case": (lambda: example("scenes/heap_case.json"), ["simulate", "{}", "--out", "new"]),
+    "rig": (without_device, ["simulate", "{}", "--out", "new"]),
     "command": (command_case, ["simulate", "{}", "--out", "new"]),
     "scene": (lambda: example("scenes/bouncing_pair.json"), ["simulate", "{}", "--out", "new"]),
     "stepped": (lambda: {**example("scenes/bouncing_pair.json"), "time_step": 1e-7},
