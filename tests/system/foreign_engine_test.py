@@ -17,7 +17,7 @@ import time
 
 talus, source, name = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
 example = source / "examples" / name
-NUM_TRIALS = 5  # 4 of the search and 1 confirmation
+NUM_TRIALS = 7  # 6 of the search and 1 confirmation
 PLATE_MM = 10
 
 
@@ -39,7 +39,7 @@ def cheap(folder):
     spec["parameters"]["sliding_friction"]["min"] = 0.5
     spec["parameters"]["rolling_friction"]["min"] = 0.2
     spec["strategy"] = {"kind": "sobol", "num_points": 8}
-    spec["budget"]["simulations"] = 4
+    spec["budget"]["simulations"] = 6
     spec["noise"]["replicates"] = 2
     spec["confirm"] = {"candidates": 1, "replicates": 1, "ends": False}
     spec["workers"] = 2
