@@ -77,7 +77,7 @@ class Simulation {
   Vec3 Gravity() const;  // now [m/s²]
   const std::vector<TurnStep>& GravityTurns() const;
 
-  // Of each material, whether friction or rolling resistance with any other slows a spin.
+  // Whether friction or rolling resistance with any other slows a spin, for each material.
   std::vector<bool> ResistsSpin() const;
 
   // From now on gravity turns as `turns` says (times absolute); what was prescribed is dropped.

@@ -7,7 +7,7 @@
 
 namespace talus::imaging {
 
-// Of each of two images or more, of one size, its SAD from the mean of the others [px].
+// SAD of each image from the mean of the others [px]; two images or more, of one size.
 std::vector<double> SadFromOthers(const std::vector<GrayImage>& images);
 
 }  // namespace talus::imaging

@@ -21,7 +21,7 @@ void FollowPrior(const Domain& domain, Points& points) {
   }
 }
 
-// Of the points those in the domain, until there are `size`.
+// Takes the points that are in the domain, until there are `size`.
 void AppendThoseWithin(const Domain& domain, const Points& from, int size, Points& points) {
   for (const Eigen::VectorXd& point : from) {
     if (domain.Contains(point) && static_cast<int>(points.size()) < size) points.push_back(point);

@@ -97,7 +97,7 @@ std::vector<PosteriorBranch> FindBranches(const AskedDensity& posterior,
   density = Eigen::VectorXd(density(inside));
   Components components(inside.size());
   int tries = 0;
-  // Of many parameters few draws have a neighbour within reach. What is left apart then is tried
+  // With many parameters few draws have a neighbour within reach. What is left apart then is tried
   // further, a pair of each two parts: a way that leaves the region between all others proves
   // little.
   std::map<std::pair<std::size_t, std::size_t>, int> tried;

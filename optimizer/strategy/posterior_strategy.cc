@@ -98,8 +98,8 @@ void PosteriorStrategy::Tell(const Observation& observation) {
   }
 }
 
-// Of the evaluations that are fitted to: images that are all the same have no modes, and a number
-// that is undefined in all of them, or in all but one, no surrogate.
+// Whether the evaluations that are fitted to tell anything: images that are all the same have no
+// modes, and a number that is undefined in all of them, or in all but one, no surrogate.
 bool PosteriorStrategy::HasOutputs(const OutputData& data) {
   const auto count = static_cast<std::size_t>(SizeToFit(data.size(), kFewest));
   const auto vectors = std::span(data.vectors).first(std::min(count, data.vectors.size()));

@@ -18,7 +18,7 @@ bool PosteriorStrategy::HasDesign() {
   return CanModel() && !FromDesign({}) && !TooFewAt(Eigen::VectorXd(), {});
 }
 
-// Of the first two thirds of what was told, so many are of this experiment.
+// Number of this experiment's evaluations among the first two thirds of what was told.
 std::ptrdiff_t PosteriorStrategy::NumEarlier(const Told& told) const {
   const std::size_t earlier = 2 * observations_.size() / 3;
   return std::ranges::lower_bound(told.place, earlier) - told.place.begin();

@@ -78,7 +78,7 @@ class Covariance {
   const Hyperparameters& hyper() const { return hyper_; }
 
  private:
-  // Of the last `count` rows.
+  // Covariances of the last `count` rows with the point `b`.
   Eigen::ArrayXd Column(const CovarianceRows& rows, Eigen::Index count, const double* b,
                         double growth) const;
 

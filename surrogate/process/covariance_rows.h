@@ -17,7 +17,7 @@ class CovarianceRows {
   Eigen::Index size() const { return coordinates_.rows(); }
   bool any_growth() const { return growth_.any(); }
 
-  // Of the last `count` points.
+  // Coordinates of the last `count` points.
   auto coordinate(Eigen::Index k, Eigen::Index count) const {
     return coordinates_.col(k).tail(count);
   }
@@ -25,7 +25,7 @@ class CovarianceRows {
     return centred_.col(k).tail(count);
   }
 
-  // Of the pairs of the last `count` points with one of this growth, as in PairTerms. Needs
+  // What PairTerms has of the pairs of the last `count` points with one of this growth. Needs
   // hyper.scale.
   Eigen::ArrayXd TargetShares(double growth, Eigen::Index count) const;
   Eigen::ArrayXd SharedGrowth(double growth, Eigen::Index count) const;

@@ -137,7 +137,7 @@ TEST(AskedDensity, BranchesAreOfWhatIsAskedFor) {
   EXPECT_NEAR(branches[0].point[0], 0.5, 0.05);
 }
 
-// Of six parameters no draw of 300 has a neighbour within a third of the ranges.
+// With six parameters no draw of 300 has a neighbour within a third of the ranges.
 TEST(AskedDensity, ABroadRegionOfManyParametersIsOneBranch) {
   const auto flat = [](const Eigen::MatrixXd& x) -> Eigen::VectorXd {
     return Eigen::VectorXd::Zero(x.rows());

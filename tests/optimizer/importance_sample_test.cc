@@ -28,7 +28,7 @@ struct NarrowCase {
 
 class OfNarrowDensities : public ::testing::TestWithParam<NarrowCase> {};
 
-// Of 6000 even points two or ten lie where the density is: kernels round these alone did not reach
+// Two or ten of 6000 even points lie where the density is: kernels round these alone did not reach
 // the tails, and what was called the 90 % region held 75 % and less. The level of the true one's
 // edge scatters by 0.02 over seeds.
 TEST_P(OfNarrowDensities, TheRegionHoldsWhatItSays) {

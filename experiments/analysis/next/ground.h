@@ -15,7 +15,7 @@ struct Ground {
   double temper = 1;       // of all variances: the posterior's
   Eigen::MatrixXd draws;   // equally likely, one a row
   double model_error = 1;  // PosteriorOptions
-  // Of the variances of a further test's outputs, the share of its surrogate's error, in [0, 1).
+  // Share of its surrogate's error in the variances of a further test's outputs, in [0, 1).
   double surrogate_share = 0;
   Eigen::VectorXd goal{};  // what a prediction gives at each draw; empty: the parameters count
 

@@ -19,7 +19,7 @@ struct Known {
 // Those that the campaign's answer meets.
 std::vector<Known> KnownExperiments(const Ground& ground, const optimizer::Posterior& posterior);
 
-// Of the variances of their outputs, the share of the surrogate's error: the mean over all outputs.
+// The surrogate's share of the variances of their outputs: the mean over all of them.
 double SurrogateShare(const std::vector<Known>& experiments);
 
 // With `less` of the variance of each output.

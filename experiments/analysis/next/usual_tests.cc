@@ -75,7 +75,7 @@ rigs::RigOptions Of(rigs::RigKind kind) {
 
 double UpToMillimetre(double length) { return 1e-3 * std::ceil(1e3 * length); }
 
-// Of as much powder as the first experiment takes; so do tests that are named here.
+// Volume of the first experiment's powder, which the tests here take, too [m³].
 double BulkVolume(const campaign::CampaignSpec& spec) {
   constexpr double kPacked = 0.6;  // solid fraction
   const double mass = campaign::ExperimentsOf(spec).front().mass.value_or(spec.powder.mass);

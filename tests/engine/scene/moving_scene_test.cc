@@ -213,7 +213,7 @@ TEST(WallLoads, ForceAndTorqueOfAWeight) {
   EXPECT_NEAR(load.torque.y / (weight * 5e-3), 1, 1e-6);  // r × F = (5 mm)(−W)(x × z) = +y
 }
 
-// Of a sphere that rolls over the middle of a plate the weight has no lever. What resists its
+// The weight of a sphere that rolls over the middle of a plate has no lever. What resists its
 // rolling turns the plate by μ_r R N along with it: without it nothing would.
 TEST(WallLoads, RollingResistanceTurnsTheWall) {
   Material material = Rough();

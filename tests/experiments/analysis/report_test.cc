@@ -7,16 +7,12 @@
 
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/text/number_text.h"
 #include "experiments/analysis/compare/crop.h"
 #include "experiments/analysis/compare/gather_evidence.h"
 #include "experiments/analysis/compare/labels.h"
-#include "experiments/analysis/report/charts/svg_chart.h"
-#include "experiments/analysis/report/data/methods.h"
 #include "experiments/analysis/report/data/tables.h"
 #include "experiments/analysis/report/page/base64.h"
 #include "experiments/analysis/report/page/page.h"
-#include "experiments/analysis/report/page/summary.h"
 #include "experiments/analysis/report/views/answer_words.h"
 #include "experiments/analysis/report/views/model_views.h"
 #include "experiments/analysis/report/write_report.h"
@@ -135,44 +131,6 @@ TEST(PageHead, CountsTheTrialsOfAllExperiments) {
   EXPECT_EQ(both["counts"]["searched"], alone["counts"]["searched"].get<int>() + 1);
   EXPECT_EQ(both["counts"]["confirming"], alone["counts"]["confirming"].get<int>() + 1);
   EXPECT_NEAR(both["core_hours"].get<double>(), alone["core_hours"].get<double>() + 1, 1e-5);
-}
-
-TEST(SvgChart, PutsValuesWhereTheyBelong) {
-  SvgChart chart({.title = "x", .low = 1e-6, .high = 1e-2, .log = true},
-                 {.title = "y", .low = 0, .high = 10});
-  chart.Points({{1e-4, 5}, {1, 5}}, {.width = 4});  // the second is off the axis
-  // The plot is 550 by 340 pixels.
-  EXPECT_THAT(chart.Text(), HasSubstr("<circle cx=\"275.00\" cy=\"170.00\""));
-  EXPECT_EQ(chart.Text().find("<circle"), chart.Text().rfind("<circle"));
-}
-
-TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
-  const std::string chart = SvgChart({.title = "γ (J/m²)", .low = 1e-6, .high = 1e-2, .log = true},
-                                     {.title = "cost", .low = 0, .high = 4e6})
-                                .Text();
-  for (const char* tick :
-       {">10⁻⁶<", ">10⁻⁵<", ">10⁻⁴<", ">0.001<", ">0.01<", ">10⁶<", ">3 × 10⁶<"}) {
-    EXPECT_THAT(chart, HasSubstr(tick));
-  }
-  EXPECT_THAT(chart, Not(HasSubstr("e-0")));
-}
-
-// Only powers of ten were ticks: an axis of less than a decade had one or none.
-TEST(SvgChart, AShortLogarithmicAxisHasTicks) {
-  const std::string chart = SvgChart({.title = "x", .low = 0.2, .high = 0.9, .log = true},
-                                     {.title = "y", .low = 0.31, .high = 0.38, .log = true})
-                                .Text();
-  for (const char* tick : {">0.2<", ">0.5<", ">0.32<", ">0.34<", ">0.36<"}) {
-    EXPECT_THAT(chart, HasSubstr(tick));
-  }
-}
-
-// 0.3 and the next number: k steps and k + 1 are the same.
-TEST(SvgChart, AnAxisAsShortAsTheRoundingOfItsEndsIsDrawn) {
-  const std::string chart = SvgChart({.title = "x", .low = 0.3, .high = std::nextafter(0.3, 1)},
-                                     {.title = "y", .low = 2, .high = 2})
-                                .Text();
-  EXPECT_LT(chart.size(), 10000u);
 }
 
 TEST_F(Report, OutlinesOfTheExperimentAreMarked) {
@@ -315,125 +273,10 @@ TEST_F(Report, AMissIsSaidFirstAndNothingIsSaidToFit) {
   EXPECT_THAT(page["headline"]["use"].get<std::string>(), StartsWith("No: "));
 }
 
-// A valley is left open by more of the same; and no instrument tells the friction of two grains.
-TEST(NextSteps, ADifferentTestComesFirstWhereACurveIsLeft) {
-  const Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  const std::vector<NextStep> steps = NextSteps(evidence, {});
-  ASSERT_FALSE(steps.empty());
-  EXPECT_EQ(steps.front().what, "Add a different kind of test");
-  for (const NextStep& step : steps) EXPECT_THAT(step.what, Not(StartsWith("Measure")));
-  EXPECT_TRUE(NextSteps(test::MakeSyntheticCampaign({.num_trials = 12}), {}).empty());  // no model
-}
-
-// `talus next` without --simulate has judged what costs nothing only.
-TEST(NextSteps, ADifferentTestComesFirstWhereNoneHasBeenJudged) {
-  const CandidateView runs{.kind = "more_runs",
-                           .name = "more runs of heap",
-                           .what = "photograph 5 more runs",
-                           .bits = 0.1,
-                           .width = {0.4, 0.4},
-                           .remaining = 0.95,
-                           .apart = {},
-                           .apart_by = {},
-                           .picture = {}};
-  CandidateView wide = runs;
-  wide.kind = "test";
-  wide.bits = kUndefined;
-  const NextTableView table{.width = {0.5, 0.4}, .candidates = {runs, wide}};
-  const std::vector<NextStep> steps =
-      NextSteps(test::MakeSyntheticCampaign({.num_parameters = 2}), table);
-  ASSERT_FALSE(steps.empty());
-  EXPECT_EQ(steps.front().what, "Add a different kind of test");
-}
-
 TEST(AnswerWords, PowersOfTenAreThoseOfPrint) {
   EXPECT_EQ(WithPowers("γ 3e-05 (90 %: 2.35e-05 to 1e+12)."),
             "γ 3 × 10⁻⁵ (90 %: 2.35 × 10⁻⁵ to 1 × 10¹²).");
   EXPECT_EQ(WithPowers("the 2e grade, scale-5"), "the 2e grade, scale-5");
-}
-
-// What an alarm wants is the first step, whether `talus next` was run or not.
-TEST(NextSteps, SimulationsThatAnAlarmAsksForComeFirst) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  evidence.answer->warnings.push_back(
-      {.kind = campaign::AlarmKind::kPoorModel, .value = 0.5, .widened = 2});
-  const CandidateView wide{.kind = "test",
-                           .name = "wide plate",
-                           .what = "carry it out",
-                           .bits = 3,
-                           .width = {0.01, 0.01},
-                           .remaining = 1e-4,
-                           .apart = {},
-                           .apart_by = {},
-                           .picture = {}};
-  const NextTableView table{.width = {0.5, 0.4}, .candidates = {wide}};
-  for (const std::optional<NextTableView>& known : {std::optional<NextTableView>(), {table}}) {
-    const std::vector<NextStep> steps = NextSteps(evidence, known);
-    ASSERT_GT(steps.size(), 1u);
-    EXPECT_THAT(steps[0].what, StartsWith("Simulate more: talus resume"));
-  }
-}
-
-// Given the first parameter, the bent valley of the synthetic posterior leaves little of the
-// second.
-TEST(NextSteps, MeasuringTheFrictionOfThePlateLeavesANarrowRangeOfTheOther) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  evidence.parameters[0].range.name = "plate_sliding_friction";
-  const std::vector<NextStep> steps = NextSteps(evidence, {});
-  const auto measured = std::find_if(steps.begin(), steps.end(), [](const NextStep& step) {
-    return step.what.starts_with("Measure μₜ on a tilted plate");
-  });
-  ASSERT_NE(measured, steps.end());
-  // The valley is 0.02 thick and 0.6 long, so knowing one leaves less than a tenth of the area.
-  EXPECT_LT(measured->remaining, 0.1);
-  // What it leaves stands beside the very range that the page shows.
-  const campaign::ResultParameter& shown = evidence.answer->parameters[1];
-  EXPECT_THAT(measured->leaves,
-              HasSubstr("(now " + base::ShortNumber(shown.credible_low, 3) + " to " +
-                        base::ShortNumber(shown.credible_high, 3) + ")"));
-}
-
-TEST(NextSteps, NumbersAreMeasuredAgainAndNotPhotographed) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  evidence.reference.aehp = {};
-  evidence.answer->experiments[0].has_image = false;
-  std::string all;
-  for (const NextStep& step : NextSteps(evidence, {})) all += step.what + "; ";
-  EXPECT_THAT(all, HasSubstr("Repeat the measurement"));
-  EXPECT_THAT(all, Not(HasSubstr("Photograph")));
-  EXPECT_THAT(MethodsText(MakeReportData(evidence)), Not(HasSubstr("images")));
-}
-
-TEST(Nuisances, AreSaidNotToBeAskedFor) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  evidence.parameters[1].range.is_nuisance = true;
-  const ReportData data = MakeReportData(evidence);
-  EXPECT_EQ(json::parse(PageJson(data))["parameters"][1]["nuisance"], true);
-  EXPECT_THAT(SummaryPage(data), HasSubstr(", not asked for</td>"));
-  const std::string text = MethodsText(data);
-  EXPECT_NE(text.find("(integrated out)"), std::string::npos);
-  EXPECT_EQ(text.find("(integrated out)"), text.rfind("(integrated out)"));
-}
-
-// Nobody asks for a nuisance itself: where the others do not hang on it, to measure it is no step.
-TEST(NextSteps, ANuisanceThatLeavesTheOthersAsTheyAreIsNotToBeMeasured) {
-  Evidence evidence = test::MakeSyntheticCampaign({.num_parameters = 2});
-  evidence.parameters[0].range.name = "plate_pair_sliding_friction";
-  Eigen::MatrixXd& draws = evidence.model->draws;
-  const Eigen::Index half =
-      draws.rows() / 2;  // moved past each other, they tell nothing of each other
-  Eigen::VectorXd moved(draws.rows());
-  for (Eigen::Index i = 0; i < draws.rows(); ++i)
-    moved[i] = draws((i * 7919 + half) % draws.rows(), 1);
-  draws.col(1) = moved;
-  const auto is_offered = [&] {
-    const std::vector<NextStep> steps = NextSteps(evidence, {});
-    return std::any_of(steps.begin(), steps.end(),
-                       [](const NextStep& step) { return step.what.starts_with("Measure"); });
-  };
-  EXPECT_TRUE(is_offered());
-  evidence.answer->parameters[0].nuisance.emplace();
-  EXPECT_FALSE(is_offered());
 }
 
 TEST(Labels, TheWordsDoNotSayTheBodyThatTheSymbolNames) {

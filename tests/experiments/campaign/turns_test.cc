@@ -55,7 +55,7 @@ TEST_F(TurnsTest, TheClockGoesByWhatTrialsWereExpectedToCostAndLearnsFromWhatThe
   turns.Told(coarse);
   const double seconds = 100 * 1e6 / kUsualSpeed;
   EXPECT_DOUBLE_EQ(turns.DueOf(coarse), coarse.due + seconds);
-  // Of the other kind as many times as much as was estimated.
+  // The other kind waits as many times as long as was estimated.
   EXPECT_NEAR((turns.DueOf(fine) - coarse.due) / seconds, fine.due / coarse.due, 1e-9);
 
   // One that is told late does not turn the clock back.

@@ -87,8 +87,8 @@ std::vector<double> DecadeTicks(const SvgAxis& axis, std::span<const double> dig
   return ticks;
 }
 
-// Of a logarithmic axis its powers of ten; where fewer than two fit 1, 2 and 5 of each; where fewer
-// than two of these do, and of a linear axis, round values.
+// The powers of ten on a logarithmic axis; where fewer than two fit, 1, 2 and 5 of each; where
+// fewer than two of these do, and on a linear axis, round values.
 std::vector<double> TicksOf(const SvgAxis& axis) {
   if (!axis.log) return EvenTicks(axis);
   constexpr double kDigits[] = {1, 2, 5};

@@ -73,7 +73,7 @@ campaign::ExperimentSpec ExperimentOf(const Evidence& evidence) {
   return campaign::ExperimentsOf(spec).at(evidence.experiment);
 }
 
-// Of the other rigs the powder lies in a drum, a box or a bed, and is measured from the front.
+// In the other rigs the powder lies in a drum, a box or a bed, and is measured from the front.
 bool HeapsOnPlate(const Evidence& evidence) {
   const rigs::RigKind kind = ExperimentOf(evidence).rig->kind;
   return kind == rigs::RigKind::kLiftedTube || kind == rigs::RigKind::kFunnelHeap;

@@ -1,0 +1,55 @@
+// Charts that need no script: those of a search, and of the sheet to print.
+#include "experiments/analysis/report/charts/svg_chart.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace talus::analysis {
+namespace svg_chart_test {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(SvgChart, PutsValuesWhereTheyBelong) {
+  SvgChart chart({.title = "x", .low = 1e-6, .high = 1e-2, .log = true},
+                 {.title = "y", .low = 0, .high = 10});
+  chart.Points({{1e-4, 5}, {1, 5}}, {.width = 4});  // the second is off the axis
+  // The plot is 550 by 340 pixels.
+  EXPECT_THAT(chart.Text(), HasSubstr("<circle cx=\"275.00\" cy=\"170.00\""));
+  EXPECT_EQ(chart.Text().find("<circle"), chart.Text().rfind("<circle"));
+}
+
+TEST(SvgChart, WritesPowersOfTenAsThePageDoes) {
+  const std::string chart = SvgChart({.title = "γ (J/m²)", .low = 1e-6, .high = 1e-2, .log = true},
+                                     {.title = "cost", .low = 0, .high = 4e6})
+                                .Text();
+  for (const char* tick :
+       {">10⁻⁶<", ">10⁻⁵<", ">10⁻⁴<", ">0.001<", ">0.01<", ">10⁶<", ">3 × 10⁶<"}) {
+    EXPECT_THAT(chart, HasSubstr(tick));
+  }
+  EXPECT_THAT(chart, Not(HasSubstr("e-0")));
+}
+
+// Only powers of ten were ticks: an axis of less than a decade had one or none.
+TEST(SvgChart, AShortLogarithmicAxisHasTicks) {
+  const std::string chart = SvgChart({.title = "x", .low = 0.2, .high = 0.9, .log = true},
+                                     {.title = "y", .low = 0.31, .high = 0.38, .log = true})
+                                .Text();
+  for (const char* tick : {">0.2<", ">0.5<", ">0.32<", ">0.34<", ">0.36<"}) {
+    EXPECT_THAT(chart, HasSubstr(tick));
+  }
+}
+
+// 0.3 and the next number: k steps and k + 1 are the same.
+TEST(SvgChart, AnAxisAsShortAsTheRoundingOfItsEndsIsDrawn) {
+  const std::string chart = SvgChart({.title = "x", .low = 0.3, .high = std::nextafter(0.3, 1)},
+                                     {.title = "y", .low = 2, .high = 2})
+                                .Text();
+  EXPECT_LT(chart.size(), 10000u);
+}
+
+}  // namespace svg_chart_test
+}  // namespace talus::analysis
