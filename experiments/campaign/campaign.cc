@@ -48,6 +48,7 @@ double Campaign::Elapsed() const {
 
 CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
   if (!StayEnded()) NoteProgress();
+  RunFailedAgain();
   TellFinished();
   if (parts_.goal) planner_.NoteGoal(LastGoal(folder_.root, spec_));
   TakeUpRunning();
@@ -74,46 +75,6 @@ CampaignEnd Campaign::Run(const base::InterruptGuard& interrupt) {
     ShowStatus();
     ShowTrouble();
     for (const runners::FinishedJob& job : parts_.runner->Wait(kWaitSeconds)) HandleEnd(job);
-  }
-}
-
-// Trials become known by their ids, observations are told in the order in which they finished.
-void Campaign::TellFinished() {
-  const std::vector<journal::TrialRecord> trials = journal_.Trials();
-  for (const journal::TrialRecord& trial : trials) planner_.Started(trial);
-  for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
-    planner_.Finished(trial, StoredField(journal_, folder_, references_, trial));
-    NoteBest(trial);
-  }
-}
-
-void Campaign::TakeUpRunning() {
-  for (const journal::TrialRecord& trial : journal_.Trials()) {
-    if (trial.status != journal::TrialStatus::kRunning) continue;
-    if (parts_.runner->Adopt(JobOf(trial), trial.job)) {
-      running_[trial.id] = trial;
-    } else {
-      waiting_.push_back(trial);
-    }
-  }
-}
-
-// They need no worker, and the first proposal waits for all of them.
-void Campaign::CollectReused() {
-  const auto is_there = [&](const journal::TrialRecord& trial) {
-    return trial.kind == journal::TrialKind::kReused &&
-           parts_.engine->IsComplete(folder_.trial(trial.id));
-  };
-  std::vector<journal::TrialRecord> reused;
-  std::ranges::copy_if(waiting_, std::back_inserter(reused), is_there);
-  if (reused.empty()) return;
-  std::erase_if(waiting_, is_there);
-  Submit(reused);
-  while (TellEnded()) {
-  }
-  const auto answer = planner_.Recommend();
-  if (answer && answer->posterior) {
-    console_.Line(FirstAnswerText(*answer, planner_.space(), record_.parameters));
   }
 }
 

@@ -59,6 +59,7 @@ class Campaign {
   };
 
   bool StayEnded();
+  void RunFailedAgain();
   void TellFinished();
   void TakeUpRunning();
   void CollectReused();

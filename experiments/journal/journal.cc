@@ -226,6 +226,22 @@ void Journal::Restart(std::span<const TrialRecord> trials) {
   transaction.Commit();
 }
 
+void Journal::Reopen(std::span<const TrialRecord> trials) {
+  Transaction transaction(database_);
+  for (const TrialRecord& t : trials) {
+    database_
+        .Prepare(
+            "UPDATE trials SET status = 'running', reason = '', job = '', finish_order = 0, "
+            "finished_utc = '' WHERE id = ?1 AND status = 'failed'")
+        .Bind(t.id)
+        .Finish();
+    database_.Prepare("DELETE FROM metrics WHERE trial = ?1").Bind(t.id).Finish();
+    SealTrial(database_, t.id);
+  }
+  transaction.Commit();
+  last_finish_order_.reset();
+}
+
 void Journal::NoteEnd(const TrialRecord& t) {
   Transaction transaction(database_);
   database_.Prepare("UPDATE trials SET duration_s = ?2, cpu_s = ?3, host = ?4 WHERE id = ?1")

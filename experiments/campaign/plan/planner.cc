@@ -12,9 +12,8 @@
 namespace talus::campaign {
 namespace {
 
-constexpr int kMostAsked = 8;                 // the strategies' limit
-constexpr double kSame = 1e-3;                // of a candidate that is confirmed already
-constexpr std::size_t kFailuresToGiveUp = 8;  // as the first trials of all: the set-up is wrong
+constexpr int kMostAsked = 8;   // the strategies' limit
+constexpr double kSame = 1e-3;  // of a candidate that is confirmed already
 // Confirmations after different searches must not share numbers.
 constexpr std::int64_t kMostCandidates = 1000;
 
@@ -77,13 +76,9 @@ void Planner::Finished(const journal::TrialRecord& trial, std::vector<float> fie
 
 // A campaign whose first trials all fail has a mistake in its set-up; going on would only cost.
 void Planner::CheckThatSomeSucceed(const std::string& last) {
-  std::size_t failed = 0;
-  for (const journal::TrialRecord& trial : trials_) {
-    if (trial.kind == journal::TrialKind::kReused) continue;  // the set-up of others worked
-    if (trial.status == journal::TrialStatus::kOk) return;
-    if (trial.status == journal::TrialStatus::kFailed) ++failed;
-  }
-  if (failed < kFailuresToGiveUp) return;
+  if (!HaveFirstAllFailed(trials_)) return;
+  const auto failed =
+      std::ranges::count(trials_, journal::TrialStatus::kFailed, &journal::TrialRecord::status);
   StopSearch({.kind = StopKind::kAllFailed, .value = static_cast<double>(failed), .cause = last});
 }
 

@@ -28,4 +28,14 @@ std::string Stop::Text() const {
   return "the strategy has no more to propose";
 }
 
+bool HaveFirstAllFailed(std::span<const journal::TrialRecord> trials) {
+  std::size_t failed = 0;
+  for (const journal::TrialRecord& trial : trials) {
+    if (trial.kind == journal::TrialKind::kReused) continue;
+    if (trial.status == journal::TrialStatus::kOk) return false;
+    if (trial.status == journal::TrialStatus::kFailed) ++failed;
+  }
+  return failed >= kFailuresToGiveUp;
+}
+
 }  // namespace talus::campaign

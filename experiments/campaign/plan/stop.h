@@ -1,10 +1,13 @@
 // Why a search ended: a kind with its data, put in words in one place.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "base/field.h"
+#include "experiments/journal/records.h"
 #include "optimizer/stop_reason.h"
 
 namespace talus::campaign {
@@ -38,5 +41,12 @@ struct Stop {
     visit("text", text);
   }
 };
+
+// As the first trials of all: the set-up is wrong.
+inline constexpr std::size_t kFailuresToGiveUp = 8;
+
+// Whether all of its trials, kFailuresToGiveUp or more, have failed. Reused ones do not count: the
+// set-up of others worked.
+bool HaveFirstAllFailed(std::span<const journal::TrialRecord> trials);
 
 }  // namespace talus::campaign

@@ -169,6 +169,26 @@ TEST_F(CampaignTest, WhereEveryTrialFailsItEndsEarlyWithTheReason) {
   EXPECT_THAT(StatusText(folder), HasSubstr("the first 8 trials all failed"));
 }
 
+// The set-up has been mended since: else the campaign could never go on, or its search would keep
+// away from sets that nothing was wrong with.
+TEST_F(CampaignTest, WhereEveryTrialHasFailedResumingRunsThemAgain) {
+  const fs::path folder = Begin(kSmall);
+  EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFailed);
+  const auto failed = Trials(folder);
+  EXPECT_EQ(RunFake(folder, {}), CampaignEnd::kFinished);
+  const fs::path other = Begin(kSmall, "other");
+  RunFake(other, {});
+  const auto mended = Trials(folder), calm = Trials(other);
+  ASSERT_EQ(mended.size(), calm.size());
+  ASSERT_GE(failed.size(), 8u);
+  for (std::size_t i = 0; i < calm.size(); ++i) {
+    EXPECT_EQ(mended[i].status, journal::TrialStatus::kOk) << i;
+    EXPECT_EQ(mended[i].seed, calm[i].seed) << i;
+    EXPECT_EQ(mended[i].unit, calm[i].unit) << i;
+    EXPECT_EQ(mended[i].finish_order, calm[i].finish_order) << i;
+  }
+}
+
 TEST_F(CampaignTest, AnExtendedCampaignHasTheTrialsOfALongerOne) {
   const fs::path folder = Begin(kSmall);
   RunFake(folder, {});

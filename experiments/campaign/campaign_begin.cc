@@ -1,0 +1,76 @@
+// When a session begins: what earlier ones and former campaigns have left is taken up.
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/answer/describe_posterior.h"
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/plan/turns.h"
+
+namespace talus::campaign {
+
+// The set-up was wrong, and whoever resumes has mended it: none of these trials tells of its set.
+// Folders first: a session that ends in between does all of it again.
+void Campaign::RunFailedAgain() {
+  std::vector<journal::TrialRecord> trials = journal_.Trials();
+  if (!HaveFirstAllFailed(trials)) return;
+  std::erase_if(trials, [](const journal::TrialRecord& trial) {
+    return trial.status != journal::TrialStatus::kFailed;
+  });
+  console_.Line("all " + std::to_string(trials.size()) + " trials have failed (" +
+                trials.back().reason + "): they are run again");
+  for (journal::TrialRecord& trial : trials) {
+    std::filesystem::remove_all(folder_.trial(trial.id));
+    ++reruns_[trial.id];
+    trial.status = journal::TrialStatus::kRunning;
+    trial.reason.clear();
+    trial.job.clear();
+    trial.finish_order = 0;
+    trial.finished_utc.clear();
+  }
+  journal_.Reopen(trials);
+}
+
+// Trials become known by their ids, observations are told in the order in which they finished.
+void Campaign::TellFinished() {
+  const std::vector<journal::TrialRecord> trials = journal_.Trials();
+  for (const journal::TrialRecord& trial : trials) planner_.Started(trial);
+  for (const journal::TrialRecord& trial : InOrderOfFinish(trials)) {
+    planner_.Finished(trial, StoredField(journal_, folder_, references_, trial));
+    NoteBest(trial);
+  }
+}
+
+void Campaign::TakeUpRunning() {
+  for (const journal::TrialRecord& trial : journal_.Trials()) {
+    if (trial.status != journal::TrialStatus::kRunning) continue;
+    if (parts_.runner->Adopt(JobOf(trial), trial.job)) {
+      running_[trial.id] = trial;
+    } else {
+      waiting_.push_back(trial);
+    }
+  }
+}
+
+// They need no worker, and the first proposal waits for all of them.
+void Campaign::CollectReused() {
+  const auto is_there = [&](const journal::TrialRecord& trial) {
+    return trial.kind == journal::TrialKind::kReused &&
+           parts_.engine->IsComplete(folder_.trial(trial.id));
+  };
+  std::vector<journal::TrialRecord> reused;
+  std::ranges::copy_if(waiting_, std::back_inserter(reused), is_there);
+  if (reused.empty()) return;
+  std::erase_if(waiting_, is_there);
+  Submit(reused);
+  while (TellEnded()) {
+  }
+  const auto answer = planner_.Recommend();
+  if (answer && answer->posterior) {
+    console_.Line(FirstAnswerText(*answer, planner_.space(), record_.parameters));
+  }
+}
+
+}  // namespace talus::campaign
