@@ -15,7 +15,7 @@ namespace talus::engine {
 
 namespace {
 
-constexpr double kMostOfRadius = 0.1;  // way in a time step
+constexpr double kMostAtStart = 0.1;  // way of a sphere in a time step [radii]
 
 std::string Item(const char* list, std::size_t index) {
   return std::string(list) + "[" + std::to_string(index) + "]";
@@ -67,12 +67,12 @@ void ValidateStep(const Scene& scene, base::Problems& problems) {
   ValidateTurns(scene.gravity_turns, "gravity_turns", problems);
 }
 
-void ValidateWallSpeeds(const Scene& scene, base::Problems& problems) {
+void ValidateWallSpeeds(const Scene& scene, double time_step, base::Problems& problems) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Particle& p : scene.particles) smallest = std::min(smallest, p.radius);
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     problems.Within(Item("walls", i),
-                    [&] { ValidateSpeed(scene.walls[i], smallest, TimeStep(scene), problems); });
+                    [&] { ValidateSpeed(scene.walls[i], smallest, time_step, problems); });
   }
 }
 
@@ -83,19 +83,20 @@ void ValidateSpeeds(const Scene& scene, base::Problems& problems) {
                    "must not exceed 0.4 Rayleigh times of the smallest sphere, " +
                        std::to_string(limit * 1e6) + " us");
   for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-    problems.Within(Item("particles", i), [&] { ValidateSpeed(scene.particles[i], dt, problems); });
+    problems.Within(Item("particles", i),
+                    [&] { ValidateSpeed(scene.particles[i], dt, kMostAtStart, problems); });
   }
-  ValidateWallSpeeds(scene, problems);
+  ValidateWallSpeeds(scene, dt, problems);
 }
 
 }  // namespace
 
-void ValidateSpeed(const Particle& p, double time_step, base::Problems& problems) {
+void ValidateSpeed(const Particle& p, double time_step, double most, base::Problems& problems) {
   const double moves = base::Norm(p.velocity) * time_step / p.radius;
-  if (!(moves <= kMostOfRadius)) {
+  if (!(moves <= most)) {
     problems.Add("velocity", "moves it by " + base::ShortNumber(moves) +
-                                 " of its radius in a time step, above the 0.1 that holds; make "
-                                 "time_step smaller");
+                                 " of its radius in a time step, above the " +
+                                 base::ShortNumber(most) + " that holds; make time_step smaller");
   }
   const double turns = base::Norm(p.angular_velocity) * time_step;
   if (!(turns <= 1)) {
@@ -107,11 +108,12 @@ void ValidateSpeed(const Particle& p, double time_step, base::Problems& problems
 
 void ValidateSpeed(const Wall& wall, double smallest_radius, double time_step,
                    base::Problems& problems) {
-  const double moves = MaxPrescribedSpeed(wall) * time_step / smallest_radius;
-  if (moves <= kMostOfRadius) return;
-  problems.Add("motion", "moves the wall by " + base::ShortNumber(moves) +
-                             " radii of the smallest sphere in a time step, above the 0.1 that "
-                             "holds; make it slower, or time_step smaller");
+  const double moves = MaxPassingSpeed(wall) * time_step / smallest_radius;
+  if (moves <= kMostLater) return;
+  problems.Add("motion", "moves the surface by " + base::ShortNumber(moves) +
+                             " radii of the smallest sphere in a time step, above the " +
+                             base::ShortNumber(kMostLater) +
+                             " that holds; make it slower, or time_step smaller");
 }
 
 double SmallestRayleighTime(const Scene& scene) {

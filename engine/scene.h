@@ -36,9 +36,13 @@ inline constexpr double kMaxRayleighFraction = 0.40;
 // The shortest Rayleigh time of a scene's spheres [s], infinite without any.
 double SmallestRayleighTime(const Scene& scene);
 
-// A way in one step above a tenth of its radius, or a turn above 1 rad, is a problem.
-void ValidateSpeed(const Particle& p, double time_step, base::Problems& problems);
-// The same of a wall and the smallest radius that it meets.
+// The way in one step, in radii, that spheres added later and walls may make: what is faster could
+// pass something unseen.
+inline constexpr double kMostLater = 0.5;
+
+// A way in one step above `most` of its radius, or a turn above 1 rad, is a problem.
+void ValidateSpeed(const Particle& p, double time_step, double most, base::Problems& problems);
+// The same of a wall, kMostLater, and the smallest radius that it meets.
 void ValidateSpeed(const Wall& wall, double smallest_radius, double time_step,
                    base::Problems& problems);
 

@@ -73,7 +73,7 @@ void ValidateAdded(const SimulationState& state, const Particle& p,
   const double rayleigh = RayleighTime(state.materials[p.material], p.radius);
   problems.Require(state.dt <= kMaxRayleighFraction * rayleigh, "time_step", state.dt,
                    "exceeds 0.4 Rayleigh times of a sphere that is added");
-  ValidateSpeed(p, state.dt, problems);
+  ValidateSpeed(p, state.dt, kMostLater, problems);
 }
 
 // After a change of how walls move.
@@ -181,8 +181,11 @@ void Simulation::Add(std::span<const Particle> spheres) {
   for (const Particle& p : spheres) ValidateAdded(state, p, ids, problems);
   problems.ThrowIfAny();
   const double smallest = SmallestOf(spheres);
-  if (state.particles.num == 0) state.tuner = SkinTuner(smallest);
-  state.tuner.Admit(smallest);
+  if (state.particles.num == 0) {
+    state.tuner = SkinTuner(smallest);
+  } else {
+    state.tuner.Admit(smallest);
+  }
   std::vector<Particle> behind(spheres.begin(), spheres.end());
   for (Particle& p : behind) p.velocity -= 0.5 * state.dt * state.gravity;  // half a step (M3)
   state.particles.Append(behind, state.materials);

@@ -245,16 +245,37 @@ double WallSet::MaxSpeed() const {
   return speed;
 }
 
-double MaxPrescribedSpeed(const Wall& wall) {
+double MaxPassingSpeed(const Wall& wall) {
   WallShape shape = wall.shape;
   const ShapeParts s = Parts(shape);
-  const double reach = base::Norm(s.point - wall.pivot.value_or(s.point)) + Extent(s);
-  return MaxVelocity(wall.motion) + reach * MaxAngularVelocity(wall.motion);
+  Normalize(s);
+  const double offset = base::Norm(s.point - wall.pivot.value_or(s.point));
+  const auto tilts = [&](const MotionStep& step) {
+    return base::Norm(Cross(step.angular_velocity, s.axis));
+  };
+  const bool keeps_normal = std::ranges::all_of(wall.motion, [&](const MotionStep& step) {
+    return tilts(step) == 0 && base::Norm(step.acceleration) == 0;
+  });
+  const bool is_flat = s.kind == ShapeKind::kPlane || s.kind == ShapeKind::kDisc ||
+                       s.kind == ShapeKind::kAnnulus || s.kind == ShapeKind::kRectangle;
+  double speed = is_flat && keeps_normal ? 0 : MaxVelocity(wall.motion);
+  for (const MotionStep& step : wall.motion) {
+    const double along =
+        is_flat ? std::abs(Dot(step.velocity, s.axis))
+                : base::Norm(step.velocity) + offset * base::Norm(step.angular_velocity);
+    speed = std::max(speed, along + (offset + Extent(s)) * tilts(step));
+  }
+  return speed;
 }
 
 double WallSet::MaxPrescribedSpeed() const {
   double speed = 0;
-  for (const Wall& wall : walls_) speed = std::max(speed, engine::MaxPrescribedSpeed(wall));
+  for (const Wall& wall : walls_) {
+    WallShape shape = wall.shape;
+    const ShapeParts s = Parts(shape);
+    const double reach = base::Norm(s.point - wall.pivot.value_or(s.point)) + Extent(s);
+    speed = std::max(speed, MaxVelocity(wall.motion) + reach * MaxAngularVelocity(wall.motion));
+  }
   for (const Press& press : presses_) speed = std::max(speed, FreeSpeed(press));
   return speed;
 }

@@ -16,8 +16,9 @@ namespace talus::engine {
 // plane that turns.
 void ValidateWall(const Wall& wall, int num_materials, base::Problems& problems);
 
-// Largest speed that its surface is to have at any time by its prescribed motion [m/s].
-double MaxPrescribedSpeed(const Wall& wall);
+// Largest speed at which its surface is to move out of itself by its prescribed motion [m/s]: a
+// belt and a disc that turns about its axis stay in their planes.
+double MaxPassingSpeed(const Wall& wall);
 
 class WallSet {
  public:

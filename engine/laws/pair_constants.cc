@@ -33,8 +33,8 @@ double PairSurfaceEnergy(const Material& a, const Material& b) {  // P6
 }
 
 // The range of (A2) grows as γ^(-1/2): below this, pull-off holds no grain of a micrometre, and
-// each would be listed with all within some twenty [J/m²].
-constexpr double kLeastOfDmt = 1e-10;
+// each would be listed with all that are within some twenty micrometres.
+constexpr double kLeastOfDmt = 1e-10;  // [J/m²]
 
 void AddAdhesion(const Material& a, const Material& b, const ContactModels& models,
                  PairConstants& pair) {

@@ -136,7 +136,7 @@ double Pour::Interval() const { return slab_ / speed_; }
 
 double Pour::Duration() const { return cum_.empty() ? 0 : cum_.back() / plan_.rate; }
 
-double Pour::MaxSpeed() const { return speed_ + std::numbers::sqrt2 * plan_.scatter; }
+double Pour::MaxSpeed() const { return std::hypot(speed_, std::numbers::sqrt2 * plan_.scatter); }
 
 double Pour::SmallestRadius() const { return std::ranges::min(plan_.radii); }
 

@@ -60,7 +60,14 @@ LoadedScene LoadScene(base::JsonFile file) {
   }
   try {
     loaded.scene = BuildScene(loaded.spec);
-    BuildPours(loaded.spec, TimeStep(loaded.scene), std::ssize(loaded.scene.particles));
+    const double dt = TimeStep(loaded.scene);
+    for (const Pour& pour : BuildPours(loaded.spec, dt, std::ssize(loaded.scene.particles))) {
+      for (std::size_t i = 0; i < loaded.scene.walls.size(); ++i) {
+        problems.Within("walls[" + std::to_string(i) + "]", [&] {
+          ValidateSpeed(loaded.scene.walls[i], pour.SmallestRadius(), dt, problems);
+        });
+      }
+    }
   } catch (const base::ConfigError& error) {
     throw base::ConfigError(path.string() + ": " + error.what());
   }

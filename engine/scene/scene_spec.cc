@@ -114,16 +114,27 @@ void RequireMouths(const SceneSpec& spec) {
   }
 }
 
+// From when on gravity turns [s].
+double FirstTurn(const SceneSpec& spec) {
+  for (const TurnSpec& turn : spec.gravity_turns) {
+    if (Norm(turn.angular_velocity) > 0) return turn.time;
+  }
+  return INFINITY;
+}
+
 // The grains fall through nothing unseen, and along the gravity that they were planned for.
 void RequireGoodStream(const SceneSpec& spec, std::size_t index, double time_step,
                        const Pour& pour) {
   base::Problems problems;
   problems.Within("pours[" + std::to_string(index) + "]", [&] {
-    problems.Require(pour.MaxSpeed() * time_step <= 0.1 * pour.SmallestRadius(), "rate",
-                     "makes a stream in which grains move by more than a tenth of their radius in "
-                     "a time step: pour less at a time, or by a wider mouth");
-    const double turns = spec.gravity_turns.empty() ? INFINITY : spec.gravity_turns.front().time;
-    problems.Require(pour.plan().start + pour.Duration() <= turns, "start",
+    const double most = kMostLater * pour.SmallestRadius() / time_step;
+    const bool scatters = std::numbers::sqrt2 * pour.plan().scatter > most;
+    problems.Require(pour.MaxSpeed() <= most, scatters ? "scatter" : "rate",
+                     scatters ? "moves grains by more than half of their radius in a time step: "
+                                "give less"
+                              : "makes a stream in which grains move by more than half of their "
+                                "radius in a time step: pour less at a time, or by a wider mouth");
+    problems.Require(pour.plan().start + pour.Duration() <= FirstTurn(spec), "start",
                      "pours when gravity_turns has begun, but along the gravity of the start: end "
                      "it before");
   });

@@ -23,11 +23,12 @@ std::vector<std::string> AdhesionWarnings(const ContactModels& models,
 namespace {
 
 template <class Bulk>
-void AddLostSizes(const SceneSpec& spec, const Bulk& bulk, std::vector<std::string>& warnings) {
+void AddLostSizes(const SceneSpec& spec, const Bulk& bulk, const std::string& place,
+                  std::vector<std::string>& warnings) {
   const auto material = static_cast<std::size_t>(MaterialIndex(spec, bulk.material));
   const double density = spec.materials[material].material.density;
-  std::string lost = LostSizes(SizeCurve(bulk.sizes), bulk.mass / density);
-  if (!lost.empty()) warnings.push_back(std::move(lost));
+  const std::string lost = LostSizes(SizeCurve(bulk.sizes), bulk.mass / density);
+  if (!lost.empty()) warnings.push_back(place + ".sizes: " + lost);
 }
 
 }  // namespace
@@ -38,8 +39,12 @@ std::vector<std::string> SceneWarnings(const SceneSpec& spec, const Scene& scene
     surfaces.push_back(With(scene.materials[pair.first], pair.stated));
   }
   std::vector<std::string> warnings = AdhesionWarnings(scene.models, surfaces);
-  for (const FillSpec& fill : spec.fills) AddLostSizes(spec, fill, warnings);
-  for (const PourSpec& pour : spec.pours) AddLostSizes(spec, pour, warnings);
+  for (std::size_t i = 0; i < spec.fills.size(); ++i) {
+    AddLostSizes(spec, spec.fills[i], "fills[" + std::to_string(i) + "]", warnings);
+  }
+  for (std::size_t i = 0; i < spec.pours.size(); ++i) {
+    AddLostSizes(spec, spec.pours[i], "pours[" + std::to_string(i) + "]", warnings);
+  }
   const double dt = TimeStep(scene);
   const double share = dt / SmallestRayleighTime(scene);
   if (share > kWarnRayleighFraction * (1 + 1e-9)) {

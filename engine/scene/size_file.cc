@@ -85,6 +85,11 @@ double Number(std::string field) {
   return result.ec == std::errc() && result.ptr == end && !field.empty() ? value : std::nan("");
 }
 
+// As instruments write a share that is next to nothing.
+bool IsNone(const std::string& field) {
+  return field == "-" || (field.starts_with("<") && std::isfinite(Number(field.substr(1))));
+}
+
 char SeparatorOf(std::string_view text) {
   const auto count = [&](char c) { return std::count(text.begin(), text.end(), c); };
   if (count(';') > 0) return ';';
@@ -103,6 +108,13 @@ std::vector<std::string> Lines(std::string_view text) {
   return lines;
 }
 
+// Whether the numbers go on as the rows did: as many, and further in the same direction.
+bool GoesOn(const std::vector<TableRow>& rows, const std::vector<double>& numbers) {
+  const double first = rows.front().numbers[0], last = rows.back().numbers[0];
+  return numbers.size() == rows.back().numbers.size() &&
+         (rows.size() < 2 || (numbers[0] - last) * (last - first) > 0);
+}
+
 // The first block of lines that hold two numbers or more, and the line of titles above it. Blank
 // lines part nothing. A line that begins with a number and has no second one may be the last, as an
 // edge without a class.
@@ -116,15 +128,25 @@ Table ReadTable(std::string text, const std::filesystem::path& path) {
   std::vector<Row> above;
   int line_number = 0;
   std::optional<int> broken;
+  bool is_apart = false;  // a blank line has been there
   for (const std::string& line : Lines(plain)) {
     ++line_number;
     const Row fields = Split(line, separator);
-    if (fields.empty()) continue;
+    if (fields.empty()) {
+      is_apart = !table.rows.empty();
+      continue;
+    }
     std::vector<double> numbers;
-    for (const std::string& field : fields) numbers.push_back(Number(field));
+    for (const std::string& field : fields) {
+      numbers.push_back(!numbers.empty() && IsNone(field) ? 0 : Number(field));
+    }
     const auto num_valid =
         std::count_if(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
     if (num_valid >= 2 && std::isfinite(numbers[0])) {
+      if (std::exchange(is_apart, false) && !GoesOn(table.rows, numbers)) {
+        Refuse(path, "line " + std::to_string(line_number) +
+                         ": a second table begins without a title; remove it");
+      }
       for (std::size_t c = 0; c < fields.size(); ++c) {
         if (fields[c].empty()) numbers[c] = 0;  // as instruments write a class with nothing in it
       }

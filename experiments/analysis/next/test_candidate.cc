@@ -67,6 +67,7 @@ campaign::CampaignSpec SpecWith(const campaign::JointView& view, const TestCandi
   if (campaign::HasFill(made)) made.mass.reset();
   spec.experiments->clear();
   if (!view.record.experiments.empty()) spec.experiments = campaign::ExperimentsOf(view.spec);
+  spec.device = rigs::MaterialsOf(spec.device);  // every experiment has its own by now
   spec.experiments->push_back(std::move(made));
   spec.strategy = {};
   return spec;
@@ -117,15 +118,21 @@ std::vector<TestCandidate> ReadTests(const base::JsonFile& file) {
   return base::LoadOptions<CandidateFile>(file).candidates;
 }
 
+rigs::Device UsualTube(const campaign::CampaignSpec& spec) {
+  for (const campaign::ExperimentSpec& experiment : campaign::ExperimentsOf(spec)) {
+    if (campaign::KindOf(experiment) == rigs::RigKind::kLiftedTube) return *experiment.device;
+  }
+  return spec.device;
+}
+
 campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandidate& test) {
   campaign::CampaignSpec spec = view.spec;
   campaign::ExperimentSpec only = campaign::ExperimentsOf(view.spec).front();
   only.name = test.name;
   only.numbers = {};
   if (test.rig) only.rig = test.rig;
-  if (campaign::KindOf(only) != rigs::RigKind::kLiftedTube) {
-    only.device = rigs::MaterialsOf(*only.device);
-  }
+  const bool is_tube = campaign::KindOf(only) == rigs::RigKind::kLiftedTube;
+  only.device = is_tube ? UsualTube(view.spec) : rigs::MaterialsOf(*only.device);
   if (test.device) only.device = test.device;
   if (test.pairs) only.pairs = test.pairs;
   if (test.filling) only.filling = test.filling;

@@ -30,7 +30,8 @@ struct TestCandidate {
   static void Visit(Self& self, Visitor&& visit) {
     visit("name", self.name, {.required = true, .doc = "what the table calls it"});
     visit("rig", self.rig, {.doc = "kind of bulk test; default: the first experiment's"});
-    visit("device", self.device, {.doc = "tube and plate; default: the first experiment's"});
+    visit("device", self.device,
+          {.doc = "tube and plate; default: those of the first lifted tube, else the campaign's"});
     visit("pairs", self.pairs,
           {.doc = "of the powder with its walls; default: the first experiment's"});
     visit("filling", self.filling,
@@ -51,6 +52,9 @@ void ValidateNames(const std::vector<TestCandidate>& candidates, base::Problems&
 // What `talus next DIR CANDIDATES` reads: {"candidates": [{"name": …, "device": …}, …]}.
 std::vector<TestCandidate> LoadTests(const std::filesystem::path& file);
 std::vector<TestCandidate> ReadTests(const base::JsonFile& file);  // the same, parsed already
+
+// The device of the first lifted tube among the experiments, else the campaign's.
+rigs::Device UsualTube(const campaign::CampaignSpec& spec);
 
 // The campaign's spec with this test as its only experiment.
 campaign::CampaignSpec SpecOf(const campaign::JointView& view, const TestCandidate& test);

@@ -40,10 +40,10 @@ std::vector<engine::PairSpec> WithoutPlate(std::vector<engine::PairSpec> pairs) 
   return pairs;
 }
 
-// The first experiment's own device, on other plates and lifted otherwise.
+// The tube that is at hand, on other plates and lifted otherwise.
 void AddPlates(const campaign::JointView& view, std::vector<TestCandidate>& tests) {
   const campaign::ExperimentSpec first = campaign::ExperimentsOf(view.spec).front();
-  const rigs::Device& device = *first.device;
+  const rigs::Device device = UsualTube(view.spec);
   constexpr double kWide = 3;     // plate over tube
   constexpr double kSlow = 0.05;  // [m/s]
   constexpr double kFast = 0.20;  // [m/s]

@@ -123,6 +123,9 @@ TEST(BlowUp, AWallThatIsDrivenThroughSpheresIsCaught) {
   EXPECT_THAT(ErrorOf([&] { simulation.Advance(10000); }), HasSubstr("sphere"));
   scene.walls[0].motion = fast;
   EXPECT_THAT(ErrorOf([&] { Simulation{scene}; }), HasSubstr("radii of the smallest"));
+  // A belt, and a disc that turns about its axis, pass nothing however fast they are.
+  scene.walls[0].motion = {{.time = 0, .velocity = {60, 0, 0}}};
+  EXPECT_EQ(ErrorOf([&] { Simulation{scene}; }), "");
 }
 
 // A rolling dashpot that is far too strong for the step makes the spin diverge, and with it the

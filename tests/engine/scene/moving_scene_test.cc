@@ -252,8 +252,8 @@ TEST(Add, ASphereThatComesLaterFallsFromThen) {
   EXPECT_THROW(simulation.Add(small), base::ConfigError);  // the step is too long for it
   std::vector<Particle> fast = one;
   fast[0].id = 9;
-  fast[0].velocity = {0, 0, -200};
-  EXPECT_THROW(simulation.Add(fast), base::ConfigError);  // and here, by a fifth of the radius
+  fast[0].velocity = {0, 0, -600};
+  EXPECT_THROW(simulation.Add(fast), base::ConfigError);  // and here, by 0.6 of the radius
   fast[0].velocity = {};
   fast[0].angular_velocity = {0, 2e6, 0};
   EXPECT_THROW(simulation.Add(fast), base::ConfigError);

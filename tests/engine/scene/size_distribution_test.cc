@@ -176,7 +176,8 @@ TEST(SizeFile, AMillionEmptyClassesAreDroppedAtOnce) {
 // Blank lines part nothing; below another title another table begins; the last edge has no class.
 TEST(SizeFile, BlankLinesAndEmptyFieldsEndNoTable) {
   const SizeDistribution sizes = ReadText(
-      "lower (um);vol % in\n100;10\n\n200;30\n300;;7\n400;60\n500\nD50 (um);D90 (um)\n210;390\n");
+      "lower (um);vol % in;n\n50;<0.1;1\n70;-;1\n100;10;3\n\n200;30;5\n300;;7\n400;60;2\n500\nD50 "
+      "(um);D90 (um)\n210;390\n");
   EXPECT_EQ(sizes.shares, (std::vector<double>{10, 30, 0, 60}));
   EXPECT_NEAR(sizes.diameters[2], 300e-6, 1e-12);
 }
@@ -209,6 +210,8 @@ TEST(SizeFile, WhatCannotBeReadIsNamedWithItsRemedy) {
               HasSubstr("line 3: has no share"));
   EXPECT_THAT(error("size (um),% under,n\n1,20,3\n2,n/a,4\n3,60,3\n4,100,1\n"),
               HasSubstr("line 3: its share is not a number"));
+  EXPECT_THAT(error("size (um),% under\n1,20\n2,60\n3,100\n\n1,5\n2,9\n"),
+              HasSubstr("line 6: a second table begins without a title"));
   EXPECT_THAT(error("\xFF\xFE"
                     "s"),
               HasSubstr("UTF-16"));

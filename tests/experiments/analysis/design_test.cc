@@ -150,6 +150,18 @@ TEST_F(DesignTest, UsualTestsStandForThoseThatAreNotNamed) {
   EXPECT_EQ(design.candidates[1].name, "wide plate, 5 cm/s");
 }
 
+// The plan's tube is nothing that a drum would be refused for.
+TEST_F(DesignTest, EveryUsualTestCanBeSimulatedWhereThePlanStatesATube) {
+  const DesignSpec design =
+      LoadDesignSpec(Write(std::string(kPowder) + R"(, "device": {"tube_inner_diameter": "9 mm",
+        "plate_diameter": "12 mm", "lift_velocity": "2 cm/s"})"));
+  const campaign::JointView view = ViewOf(design, scratch_.path());
+  for (const TestCandidate& test : design.candidates) {
+    EXPECT_THAT(WhyNot(view, test), ::testing::Not(HasSubstr("device"))) << test.name;
+  }
+  EXPECT_DOUBLE_EQ(design.candidates[1].device->plate_diameter, 27e-3);
+}
+
 TEST_F(DesignTest, WhatCannotBeIsRefusedWithItsPlace) {
   const std::string spec = kPowder;
   EXPECT_THAT(ErrorOf(spec + R"(, "experiment": {"map": "m.png", "plate_diameter": "10 mm"})"),

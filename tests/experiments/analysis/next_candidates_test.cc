@@ -42,6 +42,27 @@ TEST_F(NextCandidates, EntriesOfTestsHaveTheMassThatTheyWereSimulatedWith) {
   EXPECT_LT(UsualTests(view)[3].rig->tapped_density.diameter, tapped.rig->tapped_density.diameter);
 }
 
+// A drum has no tube: that of another experiment, or of the campaign, is the one at hand.
+TEST_F(NextCandidates, PlatesAreMadeForTheTubeThatIsAtHand) {
+  JointView view = Run();
+  std::vector<campaign::ExperimentSpec> experiments(2, campaign::ExperimentsOf(view.spec).front());
+  experiments[0].name = "drum";
+  experiments[0].rig.emplace().kind = rigs::RigKind::kDrum;
+  experiments[1].device->tube_inner_diameter = 14e-3;
+  view.spec.experiment.reset();
+  view.spec.experiments = experiments;
+  const auto wide = [&] {
+    const auto tests = UsualTests(view);
+    const auto found = std::ranges::find_if(
+        tests, [](const TestCandidate& test) { return test.name == "wide plate, 5 cm/s"; });
+    return found == tests.end() ? 0.0 : found->device->plate_diameter;
+  };
+  EXPECT_DOUBLE_EQ(wide(), 42e-3);
+  view.spec.experiments->pop_back();
+  view.spec.device.tube_inner_diameter = 8e-3;
+  EXPECT_DOUBLE_EQ(wide(), 24e-3);
+}
+
 TEST_F(NextCandidates, WhatCannotBeSimulatedIsSaidAndNotTried) {
   const JointView view = Run();
   TestCandidate narrow{.name = "narrow"};

@@ -75,7 +75,7 @@ campaign::ExperimentSpec ExperimentOf(const Evidence& evidence) {
 
 // In the other rigs the powder lies in a drum, a box or a bed, and is measured from the front.
 bool HeapsOnPlate(const Evidence& evidence) {
-  const rigs::RigKind kind = ExperimentOf(evidence).rig->kind;
+  const rigs::RigKind kind = campaign::KindOf(ExperimentOf(evidence));
   return kind == rigs::RigKind::kLiftedTube || kind == rigs::RigKind::kFunnelHeap;
 }
 
