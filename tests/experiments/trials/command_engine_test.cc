@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <fstream>
 
@@ -12,81 +10,18 @@
 #include "experiments/rigs/case/materials.h"
 #include "experiments/rigs/case/pairs.h"
 #include "experiments/runners/local_runner.h"
-#include "experiments/trials/engines/case_values.h"
 #include "experiments/trials/engines/command_result.h"
 #include "experiments/trials/engines/command_scalars.h"
 #include "experiments/trials/simulate/simulate_command.h"
 #include "imaging/formats/images/image_file.h"
+#include "tests/experiments/command_fixture.h"
 
 namespace talus::trials {
 namespace command_engine_test {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-rigs::Case SmallCase() {
-  rigs::Case rig_case;
-  rig_case.powder.sizes.kind = engine::SizeKind::kMono;
-  rig_case.powder.sizes.diameter = 1e-3;
-  rig_case.powder.mass = 1e-4;  // 76 grains
-  rig_case.rig.lifted_tube.plate = rigs::PlateKind::kDisc;
-  rig_case.frame = imaging::Frame{.width = 40,
-                                  .height = 30,
-                                  .pixel_size = 5e-4,
-                                  .center_x = 20,
-                                  .baseline = 25,
-                                  .plate_diameter = 0.01};
-  return rig_case;
-}
-
-class CommandEngineTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    root_ = fs::temp_directory_path() /
-            ("talus command " + std::to_string(::getpid()) +  // a blank, as users' folders have
-             ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(root_ / "deck");
-    options_.templates = root_ / "deck";
-    options_.command = {"sh", "run.sh"};
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
-  void Deck(const std::string& name, const std::string& text) {
-    std::ofstream(root_ / "deck" / name, std::ios::binary) << text;
-  }
-  std::string Text(const std::string& name) { return base::ReadFile(root_ / name); }
-
-  // The whole trial, as a campaign has it run.
-  TrialOutput Run(const rigs::Case& rig_case = SmallCase()) {
-    SimulateCommandCase({.heap = rig_case, .engine = options_},
-                        {.folder = root_ / "trial", .quiet = true});
-    return {.profile = imaging::ReadGrayImage(root_ / "trial/profile.png"), .note = {}};
-  }
-  std::string FailureOf() {
-    return FailureOf([&] { Run(); });
-  }
-  static std::string FailureOf(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const base::Error& error) {
-      return error.what();
-    }
-    return "";
-  }
-  std::string CheckErrors(const std::vector<std::string>& calibrated = {}) {
-    base::Problems problems("spec.json", {});
-    try {
-      CheckCommand(options_, {.rig_case = SmallCase(), .calibrated = calibrated}, problems);
-      problems.ThrowIfAny();
-    } catch (const base::ConfigError& error) {
-      return error.what();
-    }
-    return "";
-  }
-
-  fs::path root_;
-  CommandOptions options_;
-};
+class CommandEngineTest : public CommandFixture {};
 
 TEST_F(CommandEngineTest, TrialIsFilledRunAndMeasured) {
   Deck("run.sh", "echo 'x,y,z,r' >heap.csv; echo '0,0,{{ scale_factor }}e-3,1e-3' >>heap.csv\n");
@@ -208,57 +143,6 @@ TEST_F(CommandEngineTest, OwnImageIsTakenAsTheProfile) {
   image.height = 40;
   imaging::WritePng(root_ / "deck/prepared.png", image);
   EXPECT_THAT(FailureOf(), HasSubstr("of 30 x 40 px; the experiment's is 40 x 30"));
-}
-
-// A launcher that starts one process and tells what it was asked for stands first on the PATH.
-class MpiCommand : public CommandEngineTest {
- protected:
-  void SetUp() override {
-    CommandEngineTest::SetUp();
-    path_ = std::getenv("PATH");
-    fs::create_directories(root_ / "bin");
-    ::setenv("PATH", ((root_ / "bin").string() + ":" + path_).c_str(), 1);
-    Deck("run.sh", "echo x,y,z,r >heap.csv; echo 0,0,1e-3,1e-3 >>heap.csv; echo ran $* >ran\n");
-  }
-  void TearDown() override {
-    ::setenv("PATH", path_.c_str(), 1);
-    CommandEngineTest::TearDown();
-  }
-  void PutLauncher() {
-    const fs::path launcher = root_ / "bin/mpirun";
-    std::ofstream(launcher) << "#!/bin/sh\necho \"$*\" >launched; shift 2; exec \"$@\"\n";
-    ::chmod(launcher.c_str(), 0755);
-  }
-  std::string path_;
-};
-
-TEST_F(MpiCommand, RanksAreStartedByMpirun) {
-  PutLauncher();
-  options_.ranks = 3;
-  Run();
-  EXPECT_EQ(Text("trial/launched"), "-np 3 sh run.sh\n");
-  EXPECT_EQ(Text("trial/ran"), "ran\n");
-}
-
-TEST_F(MpiCommand, ACommandThatKnowsItsRanksStartsThemItself) {
-  PutLauncher();
-  options_.ranks = 3;
-  options_.command = {"sh", "run.sh", "-n", "{{ ranks }}"};
-  Run();
-  EXPECT_FALSE(fs::exists(root_ / "trial/launched"));
-  EXPECT_EQ(Text("trial/ran"), "ran -n 3\n");
-  options_.ranks.reset();
-  fs::remove_all(root_ / "trial");
-  Run();
-  EXPECT_EQ(Text("trial/ran"), "ran -n 1\n");
-}
-
-TEST_F(MpiCommand, AMissingLauncherIsFoundBeforeAnythingRuns) {
-  options_.ranks = 2;
-  ::setenv("PATH", (root_ / "bin").c_str(), 1);
-  EXPECT_THAT(CheckErrors(), HasSubstr("ranks: mpirun is not found"));
-  options_.ranks = 1;
-  EXPECT_THAT(CheckErrors(), ::testing::Not(HasSubstr("mpirun")));
 }
 
 TEST_F(CommandEngineTest, FailuresOfTheCommandCarryTheEndOfItsLog) {
@@ -417,35 +301,6 @@ TEST_F(CommandEngineTest, FolderWithOtherFilesIsLeftAlone) {
   EXPECT_TRUE(fs::exists(root_ / "trial/thesis.tex"));
 }
 
-TEST(CaseValues, SeedsSuitTheCodesThatTakeThem) {
-  rigs::Case rig_case = SmallCase();
-  std::set<std::string> primes;
-  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    rig_case.seed = seed;
-    const TemplateValues values = CaseValues(rig_case);
-    const long prime = std::stol(values.scalars.at("prime_seed"));
-    EXPECT_GT(prime, 10000);
-    for (long d = 2; d * d <= prime; ++d) ASSERT_NE(prime % d, 0);
-    primes.insert(values.scalars.at("prime_seed"));
-  }
-  EXPECT_EQ(primes.size(), 50u);
-  rig_case.seed = ~std::uint64_t{0};
-  const long seed = std::stol(CaseValues(rig_case).scalars.at("seed"));
-  EXPECT_TRUE(seed > 0 && seed < 900000000) << seed;
-}
-
-// 2 · 0.5 · 0.125 / (0.5 + 0.125) = 0.2 where the pair does not state it (P5).
-TEST(CaseValues, PairsAreStatedOrMixed) {
-  rigs::Case rig_case = SmallCase();
-  rig_case.materials.floor = rigs::WallMaterial{.sliding_friction = 0.125};
-  EXPECT_DOUBLE_EQ(std::stod(CaseValues(rig_case).scalars.at("plate_pair_sliding_friction")), 0.2);
-  EXPECT_THAT(StatedPlaceholders(rig_case), ::testing::IsEmpty());
-  rigs::PairWith(rig_case.pairs, rigs::kFloor).sliding_friction = 0.25;
-  EXPECT_EQ(CaseValues(rig_case).scalars.at("plate_pair_sliding_friction"), "0.25");
-  EXPECT_EQ(CaseValues(rig_case).scalars.at("plate_sliding_friction"), "0.125");
-  EXPECT_THAT(StatedPlaceholders(rig_case), ::testing::ElementsAre("plate_pair_sliding_friction"));
-}
-
 // A deck that mixes the pair itself simulates another case than the one that is asked for.
 TEST_F(CommandEngineTest, StatedPairWithoutItsPlaceholderIsRefused) {
   Deck("run.sh", "echo {{ plate_sliding_friction }}\n");
@@ -454,22 +309,6 @@ TEST_F(CommandEngineTest, StatedPairWithoutItsPlaceholderIsRefused) {
   base::Problems problems;
   CheckCommand(options_, {.rig_case = rig_case, .calibrated = {}, .elsewhere = true}, problems);
   EXPECT_THAT(problems.Text(), HasSubstr("{{ plate_pair_sliding_friction }}"));
-}
-
-TEST(CaseValues, CoarseGrainingAndWallsAreApplied) {
-  rigs::Case rig_case = SmallCase();
-  rig_case.coarse_graining.scale_factor = 2;
-  rig_case.powder.material.surface_energy = 1e-4;
-  rig_case.materials.floor = rigs::WallMaterial{.sliding_friction = 0.125};
-  TemplateValues values = CaseValues(rig_case);
-  EXPECT_EQ(std::stod(values.scalars.at("mean_diameter")), 2e-3);
-  EXPECT_EQ(std::stod(values.scalars.at("surface_energy_used")), 2e-4);
-  EXPECT_EQ(values.scalars.at("plate_sliding_friction"), "0.125");
-  EXPECT_EQ(values.scalars.at("tube_sliding_friction"), "0.5");
-  AddGrains(rig_case, values);
-  const TemplateTable& grains = values.tables.at("grains");
-  EXPECT_EQ(std::to_string(grains.rows.size()), values.scalars.at("num_grains"));
-  EXPECT_EQ(std::stod(grains.rows.at(0).at(4)), 2e-3);
 }
 
 }  // namespace command_engine_test
