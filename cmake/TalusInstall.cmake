@@ -19,7 +19,14 @@ install(FILES ${PROJECT_BINARY_DIR}/talusConfig.cmake ${PROJECT_BINARY_DIR}/talu
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/talus)
 # Examples find their schema at ../../docs, in the source tree and installed.
 install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
-install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# What they link to stands where it does in the source tree.
+foreach(file README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE CITATION.cff bench/RECORD.md
+    bench/drum_mcc/README.md bench/drum_mcc/swelling.py bench/optimizers/README.md bench/optimizers/RECORD.md
+    tests/fuzz/README.md)
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/${folder})
+endforeach()
+install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Man pages and completions are what the program says of itself.
 set(talus_described ${PROJECT_BINARY_DIR}/described)

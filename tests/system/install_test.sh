@@ -15,6 +15,14 @@ for example in "$share"/talus/examples/*/campaign.json; do
   schema=$(sed -n 's/.*"$schema": "\([^"]*\)".*/\1/p' "$example")
   test -s "$(dirname "$example")/$schema" || { echo "$example: $schema does not resolve"; exit 1; }
 done
+python3 - "$share/talus" <<'END' || exit 1
+import pathlib, re, sys
+root = pathlib.Path(sys.argv[1])
+dead = [f"{page.relative_to(root)}: {link}" for page in sorted(root.rglob("*.md"))
+        for link in re.findall(r"\]\(([^)#\s]+)", page.read_text())
+        if not re.match(r"\w+:", link) and not (page.parent / link).exists()]
+sys.exit("\n".join(["links that lead nowhere once installed:", *dead]) if dead else 0)
+END
 # build SOURCE NAME: configures and builds a project against the installed package, in $work/NAME.
 build() {
   cmake -S "$1" -B "$work/$2" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
