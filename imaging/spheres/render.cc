@@ -124,6 +124,26 @@ ColorImage RenderSpheres(std::span<const base::Sphere> spheres, const Camera& ca
   return picture.Take();
 }
 
+Camera FromTheFront(std::span<const base::Sphere> spheres, int width, double most_height) {
+  constexpr double kMargin = 0.03;  // of the spheres' width, each side
+  const base::Sphere& any = spheres.front();
+  double left = any.position.x, right = left, bottom = any.position.z, top = bottom;
+  for (const base::Sphere& s : spheres) {
+    left = std::min(left, s.position.x - s.radius);
+    right = std::max(right, s.position.x + s.radius);
+    bottom = std::min(bottom, s.position.z - s.radius);
+    top = std::max(top, s.position.z + s.radius);
+  }
+  const double margin = kMargin * (right - left);
+  const double high = top - bottom + 2 * margin;
+  Camera camera{.width = width};
+  camera.pixel_size = std::max((right - left + 2 * margin) / width, high / (most_height * width));
+  camera.height = static_cast<int>(high / camera.pixel_size + 0.5);
+  camera.center_x = width / 2.0 - (left + right) / 2 / camera.pixel_size;
+  camera.baseline = (top + margin) / camera.pixel_size;
+  return camera;
+}
+
 Camera WholeHeap(std::span<const base::Sphere> spheres, double plate_diameter, int width) {
   constexpr double kElevation = 0.35;  // [rad]
   constexpr double kMargin = 0.06;     // of the plate, each side

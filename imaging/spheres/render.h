@@ -25,6 +25,10 @@ struct Camera {
 
 ColorImage RenderSpheres(std::span<const base::Sphere> spheres, const Camera& camera);
 
+// Seen from the front, without a plate: all of one sphere or more in a picture so many pixels wide,
+// and at most so many times as high.
+Camera FromTheFront(std::span<const base::Sphere> spheres, int width, double most_height);
+
 // Seen from somewhat above, the whole plate and heap in a picture so many pixels wide.
 Camera WholeHeap(std::span<const base::Sphere> spheres, double plate_diameter, int width);
 

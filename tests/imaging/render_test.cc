@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,6 +58,32 @@ TEST(WholeHeap, NothingOfPlateAndHeapIsCutOff) {
   for (int y = 0; y < image.height; ++y) {
     EXPECT_EQ(image.at(0, y), kWhite);
     EXPECT_EQ(image.at(image.width - 1, y), kWhite);
+  }
+}
+
+// What lies to one side of the origin was cut off, and half of the picture empty.
+TEST(FromTheFront, HoldsEverySphereAndLittleMore) {
+  const std::vector<base::Sphere> spheres{
+      {{-4e-3, 0, 1e-3}, 1e-3}, {{30e-3, 2e-3, 0.5e-3}, 0.5e-3}, {{2e-3, 0, 14e-3}, 1e-3}};
+  for (const double most_height : {1.2, 0.3}) {
+    const Camera camera = FromTheFront(spheres, 300, most_height);
+    EXPECT_LE(camera.height, most_height * 300 + 1);
+    ColorImage image = RenderSpheres(spheres, camera);
+    int left = image.width, right = -1, top = image.height, bottom = -1;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        if (image.at(x, y) == kWhite) continue;
+        left = std::min(left, x), right = std::max(right, x);
+        top = std::min(top, y), bottom = std::max(bottom, y);
+      }
+    }
+    EXPECT_GT(left, 0);
+    EXPECT_LT(right, image.width - 1);
+    EXPECT_GT(top, 0);
+    EXPECT_LT(bottom, image.height - 1);
+    EXPECT_LT(top, 0.15 * image.height);
+    EXPECT_GT(bottom, 0.85 * image.height);
+    EXPECT_NEAR((bottom - top) / static_cast<double>(right - left), 15.0 / 35.5, 0.02);
   }
 }
 

@@ -121,11 +121,24 @@ bool Film::IsFull() const {
   return scenes_.size() >= std::clamp<std::size_t>(most, 2, size_.most_frames);
 }
 
+// A heap on its plate; else all that the powder comes to.
+imaging::Camera Film::CameraOfAll() const {
+  if (plate_diameter_ > 0) {
+    // A poured powder is not there at first, and a lifted one gone at last.
+    const Scene& highest = *std::ranges::max_element(scenes_, {}, &Scene::Top);
+    return CameraOf(highest.spheres, plate_diameter_, size_.width);
+  }
+  std::vector<base::Sphere> all;
+  for (const Scene& scene : scenes_) {
+    all.insert(all.end(), scene.spheres.begin(), scene.spheres.end());
+  }
+  if (all.empty()) all.push_back({.position = {}, .radius = 1e-3});
+  return imaging::FromTheFront(all, size_.width, kMostHeight);
+}
+
 void Film::Write() const {
   if (scenes_.empty()) return;
-  // A poured powder is not there at first, and a lifted one gone at last.
-  const Scene& highest = *std::ranges::max_element(scenes_, {}, &Scene::Top);
-  const imaging::Camera camera = CameraOf(highest.spheres, plate_diameter_, size_.width);
+  const imaging::Camera camera = CameraOfAll();
   std::vector<imaging::ColorImage> frames;
   for (const Scene& scene : scenes_) {
     frames.push_back(imaging::RenderSpheres(scene.spheres, camera));

@@ -8,6 +8,7 @@
 #include "engine/bodies/wall.h"
 #include "experiments/rigs/case/case.h"
 #include "experiments/rigs/rig_run.h"
+#include "imaging/spheres/render.h"
 
 namespace talus::trials {
 
@@ -40,6 +41,7 @@ class Film {
   };
 
   bool IsFull() const;
+  imaging::Camera CameraOfAll() const;
 
   std::filesystem::path out_;
   FilmSize size_;

@@ -79,26 +79,9 @@ bool HeapsOnPlate(const Evidence& evidence) {
   return kind == rigs::RigKind::kLiftedTube || kind == rigs::RigKind::kFunnelHeap;
 }
 
-// From the front, all grains in a picture so many pixels wide; no plate.
 imaging::Camera FrontOf(const std::vector<base::Sphere>& grains, int width) {
-  constexpr double kMargin = 0.03;     // of the powder's width, each side
   constexpr double kMostHeight = 1.2;  // of the picture's width
-  const base::Sphere& any = grains.front();
-  double left = any.position.x, right = left, bottom = any.position.z, top = bottom;
-  for (const base::Sphere& s : grains) {
-    left = std::min(left, s.position.x - s.radius);
-    right = std::max(right, s.position.x + s.radius);
-    bottom = std::min(bottom, s.position.z - s.radius);
-    top = std::max(top, s.position.z + s.radius);
-  }
-  const double margin = kMargin * (right - left);
-  const double high = top - bottom + 2 * margin;
-  imaging::Camera camera{.width = width};
-  camera.pixel_size = std::max((right - left + 2 * margin) / width, high / (kMostHeight * width));
-  camera.height = static_cast<int>(high / camera.pixel_size + 0.5);
-  camera.center_x = width / 2.0 - (left + right) / 2 / camera.pixel_size;
-  camera.baseline = (top + margin) / camera.pixel_size;
-  return camera;
+  return imaging::FromTheFront(grains, width, kMostHeight);
 }
 
 imaging::ColorImage DrawnHeap(const Evidence& evidence, const std::vector<base::Sphere>& grains) {
