@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/plan/budget_use.h"
 #include "experiments/campaign/plan/cores.h"

@@ -21,14 +21,9 @@ void Campaign::RunFailedAgain() {
   });
   console_.Line("all " + std::to_string(trials.size()) + " trials have failed (" +
                 trials.back().reason + "): they are run again");
-  for (journal::TrialRecord& trial : trials) {
+  for (const journal::TrialRecord& trial : trials) {
     std::filesystem::remove_all(folder_.trial(trial.id));
     ++reruns_[trial.id];
-    trial.status = journal::TrialStatus::kRunning;
-    trial.reason.clear();
-    trial.job.clear();
-    trial.finish_order = 0;
-    trial.finished_utc.clear();
   }
   journal_.Reopen(trials);
 }

@@ -3,10 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "base/files/file.h"
@@ -40,10 +38,10 @@ std::vector<PhotoWarning> WarningsOfCopies(const std::vector<MeasuredRun>& runs)
   std::vector<PhotoWarning> warnings;
   for (const auto& [size, photos] : BySize(runs)) {
     if (photos.front().run == photos.back().run) continue;
-    std::map<std::size_t, RunPhoto> first;  // by a hash of the file
+    std::map<std::uint64_t, RunPhoto> first;  // by the checksum of the file
     for (const RunPhoto& photo : photos) {
-      const std::size_t hash = std::hash<std::string>{}(base::ReadFile(photo.path));
-      const auto [same, is_new] = first.emplace(hash, photo);
+      const std::uint64_t checksum = base::Checksum(base::ReadFile(photo.path));
+      const auto [same, is_new] = first.emplace(checksum, photo);
       if (is_new || same->second.run == photo.run) continue;
       warnings.push_back({.doubt = PhotoDoubt::kCopied,
                           .photo = photo.path,

@@ -111,27 +111,35 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
                     ShortText(unit.per_unit * number.predicted_sd, 2) + ending;
   }
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
-  const bool is_confirmed =
-      confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
-  row.is_confirmed = is_confirmed;
-  if (is_confirmed) {
+  row.is_confirmed = confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
+  if (row.is_confirmed) {
     row.simulated = shown(confirmed->scalars[index].mean) + ending + " as the mean of " +
                     base::Counted(confirmed->num_trials, "simulation") +
                     (row.simulated.empty() ? "" : "; " + row.simulated);
   }
   if (std::isfinite(fit.off)) {
-    const bool has_error = is_confirmed && std::isfinite(confirmed->scalars[index].standard_error);
+    const bool has_error =
+        row.is_confirmed && std::isfinite(confirmed->scalars[index].standard_error);
     row.judgement = ShortText(fit.off, 2) + " standard errors of the measurement" +
-                    (has_error      ? " and the simulations"
-                     : is_confirmed ? ""
-                                    : " and the prediction") +
-                    " away" + (is_confirmed ? ChanceText(fit) : "");
+                    (has_error          ? " and the simulations"
+                     : row.is_confirmed ? ""
+                                        : " and the prediction") +
+                    " away" + (row.is_confirmed ? ChanceText(fit) : "");
   }
   return row;
 }
 
 std::string NameOf(const FitRow& row) {
   return "the " + row.what + " of \"" + row.experiment + "\"";
+}
+
+// "The mass of "heap" and …" of the rows that are so; empty without.
+std::string Names(const std::vector<FitRow>& rows, Meets meets, bool simulated) {
+  std::vector<std::string> names;
+  for (const FitRow& row : rows) {
+    if (row.meets == meets && row.is_confirmed == simulated) names.push_back(NameOf(row));
+  }
+  return base::Listed(names);
 }
 
 }  // namespace
@@ -153,19 +161,6 @@ std::vector<FitRow> FitRows(const Answer& answer, const journal::CampaignRecord&
   }
   return rows;
 }
-
-namespace {
-
-// "The mass of "heap" and …" of the rows that are so; empty without.
-std::string Names(const std::vector<FitRow>& rows, Meets meets, bool simulated) {
-  std::vector<std::string> names;
-  for (const FitRow& row : rows) {
-    if (row.meets == meets && row.is_confirmed == simulated) names.push_back(NameOf(row));
-  }
-  return base::Listed(names);
-}
-
-}  // namespace
 
 std::string FitSentence(const std::vector<FitRow>& rows) {
   std::string text;

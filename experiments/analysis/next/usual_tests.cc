@@ -13,15 +13,11 @@ namespace {
 
 bool Alike(double a, double b) { return std::abs(a - b) <= 0.01 * b; }
 
-rigs::RigKind KindOf(const std::optional<rigs::RigOptions>& rig) {
-  return rig ? rig->kind : rigs::RigKind::kLiftedTube;
-}
-
 bool IsMade(const campaign::JointView& view, const TestCandidate& test) {
   const auto all = campaign::ExperimentsOf(view.spec);
   return std::any_of(all.begin(), all.end(), [&](const campaign::ExperimentSpec& made) {
-    if (KindOf(made.rig) != KindOf(test.rig)) return false;
-    if (KindOf(test.rig) != rigs::RigKind::kLiftedTube) return true;
+    if (rigs::KindOf(made.rig) != rigs::KindOf(test.rig)) return false;
+    if (rigs::KindOf(test.rig) != rigs::RigKind::kLiftedTube) return true;
     return Alike(made.device->plate_diameter, test.device->plate_diameter) &&
            Alike(made.device->lift_velocity, test.device->lift_velocity) &&
            made.device->plate_material.has_value() == test.device->plate_material.has_value();

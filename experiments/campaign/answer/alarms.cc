@@ -8,7 +8,6 @@
 #include "experiments/campaign/answer/fit.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/record/stored.h"
-#include "experiments/journal/objective.h"
 #include "experiments/rigs/case/case_warnings.h"
 #include "optimizer/search/describe_minimum.h"
 
@@ -122,8 +121,7 @@ bool WasExpectedToFit(const Answer& answer, const MeasurementFit& fit) {
   const auto experiment =
       std::ranges::find(answer.experiments, fit.experiment, &ResultExperiment::name);
   if (!fit.number.empty() || standing == nullptr || !experiment->noise_floor) return false;
-  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
-  return is_sad && standing->predicted <= kCloseRuns * *experiment->noise_floor &&
+  return MinimisesSad(answer) && standing->predicted <= kCloseRuns * *experiment->noise_floor &&
          PredictionAlarm(answer, *experiment);
 }
 

@@ -31,9 +31,13 @@ const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experi
   return found == all.end() || found->num_trials == 0 ? nullptr : &*found;
 }
 
+bool MinimisesSad(const Answer& answer) {
+  return answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
+}
+
 double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed) {
-  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
-  return is_sad && confirmed.profile_sad_mm2 ? *confirmed.profile_sad_mm2 : confirmed.mean;
+  return MinimisesSad(answer) && confirmed.profile_sad_mm2 ? *confirmed.profile_sad_mm2
+                                                           : confirmed.mean;
 }
 
 bool HasAlarm(const Answer& answer, std::initializer_list<AlarmKind> kinds) {

@@ -161,6 +161,9 @@ Answer ParseAnswer(const std::string& text);
 const ResultStanding* StandingOf(const Answer& answer, std::string_view experiment);
 const ResultConfirmed* ConfirmedOf(const Answer& answer, std::string_view experiment);
 
+// Whether its objective is the SAD.
+bool MinimisesSad(const Answer& answer);
+
 // What the confirming trials of an experiment say that a model of mean heaps predicts: the SAD of
 // their mean profile, of another objective the mean. NaN without either.
 double ComparableOf(const Answer& answer, const ResultConfirmed& confirmed);

@@ -10,7 +10,6 @@
 #include "experiments/campaign/answer/hold_out.h"
 #include "experiments/campaign/answer/nuisances.h"
 #include "experiments/campaign/folder/folder_in_text.h"
-#include "experiments/journal/objective.h"
 #include "experiments/rigs/observables/shown_number.h"
 
 namespace talus::campaign {
@@ -65,8 +64,7 @@ std::string ObjectiveText(const Answer& answer, const ResultExperiment& experime
   if (confirmed == nullptr || !std::isfinite(confirmed->mean)) return text;
   text += (text.empty() ? "" : ", ") + std::string("confirmed ") +
           base::ShortNumber(ComparableOf(answer, *confirmed)) + unit;
-  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
-  if (is_sad && confirmed->over_floor) {
+  if (MinimisesSad(answer) && confirmed->over_floor) {
     text += " (" + base::PlainNumber(*confirmed->over_floor, 2) + " times the noise floor of " +
             base::PlainNumber(*experiment.noise_floor, 2) + ")";
   }

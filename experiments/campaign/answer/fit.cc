@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/student_factor.h"
-#include "experiments/journal/objective.h"
 
 namespace talus::campaign {
 namespace {
@@ -30,9 +29,8 @@ double ScatterOfOne(const ResultConfirmed& confirmed) {
 // model has found over the campaign, where it has one of SADs, and by that of the confirming seeds.
 double ChanceOf(const Answer& answer, const ResultExperiment& experiment,
                 const ResultConfirmed& confirmed) {
-  const bool is_sad = answer.objective == journal::InfoOf(journal::Objective::kSad).ValueKey();
   const double seeds = OrZero(confirmed.sad_standard_error.value_or(0));
-  if (is_sad && experiment.noise_sd) {
+  if (MinimisesSad(answer) && experiment.noise_sd) {
     return kFarImage * std::max(seeds, ErrorOf(experiment, confirmed));
   }
   if (confirmed.degrees == 0) return 0;

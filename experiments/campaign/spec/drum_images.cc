@@ -49,7 +49,7 @@ void SetDiameter(const rigs::RigOptions& rig, imaging::ExperimentOptions& images
 }  // namespace
 
 bool IsDrum(const std::optional<rigs::RigOptions>& rig) {
-  return rig && rig->kind == rigs::RigKind::kDrum;
+  return rigs::KindOf(rig) == rigs::RigKind::kDrum;
 }
 
 bool HasFill(const ExperimentSpec& e) { return IsDrum(e.rig) && e.rig->drum.fill; }

@@ -56,7 +56,7 @@ struct ExperimentSpec {
 };
 
 inline rigs::RigKind KindOf(const ExperimentSpec& experiment) {
-  return experiment.rig.value_or(rigs::RigOptions{}).kind;
+  return rigs::KindOf(experiment.rig);
 }
 
 // A case with its rig and device, and nothing else.

@@ -110,4 +110,9 @@ struct RigOptions {
   }
 };
 
+// The lifted tube where none is given.
+inline RigKind KindOf(const std::optional<RigOptions>& rig) {
+  return rig ? rig->kind : RigKind::kLiftedTube;
+}
+
 }  // namespace talus::rigs
