@@ -233,7 +233,8 @@ class Progress(unittest.TestCase):
         ours, theirs = pty.openpty()
         init = subprocess.Popen(
             [TALUS, "init", str(SOURCE / "examples/photos/powder_a"), "--out", str(out),
-             "--plate-diameter", "10 mm"], stdin=theirs, stderr=theirs, stdout=subprocess.DEVNULL)
+             "--plate-diameter", "10 mm"], stdin=theirs, stderr=theirs, stdout=subprocess.DEVNULL,
+            env={name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"})
         os.close(theirs)
         seen = ""
         while True:
@@ -244,6 +245,9 @@ class Progress(unittest.TestCase):
             if not seen.endswith("): "):
                 continue
             question = seen.splitlines()[-1]
+            if not asked:  # by now the program has told OpenMP's threads to wait asleep
+                environment = pathlib.Path(f"/proc/{init.pid}/environ").read_bytes().split(b"\0")
+                self.assertIn(b"OMP_WAIT_POLICY=passive", environment)
             asked.append(question)
             key = next(key for key in answers if question.startswith(key))
             os.write(ours, (answers[key].pop(0) + "\n").encode())
