@@ -63,8 +63,10 @@ py::dict Compare(const py::object& heap, const py::object& reference, const py::
 PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   using talus::python::Strategy;
-  py::register_exception<talus::base::Error>(module, "Error", PyExc_RuntimeError);
-  py::register_exception<talus::base::ConfigError>(module, "ConfigError", PyExc_ValueError);
+  py::register_exception<talus::base::Error>(module, "Error", PyExc_RuntimeError).attr("__doc__") =
+      "What went wrong while talus ran.";
+  py::register_exception<talus::base::ConfigError>(module, "ConfigError", PyExc_ValueError)
+      .attr("__doc__") = "Input that is not in order: what, where, and the remedy.";
   module.attr("__version__") = talus::base::Version();
   module.def("simulate", &talus::python::Simulate, py::arg("file"), py::arg("folder"),
              py::arg("fresh") = false);

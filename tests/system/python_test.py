@@ -4,6 +4,7 @@ compares."""
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import types
@@ -116,8 +117,8 @@ def check_images_as_evaluations():
 
 def check_simulation(root):
     (root / "case.json").write_text(json.dumps(CASE))
-    talus.simulate(str(root / "case.json"), str(root / "heap"))
-    profile = talus._core.read_image(str(root / "heap/profile.png"))
+    talus.simulate(root / "case.json", root / "heap")
+    profile = talus.read_image(root / "heap/profile.png")
     assert profile.shape == (80, 120) and profile.min() == 0
     metrics = talus.compare(profile, profile, FRAME)
     assert metrics["sad_mm2"] == 0 and metrics["iou"] == 1
@@ -144,6 +145,17 @@ def check_projection():
     raises(talus.ConfigError, "width", talus.project, numpy.zeros((0, 4)), {**FRAME, "width_px": -1})
 
 
+def check_module():
+    """All that is public is documented, and OpenMP's threads sleep, while the environment stays as it was."""
+    for name in set(talus.__all__) - {"__version__"}:
+        assert getattr(talus, name).__doc__, name
+    told = {name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"}
+    ended = subprocess.run([sys.executable, "-c", "import os, talus; assert 'OMP_WAIT_POLICY' not in os.environ"],
+                           env=told | {"OMP_DISPLAY_ENV": "true", "PYTHONPATH": sys.argv[2]}, capture_output=True,
+                           text=True)
+    assert ended.returncode == 0 and "OMP_WAIT_POLICY = 'PASSIVE'" in ended.stderr, ended.stderr
+
+
 def check_chance_buffers():
     """Arrays of any type, shape and order, full of chance: each is taken, or refused in words."""
     chance = numpy.random.default_rng(4)
@@ -167,7 +179,7 @@ def check_chance_buffers():
 
 
 def check_campaign(program, root):
-    heap = talus._core.read_image(str(root / "heap/profile.png"))
+    heap = talus.read_image(root / "heap/profile.png")
     assert heap.shape == (80, 120)
     spec = {"experiment": {"map": str(root / "heap/profile.png"), "plate_diameter": "10 mm", "frame": FRAME},
             "powder": CASE["powder"], "parameters": {"sliding_friction": {"min": 0.1, "max": 0.9}},
@@ -262,6 +274,7 @@ def check_inference_data(campaign):
 check_ask_tell()
 check_images_as_evaluations()
 check_projection()
+check_module()
 check_chance_buffers()
 with tempfile.TemporaryDirectory() as scratch:
     check_simulation(pathlib.Path(scratch))

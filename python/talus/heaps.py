@@ -1,0 +1,48 @@
+"""Heaps as arrays: simulated, read, drawn and compared."""
+import os
+from collections.abc import Mapping
+
+import numpy
+
+from . import _core
+
+
+def simulate(file: str | os.PathLike, folder: str | os.PathLike, fresh: bool = False) -> None:
+    """Runs a case of a bulk test or a scene, as `talus simulate` does.
+
+    `file`: the case or scene, JSON. `folder`: where its results go; it is made, goes on from a checkpoint and keeps a
+    result that it has. `fresh`: takes away what is in it and begins anew. Other threads run meanwhile.
+
+    Raises ConfigError where the input or the folder is not in order, Error where the simulation fails.
+    """
+    _core.simulate(os.fspath(file), os.fspath(folder), fresh)
+
+
+def read_image(file: str | os.PathLike) -> numpy.ndarray:
+    """A grey image, such as a trial's `profile.png`: bytes (rows, columns), row by row from the top. Raises ConfigError
+    for a file that is no image."""
+    return _core.read_image(os.fspath(file))
+
+
+def project(spheres: numpy.ndarray, frame: Mapping[str, float], num_views: int = 16) -> numpy.ndarray:
+    """The average heap profile of spheres (ANHP): what a camera sees of them, mean over views round the plate.
+
+    `spheres`: an array (n, 4): x, y, z above the plate and diameter [m]. `frame`: a dictionary as in specs: width_px,
+    height_px, pixel_size [m], center_x_px, baseline_px, plate_diameter [m]. `num_views`: over 180°, at least 1.
+
+    Returns bytes (height_px, width_px), row by row from the top, 0 where all views see powder and 255 where none does.
+    Raises ConfigError for spheres that are no numbers or wider than the plate, and for a frame that is not in order.
+    """
+    return _core.project(spheres, frame, num_views)
+
+
+def compare(heap: numpy.ndarray, reference: numpy.ndarray, frame: Mapping[str, float]) -> dict[str, float | None]:
+    """Every metric between two profiles of one frame.
+
+    `heap`, `reference`: bytes (height_px, width_px), as `project` returns them and `profile.png` holds them. `frame`:
+    a dictionary, as for `project`.
+
+    Returns the metrics by name, which ends with the unit ("sad_mm2"); None where one is not defined. Raises ConfigError
+    for arrays of another kind or shape.
+    """
+    return _core.compare(heap, reference, frame)
