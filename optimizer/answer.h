@@ -24,20 +24,23 @@ struct BoundWarning {
 };
 
 struct Answer {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
   Eigen::VectorXd point;               // minimiser of the posterior mean, unit cube
-  double predicted_value = 0;          // posterior mean there
-  double predicted_sd = 0;             // posterior standard deviation of that mean
-  double noise_sd = 0;                 // noise sd of one evaluation there; 0 when deterministic
+  // NaN where there is no model that knows it.
+  double predicted_value = kUnknown;  // posterior mean there
+  double predicted_sd = kUnknown;     // posterior standard deviation of that mean
+  double noise_sd = kUnknown;         // noise sd of one evaluation there; 0 when deterministic
   std::vector<Range> credible;         // one a parameter, 90 % for all of them together
   Eigen::MatrixXd correlation;         // between parameters, of the posterior of the minimiser
   std::vector<Eigen::VectorXd> tied;   // points that tie with `point` within the noise
-  double tied_volume = 0;              // their share of the unit cube, in [0, 1]
+  double tied_volume = kUnknown;       // their share of the unit cube, in [0, 1]; NaN as above
   std::vector<double> sobol_first;     // first-order Sobol index, one a parameter
   std::vector<double> sobol_total;     // total Sobol index, one a parameter
   std::vector<BoundWarning> warnings;  // of `point`
   bool is_guess = false;               // no evaluation has succeeded
   // Leave-one-out error of the model / standard deviation of what it predicts [-]; NaN: not known.
-  double left_out_share = std::numeric_limits<double>::quiet_NaN();
+  double left_out_share = kUnknown;
   std::string model;  // which surrogate answered and how well it predicts, in words
   std::optional<PosteriorSummary> posterior = {};  // of strategies that work one out
 };

@@ -17,9 +17,15 @@ namespace {
 
 namespace py = pybind11;
 
+// Ctrl-C is Python's own error, which a loop over cases does not take for a failed one.
 void Simulate(const std::string& file, const std::string& folder, bool fresh) {
-  const py::gil_scoped_release release;
-  trials::Simulate(file, {.run = {.folder = folder, .fresh = fresh, .quiet = true}});
+  try {
+    const py::gil_scoped_release release;
+    trials::Simulate(file, {.run = {.folder = folder, .fresh = fresh, .quiet = true}});
+  } catch (const base::Interrupted& interrupted) {
+    PyErr_SetString(PyExc_KeyboardInterrupt, interrupted.what());
+    throw py::error_already_set();
+  }
 }
 
 GrayArray ReadImage(const std::string& file) { return ArrayOf(imaging::ReadGrayImage(file)); }
@@ -30,8 +36,13 @@ GrayArray DecodeImage(const py::bytes& bytes) {
 
 GrayArray Project(const py::object& spheres, const py::dict& frame, int num_views) {
   const imaging::Frame known = FrameOf(frame);
-  return ArrayOf(
-      imaging::ProjectHeap(SpheresOf(spheres, known.plate_diameter), known, num_views).image);
+  const std::vector<base::Sphere> heap = SpheresOf(spheres, known.plate_diameter);
+  imaging::GrayImage image;
+  {
+    const py::gil_scoped_release release;
+    image = imaging::ProjectHeap(heap, known, num_views).image;
+  }
+  return ArrayOf(image);
 }
 
 py::dict Compare(const py::object& heap, const py::object& reference, const py::dict& frame) {

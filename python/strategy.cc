@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
@@ -28,6 +29,18 @@ void RequireInside(const optimizer::Parameter& parameter, double native, double 
   throw base::ConfigError(parameter.name + ": " + base::ShortNumber(native) +
                           " is outside the searched range");
 }
+
+// A fixed value, or one of the levels: the strategy has no other.
+void RequireKnown(const optimizer::Parameter& parameter, double native, double nearest) {
+  if (!parameter.fixed && parameter.levels.empty()) return;
+  if (std::abs(native - nearest) <= 1e-9 * std::max(std::abs(native), std::abs(nearest))) return;
+  throw base::ConfigError(parameter.name + ": " + base::ShortNumber(native) +
+                          (parameter.fixed ? " is not what it is fixed at, "
+                                           : " is none of its levels; the nearest is ") +
+                          base::ShortNumber(nearest));
+}
+
+constexpr int kFailuresToGiveUp = 8;  // as the first of all: what is evaluated does not work
 
 constexpr double kLargestPixel = 1e12;  // in whatever unit of area the user has
 
@@ -94,16 +107,23 @@ Eigen::VectorXd Strategy::PointOf(const py::dict& values) const {
     const auto k = static_cast<std::size_t>(free[i]);
     RequireInside(space_.parameters[k], native[k], unit(static_cast<Eigen::Index>(i)));
   }
+  const std::vector<double> known = space_.ToNative(unit);
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    RequireKnown(space_.parameters[k], native[k], known[k]);
+  }
   return unit;
 }
 
 py::list Strategy::Ask(int count) {
   if (count < 1 || count > 8) throw base::ConfigError("count: must be from 1 to 8");
+  const std::vector<optimizer::Proposal> proposals = Asleep([&] {
+    auto made = strategy_->Ask(count, pending_);
+    for (const optimizer::Proposal& proposal : made) pending_.push_back(proposal.point);
+    is_exhausted_ = made.empty() && pending_.empty();
+    return made;
+  });
   py::list asked;
-  for (const optimizer::Proposal& proposal : strategy_->Ask(count, pending_)) {
-    pending_.push_back(proposal.point);
-    asked.append(Named(proposal.point));
-  }
+  for (const optimizer::Proposal& proposal : proposals) asked.append(Named(proposal.point));
   return asked;
 }
 
@@ -120,16 +140,11 @@ void Strategy::Tell(const py::dict& values, const py::object& value, const py::o
   if (!image.is_none() && !field_) {
     throw base::ConfigError("image: the strategy has no target to compare it with");
   }
-  optimizer::Observation observation{.point = PointOf(values), .failed = failed};
-  // What was asked for is told as it was asked, not as its decimals came back.
-  const auto found =
-      std::find_if(pending_.begin(), pending_.end(), [&](const Eigen::VectorXd& point) {
-        return (point - observation.point).cwiseAbs().maxCoeff() < 1e-9;
-      });
-  if (found != pending_.end()) {
-    observation.point = *found;
-    pending_.erase(found);
+  if (failed && !value.is_none() && std::isfinite(ValueOf(value))) {
+    throw base::ConfigError(
+        "value: an evaluation that has failed has none; leave it out, or failed");
   }
+  optimizer::Observation observation{.point = PointOf(values), .failed = failed};
   if (!failed && !image.is_none()) {
     const imaging::GrayImage read = ImageOf(image, "image");
     if (read.width != field_->width || read.height != field_->height) {
@@ -141,23 +156,46 @@ void Strategy::Tell(const py::dict& values, const py::object& value, const py::o
     observation.value = value.is_none() ? field_->Value(observation.field) : ValueOf(value);
   }
   if (!std::isfinite(observation.value)) observation.failed = true;
+  Asleep([&] { Learn(std::move(observation)); });
+}
+
+void Strategy::Learn(optimizer::Observation observation) {
+  // What was asked for is told as it was asked, not as its decimals came back.
+  const auto found =
+      std::find_if(pending_.begin(), pending_.end(), [&](const Eigen::VectorXd& point) {
+        return (point - observation.point).cwiseAbs().maxCoeff() < 1e-9;
+      });
+  if (found != pending_.end()) {
+    observation.point = *found;
+    pending_.erase(found);
+  }
+  ++(observation.failed ? num_failed_ : num_succeeded_);
   strategy_->Tell(observation);
 }
 
 std::optional<std::string> Strategy::StopReason() {
-  const auto reason = strategy_->WhyStop();
-  if (!reason) return std::nullopt;
-  return optimizer::TextOf(*reason);
+  return Asleep([&]() -> std::optional<std::string> {
+    if (num_succeeded_ == 0 && num_failed_ >= kFailuresToGiveUp) {
+      return "the first " + std::to_string(num_failed_) + " evaluations all failed";
+    }
+    if (is_exhausted_) return "the strategy has no more points";
+    const auto reason = strategy_->WhyStop();
+    return reason ? std::optional(optimizer::TextOf(*reason)) : std::nullopt;
+  });
 }
 
 py::dict Strategy::Answer() {
-  const optimizer::Answer answer = strategy_->Recommend();
+  const optimizer::Answer answer = Asleep([&] { return strategy_->Recommend(); });
+  const auto known = [](double number) -> py::object {
+    if (std::isnan(number)) return py::none();
+    return py::float_(number);
+  };
   py::dict result;
   result["values"] = Named(answer.point);
-  result["predicted"] = answer.predicted_value;
-  result["predicted_sd"] = answer.predicted_sd;
-  result["noise_sd"] = answer.noise_sd;
-  result["tied_volume"] = answer.tied_volume;
+  result["predicted"] = known(answer.predicted_value);
+  result["predicted_sd"] = known(answer.predicted_sd);
+  result["noise_sd"] = known(answer.noise_sd);
+  result["tied_volume"] = known(answer.tied_volume);
   result["is_guess"] = answer.is_guess;
   py::dict ranges;
   const std::vector<int> free = space_.Free();

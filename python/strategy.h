@@ -4,7 +4,9 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "optimizer/space/parameter_space.h"
@@ -25,17 +27,32 @@ class Strategy {
   // `value` and `image` may be None.
   void Tell(const pybind11::dict& values, const pybind11::object& value,
             const pybind11::object& image, bool failed);
-  std::optional<std::string> StopReason();  // in words
+  // In words: the strategy's own reason, that it has no more to propose, or that whatever is told
+  // fails.
+  std::optional<std::string> StopReason();
   pybind11::dict Answer();
 
  private:
   pybind11::dict Named(const Eigen::VectorXd& point) const;
   Eigen::VectorXd PointOf(const pybind11::dict& values) const;
+  void Learn(optimizer::Observation observation);
+
+  // Other Python threads run while the strategy works; it does one thing at a time.
+  template <class Work>
+  auto Asleep(Work&& work) {
+    const pybind11::gil_scoped_release release;
+    const std::lock_guard lock(working_);
+    return work();
+  }
 
   optimizer::ParameterSpace space_;
   std::optional<optimizer::FieldObjective> field_;
   std::unique_ptr<optimizer::Strategy> strategy_;
   std::vector<Eigen::VectorXd> pending_;  // asked for and not told yet
+  bool is_exhausted_ = false;             // it was asked for more than it had
+  int num_failed_ = 0;
+  int num_succeeded_ = 0;
+  std::mutex working_;
 };
 
 }  // namespace talus::python

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/median.h"
 
@@ -39,6 +38,25 @@ surrogate::GaussianProcess FitTransformed(const Eigen::MatrixXd& points,
       options);
 }
 
+// Log densities of the values, not of their transforms: ln|dt/dv| = -t is added.
+double Jacobian(const surrogate::GaussianProcess& process, bool transformed) {
+  return transformed ? -process.values().sum() : 0;
+}
+
+// Each predicted from the others. Near an exact minimum ln(v - least + δ) falls the steeper the
+// smaller δ is, and the Jacobian would hide that no process can follow it: so values count as
+// known to `resolution` only.
+double LeftOutDensity(const surrogate::GaussianProcess& process, bool transformed,
+                      double resolution) {
+  const surrogate::Predictions left_out = process.LeaveOneOut();
+  const Eigen::ArrayXd values = process.values();
+  Eigen::ArrayXd variance = left_out.variance;
+  if (transformed) variance += (resolution * (-values).exp()).square();
+  const double density =
+      -0.5 * ((values - left_out.mean.array()).square() / variance + variance.log()).sum();
+  return density + Jacobian(process, transformed);
+}
+
 }  // namespace
 
 double ValueTransform::Forward(double value) const {
@@ -51,14 +69,15 @@ double ValueTransform::BackwardSlope(double transformed) const {
   return delta > 0 ? std::exp(transformed) : 1;
 }
 
-ScalarFit ScalarFitter::Fit(const History& history, bool deterministic) {
+ScalarFit ScalarFitter::Fit(const History& history, bool deterministic, FitFor purpose) {
   const int size = MilestoneBefore(history.size());
   if (milestone_.num_evaluations != size || milestone_.deterministic != deterministic) {
     ReachMilestone(history, size, deterministic);
   }
-  const ValueTransform transform = TransformOf(history.values, milestone_.delta_share);
+  const Choice& choice = milestone_.choices[static_cast<std::size_t>(purpose)];
+  const ValueTransform transform = TransformOf(history.values, choice.delta_share);
   surrogate::GaussianProcessOptions options = ProcessOptions(deterministic, seed_);
-  options.start = milestone_.hyper;
+  options.start = choice.hyper;
   options.effort.num_starts = 1;
   options.effort.num_searches = 1;
   return {transform, FitTransformed(history.points, history.values, transform, options)};
@@ -70,18 +89,20 @@ void ScalarFitter::ReachMilestone(const History& history, int num_evaluations, b
   milestone_ = {.num_evaluations = num_evaluations, .deterministic = deterministic};
   surrogate::GaussianProcessOptions options = ProcessOptions(deterministic, seed_);
   if (deterministic) options.effort.num_searches = 1;  // four transforms to fit
-  double best = -std::numeric_limits<double>::infinity();
+  double resolution = 0;
   for (const double share : {0.0, 1.0, 0.1, 0.01}) {
     if (share > 0 && !deterministic) break;
     const ValueTransform transform = TransformOf(values, share);
     if (share > 0 && transform.delta == 0) break;  // constant values
     const auto process = FitTransformed(points, values, transform, options);
-    // The density of the values, not of their transforms: ln|dt/dv| = -t.
-    const double jacobian = share > 0 ? -process.values().sum() : 0;
-    if (process.LogPosterior() + jacobian > best) {
-      best = process.LogPosterior() + jacobian;
-      milestone_.delta_share = share;
-      milestone_.hyper = process.state().hyper;
+    if (share == 0) resolution = std::sqrt(process.noise_variance());
+    const double likelihood = process.LogPosterior() + Jacobian(process, share > 0);
+    const double left_out = LeftOutDensity(process, share > 0, resolution);
+    const std::array merits{likelihood, left_out};  // by FitFor
+    for (std::size_t purpose = 0; purpose < merits.size(); ++purpose) {
+      Choice& choice = milestone_.choices[purpose];
+      if (!(merits[purpose] > choice.merit)) continue;
+      choice = {.delta_share = share, .hyper = process.state().hyper, .merit = merits[purpose]};
     }
   }
 }

@@ -1,10 +1,12 @@
 // The objective as a Gaussian process of numbers.
 //
 // A deterministic objective may be fitted through t(v) = ln(v - least + δ), which resolves the
-// small values of an objective that spans decades; δ, or none at all, is chosen by the marginal
-// likelihood of the values themselves (the Jacobian included). Never under noise, where the lowest
-// values are luck.
+// small values of an objective that spans decades. Never under noise, where the lowest values are
+// luck.
 #pragma once
+
+#include <array>
+#include <limits>
 
 #include "optimizer/search/history.h"
 #include "optimizer/search/objective_model.h"
@@ -28,6 +30,12 @@ struct ScalarFit {
   surrogate::GaussianProcess process;
 };
 
+// By what δ, or none at all, is chosen.
+enum class FitFor {
+  kSearch,  // the marginal likelihood of the values, which favours what resolves the lowest
+  kAnswer,  // how well each value is predicted from the others, which favours what holds elsewhere
+};
+
 // Fits a growing history. The thorough fit, from many starts and over all transforms, is made of
 // the first 8, 11, 16, 23, … evaluations, and later ones start from its result. So a fit is a
 // function of the history alone, not of the fits asked for before, and yet most of them are cheap.
@@ -36,14 +44,18 @@ class ScalarFitter {
   explicit ScalarFitter(std::uint64_t seed) : seed_(seed) {}
 
   // At least one evaluation.
-  ScalarFit Fit(const History& history, bool deterministic);
+  ScalarFit Fit(const History& history, bool deterministic, FitFor purpose);
 
  private:
+  struct Choice {
+    double delta_share = 0;  // ValueTransform::delta / (median - least)
+    surrogate::Hyperparameters hyper = {};
+    double merit = -std::numeric_limits<double>::infinity();  // log density that it was chosen by
+  };
   struct Milestone {
     int num_evaluations = 0;  // 0: none yet
     bool deterministic = false;
-    double delta_share = 0;  // ValueTransform::delta / (median - least)
-    surrogate::Hyperparameters hyper = {};
+    std::array<Choice, 2> choices = {};  // by FitFor
   };
 
   void ReachMilestone(const History& history, int num_evaluations, bool deterministic);

@@ -84,7 +84,7 @@ bool StepsByKnowledge(const SearchRecord& record, std::span<const Eigen::VectorX
 }  // namespace
 
 const ScalarFit& ScalarSearch::Fit(const SearchRecord& record) {
-  if (!fit_) fit_ = fitter_.Fit(record.history(), record.noise_free());
+  if (!fit_) fit_ = fitter_.Fit(record.history(), record.noise_free(), FitFor::kSearch);
   return *fit_;
 }
 
@@ -145,7 +145,7 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
   if (record.history().size() < 2) {
     return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
   }
-  const ScalarFit& fit = Fit(record);
+  const ScalarFit fit = fitter_.Fit(record.history(), record.noise_free(), FitFor::kAnswer);
   Answer answer = DescribeMinimum(ScalarModel(fit, kAnswerInflation), record.domain(), Best(record),
                                   {.seed = record.options().seed});
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();

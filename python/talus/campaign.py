@@ -1,4 +1,5 @@
 """A campaign's folder as tables and arrays, and what can be asked of it."""
+import fcntl
 import html
 import json
 import numbers
@@ -8,41 +9,45 @@ import sqlite3
 
 from . import program
 from ._core import ConfigError, decode_image
+from .plain import plain
 
 
 def calibrate(spec, out=None, hold_out=None, progress=True):
     """Runs the campaign of a spec, a file or a dictionary as its JSON has it, to its end, and returns it.
 
-    `out` is its folder, by default the spec's name without ending. `progress`: a function that is called
+    `out` is its folder, by default the spec's name without ending. A dictionary is kept beside it as OUT.json, which
+    its relative paths are meant from. `progress`: a function that is called
     with each event (a dictionary, as `talus calibrate --json` has them a line), True for a line on
     standard error, False for silence. Ctrl-C ends it cleanly; Campaign.resume goes on."""
     if isinstance(spec, dict):
         if out is None:
             raise ConfigError("out: is needed for a spec that is no file")
-        file = _write_spec(spec, out)
+        folder = pathlib.Path(out)
+        file = folder.with_name(folder.name + ".json")
+        is_new = _write_spec(spec, file)
     else:
         file = pathlib.Path(spec)
-    folder = pathlib.Path(out) if out is not None else pathlib.Path(file.stem)
-    program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
-                (["--hold-out", hold_out] if hold_out is not None else []), progress)
+        folder = pathlib.Path(out) if out is not None else pathlib.Path(file.stem)
+        is_new = False
+    try:
+        program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
+                    (["--hold-out", hold_out] if hold_out is not None else []), progress)
+    except ConfigError:
+        if is_new and not (folder / "journal.sqlite").exists():
+            file.unlink()  # nothing has begun: it must not stand in the way of one that is in order
+        raise
     return Campaign(folder)
 
 
-def _write_spec(spec, out):
-    """The dictionary as OUT.json, which may be there already only if it says the same."""
-    def number(value):
-        if isinstance(value, numbers.Integral):
-            return int(value)
-        if isinstance(value, numbers.Real):
-            return float(value)
-        raise ConfigError(f"spec: has a {type(value).__name__}, which JSON has not: {value!r}")
-
-    text = json.dumps(spec, indent=1, default=number)
-    file = pathlib.Path(f"{os.fspath(out)}.json")
-    if file.exists() and file.read_text() != text:
+def _write_spec(spec, file):
+    """The dictionary as a file, which may be there already only if it says the same. Returns whether it is new."""
+    text = json.dumps(plain(spec, "spec"), indent=1)
+    is_new = not file.exists()
+    if not is_new and file.read_text() != text:
         raise ConfigError(f"{file}: is there already and says something else; name another `out`, or take it away")
+    file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text)
-    return file
+    return is_new
 
 
 class Campaign:
@@ -50,7 +55,7 @@ class Campaign:
     it may be running."""
 
     def __init__(self, folder):
-        self.folder = pathlib.Path(program.path(folder))
+        self.folder = pathlib.Path(folder).absolute()
         if not (self.folder / "journal.sqlite").exists():
             raise FileNotFoundError(f"{self.folder}: holds no campaign; `talus calibrate SPEC` begins one")
 
@@ -69,7 +74,19 @@ class Campaign:
     @property
     def state(self):
         """"running", "finished" or "interrupted"."""
-        return self._query("select state from campaign")[0][0]
+        state = self._query("select state from campaign")[0][0]
+        return "interrupted" if state == "running" and not self._is_worked_on() else state
+
+    def _is_worked_on(self):
+        """Whether a program has the campaign's lock: one that was killed has not."""
+        try:
+            with open(self.folder / "campaign.lock", "rb") as file:
+                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except FileNotFoundError:
+            return False
+        except BlockingIOError:
+            return True
+        return False
 
     @property
     def spec(self):
@@ -201,7 +218,7 @@ class Campaign:
 
     def profile(self, trial):
         """A trial's average numerical heap profile [array of bytes, rows and columns]."""
-        found = self._query("select png from profiles where trial = ?", trial)
+        found = self._query("select png from profiles where trial = ?", int(trial))
         if not found:
             raise FileNotFoundError(f"trial {trial} of {self.folder}: has no profile")
         return decode_image(found[0][0])

@@ -5,6 +5,16 @@ from collections.abc import Mapping
 import numpy
 
 from . import _core
+from .plain import plain
+
+# What stands beside a frame in result.json and in the attributes of Campaign.aehp().
+_BESIDE_FRAMES = {"file", "film", "long_name", "num_frames", "num_views", "sd_file"}
+
+
+def _frame(frame):
+    if not isinstance(frame, Mapping):
+        raise _core.ConfigError("frame: must be a dictionary")
+    return plain({key: value for key, value in frame.items() if key not in _BESIDE_FRAMES}, "frame")
 
 
 def simulate(file: str | os.PathLike, folder: str | os.PathLike, fresh: bool = False) -> None:
@@ -28,12 +38,13 @@ def project(spheres: numpy.ndarray, frame: Mapping[str, float], num_views: int =
     """The average heap profile of spheres (ANHP): what a camera sees of them, mean over views round the plate.
 
     `spheres`: an array (n, 4): x, y, z above the plate and diameter [m]. `frame`: a dictionary as in specs: width_px,
-    height_px, pixel_size [m], center_x_px, baseline_px, plate_diameter [m]. `num_views`: over 180°, at least 1.
+    height_px, pixel_size [m], center_x_px, baseline_px, plate_diameter [m]; `profile` of a trial's result.json and
+    `Campaign.aehp().attrs` are frames, too. `num_views`: over 180°, at least 1.
 
     Returns bytes (height_px, width_px), row by row from the top, 0 where all views see powder and 255 where none does.
     Raises ConfigError for spheres that are no numbers or wider than the plate, and for a frame that is not in order.
     """
-    return _core.project(spheres, frame, num_views)
+    return _core.project(spheres, _frame(frame), num_views)
 
 
 def compare(heap: numpy.ndarray, reference: numpy.ndarray, frame: Mapping[str, float]) -> dict[str, float | None]:
@@ -45,4 +56,4 @@ def compare(heap: numpy.ndarray, reference: numpy.ndarray, frame: Mapping[str, f
     Returns the metrics by name, which ends with the unit ("sad_mm2"); None where one is not defined. Raises ConfigError
     for arrays of another kind or shape.
     """
-    return _core.compare(heap, reference, frame)
+    return _core.compare(heap, reference, _frame(frame))

@@ -14,6 +14,8 @@ def program():
     found = os.environ.get("TALUS_PROGRAM") or shutil.which("talus")
     if found is None:
         raise FileNotFoundError("the program `talus` is not on the path; put it there, or name it in TALUS_PROGRAM")
+    if shutil.which(found) is None:
+        raise FileNotFoundError(f"TALUS_PROGRAM={found}: is no program; name `talus`")
     return os.path.abspath(found)
 
 

@@ -1,19 +1,24 @@
 """Ask and tell."""
+import numbers
 from collections.abc import Mapping
 
 from . import _core
+from .plain import plain
 
 
 def _named(parameter, place):
     """`min` and `max`, as specs have them, are `low` and `high`."""
+    here = f"parameters[{place}]"
     if not isinstance(parameter, Mapping):
-        raise _core.ConfigError(f"parameters[{place}]: must be a dictionary with name, min and max")
-    parameter = dict(parameter)
+        raise _core.ConfigError(f"{here}: must be a dictionary with name, min and max")
+    parameter = plain(parameter, here)
     for name, other in (("min", "low"), ("max", "high")):
         if name in parameter:
             if other in parameter:
                 raise _core.ConfigError(f"{parameter.get('name', 'parameters')}: has {name} and {other}; give one")
             parameter[other] = parameter.pop(name)
+        elif other not in parameter and "fixed" not in parameter and not parameter.get("levels"):
+            raise _core.ConfigError(f"{here}.{name}: is missing; give min and max, levels, or a fixed value")
     return parameter
 
 
@@ -30,9 +35,11 @@ class Strategy:
         if isinstance(parameters, (str, bytes, Mapping)) or not hasattr(parameters, "__iter__"):
             raise _core.ConfigError("parameters: must be a list of dictionaries with name, min and max")
         named = [_named(parameter, place) for place, parameter in enumerate(parameters)]
-        if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**64:
+        if isinstance(seed, bool) or not isinstance(seed, numbers.Integral) or not 0 <= seed < 2**64:
             raise _core.ConfigError("seed: must be a whole number from 0 to 2^64 - 1")
-        self._core = _core.Strategy(named, dict(options or {}), seed, target, pixel_area)
+        if options is not None and not isinstance(options, Mapping):
+            raise _core.ConfigError("options: must be a dictionary, such as {\"kind\": \"gp\"}")
+        self._core = _core.Strategy(named, plain(options or {}, "options"), int(seed), target, pixel_area)
         self._names = [parameter["name"] for parameter in named]
 
     def ask(self, count=1):
@@ -40,18 +47,20 @@ class Strategy:
         return self._core.ask(count)
 
     def tell(self, values, value=None, image=None, failed=False):
-        """One evaluation: its value, which is minimised, or its image; or that it failed."""
+        """One evaluation: its value, which is minimised, or its image; or that it failed. NaN and infinity count as
+        failed, too. Levels and fixed values must be those that the strategy has."""
         if not isinstance(values, Mapping):
             raise _core.ConfigError("values: must be a dictionary of the parameters by name")
         self._core.tell(dict(values), value, image, failed)
 
     def stop_reason(self):
-        """Why going on is not worth it; None while it is."""
+        """Why going on is not worth it, or not possible: the strategy has no more points, or the first eight
+        evaluations all failed. None while it is."""
         return self._core.stop_reason()
 
     def answer(self):
         """`values` of the recommended set, `predicted`, `predicted_sd`, `noise_sd`, `ranges_90` (90 % for all
-        parameters together), `tied_volume`, `is_guess`."""
+        parameters together), `tied_volume`, `is_guess`. None where no model knows it."""
         return self._core.answer()
 
     def __repr__(self):

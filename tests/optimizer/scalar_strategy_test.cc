@@ -97,6 +97,28 @@ TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
 
 // The journal is the state: proposals are the same bit for bit, whatever was asked for in between
 // and however many threads do the same at once.
+// A quadratic bowl is what the process has as its trend: once the bottom is found, little else is
+// possible, however many decades lie between the bottom's values and the others.
+// Of an additive bowl the first-order indices add up to 1, as far as 512 points tell.
+TEST(ScalarStrategy, RangesOfAnExactBowlAreNarrowOnceItsBottomIsFound) {
+  const auto bowl = [](const Eigen::VectorXd& x) {
+    return std::pow(x[0] - 0.25, 2) + 0.9 * std::pow(x[1] - 0.57, 2);
+  };
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    ScalarStrategy strategy({.num_parameters = 2}, {.seed = seed});
+    for (int i = 1; i <= 30; ++i) {
+      const Eigen::VectorXd x = strategy.Ask(1, {}).at(0).point;
+      strategy.Tell({.point = x, .value = bowl(x), .field = {}});
+      if (i != 17 && i != 20 && i != 30) continue;
+      const Answer answer = strategy.Recommend();
+      for (int k = 0; k < 2; ++k) {
+        EXPECT_LT(answer.credible[k].high - answer.credible[k].low, 0.05) << seed << " " << i;
+      }
+      EXPECT_NEAR(answer.sobol_first[0] + answer.sobol_first[1], 1, 0.2) << seed << " " << i;
+    }
+  }
+}
+
 TEST(ScalarStrategy, RetellingGivesTheSameProposalWithOneAndTwoThreads) {
   for (const bool noisy : {false, true}) {
     ScalarStrategy lived = Fresh();
@@ -175,8 +197,9 @@ TEST(ScalarStrategy, LearnsWhereEvaluationsFail) {
                    .value = fails ? NAN : 1 - point[0] + std::pow(point[1] - 0.5, 2),
                    .field = {}});
   }
-  // Closing in on the border from both sides fails half of the 30; not learning fails nearly all.
-  EXPECT_LE(late_failures, 15);
+  // Closing in on the border from both sides fails half of the 30, 15 ± 2.7 by chance; not learning
+  // fails nearly all.
+  EXPECT_LE(late_failures, 20);
   const Answer answer = strategy.Recommend();
   EXPECT_LT(answer.point[0], 0.56);
   EXPECT_GT(answer.point[0], 0.40);

@@ -4,9 +4,12 @@ compares."""
 import json
 import os
 import pathlib
+import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import types
 
 sys.path.insert(0, sys.argv[2])
@@ -92,6 +95,43 @@ def check_refusals():
     raises(talus.ConfigError, "value: must be a number; it is a list", strategy.tell, {"a": .5}, [1])
     raises(talus.ConfigError, "no parameters'", strategy.tell, {"a": .5, "b": 1}, 1.0)
     raises(AttributeError, "_core", talus.Strategy.__new__(talus.Strategy).ask)
+
+
+def check_ends():
+    """Asking and telling ends where nothing is left, and where nothing works; told is what was asked for."""
+    levels = [{"name": "a", "levels": numpy.array([1., 2., 3.])}, {"name": "b", "fixed": numpy.int64(7)}]
+    strategy = talus.Strategy(levels, {"kind": "gp", "exact": True}, seed=numpy.int64(3))
+    told = 0
+    while not strategy.stop_reason():
+        for values in strategy.ask():
+            strategy.tell(values, values["a"])
+            told += 1
+        assert told < 20
+    assert strategy.stop_reason() == "the strategy has no more points" and strategy.answer()["values"]["a"] == 1
+    raises(talus.ConfigError, "none of its levels; the nearest is 2", strategy.tell, {"a": 1.9, "b": 7}, 1.)
+    raises(talus.ConfigError, "not what it is fixed at, 7", strategy.tell, {"a": 2, "b": 8}, 1.)
+    broken = talus.Strategy([{"name": "a", "min": 0, "max": numpy.float32(1)}])
+    assert broken.answer()["predicted_sd"] is None
+    raises(talus.ConfigError, "has failed has none", broken.tell, {"a": .5}, 3., failed=True)
+    while not broken.stop_reason():
+        for values in broken.ask():
+            broken.tell(values, failed=True)
+    assert broken.stop_reason() == "the first 8 evaluations all failed"
+    raises(talus.ConfigError, "parameters[0].max: is inf", talus.Strategy, [{"name": "a", "min": 0, "max": numpy.inf}])
+    raises(talus.ConfigError, "parameters[0].min: is missing", talus.Strategy, [{"name": "a"}])
+    raises(talus.ConfigError, "options: must be", talus.Strategy, levels, "gp")
+
+
+def check_threads():
+    """Others run while a heap is drawn: of 60 ms, none of which Python's own thread could have, some are theirs."""
+    spheres = numpy.column_stack([numpy.zeros((40000, 2)), numpy.full((40000, 2), 1e-3)])
+    ticks = []
+    drawing = threading.Thread(target=lambda: talus.project(spheres, FRAME, 2000))
+    drawing.start()
+    while drawing.is_alive():
+        ticks.append(time.monotonic())
+        time.sleep(1e-3)
+    assert len(ticks) > 10, ticks
 
 
 def check_images_as_evaluations():
@@ -234,6 +274,11 @@ def check_calibrate_arguments(root, spec):
     raises(talus.ConfigError, "is there already", talus.calibrate, quick, out=root / "mine", progress=False)
     assert (root / "mine.json").read_text() == "{} // mine"
     raises(talus.ConfigError, "which JSON has not", talus.calibrate, {**spec, "seed": {1}}, out=root / "set")
+    raises(talus.ConfigError, "typo", talus.calibrate, {**quick, "typo": 1}, out=root / "new/one/", progress=False)
+    again = talus.calibrate(quick, out=root / "new/one/", progress=False)  # the typo's file does not stand in the way
+    with sqlite3.connect(again.folder / "journal.sqlite") as journal:  # as kill -9 leaves it
+        journal.execute("update campaign set state = 'running'")
+    assert again.state == "interrupted"
 
     def fails(event):
         raise RuntimeError("mine")
@@ -250,6 +295,10 @@ def check_profiles(campaign):
     powder = profiles.sel(trial=1) < 128
     assert bool(powder.any()) and not bool(powder.where(profiles.z < -1e-4, False).any())
     assert campaign.aehp().shape == campaign.profile(1).shape == (80, 120)
+    best = campaign.profile(campaign.trials().sad_mm2.idxmin())
+    assert talus.compare(best, campaign.aehp(), campaign.aehp().attrs)["sad_mm2"] >= 0
+    frame = json.loads((campaign.folder / "trials/0001/result.json").read_text())["profile"]
+    assert talus.project(numpy.array([[0, 0, 1e-3, 2e-3]]), frame).shape == best.shape
     raises(talus.ConfigError, "is no experiment", campaign.profiles, "drum")
     raises(FileNotFoundError, "has no profile", campaign.profile, 99)
 
@@ -272,6 +321,8 @@ def check_inference_data(campaign):
 
 
 check_ask_tell()
+check_ends()
+check_threads()
 check_images_as_evaluations()
 check_projection()
 check_module()
