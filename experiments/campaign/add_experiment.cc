@@ -13,6 +13,18 @@
 namespace talus::campaign {
 namespace {
 
+// Its photographs are named for good, wherever the campaign is asked from later.
+ExperimentSpec ReadExperiment(const std::filesystem::path& path) {
+  const base::JsonFile file = base::ReadJsonFile(path);
+  base::Problems problems(path.string(), file.places);
+  ExperimentSpec experiment;
+  base::ReadOptions(file.root, experiment,
+                    {problems, std::filesystem::absolute(path).parent_path()});
+  base::TreeValidator(problems).Check(experiment);
+  problems.ThrowIfAny();
+  return experiment;
+}
+
 CampaignSpec SpecWith(const CampaignSpec& spec, const ExperimentSpec& experiment) {
   CampaignSpec with = spec;
   with.experiments = ExperimentsOf(spec);
@@ -40,7 +52,7 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   if (options.core_time && !(*options.core_time > 0)) {
     throw base::ConfigError("--core-time: must be positive");
   }
-  const auto experiment = base::LoadOptions<ExperimentSpec>(base::ReadJsonFile(file));
+  const auto experiment = ReadExperiment(file);
   OpenedCampaign opened = OpenCampaign(folder, {}, console);
   CampaignSpec spec = SpecWith(opened.spec, experiment);
   const std::vector<journal::TrialRecord> trials = opened.journal.Trials();

@@ -23,6 +23,8 @@
 namespace talus::campaign {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kOfAddedParameter = 16;  // simulations of each experiment, where nobody says
 
 std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
@@ -70,9 +72,9 @@ void AddImages(const ExperimentSpec& spec, journal::ExperimentRecord& record) {
 
 // The journal, or a new one from what the folder keeps beside it.
 journal::Journal OpenOrRebuild(const CampaignFolder& folder, Console& console) {
-  const std::filesystem::path path = journal::JournalPath(folder.root);
+  const fs::path path = journal::JournalPath(folder.root);
   std::string damage = "is not there";
-  if (std::filesystem::exists(path)) {
+  if (fs::exists(path)) {
     try {
       return journal::Journal::Open(path);
     } catch (const base::ConfigError&) {
@@ -94,14 +96,31 @@ struct SpecChange {
   std::string words;
 };
 
+// Templates that are not where they were, as after the whole project has been moved: they are
+// looked for beside the spec, or beside the campaign's folder, as they lay beside the spec.
+void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root,
+                     const fs::path& named, SpecChange& change) {
+  auto& templates = change.spec.engine.command.templates;
+  if (!templates || fs::is_directory(*templates)) return;
+  const fs::path from = fs::path(record.spec_path).parent_path();
+  const fs::path to = named.empty() ? root.parent_path() : fs::absolute(named).parent_path();
+  const fs::path moved = (to / templates->lexically_relative(from)).lexically_normal();
+  if (!fs::is_directory(moved)) return;
+  templates = moved;
+  change.event = "spec";
+  change.words = "its templates lie in " + moved.string() + " now";
+}
+
 // The spec as it is to be from now on; says what has changed where that is not allowed.
-SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const ResumeOptions& options) {
+SpecChange SpecToGoOnWith(const journal::CampaignRecord& record, const fs::path& root,
+                          const ResumeOptions& options) {
   const bool named = !options.spec.empty();
-  const std::filesystem::path path = named ? options.spec : std::filesystem::path(record.spec_path);
+  const fs::path path = named ? options.spec : fs::path(record.spec_path);
   SpecChange change{.spec = {}, .text = record.spec_text, .event = {}, .words = {}};
-  if (named || std::filesystem::exists(path)) change.text = base::ReadFile(path);
+  if (named || fs::exists(path)) change.text = base::ReadFile(path);
   if (change.text == record.spec_text) {
     change.spec = ParseSpecText(record.spec_json);
+    FollowTemplates(record, root, options.spec, change);
     return change;
   }
   const CampaignSpec begun = ParseSpecText(record.spec_json);
@@ -154,9 +173,8 @@ void AddParameters(const std::vector<std::string>& search, SpecChange& change) {
 // that begins now, has left there before the campaign itself.
 constexpr std::string_view kMayBeThere[] = {"campaign.lock", kCopiesFolder};
 
-void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path& shown) {
-  if (std::filesystem::exists(journal::JournalPath(folder.root)) ||
-      std::filesystem::exists(folder.campaign())) {
+void RequireNewFolder(const CampaignFolder& folder, const fs::path& shown) {
+  if (fs::exists(journal::JournalPath(folder.root)) || fs::exists(folder.campaign())) {
     throw base::ConfigError(shown.string() + ": holds a campaign already; `talus resume " +
                             shown.string() +
                             "` goes on with it, or name another folder with --out");
@@ -168,11 +186,11 @@ void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path&
 }
 
 // A campaign that takes its own trials over would lose them.
-void RequireOthers(const std::vector<std::filesystem::path>& reuse, const CampaignFolder& folder) {
-  const auto place_of = [](const std::filesystem::path& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+void RequireOthers(const std::vector<fs::path>& reuse, const CampaignFolder& folder) {
+  const auto place_of = [](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path));
   };
-  for (const std::filesystem::path& other : reuse) {
+  for (const fs::path& other : reuse) {
     if (place_of(other) == place_of(folder.root)) {
       throw base::ConfigError("--reuse: " + other.string() +
                               ": is the new campaign's own folder; name that of a former one");
@@ -211,7 +229,7 @@ journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
 journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file) {
   journal::CampaignRecord record;
   record.name = spec.name;
-  record.spec_path = std::filesystem::absolute(file.path).lexically_normal().string();
+  record.spec_path = fs::absolute(file.path).lexically_normal().string();
   record.spec_text = base::ReadFile(file.path);
   record.spec_json = SpecText(spec);
   record.spec_hash = base::Hex(base::Checksum(record.spec_json));
@@ -226,12 +244,11 @@ journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFil
   return record;
 }
 
-void BeginCampaign(const std::filesystem::path& spec_path, const std::filesystem::path& root,
-                   const BeginOptions& options) {
+void BeginCampaign(const fs::path& spec_path, const fs::path& root, const BeginOptions& options) {
   base::JsonFile file = base::ReadJsonFile(spec_path);
   if (options.hold_out && file.root.is_object()) file.root["hold_out"] = *options.hold_out;
   const CampaignSpec spec = ReadSpecWithPosteriors(file);
-  const CampaignFolder folder{std::filesystem::absolute(root)};
+  const CampaignFolder folder{fs::absolute(root)};
   RequireOthers(options.reuse, folder);
   RequireNewFolder(folder, root);
   options.check(spec);
@@ -260,22 +277,20 @@ void Reopen(journal::Journal& journal) {
   journal.SetProgress(progress);
 }
 
-OpenedCampaign OpenCampaign(const std::filesystem::path& root, const ResumeOptions& options,
-                            Console& console) {
-  const CampaignFolder folder{std::filesystem::absolute(root)};
-  if (!std::filesystem::is_directory(folder.root)) {
+OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, Console& console) {
+  const CampaignFolder folder{fs::absolute(root)};
+  if (!fs::is_directory(folder.root)) {
     throw base::ConfigError(root.string() + ": is no folder of a campaign");
   }
-  if (!std::filesystem::exists(folder.campaign()) &&
-      !std::filesystem::exists(journal::JournalPath(folder.root))) {
+  if (!fs::exists(folder.campaign()) && !fs::exists(journal::JournalPath(folder.root))) {
     throw base::ConfigError(root.string() +
                             ": holds no campaign; `talus calibrate SPEC` begins one");
   }
   CampaignLock lock(folder.root);
-  if (std::filesystem::exists(folder.campaign())) AdoptCopies(folder);
+  if (fs::exists(folder.campaign())) AdoptCopies(folder);
   journal::Journal journal = OpenOrRebuild(folder, console);
   const journal::CampaignRecord record = journal.Campaign();
-  SpecChange change = SpecToGoOnWith(record, options);
+  SpecChange change = SpecToGoOnWith(record, folder.root, options);
   AddParameters(options.search, change);
   const int num_more = options.add_simulations > 0 || options.search.empty()
                            ? options.add_simulations

@@ -1,11 +1,12 @@
 #include "experiments/analysis/compare/experiment_fit.h"
 
-#include <cctype>
 #include <cmath>
 
 #include "base/text/counted.h"
 #include "base/text/joined.h"
+#include "base/text/lower.h"
 #include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/rigs/observables/observable.h"
 
@@ -97,18 +98,16 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   const std::string ending = (unit.text.empty() || unit.text == "°" ? "" : " ") + unit.text;
   const double error = unit.per_unit * measured.standard_error;
   const auto shown = [&](double value) { return ToError(unit.per_unit * value, error); };
-  std::string what = MetricTitle(measured.name);
-  what.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(what.front())));
   const campaign::MeasurementFit fit = campaign::NumberFit(answer, experiment, index);
   FitRow row{.experiment = experiment.name,
-             .what = what,
+             .what = base::LowerFirst(MetricTitle(measured.name)),
              .measured = shown(measured.value) + " ± " + shown(measured.standard_error) + ending,
              .meets = fit.meets};
   const ResultStanding* standing = StandingOf(answer, experiment.name);
   if (standing != nullptr && index < standing->numbers.size()) {
     const optimizer::NumberStanding& number = standing->numbers[index];
     row.simulated = "predicted " + shown(rigs::Possible(measured.name, number.predicted)) + " ± " +
-                    ShortText(unit.per_unit * number.predicted_sd, 2) + ending;
+                    base::PlainNumber(unit.per_unit * number.predicted_sd, 2) + ending;
   }
   const ResultConfirmed* confirmed = ConfirmedOf(answer, experiment.name);
   row.is_confirmed = confirmed != nullptr && std::isfinite(confirmed->scalars.at(index).mean);
@@ -120,7 +119,7 @@ FitRow NumberRow(const Answer& answer, const campaign::ResultExperiment& experim
   if (std::isfinite(fit.off)) {
     const bool has_error =
         row.is_confirmed && std::isfinite(confirmed->scalars[index].standard_error);
-    row.judgement = ShortText(fit.off, 2) + " standard errors of the measurement" +
+    row.judgement = base::PlainNumber(fit.off, 2) + " standard errors of the measurement" +
                     (has_error          ? " and the simulations"
                      : row.is_confirmed ? ""
                                         : " and the prediction") +

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/text/number_text.h"
+#include "base/text/plain_number.h"
 #include "experiments/analysis/compare/crop.h"
 #include "imaging/drawing/canvas.h"
 #include "imaging/formats/images/image_file.h"
@@ -51,8 +51,8 @@ Difference DifferenceOf(const imaging::Profile& first, const imaging::Profile& s
 }
 
 std::string DifferenceTitle(const Difference& difference) {
-  return "red: only first, blue: only second; " + base::ShortNumber(1e6 * difference.area, 2) +
-         " mm2, most at " + base::ShortNumber(1e3 * difference.most, 2) + " mm";
+  return base::PlainNumber(1e6 * difference.area, 2) + " mm2, most at " +
+         base::PlainNumber(1e3 * difference.most, 2) + " mm";
 }
 
 struct Panel {
@@ -67,8 +67,8 @@ imaging::ColorImage DrawHeapPair(const imaging::Profile& first, const imaging::P
   const imaging::Profile left = Cut(first, box);
   const imaging::Profile right = Cut(second, box);
   const std::vector<Panel> panels{
-      {"first", imaging::ToColor(left.image)},
-      {"second", imaging::ToColor(right.image)},
+      {"first (red)", imaging::ToColor(left.image)},
+      {"second (blue)", imaging::ToColor(right.image)},
       {DifferenceTitle(DifferenceOf(left, right)), imaging::DifferenceImage(left, right)}};
   const int zoom = std::max(1, (kPanelWidth + box.width - 1) / box.width);
   const int width = zoom * box.width + kPairGap;

@@ -24,6 +24,7 @@
 #include "experiments/analysis/predict/prediction_runs.h"
 #include "experiments/analysis/predict/prediction_text.h"
 #include "experiments/analysis/predict/regimes.h"
+#include "experiments/analysis/predict/rig_numbers.h"
 #include "experiments/analysis/predict/scene_engine.h"
 #include "experiments/analysis/predict/surrogate_answer.h"
 #include "experiments/campaign/answer/describe_posterior.h"
@@ -222,7 +223,9 @@ class Predictor {
       return;
     }
     try {
-      runs.Add(run, parts_.engine->Collect(at.rig_case, at.folder));
+      trials::TrialOutput output = parts_.engine->Collect(at.rig_case, at.folder);
+      if (case_.scene_text.empty()) KeepRigNumbers(at.rig_case, output);
+      runs.Add(run, std::move(output));
     } catch (const base::Error& error) {
       runs.AddFailure(run, error.what());
     }

@@ -24,9 +24,12 @@ std::string Quoted(const std::optional<std::string>& name) {
   return "\"" + name.value_or("") + "\"";
 }
 
+// " mm²"; "" where it has none.
+std::string UnitText(const Alarm& a) { return a.unit.value_or("").empty() ? "" : " " + *a.unit; }
+
 // "0.68 mm² (noise floor 0.7), 0.08 mm² more than the model predicted"
 std::string WorseThanPredictedText(const Alarm& a) {
-  const std::string unit = a.unit.value_or("").empty() ? "" : " " + *a.unit;
+  const std::string unit = UnitText(a);
   std::string text =
       "simulated again with fresh seeds, the mean heap of the recommended set misses " +
       Quoted(a.experiment) + " by " + base::PlainNumber(a.shown.value_or(0), 2) + unit;
@@ -120,7 +123,8 @@ std::string AlarmText(const Alarm& a) {
     case AlarmKind::kWorseThanObserved:
       return "trial " + std::to_string(a.trial.value_or(0)) +
              " came out better than the recommended set, by " + value +
-             " of the objective: look at its set before you use this one";
+             (UnitText(a).empty() ? " of the objective" : UnitText(a)) +
+             ": look at its set before you use this one";
     case AlarmKind::kBudgetEnded:
       return BudgetText(a);
     case AlarmKind::kCorrelated:

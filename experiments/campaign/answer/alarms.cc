@@ -200,6 +200,7 @@ std::vector<Alarm> SearchAlarms(const Answer& answer,
            .experiment = experiment.name,
            .scale_factor = factor,
            .trial = best->id,
+           .unit = answer.objective_unit,
            .value = excess}};
 }
 

@@ -56,14 +56,14 @@ std::string MissText(const Answer& answer) {
   return "";
 }
 
-std::string OpenText(const Told& told) {
+std::string OpenText(const Told& told, bool any_fits) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < told.names.size(); ++i) {
     if (IsOpen(told.answer, i)) open.push_back(told.names[i]);
   }
   if (open.empty()) return "";
   return "The measurements do not determine " + base::Listed(open) +
-         ": nearly every searched value fits.";
+         ": nearly every searched value " + (any_fits ? "fits." : "is as likely.");
 }
 
 std::string KnownText(const Told& told) {
@@ -155,8 +155,8 @@ std::vector<std::string> Headline(const Answer& all, const std::vector<std::stri
   const Told told{.answer = answer, .names = names};
   const std::string miss = MissText(answer);
   std::vector<std::string> sentences{
-      miss.empty() ? "Sets are found that fit every measurement." : miss, OpenText(told),
-      KnownText(told)};
+      miss.empty() ? "Sets are found that fit every measurement." : miss,
+      OpenText(told, miss.empty()), KnownText(told)};
   // Sets that miss have no kind of fit.
   if (miss.empty()) {
     const std::string volume = Percent(answer.posterior->region_volume);

@@ -1,9 +1,9 @@
 #include "experiments/rigs/observables/shown_number.h"
 
 #include <array>
-#include <cctype>
 #include <utility>
 
+#include "base/text/lower.h"
 #include "base/text/number_text.h"
 #include "experiments/rigs/observables/observable.h"
 
@@ -49,9 +49,7 @@ std::string ShownName(const std::string& metric) {
 std::string SpokenName(const std::string& metric) {
   const ObservableInfo* info = FindObservable(metric);
   if (info == nullptr) return metric;
-  std::string name = info->title;
-  name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
-  return name;
+  return base::LowerFirst(info->title);
 }
 
 double Possible(std::string_view metric, double value) { return BoundsOf(metric).Clamp(value); }

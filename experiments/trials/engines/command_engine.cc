@@ -1,6 +1,8 @@
 #include "experiments/trials/engines/command_engine.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <fstream>
 #include <numbers>
 #include <utility>
 
@@ -18,6 +20,7 @@
 #include "experiments/rigs/lifted_tube/masses.h"
 #include "experiments/rigs/load_case.h"
 #include "experiments/rigs/observables/observable.h"
+#include "experiments/rigs/phased/repose.h"
 #include "experiments/runners/local_runner.h"
 #include "experiments/runners/tool.h"
 #include "experiments/trials/engines/case_values.h"
@@ -51,32 +54,45 @@ struct Measured {
   std::vector<journal::MetricRecord> scalars{};
 };
 
-journal::MetricRecord RecordOf(rigs::Observable observable, double value) {
-  const std::string name = rigs::MetricName(observable);
-  return {.name = name, .value = value, .unit = rigs::UnitOfObservable(name), .undefined = ""};
+journal::MetricRecord RecordOf(const rigs::Reading& reading) {
+  const std::string name = rigs::MetricName(reading.observable);
+  return {.name = name,
+          .value = reading.value,
+          .unit = rigs::UnitOfObservable(name),
+          .undefined = reading.undefined};
 }
 
-// The mass that is filled in is the case's, whatever the other engine's grains come to.
-std::vector<journal::MetricRecord> MassesOf(const rigs::Case& rig_case,
-                                            const std::vector<base::Sphere>& heap) {
-  double volume = 0;
-  for (const base::Sphere& s : heap) {
-    volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
-  }
-  const double on_plate = volume * rig_case.powder.material.density;
-  const double filled = std::max(rig_case.powder.mass, on_plate);
-  const double fallen = rigs::Fallen({.filled = filled, .present = on_plate, .on_plate = on_plate});
-  return {RecordOf(rigs::Observable::kMassOnPlate, on_plate),
-          RecordOf(rigs::Observable::kMassFallen, fallen)};
-}
-
-void WriteHeap(const fs::path& path, const std::vector<base::Sphere>& spheres) {
+std::vector<engine::Particle> ParticlesOf(const std::vector<base::Sphere>& spheres) {
   std::vector<engine::Particle> particles(spheres.size());
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     particles[i].position = spheres[i].position;
     particles[i].radius = spheres[i].radius;
   }
-  base::WriteFileAtomically(path, engine::VtpOf(particles, 0), Outlives::kProgram);
+  return particles;
+}
+
+// What our own tube measures of such a heap. The mass that is filled in is the case's, whatever the
+// other engine's grains come to.
+std::vector<journal::MetricRecord> NumbersOf(const rigs::Case& rig_case, double plate,
+                                             const std::vector<base::Sphere>& heap) {
+  double volume = 0, height = 0, diameters = 0;
+  for (const base::Sphere& s : heap) {
+    volume += 4.0 / 3 * std::numbers::pi * s.radius * s.radius * s.radius;
+    height = std::max(height, s.position.z + s.radius);
+    diameters += 2 * s.radius;
+  }
+  const double on_plate = volume * rig_case.powder.material.density;
+  const double filled = std::max(rig_case.powder.mass, on_plate);
+  const double fallen = rigs::Fallen({.filled = filled, .present = on_plate, .on_plate = on_plate});
+  std::vector<journal::MetricRecord> numbers{RecordOf({rigs::Observable::kMassOnPlate, on_plate}),
+                                             RecordOf({rigs::Observable::kMassFallen, fallen}),
+                                             RecordOf({rigs::Observable::kHeight, height})};
+  const double mean = diameters / static_cast<double>(heap.size());
+  for (const rigs::Reading& reading :
+       rigs::ReposeReadings(ParticlesOf(heap), {.diameter = plate, .grain_diameter = mean})) {
+    numbers.push_back(RecordOf(reading));
+  }
+  return numbers;
 }
 
 Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_case,
@@ -108,8 +124,11 @@ Measured MeasureSpheres(const CommandOptions& options, const rigs::Case& rig_cas
     base::WriteFileAtomically(folder / "profile.png", imaging::EncodePng(measured.profile),
                               Outlives::kProgram);
   }
-  if (file.filename() != "heap.vtp") WriteHeap(folder / "heap.vtp", heap);
-  if (on_plate) measured.scalars = MassesOf(rig_case, heap);
+  if (file.filename() != "heap.vtp") {
+    base::WriteFileAtomically(folder / "heap.vtp", engine::VtpOf(ParticlesOf(heap), 0),
+                              Outlives::kProgram);
+  }
+  if (on_plate) measured.scalars = NumbersOf(rig_case, plate, heap);
   return measured;
 }
 
@@ -132,8 +151,8 @@ Measured MeasureImage(const rigs::Case& rig_case, const fs::path& file, const fs
   return measured;
 }
 
-// What the command left: spheres or an image where there is a frame, numbers, or both. The masses
-// of a lifted tube's heap follow from its spheres; a number that the command gives itself counts.
+// What the command left: spheres or an image where there is a frame, numbers, or both. The numbers
+// of a lifted tube's heap follow from its spheres; one that the command gives itself counts.
 Measured MeasureResult(const CommandOptions& options, const rigs::Case& rig_case,
                        const fs::path& folder) {
   const std::vector<journal::MetricRecord> given = ReadScalars(folder);
@@ -222,6 +241,18 @@ bool IsLaunchedByUs(const CommandOptions& options, const TemplateFolder& templat
   return options.ranks.value_or(1) > 1 && !templates.Uses(options, "ranks");
 }
 
+// Processor time of all that the command's shell has waited for, by the second line of `times`,
+// "0m6.90s 0m0.10s"; 0 where it is not known [s].
+double CpuTimeOf(const fs::path& mark) {
+  std::ifstream in(mark);
+  std::string own, children;
+  if (!std::getline(in, own) || !std::getline(in, children)) return 0;
+  double user_minutes = 0, user = 0, system_minutes = 0, system = 0;
+  const int read = std::sscanf(children.c_str(), "%lfm%lfs %lfm%lfs", &user_minutes, &user,
+                               &system_minutes, &system);
+  return read == 4 ? 60 * (user_minutes + system_minutes) + user + system : 0;
+}
+
 }  // namespace
 
 CommandEngine::CommandEngine(const CommandOptions& options)
@@ -251,9 +282,12 @@ void CommandEngine::Prepare(const rigs::Case& rig_case, const fs::path& folder) 
 }
 
 std::vector<std::string> CommandEngine::Command(const fs::path& folder) {
-  // The mark tells a result that is whole from one that a kill has left half written.
-  std::vector<std::string> command{"/bin/sh", "-c", std::string("\"$@\" || exit; : >") + kDone,
-                                   "sh"};
+  // The mark tells a result that is whole from one that a kill has left half written. What the
+  // command took is put into it, where there is room.
+  const std::string mark = kDone;
+  std::vector<std::string> command{
+      "/bin/sh", "-c",
+      "\"$@\" || exit; : >" + mark + " || exit; LC_ALL=C; times >>" + mark + " || :", "sh"};
   const auto filled = nlohmann::json::parse(base::ReadFile(folder / kCommandFile), nullptr, false);
   for (const auto& argument : filled) {
     if (!argument.is_string()) {
@@ -282,6 +316,7 @@ TrialOutput CommandEngine::Collect(const rigs::Case& rig_case, const fs::path& f
           .num_steps = 0,
           .num_particles = static_cast<std::int64_t>(measured.num_spheres),
           .scalars = measured.scalars,
+          .cpu_time = CpuTimeOf(folder / kDone),
           .note = {}};
 }
 

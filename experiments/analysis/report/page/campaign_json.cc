@@ -90,10 +90,18 @@ PageValue ParametersJson(const Evidence& evidence) {
   });
 }
 
+// What a rig reads off its grains, drawn finely, stands beside what the image in the photographs'
+// frame gives under the same title.
+std::string TitleBesideImages(const Evidence& evidence, const std::string& metric) {
+  const bool is_twice = metric.starts_with("angle_of_repose_") || metric == "heap_cohesive_index";
+  return MetricTitle(metric) +
+         (is_twice && evidence.reference.has_image() ? ", by the grains" : "");
+}
+
 PageValue MetricsJson(const Evidence& evidence) {
-  return ListJson(evidence.metrics, [](const MetricInfo& m) {
+  return ListJson(evidence.metrics, [&](const MetricInfo& m) {
     return PageValue{{"name", ShownName(m.name)},
-                     {"title", MetricTitle(m.name)},
+                     {"title", TitleBesideImages(evidence, m.name)},
                      {"unit", ShownUnitOf(m.unit).text}};
   });
 }

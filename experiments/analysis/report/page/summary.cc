@@ -33,7 +33,7 @@ p { margin: 1mm 0; } ul { margin: 0; padding-left: 4.5mm; }
 .heaps img { width: 100%; height: 30mm; object-fit: contain; border: .3mm solid #dfe4e8; }
 figcaption { font-size: .85em; color: #55626d; }
 .two { display: flex; gap: 6mm; } .two > div { flex: 1; min-width: 0; } .two > div:first-child { flex: 1.25; }
-td { overflow-wrap: anywhere; } td.good, td.bad { white-space: nowrap; } .two svg { width: 100%; height: auto; max-height: 62mm; }
+td { overflow-wrap: anywhere; } td.good, td.bad, td.open { white-space: nowrap; } .two svg { width: 100%; height: auto; max-height: 62mm; }
 table { border-collapse: collapse; width: 100%; } th, td { padding: .6mm 2mm .6mm 0; text-align: left; border-bottom: .2mm solid #dfe4e8; }
 .alarms { border: .3mm solid #efcf94; background: #fff4de; padding: 1.5mm 3mm; margin: 2mm 0; }
 footer { margin: 3mm 0 0; font-size: .8em; color: #55626d; }
@@ -165,7 +165,7 @@ std::string Fits(const Evidence& evidence) {
                                         : "open",
                                    yes  ? "class=\"good\""
                                    : no ? "class=\"bad\""
-                                        : "") +
+                                        : "class=\"open\"") +
                               Text("td", row.simulated.empty() ? "not simulated" : row.simulated) +
                               Text("td", row.measured));
   }

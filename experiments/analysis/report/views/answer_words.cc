@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "base/text/number_text.h"
+#include "engine/laws/material.h"
 #include "experiments/analysis/compare/labels.h"
 #include "experiments/campaign/answer/headline.h"
 #include "experiments/campaign/answer/hold_out.h"
@@ -115,11 +116,15 @@ std::vector<std::string> ConditionWords(const campaign::ResultConditions& c) {
   for (const campaign::ResultDevice& device : c.devices) {
     words.push_back(device.experiment + ", " + device.text);
   }
-  words.push_back(c.scale_factor == 1
-                      ? "grains at their true size"
-                      : "grains " + base::ShortNumber(c.scale_factor) +
-                            " times their true size, surface energy scaled with exponent " +
-                            base::ShortNumber(c.surface_energy_exponent));
+  std::string size = "grains at their true size";
+  if (c.scale_factor != 1) {
+    size = "grains " + base::ShortNumber(c.scale_factor) + " times their true size";
+    if (c.adhesion != base::NameOf(engine::Adhesion::kNone)) {
+      size +=
+          ", surface energy scaled with exponent " + base::ShortNumber(c.surface_energy_exponent);
+    }
+  }
+  words.push_back(size);
   return words;
 }
 

@@ -235,7 +235,9 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
                                 const std::optional<NextTableView>& table) {
   std::vector<NextStep> steps;
   const bool has_draws = evidence.answer && evidence.model;
-  if (table) {
+  // An outdated one may name the test that has just been made, beside ranges of before.
+  const bool is_known = table && !table->is_outdated;
+  if (is_known) {
     AddCandidates(evidence, *table, steps);
     if (has_draws && HasUnjudgedTestsOnly(*table)) AddSecondTest(evidence, steps);
   } else if (has_draws) {
@@ -247,7 +249,7 @@ std::vector<NextStep> NextSteps(const Evidence& evidence,
     AddRepeating(evidence, steps);
   }
   // The table has more simulations among its candidates.
-  if (has_draws && (!table || campaign::AsksForSimulations(*evidence.answer))) {
+  if (has_draws && (!is_known || campaign::AsksForSimulations(*evidence.answer))) {
     AddSimulating(evidence, steps);
   }
   std::stable_sort(steps.begin(), steps.end(),
