@@ -1,5 +1,7 @@
 #include "base/files/output_folder.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <string>
 #include <system_error>
@@ -46,6 +48,14 @@ void MakeOutputFolder(const fs::path& folder) {
                       ": lies in a file, not in a folder; name another with --out");
   }
   if (error) throw Error(folder.string() + ": cannot be made: " + error.message());
+}
+
+bool MayWriteInto(const fs::path& folder) {
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(there) && there.has_parent_path() && there != there.root_path()) {
+    there = there.parent_path();
+  }
+  return ::access(there.c_str(), W_OK) == 0;
 }
 
 bool IsOutputFolder(const fs::path& folder, std::string_view command) {

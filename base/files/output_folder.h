@@ -18,6 +18,9 @@ void ClaimOutputFolder(const std::filesystem::path& folder, std::string_view com
 // and Error when it cannot be made.
 void MakeOutputFolder(const std::filesystem::path& folder);
 
+// Whether files can be made in the folder, or the folder where there is none.
+bool MayWriteInto(const std::filesystem::path& folder);
+
 // Whether `command` has written into the folder.
 bool IsOutputFolder(const std::filesystem::path& folder, std::string_view command);
 

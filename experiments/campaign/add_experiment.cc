@@ -65,7 +65,8 @@ void AddExperiment(const std::filesystem::path& folder, const std::filesystem::p
   problems.ThrowIfAny();
   SetDrumFills(spec);
   journal::CampaignRecord record = opened.journal.Campaign();
-  record.experiments.push_back(MakeExperimentRecord(spec.experiments->back()));
+  record.experiments.push_back(
+      MakeExperimentRecord(spec, static_cast<int>(spec.experiments->size()) - 1));
   // Throws where the test does not have what is to be met.
   const std::vector<Reference> references = ReferencesOf(record, spec);
   const auto engine = options.engine ? options.engine() : MakeEngine(spec);

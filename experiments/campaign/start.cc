@@ -14,6 +14,7 @@
 #include "experiments/campaign/earlier_posterior.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/make_parts.h"
+#include "experiments/campaign/record/heap_mass.h"
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/reuse.h"
 #include "experiments/campaign/spec/drum_images.h"
@@ -40,14 +41,18 @@ std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpa
   return records;
 }
 
-void AddImages(const ExperimentSpec& spec, journal::ExperimentRecord& record) {
+void AddImages(const ExperimentSpec& spec, const rigs::Case& rig_case,
+               journal::ExperimentRecord& record) {
   const imaging::Experiment experiment = MeasureImages(spec);
   for (const imaging::PhotoWarning& warning : experiment.warnings) {
     record.warnings.push_back({.kind = std::string(base::NameOf(warning.doubt)),
                                .photo = warning.photo.string(),
                                .value = warning.value,
                                .text = imaging::WarningText(warning)});
-    std::cerr << "warning: experiment: " << record.warnings.back().text << '\n';
+  }
+  if (auto doubt = MoreThanFilled(rig_case, experiment.aehp)) record.warnings.push_back(*doubt);
+  for (const journal::PhotoWarningRecord& warning : record.warnings) {
+    std::cerr << "warning: experiment: " << warning.text << '\n';
   }
   record.aehp_png = imaging::EncodePng(experiment.aehp.image);
   if (!experiment.standard_deviation.pixels.empty()) {
@@ -215,10 +220,11 @@ std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spe
   return ParametersOf(SpaceOf(spec));
 }
 
-journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec) {
+journal::ExperimentRecord MakeExperimentRecord(const CampaignSpec& campaign, int experiment) {
+  const ExperimentSpec spec = ExperimentsOf(campaign)[static_cast<std::size_t>(experiment)];
   journal::ExperimentRecord record;
   record.name = spec.name;
-  if (spec.images.HasImages()) AddImages(spec, record);
+  if (spec.images.HasImages()) AddImages(spec, TypicalCase(campaign, experiment, 1), record);
   for (const ScalarSpec& scalar : ScalarsOf(spec)) {
     record.scalars.push_back(
         {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
@@ -237,8 +243,9 @@ journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFil
   record.created_utc = journal::UtcNow();
   record.objective = base::NameOf(spec.objective);
   record.parameters = SearchedParameters(spec);
-  for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {
-    record.experiments.push_back(MakeExperimentRecord(experiment));
+  const auto num_experiments = static_cast<int>(ExperimentsOf(spec).size());
+  for (int e = 0; e < num_experiments; ++e) {
+    record.experiments.push_back(MakeExperimentRecord(spec, e));
   }
   ReferencesOf(record, spec);  // throws where the experiment does not have what is to be met
   return record;

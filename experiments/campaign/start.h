@@ -21,8 +21,8 @@ std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spe
 // Measures the experiment; throws ConfigError where it cannot be used with this spec.
 journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFile& file);
 
-// Measures one experiment; throws ConfigError where its images are no good.
-journal::ExperimentRecord MakeExperimentRecord(const ExperimentSpec& spec);
+// Measures one experiment, by its place; throws ConfigError where its images are no good.
+journal::ExperimentRecord MakeExperimentRecord(const CampaignSpec& campaign, int experiment);
 
 struct BeginOptions {
   std::optional<std::string> hold_out{};  // instead of the spec's

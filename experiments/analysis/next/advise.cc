@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/files/file.h"
+#include "base/files/output_folder.h"
 #include "experiments/analysis/next/next_text.h"
 #include "experiments/analysis/next/rank_next.h"
 #include "experiments/analysis/next/usual_tests.h"
@@ -48,8 +49,10 @@ NextTable Advise(const std::filesystem::path& campaign, const AdviceRequest& req
              .parts = campaign::MakeParts(view.spec, folder),
              .goal = std::move(goal)});
   table.simulate_first = SimulateFirst(view.folder.root);
-  std::filesystem::create_directories(folder);
-  base::WriteFileAtomically(folder / "next.json", NextJson(table));
+  if (base::MayWriteInto(folder)) {  // of somebody else's campaign the table is shown only
+    std::filesystem::create_directories(folder);
+    base::WriteFileAtomically(folder / "next.json", NextJson(table));
+  }
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/files/output_folder.h"
 #include "base/text/counted.h"
 #include "experiments/analysis/compare/heap_pair.h"
 #include "experiments/analysis/next/unknown_discount.h"
@@ -136,7 +137,9 @@ void TellApart(const Ground& ground, const TestCandidate& test, const Hypothetic
     return {.image = made.reference.ImageOf(model.MeanImage(sets.row(row).transpose())),
             .frame = made.reference.frame().value()};
   };
-  candidate.picture = ground.view.folder.root / "next" / (FileName(test) + ".png");
+  const std::filesystem::path folder = campaign::NextFolder(ground.view.folder.root);
+  if (!base::MayWriteInto(folder)) return;  // somebody else's campaign
+  candidate.picture = folder / (FileName(test) + ".png");
   WriteHeapDifference(candidate.picture, heap(0), heap(1));
 }
 

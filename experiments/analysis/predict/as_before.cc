@@ -32,6 +32,14 @@ PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options)
   return options;
 }
 
+std::vector<PredictionStage> StagesAsBefore(const PredictionDesign& stored, int num_draws) {
+  std::vector<PredictionStage> stages = stored.stages;
+  for (PredictionStage& stage : stages) {
+    if (stage.num_draws == stored.num_draws) stage.num_draws = num_draws;
+  }
+  return stages;
+}
+
 void KeepMeasured(const std::filesystem::path& file, Prediction& prediction) {
   if (!std::filesystem::exists(file)) return;
   auto before = journal::ParseRecord<Prediction>(base::ReadFile(file), file.string());

@@ -5,12 +5,16 @@
 
 #include "experiments/analysis/predict/predict.h"
 #include "experiments/analysis/predict/prediction.h"
+#include "experiments/analysis/predict/prediction_design.h"
 
 namespace talus::analysis {
 
 // `options` with what an earlier call for this file had, where it has ended.
 // With draws enough for a surrogate.
 PredictOptions AsBefore(const campaign::JointView& view, PredictOptions options);
+
+// The stages of an earlier call whose draws, where they were fewer, are now `num_draws`.
+std::vector<PredictionStage> StagesAsBefore(const PredictionDesign& stored, int num_draws);
 
 // What the prediction in a file, if there is one, says of measured values: of the same draws it
 // holds still.

@@ -157,7 +157,9 @@ class Predictor {
     const auto stored = campaign::ReadRecordFile<PredictionDesign>(file);
     if (stored && options_.as_before) {
       wanted.last_trial = stored->last_trial;
-      if (!stored->stages.empty() && stored->test == wanted.test) stages_ = stored->stages;
+      if (!stored->stages.empty() && stored->test == wanted.test) {
+        stages_ = StagesAsBefore(*stored, num_draws_);
+      }
     }
     wanted.stages = stages_;
     const bool same = stored && stored->test == wanted.test && stored->by == wanted.by &&

@@ -17,9 +17,9 @@ void KeepRigNumbers(const rigs::Case& rig_case, trials::TrialOutput& output) {
     return std::ranges::find(measured, scalar.name) == measured.end();
   });
   if (!output.scalars.empty() || !output.profile.pixels.empty()) return;
-  throw base::Error("left none of \"" + base::Joined(measured, "\", \"") + "\", which the " +
+  throw base::Error("left none of \"" + base::Joined(measured, "\", \"") + "\", which the rig \"" +
                     std::string(base::NameOf(rig_case.rig.kind)) +
-                    " measures; the engine's templates simulate another test");
+                    "\" measures; the engine's templates simulate another test");
 }
 
 }  // namespace talus::analysis

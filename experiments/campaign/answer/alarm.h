@@ -32,6 +32,7 @@ enum class AlarmKind {
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
+  kMoreThanFilled,       // `experiment`'s photographs show a heap of `value` times the mass filled
   kLeftOut,              // from here on photographs of `experiment`, one of them or all
   kUnread,
   kSeveralHeaps,
