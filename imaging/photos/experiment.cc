@@ -104,6 +104,9 @@ void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
   WarnOfUnread(options, set, result.warnings);
   const Placement placement = Place(options, collection);
   if (placement.hidden_top) result.warnings.push_back({.doubt = PhotoDoubt::kHiddenTop});
+  if (placement.unseen > 0) {
+    result.warnings.push_back({.doubt = PhotoDoubt::kBeyondPicture, .value = placement.unseen});
+  }
   result.photo_pixel = placement.photo_pixel;
   result.runs = MeasureRuns(options, placement, collection, result.warnings);
   result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};

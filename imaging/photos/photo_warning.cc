@@ -47,6 +47,11 @@ std::string Reason(const PhotoWarning& warning) {
     case PhotoDoubt::kHiddenTop:
       return "powder hides the plate's top in every photograph: the baseline is known to about a "
              "pixel";
+    case PhotoDoubt::kBeyondPicture:
+      return Percent(warning.value) +
+             " of the part of the table that counts lies beyond the picture, so that powder there "
+             "is not seen; give a smaller \"plate_diameter\" (--plate-diameter), or take the "
+             "photographs from farther away";
     case PhotoDoubt::kNoPowder:
       return "no powder stands on the plate";
     case PhotoDoubt::kTouchesFrame:

@@ -21,6 +21,7 @@ enum class PhotoDoubt {
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
   kHiddenTop,      // powder hides the plate's top in every photograph
+  kBeyondPicture,  // value: share of a table's part that counts and that no picture shows [-]
   kNoPowder,       // nothing stands on the plate
   kTouchesFrame,   // powder at the picture's edge
   kBesidePlate,    // value: share of the powder farther out than the plate's rim [-]
@@ -84,6 +85,7 @@ struct talus::base::Names<talus::imaging::PhotoDoubt> {
                                     std::pair{"front_lit", kFrontLit},
                                     std::pair{"mixed_light", kMixedLight},
                                     std::pair{"hidden_top", kHiddenTop},
+                                    std::pair{"beyond_picture", kBeyondPicture},
                                     std::pair{"no_powder", kNoPowder},
                                     std::pair{"touches_frame", kTouchesFrame},
                                     std::pair{"beside_plate", kBesidePlate},

@@ -39,6 +39,7 @@ enum class AlarmKind {
   kFrontLit,
   kMixedLight,
   kHiddenTop,
+  kBeyondPicture,
   kNoPowder,
   kTouchesFrame,
   kBesidePlate,
