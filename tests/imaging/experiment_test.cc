@@ -181,7 +181,7 @@ TEST(Experiment, NothingIsLeft) {
   ExperimentOptions options = Options(folder);
   options.allow_missing_views = true;
   EXPECT_THAT(ErrorOf(options), HasSubstr("no photograph is left"));
-  EXPECT_THAT(ErrorOf(Options(EmptyFolder("none"))), HasSubstr("no file matches"));
+  EXPECT_THAT(ErrorOf(Options(EmptyFolder("none"))), HasSubstr("holds no image"));
   EXPECT_THAT(ErrorOf(Options("/no/such/folder")), HasSubstr("/no/such/folder"));
 }
 
