@@ -157,6 +157,8 @@ TEST(Experiment, FaultsCanBeDrawn) {
   options.allow_missing_views = true;
   const std::vector<UnusablePhoto> left_out = MeasureExperiment(options).left_out;
   ASSERT_EQ(left_out.size(), 2u);
+  EXPECT_FALSE(left_out[0].is_drawable);
+  EXPECT_TRUE(left_out[1].is_drawable);
   EXPECT_THROW(FaultOf(left_out[0], options), base::ConfigError);
   const ColorImage picture = FaultOf(left_out[1], options);
   const auto has = [&](const Color& color) {
@@ -173,6 +175,36 @@ TEST(Experiment, LeavingOutMostPhotographsIsNotOffered) {
   }
   EXPECT_THAT(ErrorOf(Options(folder)), testing::Not(HasSubstr("--allow-missing-views")));
   EXPECT_THAT(ErrorOf(Options(folder)), HasSubstr("\"frame\""));
+}
+
+// Of what the hint proposes, nothing would help.
+TEST(Experiment, TheHintAtThePlateIsGivenWhereNoneWasFoundOnly) {
+  const auto error_of = [](const char* name, void (*spoil)(const fs::path&)) {
+    const fs::path folder = GoodFolder(name);
+    for (const auto& photo : {Name(1, 0), Name(1, 1), Name(2, 1)}) spoil(folder / photo);
+    return ErrorOf(Options(folder));
+  };
+  const auto hint = HasSubstr("most photographs have a fault");
+  EXPECT_THAT(error_of("most_no_image", [](const auto& photo) { std::ofstream(photo) << "text"; }),
+              testing::Not(hint));
+  EXPECT_THAT(error_of("most_black", [](const auto& photo) { WritePng(photo, Uniform(3)); }),
+              testing::Not(hint));
+  EXPECT_THAT(error_of("most_no_plate",
+                       [](const auto& photo) { WriteTriangle(photo, &Scene::plate_width, 0.0); }),
+              hint);
+}
+
+// It was printed once for each of 80.
+TEST(Experiment, AFaultThatManyPhotographsHaveIsSaidOnce) {
+  const fs::path folder = EmptyFolder("many_faults");
+  for (int view = 0; view < 12; ++view) WritePng(folder / Name(1, view), Uniform(3));
+  std::ofstream(folder / Name(1, 12)) << "text";
+  const std::string error = ErrorOf(Options(folder));
+  EXPECT_EQ(std::ranges::count(error, '\n'), 1) << error;
+  EXPECT_THAT(error, HasSubstr(Name(1, 0) + ": is black everywhere"));
+  EXPECT_THAT(error, HasSubstr("; the same holds for " + (folder / Name(1, 1)).string() + ", "));
+  EXPECT_THAT(error, HasSubstr(Name(1, 8) + " and 3 more photographs"));
+  EXPECT_THAT(error, HasSubstr(Name(1, 12) + ": is no image"));
 }
 
 TEST(Experiment, NothingIsLeft) {
