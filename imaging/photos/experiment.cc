@@ -80,12 +80,26 @@ NoiseFloor LeaveOneOut(const std::vector<GrayImage>& images, const Profile& aehp
   return floor;
 }
 
+// The same camera sees the same heap again to some hundredths of a pixel. Copies are warned of
+// by themselves.
+void WarnOfNoNoise(Experiment& result) {
+  constexpr double kLeast = 0.01;  // of the outline's place [px]
+  const Frame& frame = result.aehp.frame;
+  const double plate = frame.plate_diameter / frame.pixel_size;  // no outline is shorter [px]
+  const double noise = result.noise_floor->mean_sad_px / plate / frame.num_pictures();
+  const bool has_copies =
+      std::ranges::count(result.warnings, PhotoDoubt::kCopied, &PhotoWarning::doubt) > 0;
+  if (noise >= kLeast || has_copies || Nebp(result.aehp.image) == 0) return;
+  result.warnings.push_back({.doubt = PhotoDoubt::kNoNoise, .value = noise});
+}
+
 // What the runs say of each other.
 void CompareRuns(Experiment& result) {
   const std::vector<GrayImage> images = RunImages(result);
   if (images.size() < 2) return;
   result.standard_deviation = StandardDeviation(images);
   result.noise_floor = LeaveOneOut(images, result.aehp);
+  WarnOfNoNoise(result);
   const std::vector<double> off = DisagreeingRuns(result.noise_floor->sad_px);
   for (std::size_t i = 0; i < off.size(); ++i) {
     if (off[i] == 0) continue;

@@ -185,6 +185,18 @@ TEST(PhotoDoubt, APhotographUnderLessLightIsNamed) {
   EXPECT_THAT(WarningText(warnings[0]), HasSubstr("2 times darker than most"));
 }
 
+// Three heaps of one photograph each, which differ by a grey level only: no files are equal.
+TEST(PhotoDoubt, HeapsThatAreAlikeAsNoTwoAreAreWarnedOf) {
+  const fs::path folder = EmptyFolder("alike");
+  const GrayImage photo = Triangle(SmallScene());
+  for (int run = 1; run <= 3; ++run) WritePng(folder / Name(run, 0), TakenAgain(photo, run));
+  const std::vector<PhotoWarning> warnings = MeasureExperiment(Options(folder)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].doubt, PhotoDoubt::kNoNoise);
+  EXPECT_EQ(warnings[0].value, 0);
+  EXPECT_THAT(WarningText(warnings[0]), HasSubstr("as no two heaps are"));
+}
+
 // Its runs would agree better than heaps do. The views of one run may be alike.
 TEST(PhotoDoubt, AFileThatStandsInTwoRunsIsNamed) {
   const fs::path folder = GoodFolder("copied");

@@ -36,6 +36,7 @@ enum class AlarmKind {
   kUnread,
   kSeveralHeaps,
   kRunDisagrees,
+  kNoNoise,
   kFrontLit,
   kMixedLight,
   kHiddenTop,
