@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/number_text.h"
 #include "imaging/formats/images/map_file.h"
 #include "imaging/photos/copied_photos.h"
 #include "imaging/photos/film.h"
@@ -23,6 +25,8 @@ namespace talus::imaging {
 namespace {
 
 constexpr double kMostPixels = 20000;  // across the plate
+constexpr double kRadPerDegree = std::numbers::pi / 180;
+constexpr double kMostPlateTilt = 10 * kRadPerDegree;  // of the plate [rad]
 
 // Where nobody has named a pattern that leaves them out.
 void WarnOfUnread(const ExperimentOptions& options, const PhotoSet& set,
@@ -175,7 +179,12 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(tilt == 0 || frame.has_value(), "tilt", tilt,
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
-  problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
+  problems.Require(
+      std::abs(tilt) <= kMostPlateTilt, "tilt", tilt,
+      "in rad, which is " + base::ShortNumber(tilt / kRadPerDegree) +
+          " degrees, and must be within ±10: turn the photographs, or, as a bare number is in rad, "
+          "write \"" +
+          base::ShortNumber(tilt) + " deg\" for degrees");
   problems.Require(
       !pixel_size ||
           (*pixel_size > 0 && (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
