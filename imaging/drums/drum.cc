@@ -170,6 +170,31 @@ double AngleError(const std::vector<DrumSurface>& surfaces) {
   return StandardError(angles);
 }
 
+// Σ height · powder / (R · pixels of the disc) [-]: of a segment 2/3 (1 − d²)^(3/2) / π below the
+// axis, d its chord's distance / R; the same above it for the picture's negative.
+double MomentAboveAxis(const DrumMap& map) {
+  double moment = 0, pixels = 0;
+  for (int y = 0; y < map.image.height; ++y) {
+    for (int x = 0; x < map.image.width; ++x) {
+      if (Radius(map.circle, x, y) > map.inner_radius) continue;
+      pixels += 1;
+      moment += (map.circle.center_y - y - 0.5) * (255 - map.image.at(x, y)) / 255.0;
+    }
+  }
+  return moment / (map.inner_radius * pixels);
+}
+
+// Gravity holds the powder below the axis, on average; a centrifuging one lies evenly around it.
+void RequirePowderBelow(const DrumMap& map, const std::string& name) {
+  constexpr double kMostAbove = 0.03;  // one full to 5 % and upside down has 0.036 at 35 degrees
+  if (!(MomentAboveAxis(map) > kMostAbove)) return;
+  throw base::ConfigError(name +
+                          ": the powder lies at the top of the drum: the picture is upside down, "
+                          "or lit from the front, so that powder is bright; turn it, or take it "
+                          "lit from behind (of a bright powder before a dark background, its "
+                          "negative serves)");
+}
+
 // The powder climbs where it is carried up, so that a surface that falls to the right turns
 // clockwise.
 void ReadTurning(const DrumPhotos& options, MeasuredDrum& drum) {
@@ -203,6 +228,7 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   const GrayImage mean = MeanImage(photos.images);
   const DrumCircle circle = FindDrumCircle(mean, name);
   drum.map = MapOf(mean, circle, name);
+  RequirePowderBelow(drum.map, name);
   drum.pixel_size = options.diameter / (2 * circle.radius);
   drum.surface = MeasureSurface(drum.map);
   ReadTurning(options, drum);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "imaging/heap/heap_shape.h"
 #include "imaging/heap/outline.h"
 
 namespace talus::imaging {
@@ -54,14 +55,32 @@ Measured Iou(const GrayImage& a, const GrayImage& b) {
                     : Measured{.not_defined = "both heaps are empty"};
 }
 
-// Plate diameter [px].
-double BaseWidth(const Frame& frame) { return frame.plate_diameter / frame.pixel_size; }
+// What the triangle stands on [px] from the left edge of the image.
+struct Base {
+  double middle = 0;
+  double width = 0;
+};
+
+// The plate; on a table, which ends nowhere, from foot to foot of the heap, whose outline is not
+// empty.
+Base BaseOf(const Profile& profile, const Outline& outline) {
+  const Frame& frame = profile.frame;
+  if (!frame.on_table()) {
+    return {.middle = frame.center_x, .width = frame.plate_diameter / frame.pixel_size};
+  }
+  const HeapShape shape = FindHeapShape(outline);
+  return {.middle = shape.axis + (shape.right.foot - shape.left.foot) / 2,
+          .width = shape.left.foot + shape.right.foot};
+}
 
 Measured TriangleAngle(const Profile& profile) {
   if (profile.frame.num_pictures() > 1) return {.not_defined = kFilm};
   const double area = Nebp(profile.image);
-  if (!(area > 0)) return {.not_defined = "the heap is empty"};
-  const double base = BaseWidth(profile.frame);
+  const Outline outline = FindOutline(profile.image, profile.frame);
+  if (!(area > 0) || (profile.frame.on_table() && outline.empty())) {
+    return {.not_defined = "the heap is empty"};
+  }
+  const double base = BaseOf(profile, outline).width;
   return {.value = std::atan(4 * area / (base * base))};
 }
 
@@ -71,11 +90,12 @@ Measured CohesiveIndex(const Profile& profile) {
   if (outline.empty()) return {.not_defined = "the heap is empty"};
   double area = 0;
   for (const double height : outline.height) area += height;
-  const double half_base = BaseWidth(profile.frame) / 2;
+  const Base base = BaseOf(profile, outline);
+  const double half_base = base.width / 2;
   const double top = area / half_base;  // height of the triangle of the outline's area
   double deviation = 0;
   for (std::size_t i = 0; i < outline.height.size(); ++i) {
-    const double across = std::abs(static_cast<double>(i) + 0.5 - profile.frame.center_x);
+    const double across = std::abs(static_cast<double>(i) + 0.5 - base.middle);
     const double triangle = top * std::max(1 - across / half_base, 0.0);
     deviation += std::abs(outline.height[i] - triangle);
   }

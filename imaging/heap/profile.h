@@ -23,6 +23,8 @@ struct Frame {
   // shown [m], > 0.
   std::optional<double> disc_diameter{};
   std::optional<int> pictures{};  // of a film strip (film_strip.h), side by side, >= 1; else one
+  std::optional<bool> table{};    // whether the heap stands on a table, of which plate_diameter is
+                                  // the part that counts; else on a plate that ends there
 
   template <class Self, class Visitor>
   static void Visit(Self& self, Visitor&& visit) {
@@ -42,8 +44,12 @@ struct Frame {
     visit("pictures", self.pictures,
           {.doc = "of a film: so many pictures of equal width stand side by side, and the plate's "
                   "centre is that of the first; default: one"});
+    visit("table", self.table,
+          {.doc = "whether the heap stands on a table without an edge, of which plate_diameter is "
+                  "the part that counts; default: on a plate"});
   }
   void Validate(base::Problems& problems) const;
+  bool on_table() const { return table.value_or(false); }
   int num_pictures() const { return pictures.value_or(1); }
   int picture_width() const { return width / num_pictures(); }  // [px]
   // Whether a pixel shows what is known: all do without a disc.

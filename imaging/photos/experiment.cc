@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
+#include "base/text/number_text.h"
 #include "imaging/formats/images/map_file.h"
 #include "imaging/photos/copied_photos.h"
 #include "imaging/photos/film.h"
@@ -23,6 +25,8 @@ namespace talus::imaging {
 namespace {
 
 constexpr double kMostPixels = 20000;  // across the plate
+constexpr double kRadPerDegree = std::numbers::pi / 180;
+constexpr double kMostPlateTilt = 10 * kRadPerDegree;  // of the plate [rad]
 
 // Where nobody has named a pattern that leaves them out.
 void WarnOfUnread(const ExperimentOptions& options, const PhotoSet& set,
@@ -80,12 +84,26 @@ NoiseFloor LeaveOneOut(const std::vector<GrayImage>& images, const Profile& aehp
   return floor;
 }
 
+// The same camera sees the same heap again to some hundredths of a pixel. Copies are warned of
+// by themselves.
+void WarnOfNoNoise(Experiment& result) {
+  constexpr double kLeast = 0.01;  // of the outline's place [px]
+  const Frame& frame = result.aehp.frame;
+  const double plate = frame.plate_diameter / frame.pixel_size;  // no outline is shorter [px]
+  const double noise = result.noise_floor->mean_sad_px / plate / frame.num_pictures();
+  const bool has_copies =
+      std::ranges::count(result.warnings, PhotoDoubt::kCopied, &PhotoWarning::doubt) > 0;
+  if (noise >= kLeast || has_copies || Nebp(result.aehp.image) == 0) return;
+  result.warnings.push_back({.doubt = PhotoDoubt::kNoNoise, .value = noise});
+}
+
 // What the runs say of each other.
 void CompareRuns(Experiment& result) {
   const std::vector<GrayImage> images = RunImages(result);
   if (images.size() < 2) return;
   result.standard_deviation = StandardDeviation(images);
   result.noise_floor = LeaveOneOut(images, result.aehp);
+  WarnOfNoNoise(result);
   const std::vector<double> off = DisagreeingRuns(result.noise_floor->sad_px);
   for (std::size_t i = 0; i < off.size(); ++i) {
     if (off[i] == 0) continue;
@@ -104,6 +122,9 @@ void MeasurePhotographs(const ExperimentOptions& options, Experiment& result) {
   WarnOfUnread(options, set, result.warnings);
   const Placement placement = Place(options, collection);
   if (placement.hidden_top) result.warnings.push_back({.doubt = PhotoDoubt::kHiddenTop});
+  if (placement.unseen > 0) {
+    result.warnings.push_back({.doubt = PhotoDoubt::kBeyondPicture, .value = placement.unseen});
+  }
   result.photo_pixel = placement.photo_pixel;
   result.runs = MeasureRuns(options, placement, collection, result.warnings);
   result.aehp = {.image = MeanImage(RunImages(result)), .frame = placement.frame};
@@ -158,7 +179,12 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(tilt == 0 || frame.has_value(), "tilt", tilt,
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
-  problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
+  problems.Require(
+      std::abs(tilt) <= kMostPlateTilt, "tilt", tilt,
+      "in rad, which is " + base::ShortNumber(tilt / kRadPerDegree) +
+          " degrees, and must be within ±10: turn the photographs, or, as a bare number is in rad, "
+          "write \"" +
+          base::ShortNumber(tilt) + " deg\" for degrees");
   problems.Require(
       !pixel_size ||
           (*pixel_size > 0 && (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),

@@ -120,7 +120,8 @@ struct ExperimentOptions {
 struct UnusablePhoto {
   std::filesystem::path photo;
   PlateEdges edges;
-  std::string fault;  // names the file
+  std::string fault;         // names the file
+  bool is_drawable = false;  // FaultOf can show what was found in it
 };
 
 struct MeasuredView {

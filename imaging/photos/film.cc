@@ -60,8 +60,10 @@ Experiment JoinedFilm(std::span<const Experiment> pictures) {
     film.runs[run].profile = Strip(
         pictures, [run](const Experiment& e) -> const Profile& { return e.runs[run].profile; });
   }
+  // Before a column collapses all are alike: that is judged of the film as a whole.
+  const auto is_of_one = [](const PhotoWarning& w) { return w.doubt != PhotoDoubt::kNoNoise; };
   for (const Experiment& picture : pictures) {
-    std::ranges::copy(picture.warnings, std::back_inserter(film.warnings));
+    std::ranges::copy_if(picture.warnings, std::back_inserter(film.warnings), is_of_one);
     std::ranges::copy(picture.left_out, std::back_inserter(film.left_out));
   }
   return film;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -36,6 +37,7 @@ void CheckSize(const PhotoCollection& collection, Photo& photo) {
   photo.fault = photo.path.string() + ": has " + PixelSizeText(photo.width, photo.height) +
                 ", most photographs " + PixelSizeText(collection.width, collection.height) +
                 "; all photographs must be of one size and scale";
+  photo.lacks_plate = false;
 }
 
 double MedianWidth(const std::vector<Photo>& photos) {
@@ -59,26 +61,73 @@ void CheckScale(double median, Photo& photo) {
           "the plate's place with "
           "\"frame\", or leave it out";
   photo.fault = text.str();
+  photo.lacks_plate = true;
 }
 
-// Faults end the work, or become warnings. Going on without most of the photographs is no remedy:
-// then it is the scene or the options that do not fit.
-void SettleFaults(bool allowed, const std::vector<std::string>& faults,
-                  PhotoCollection& collection) {
+// Of one photograph, or of a view that is missing.
+struct Fault {
+  std::string name;  // of the file, as the text begins; "" of a missing view
+  std::string text;
+  bool lacks_plate = false;
+
+  std::string Reason() const {
+    const std::string lead = name + ": ";
+    return !name.empty() && text.starts_with(lead) ? text.substr(lead.size()) : text;
+  }
+};
+
+// "; the same holds for b.png, c.png and 3 more" of photographs that share the first one's reason.
+std::string AlsoOf(const std::vector<Fault>& alike) {
+  constexpr std::size_t kMostNames = 8;
+  std::string text = "; the same holds for ";
+  for (std::size_t i = 1; i < std::min(alike.size(), kMostNames + 1); ++i) {
+    text += (i == 1 ? "" : ", ") + alike[i].name;
+  }
+  const std::size_t rest = alike.size() - std::min(alike.size(), kMostNames + 1);
+  return rest == 0 ? text : text + " and " + std::to_string(rest) + " more photographs";
+}
+
+// A line each; what more than a few photographs have alike is one line.
+std::string FaultsText(const std::vector<Fault>& faults) {
+  constexpr std::size_t kMostSingle = 3;
+  std::map<std::string, std::vector<Fault>> by_reason;
+  for (const Fault& fault : faults) by_reason[fault.Reason()].push_back(fault);
   std::string all;
-  for (const std::string& fault : faults) all += (all.empty() ? "" : "\n") + fault;
-  const std::string remedy =
-      faults.size() <= collection.photos.size()
-          ? "\nput them right, or go on without them: \"allow_missing_views\": true in the "
-            "spec's experiment, --allow-missing-views for talus measure"
-          : "\nmost photographs have a fault: give the plate's place with \"frame\", or say with "
-            "\"powder\" how they are lit; turn upright those that lie on their side without saying "
-            "so in "
-            "their EXIF data";
-  if (!all.empty() && !allowed) throw UnusablePhotosError(all + remedy, collection.left_out);
+  for (const Fault& fault : faults) {
+    std::vector<Fault>& alike = by_reason[fault.Reason()];
+    if (alike.empty()) continue;  // said with the first of them
+    all += (all.empty() ? "" : "\n") + fault.text;
+    if (alike.size() <= kMostSingle) continue;
+    all += AlsoOf(alike);
+    alike.clear();
+  }
+  return all;
+}
+
+// Going on without most of the photographs is no remedy: then it is the scene or the options that
+// do not fit. A table's fault names its remedies itself, and so do those of a file.
+std::string RemedyFor(const ExperimentOptions& options, const std::vector<Fault>& faults,
+                      const PhotoCollection& collection) {
+  if (faults.size() <= collection.photos.size()) {
+    return "\nput them right, or go on without them: \"allow_missing_views\": true in the spec's "
+           "experiment, --allow-missing-views for talus measure";
+  }
+  if (!options.scale.empty() || std::ranges::none_of(faults, &Fault::lacks_plate)) return "";
+  return "\nmost photographs have a fault: give the plate's place with \"frame\", or say with "
+         "\"powder\" how they are lit; turn upright those that lie on their side without saying so "
+         "in their EXIF data";
+}
+
+// Faults end the work, or become warnings.
+void SettleFaults(const ExperimentOptions& options, const std::vector<Fault>& faults,
+                  PhotoCollection& collection) {
+  const std::string all = FaultsText(faults);
+  if (!all.empty() && !options.allow_missing_views) {
+    throw UnusablePhotosError(all + RemedyFor(options, faults, collection), collection.left_out);
+  }
   if (collection.photos.empty()) throw base::ConfigError(all + "\nno photograph is left");
-  for (const std::string& fault : faults) {
-    collection.warnings.push_back({.doubt = PhotoDoubt::kLeftOut, .reason = fault});
+  for (const Fault& fault : faults) {
+    collection.warnings.push_back({.doubt = PhotoDoubt::kLeftOut, .reason = fault.text});
   }
 }
 
@@ -130,17 +179,21 @@ PhotoCollection CollectPhotos(const ExperimentOptions& options, const PhotoSet& 
   for (Photo& photo : photos) CheckSize(collection, photo);
   const double median = MedianWidth(photos);
   for (Photo& photo : photos) CheckScale(median, photo);
-  std::vector<std::string> faults = set.missing;
+  std::vector<Fault> faults;
+  for (const std::string& missing : set.missing) faults.push_back({.name = "", .text = missing});
   for (Photo& photo : photos) {
     if (photo.fault.empty()) {
       collection.photos.push_back(std::move(photo));
     } else {
-      faults.push_back(photo.fault);
-      collection.left_out.push_back(
-          {.photo = photo.path, .edges = std::move(photo.edges), .fault = photo.fault});
+      faults.push_back(
+          {.name = photo.path.string(), .text = photo.fault, .lacks_plate = photo.lacks_plate});
+      collection.left_out.push_back({.photo = photo.path,
+                                     .edges = std::move(photo.edges),
+                                     .fault = photo.fault,
+                                     .is_drawable = photo.has_light});
     }
   }
-  SettleFaults(options.allow_missing_views, faults, collection);
+  SettleFaults(options, faults, collection);
   if (options.powder == PowderLook::kAuto) WarnOfLight(collection);
   WarnOfBrightness(collection);
   return collection;

@@ -10,6 +10,16 @@ namespace {
 
 constexpr std::size_t kLongestPattern = 255;
 
+// `rest` begins with a brace.
+[[noreturn]] void ThrowUnknownWord(const std::string& pattern, std::string_view rest) {
+  const std::string word(rest.substr(0, rest.find('}') + 1));
+  const bool is_known = word == "{run}" || word == "{view}";
+  throw base::ConfigError("the pattern \"" + pattern + "\" of the photographs' names has " + word +
+                          (is_known ? " twice; write * for what may differ"
+                                    : ", which is unknown; write {run} and {view} for numbers or "
+                                      "words, * for anything"));
+}
+
 char Lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 }  // namespace
@@ -31,6 +41,8 @@ PhotoPattern::PhotoPattern(const std::string& text) : text_(text) {
       has_view_ = true;
       parts_.push_back({.kind = kView});
       i += 5;
+    } else if (text[i] == '{' && rest.find('}') != std::string_view::npos) {
+      ThrowUnknownWord(text, rest);
     } else if (text[i] != '*') {
       parts_.push_back({.kind = kLetter, .letter = Lower(text[i])});
     } else if (parts_.empty() || parts_.back().kind != kAny) {

@@ -12,7 +12,8 @@ namespace talus::imaging {
 // one.
 class PhotoPattern {
  public:
-  // Throws ConfigError for one that is longer than a file's name can be.
+  // Throws ConfigError for one that is longer than a file's name can be, and for a word in braces
+  // that is unknown or stands twice: as letters of a name it would fit none.
   explicit PhotoPattern(const std::string& text);
 
   const std::string& text() const { return text_; }

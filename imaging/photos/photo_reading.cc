@@ -38,6 +38,7 @@ void Read(const ExperimentOptions& options, std::size_t num_photos, Photo& photo
     photo.front_lit = flat.negative;
     photo.overexposed = flat.overexposed;
     photo.light = flat.light;
+    photo.has_light = true;
     if (!options.scale.empty()) {
       photo.table = FindTable(flat, name);
     } else if (!options.frame) {
@@ -47,6 +48,7 @@ void Read(const ExperimentOptions& options, std::size_t num_photos, Photo& photo
     if (bytes <= kMostKept / num_photos) photo.flat = std::move(flat);
   } catch (const base::ConfigError& error) {
     photo.fault = error.what();
+    photo.lacks_plate = photo.has_light;
   }
 }
 

@@ -29,6 +29,8 @@ struct Photo {
   double light = 0;                     // as in BacklitPhoto [grey levels]
   std::optional<std::int64_t> taken{};  // as in DatedImage [s]
   std::string fault;                    // why it cannot be used, with the file's name; "": it can
+  bool has_light = false;               // it could be made independent of its light
+  bool lacks_plate = false;             // the fault is that no plate or table of use was found
   BacklitPhoto flat;  // empty where all of them together would take too much memory
 };
 

@@ -51,14 +51,15 @@ bool IsImage(const std::filesystem::path& file) {
 
 // What telephones and cameras write that we cannot read.
 bool IsForeignImage(const std::filesystem::path& file) {
-  static constexpr std::string_view kEndings[] = {".heic", ".heif", ".avif", ".webp",
-                                                  ".dng",  ".cr2",  ".cr3",  ".nef",
-                                                  ".arw",  ".raf",  ".orf",  ".rw2"};
+  static constexpr std::string_view kEndings[] = {".heic", ".heif", ".avif", ".webp", ".gif",
+                                                  ".dng",  ".cr2",  ".cr3",  ".nef",  ".arw",
+                                                  ".raf",  ".orf",  ".rw2"};
   return EndsLike(file, kEndings);
 }
 
 constexpr const char* kForeign =
-    "; HEIC, WebP and raw files are not read: convert them to JPEG or PNG (a telephone takes JPEG "
+    "; HEIC, WebP, GIF and raw files are not read: convert them to JPEG or PNG (a telephone takes "
+    "JPEG "
     "where its camera is set to the most compatible format)";
 
 // "._IMG_1.jpg" and the like are a system's notes on a file.
@@ -238,9 +239,19 @@ std::string Listed(const std::filesystem::path& folder) {
   return text + (names.size() > kMostNames ? ", … (" + std::to_string(names.size()) + ")" : "");
 }
 
+// Where no pattern could help.
+void RequireAnImage(const std::filesystem::path& folder) {
+  if (std::ranges::any_of(UnreadImages(folder, {}), IsImage)) return;
+  throw base::ConfigError(folder.string() + ": holds no image that is read: " + Listed(folder) +
+                          "; give photographs as PNG, JPEG, TIFF, BMP or PGM, or convert them to "
+                          "one of these (a telephone takes JPEG where its camera is set to the "
+                          "most compatible format)");
+}
+
 // The set with its folder in all that it says; throws where it is empty.
 PhotoSet OfFolder(PhotoSet set, const std::filesystem::path& folder, const std::string& pattern) {
   if (set.runs.empty()) {
+    RequireAnImage(folder);
     const std::string other = RecognisePattern(folder);
     throw base::ConfigError(
         folder.string() + ": no file matches the pattern \"" + pattern +

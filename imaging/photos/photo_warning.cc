@@ -37,6 +37,11 @@ std::string Reason(const PhotoWarning& warning) {
     case PhotoDoubt::kRunDisagrees:
       return "run " + warning.reason + " differs from the others " + Times(warning.value) +
              " as much as they do: another heap, or one that slid; look at it, or leave it out";
+    case PhotoDoubt::kNoNoise:
+      return "the heaps are alike to " + base::PlainNumber(warning.value, 2) +
+             " px along the outline, as no two heaps are: they are photographs of one heap, or "
+             "what "
+             "is taken for powder is the same thing in all; look at the overlays (--out)";
     case PhotoDoubt::kFrontLit:
       return "powder is brighter than its background and is taken to be lit from the front; say "
              "\"powder\": \"bright\" (--powder bright) if so, \"dark\" if not";
@@ -47,6 +52,11 @@ std::string Reason(const PhotoWarning& warning) {
     case PhotoDoubt::kHiddenTop:
       return "powder hides the plate's top in every photograph: the baseline is known to about a "
              "pixel";
+    case PhotoDoubt::kBeyondPicture:
+      return Percent(warning.value) +
+             " of the part of the table that counts lies beyond the picture, so that powder there "
+             "is not seen; give a smaller \"plate_diameter\" (--plate-diameter), or take the "
+             "photographs from farther away";
     case PhotoDoubt::kNoPowder:
       return "no powder stands on the plate";
     case PhotoDoubt::kTouchesFrame:

@@ -18,9 +18,11 @@ enum class PhotoDoubt {
   kSeveralHeaps,   // in one run; value: how many, `photo`: the first of the second, `reason`: the
                    // sign
   kRunDisagrees,   // `reason`: the run; value: its difference from the others / the usual one [-]
+  kNoNoise,        // heaps are alike as no two are; value: noise floor / plate's width [px]
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
   kHiddenTop,      // powder hides the plate's top in every photograph
+  kBeyondPicture,  // value: share of a table's part that counts and that no picture shows [-]
   kNoPowder,       // nothing stands on the plate
   kTouchesFrame,   // powder at the picture's edge
   kBesidePlate,    // value: share of the powder farther out than the plate's rim [-]
@@ -81,9 +83,11 @@ struct talus::base::Names<talus::imaging::PhotoDoubt> {
                                     std::pair{"unread", kUnread},
                                     std::pair{"several_heaps", kSeveralHeaps},
                                     std::pair{"run_disagrees", kRunDisagrees},
+                                    std::pair{"no_noise", kNoNoise},
                                     std::pair{"front_lit", kFrontLit},
                                     std::pair{"mixed_light", kMixedLight},
                                     std::pair{"hidden_top", kHiddenTop},
+                                    std::pair{"beyond_picture", kBeyondPicture},
                                     std::pair{"no_powder", kNoPowder},
                                     std::pair{"touches_frame", kTouchesFrame},
                                     std::pair{"beside_plate", kBesidePlate},

@@ -51,11 +51,32 @@ Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& 
   return placement;
 }
 
+// A length outside of the picture was read off another one, of another scale.
+void RequireInPicture(const ScaleMark& mark, const PhotoCollection& collection) {
+  const auto is_in = [&](double x, double y) {
+    return x >= 0 && y >= 0 && x <= collection.width && y <= collection.height;
+  };
+  if (is_in(mark.x1, mark.y1) && is_in(mark.x2, mark.y2)) return;
+  throw base::ConfigError("scale: has a point outside of the photographs, which are " +
+                          PixelSizeText(collection.width, collection.height) +
+                          "; give two points of one of them, or of a photograph that the same "
+                          "camera took of a ruler, in pixels from its upper left corner");
+}
+
+// Share of the table's part that counts beyond the picture's left and right border.
+double ShareUnseen(const PlatePose& part, int picture_width) {
+  const double left = std::max(0.0, part.width / 2 - part.center_x);
+  const double right = std::max(0.0, part.center_x + part.width / 2 - picture_width);
+  return (left + right) / part.width;
+}
+
 // A heap on a table: its middle is where a plate's would be, and the table counts as far as
 // `plate_diameter` says, or a little farther than the heap reaches.
-Placement PlaceByScale(ExperimentOptions options, const PhotoCollection& collection,
-                       double photo_pixel) {
+Placement PlaceByScale(ExperimentOptions options, const PhotoCollection& collection) {
   constexpr double kBeyondHeap = 1.1;
+  const ScaleMark mark = ParseScale(options.scale);
+  RequireInPicture(mark, collection);
+  const double photo_pixel = mark.pixel_size() * collection.block;
   Placement placement{.frame = {}, .photo_pixel = photo_pixel, .poses = {}};
   double reach = 0;  // [px]
   for (const Photo& photo : collection.photos) reach = std::max(reach, photo.table.reach);
@@ -67,8 +88,11 @@ Placement PlaceByScale(ExperimentOptions options, const PhotoCollection& collect
                                .center_x = photo.table.center_x,
                                .baseline = photo.table.baseline,
                                .tilt = photo.table.tilt});
+    placement.unseen = std::max(
+        placement.unseen, ShareUnseen(placement.poses.back(), collection.width / collection.block));
   }
   placement.frame = FrameFor(options, collection, placement);
+  placement.frame.table = true;
   return placement;
 }
 
@@ -91,10 +115,7 @@ Placement PlaceByPlate(const ExperimentOptions& options, const PhotoCollection& 
 Placement Place(const ExperimentOptions& options, const PhotoCollection& collection) {
   if (options.frame) return PlaceByFrame(options, collection);
   Placement placement =
-      options.scale.empty()
-          ? PlaceByPlate(options, collection)
-          : PlaceByScale(options, collection,
-                         ParseScale(options.scale).pixel_size() * collection.block);
+      options.scale.empty() ? PlaceByPlate(options, collection) : PlaceByScale(options, collection);
   if (placement.frame.baseline < 1) {
     throw base::ConfigError(collection.photos.front().path.string() +
                             ": what was taken for the plate lies at the upper border; give the "

@@ -14,6 +14,7 @@ struct Placement {
   double photo_pixel = 0;  // [m]
   std::vector<PlatePose> poses;
   bool hidden_top = false;  // no photograph shows the plate's top: the baseline is known to 1 px
+  double unseen = 0;        // share of a table's part that counts beyond the picture, at most [-]
 };
 
 // By the frame that is given, by the scale of a heap on a table, or by the plate that was found.

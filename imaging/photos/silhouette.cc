@@ -11,6 +11,10 @@ namespace {
 constexpr double kOntoPlate =
     2.0;  // powder whose lower end is nearer the baseline stands on it [px]
 constexpr double kBesidePlate = 0.02;  // how far beside the plate powder counts / its diameter
+// What stands apart from a heap on a table is a grain if it is lower and smaller than these shares
+// of the heap: a grain a fifth as high as a heap of 30 degrees has 2 % of its area.
+constexpr double kGrainHeight = 0.2;
+constexpr double kGrainArea = 0.02;
 
 // From pixel indices of the frame to pixel indices of the photograph (OpenCV counts from pixel
 // centres, hence the halves).
@@ -41,20 +45,48 @@ int RowsAboveBaseline(const Frame& frame) {
   return std::clamp(static_cast<int>(std::floor(frame.baseline + 0.5)), 0, frame.height);
 }
 
-// The connected areas that stand on the plate.
-cv::Mat StandingOnPlate(const cv::Mat& powder, const Frame& frame) {
-  cv::Mat labels;
-  const int count = cv::connectedComponents(powder, labels, 8);
-  std::vector<std::uint8_t> stands(static_cast<std::size_t>(count), 0);
+// 255 for the labels of areas that reach down to the plate.
+std::vector<std::uint8_t> Standing(const cv::Mat& labels, int num_labels, const Frame& frame) {
+  std::vector<std::uint8_t> stands(static_cast<std::size_t>(num_labels), 0);
   const double half = frame.plate_diameter / frame.pixel_size * (0.5 + kBesidePlate);
   const int first = std::max(0, static_cast<int>(std::floor(frame.center_x - half)));
-  const int last = std::min(powder.cols - 1, static_cast<int>(std::ceil(frame.center_x + half)));
-  const int highest = std::max(0, powder.rows - static_cast<int>(kOntoPlate));
-  for (int y = highest; y < powder.rows; ++y) {
+  const int last = std::min(labels.cols - 1, static_cast<int>(std::ceil(frame.center_x + half)));
+  const int highest = std::max(0, labels.rows - static_cast<int>(kOntoPlate));
+  for (int y = highest; y < labels.rows; ++y) {
     for (int x = first; x <= last; ++x)
       stands[static_cast<std::size_t>(labels.at<int>(y, x))] = 255;
   }
   stands[0] = 0;  // the background
+  return stands;
+}
+
+// Only powder lies on a plate. On a table a ruler or a hand may stand, too: of what stands there,
+// the largest area is the heap, and what is no grain beside it goes.
+void DropThings(const cv::Mat& stats, std::vector<std::uint8_t>& stands) {
+  const auto area = [&](std::size_t label) {
+    return stats.at<int>(static_cast<int>(label), cv::CC_STAT_AREA);
+  };
+  const auto height = [&](std::size_t label) {
+    return stats.at<int>(static_cast<int>(label), cv::CC_STAT_HEIGHT);
+  };
+  std::size_t heap = 0;
+  for (std::size_t label = 1; label < stands.size(); ++label) {
+    if (stands[label] != 0 && (heap == 0 || area(label) > area(heap))) heap = label;
+  }
+  if (heap == 0) return;
+  for (std::size_t label = 1; label < stands.size(); ++label) {
+    const bool is_grain =
+        height(label) <= kGrainHeight * height(heap) && area(label) <= kGrainArea * area(heap);
+    if (label != heap && !is_grain) stands[label] = 0;
+  }
+}
+
+// The connected areas that stand on the plate, or are the heap and grains on a table.
+cv::Mat StandingOnPlate(const cv::Mat& powder, const Frame& frame) {
+  cv::Mat labels, stats, centers;
+  const int count = cv::connectedComponentsWithStats(powder, labels, stats, centers, 8);
+  std::vector<std::uint8_t> stands = Standing(labels, count, frame);
+  if (frame.on_table()) DropThings(stats, stands);
   cv::Mat heap(powder.size(), CV_8U);
   for (int y = 0; y < powder.rows; ++y) {
     for (int x = 0; x < powder.cols; ++x) {
@@ -113,13 +145,6 @@ bool ReachesBorder(const GrayImage& silhouette, const BacklitPhoto& photo, const
     }
   }
   return false;
-}
-
-GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame) {
-  const cv::Mat gray(silhouette.height, silhouette.width, CV_8U,
-                     const_cast<std::uint8_t*>(silhouette.pixels.data()));
-  const cv::Mat powder = gray < 128;
-  return Finish(powder.rowRange(0, RowsAboveBaseline(frame)), frame);
 }
 
 }  // namespace talus::imaging

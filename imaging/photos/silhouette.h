@@ -8,8 +8,8 @@
 namespace talus::imaging {
 
 // Resampled so that the plate lies as `frame` has it, made binary (0 powder, 255 none), holes
-// filled, and everything dropped that does not stand on the plate. `photo_pixel` is the
-// photograph's pixel size [m].
+// filled, and everything dropped that does not stand on the plate; on a table also what stands
+// apart from the heap and is no grain. `photo_pixel` is the photograph's pixel size [m].
 GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, double photo_pixel,
                          const Frame& frame);
 
@@ -17,9 +17,5 @@ GrayImage MakeSilhouette(const BacklitPhoto& photo, const PlatePose& plate, doub
 // which may lie within the frame.
 bool ReachesBorder(const GrayImage& silhouette, const BacklitPhoto& photo, const PlatePose& plate,
                    double photo_pixel, const Frame& frame);
-
-// The heap in an image that is already 0 or 255: holes (light that is shut in by powder and plate)
-// are filled, and what does not stand on the plate is dropped.
-GrayImage KeepHeap(const GrayImage& silhouette, const Frame& frame);
 
 }  // namespace talus::imaging

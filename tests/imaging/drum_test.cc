@@ -153,7 +153,42 @@ TEST(Drum, ErrorsSayWhatToDo) {
               HasSubstr("stands still"));
 }
 
-// Their average would be of neither light, and it was taken.
+GrayImage Inverse(GrayImage photo) {
+  for (std::uint8_t& level : photo.pixels) level = static_cast<std::uint8_t>(255 - level);
+  return photo;
+}
+
+class DrumFills : public testing::TestWithParam<double> {};
+
+// Both were measured without a word, an angle and a fill of what is no powder.
+TEST_P(DrumFills, UpsideDownOrInverseIsRefusedAndUprightIsNot) {
+  const GrayImage upright = Draw({.angle = 35 * kDegree, .depth = GetParam()});
+  GrayImage upside_down = upright;
+  std::ranges::reverse(upside_down.pixels);
+  EXPECT_EQ(ErrorOf({.photos = {Write("upright", upright)}, .diameter = 0.084}), "");
+  for (const GrayImage& wrong : {upside_down, Inverse(upright)}) {
+    EXPECT_THAT(ErrorOf({.photos = {Write("wrong", wrong)}, .diameter = 0.084}),
+                AllOf(HasSubstr("drum_wrong.png: the powder lies at the top"), HasSubstr("turn")));
+  }
+}
+// Fills of 0.1, 0.26, 0.5, 0.74 and 0.9.
+INSTANTIATE_TEST_SUITE_P(EmptyToFull, DrumFills, testing::Values(0.69, 0.38, 0.0, -0.38, -0.69));
+
+// Powder all around, as in a drum that turns so fast that it centrifuges, and a little more of it
+// at the top, where it is slower.
+TEST(Drum, CentrifugingPowderIsNotTakenForUpsideDown) {
+  GrayImage photo = Draw({.depth = 2});
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double right = x + 0.5 - kCenterX, up = kCenterY - y - 0.5;
+      const double r = std::hypot(right, up);
+      if (r < kRadius && std::hypot(right, up + 5) > 105) photo.at(x, y) = 25;
+    }
+  }
+  const fs::path file = Write("centrifuging", photo);
+  EXPECT_EQ(ErrorOf({.photos = {file}, .diameter = 0.084}), "");
+}
+
 // Its fill would be that of what is seen.
 TEST(Drum, OneThatIsCutOffIsRefused) {
   const GrayImage whole = Draw({.angle = 0.5});
@@ -176,10 +211,10 @@ TEST(Drum, OneThatIsCutOffIsRefused) {
   }
 }
 
+// Their average would be of neither light, and it was taken.
 TEST(Drum, APhotographLitOtherwiseThanItsSeriesIsNamed) {
   const GrayImage photo = Draw({.angle = 33 * kDegree});
-  GrayImage inverse = photo;
-  for (std::uint8_t& level : inverse.pixels) level = static_cast<std::uint8_t>(255 - level);
+  const GrayImage inverse = Inverse(photo);
   GrayImage darker = photo;
   for (std::uint8_t& level : darker.pixels) level = static_cast<std::uint8_t>(level / 2);
   const fs::path good = Write("usual", photo);

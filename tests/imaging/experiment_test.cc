@@ -157,6 +157,8 @@ TEST(Experiment, FaultsCanBeDrawn) {
   options.allow_missing_views = true;
   const std::vector<UnusablePhoto> left_out = MeasureExperiment(options).left_out;
   ASSERT_EQ(left_out.size(), 2u);
+  EXPECT_FALSE(left_out[0].is_drawable);
+  EXPECT_TRUE(left_out[1].is_drawable);
   EXPECT_THROW(FaultOf(left_out[0], options), base::ConfigError);
   const ColorImage picture = FaultOf(left_out[1], options);
   const auto has = [&](const Color& color) {
@@ -175,13 +177,43 @@ TEST(Experiment, LeavingOutMostPhotographsIsNotOffered) {
   EXPECT_THAT(ErrorOf(Options(folder)), HasSubstr("\"frame\""));
 }
 
+// Of what the hint proposes, nothing would help.
+TEST(Experiment, TheHintAtThePlateIsGivenWhereNoneWasFoundOnly) {
+  const auto error_of = [](const char* name, void (*spoil)(const fs::path&)) {
+    const fs::path folder = GoodFolder(name);
+    for (const auto& photo : {Name(1, 0), Name(1, 1), Name(2, 1)}) spoil(folder / photo);
+    return ErrorOf(Options(folder));
+  };
+  const auto hint = HasSubstr("most photographs have a fault");
+  EXPECT_THAT(error_of("most_no_image", [](const auto& photo) { std::ofstream(photo) << "text"; }),
+              testing::Not(hint));
+  EXPECT_THAT(error_of("most_black", [](const auto& photo) { WritePng(photo, Uniform(3)); }),
+              testing::Not(hint));
+  EXPECT_THAT(error_of("most_no_plate",
+                       [](const auto& photo) { WriteTriangle(photo, &Scene::plate_width, 0.0); }),
+              hint);
+}
+
+// It was printed once for each of 80.
+TEST(Experiment, AFaultThatManyPhotographsHaveIsSaidOnce) {
+  const fs::path folder = EmptyFolder("many_faults");
+  for (int view = 0; view < 12; ++view) WritePng(folder / Name(1, view), Uniform(3));
+  std::ofstream(folder / Name(1, 12)) << "text";
+  const std::string error = ErrorOf(Options(folder));
+  EXPECT_EQ(std::ranges::count(error, '\n'), 1) << error;
+  EXPECT_THAT(error, HasSubstr(Name(1, 0) + ": is black everywhere"));
+  EXPECT_THAT(error, HasSubstr("; the same holds for " + (folder / Name(1, 1)).string() + ", "));
+  EXPECT_THAT(error, HasSubstr(Name(1, 8) + " and 3 more photographs"));
+  EXPECT_THAT(error, HasSubstr(Name(1, 12) + ": is no image"));
+}
+
 TEST(Experiment, NothingIsLeft) {
   const fs::path folder = EmptyFolder("nothing");
   std::ofstream(folder / Name(1, 0)) << "no image";
   ExperimentOptions options = Options(folder);
   options.allow_missing_views = true;
   EXPECT_THAT(ErrorOf(options), HasSubstr("no photograph is left"));
-  EXPECT_THAT(ErrorOf(Options(EmptyFolder("none"))), HasSubstr("no file matches"));
+  EXPECT_THAT(ErrorOf(Options(EmptyFolder("none"))), HasSubstr("holds no image"));
   EXPECT_THAT(ErrorOf(Options("/no/such/folder")), HasSubstr("/no/such/folder"));
 }
 
@@ -189,10 +221,12 @@ TEST(Experiment, NothingIsLeft) {
 TEST(ExperimentTest, WithoutAPatternTheOneThatFitsIsTakenAndSaid) {
   const fs::path folder = EmptyFolder("no_pattern");
   const GrayImage photo = Triangle(SmallScene());
+  const GrayImage other = Triangle(SmallScene(), 0.51);
   int taken = 0;
   for (const char* name : {"h1/IMG_3.png", "h1/IMG_4.png", "h2/IMG_5.png", "h2/IMG_6.png"}) {
     fs::create_directories((folder / name).parent_path());
-    WritePng(folder / name, TakenAgain(photo, taken++));
+    WritePng(folder / name, TakenAgain(taken < 2 ? photo : other, taken));
+    ++taken;
   }
   fs::create_directories(folder / "h2" / "more");
   WritePng(folder / "h2" / "more" / "IMG_7.png", photo);
@@ -215,6 +249,26 @@ TEST(ExperimentOptionsTest, BrokenRulesAreReportedTogether) {
   base::Problems problems;
   options.Validate(problems);
   EXPECT_EQ(problems.list().size(), 3u);
+}
+
+// 0.5 was taken for half a degree, and turned the photographs by 28.6.
+TEST(ExperimentOptionsTest, ATiltInRadThatIsMeantInDegreesIsRefused) {
+  ExperimentOptions options;
+  options.photos = "photos";
+  options.frame = Frame{.pixel_size = 1e-5};
+  options.plate_diameter = options.frame->plate_diameter;
+  const auto problems_of = [&](double tilt) {
+    options.tilt = tilt;
+    base::Problems problems;
+    options.Validate(problems);
+    return problems.list();
+  };
+  EXPECT_THAT(problems_of(-0.17), testing::IsEmpty());  // 9.7 degrees
+  const std::vector<base::Problem> list = problems_of(0.5);
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].path, "tilt");
+  EXPECT_THAT(list[0].message, HasSubstr("is 0.5, in rad, which is 28.65 degrees"));
+  EXPECT_THAT(list[0].message, HasSubstr("write \"0.5 deg\" for degrees"));
 }
 
 // The frame that was found, given by hand with the tilt, leads to the same profile: both rest on

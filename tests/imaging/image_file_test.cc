@@ -69,6 +69,17 @@ TEST(ImageFile, Jpeg) {
   EXPECT_THROW(DecodeGrayImage(bytes.substr(0, bytes.size() / 2), "half.jpg"), base::ConfigError);
 }
 
+// It was called damaged, to be copied from the camera again.
+TEST(ImageFile, AJpegForPrintIsToBeSavedAsAnotherKind) {
+  try {
+    DecodeGrayImage(EncodeJpeg(Ramp(), "", 4), "print.jpg");
+    FAIL() << "a CMYK image was read";
+  } catch (const base::ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "print.jpg: is a CMYK image, which is made for print; save it as RGB or grey");
+  }
+}
+
 TEST(ImageFile, TiffOfEightAndSixteenBitsBothWaysRound) {
   for (const std::uint16_t photometric : {PHOTOMETRIC_MINISBLACK, PHOTOMETRIC_MINISWHITE}) {
     const TiffImage ramp{.stored = Ramp(), .photometric = photometric};

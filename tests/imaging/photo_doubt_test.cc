@@ -1,5 +1,4 @@
-// Photographs that are not as the test wants them: each doubt is said, and a heap on a table is
-// measured by a known length.
+// Photographs that are not as the test wants them: each doubt is said.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -146,94 +145,6 @@ TEST(PhotoDoubt, AFaultOfTheSetUpIsSaidOnce) {
               HasSubstr(Name(1, 2) + ", the worst of 5 such photographs: "));
 }
 
-// A table is a plate that ends nowhere.
-Scene TableScene() {
-  Scene scene = SmallScene();
-  scene.plate_width = 5000;
-  scene.plate_depth = 500;
-  scene.tilt = 1.2 * std::numbers::pi / 180;
-  scene.uneven = true;
-  return scene;
-}
-
-// A triangle of 150 px height over 240 px, 15 mm by 24 mm at 0.1 mm a pixel, and at the left a
-// ruler of 20 px by 60 px that stands on the table, too.
-GrayImage HeapOnTable(const Scene& scene) {
-  const auto dark = [](double x, double up) {
-    const bool heap = up > 0 && up < 150 * (1 - std::abs(x - 10) / 120);
-    return heap || (up > 0 && up < 60 && std::abs(x + 170) < 10);
-  };
-  return Expose(scene, Cover(scene, dark));
-}
-
-// The outline's corners are the blur's; the angle is of straight slopes. The centre of a triangle's
-// area stands over the middle of its base.
-TEST(PhotoDoubt, AHeapOnATableIsMeasuredByARuler) {
-  const fs::path folder = EmptyFolder("table");
-  for (int view = 0; view < 2; ++view) {
-    Scene scene = TableScene();
-    scene.center_x += 5.3 * view;
-    scene.baseline -= 1.7 * view;
-    scene.tilt *= 1 - 2 * view;
-    WritePng(folder / Name(1, view), HeapOnTable(scene));
-  }
-  ExperimentOptions options;
-  options.photos = folder;
-  options.scale = "30,200 - 30,100 = 10 mm";
-  const Experiment experiment = MeasureExperiment(options);
-  EXPECT_TRUE(experiment.warnings.empty());
-  const Frame& frame = experiment.aehp.frame;
-  EXPECT_DOUBLE_EQ(frame.pixel_size, 1e-4);
-  EXPECT_NEAR(frame.plate_diameter, 0.027, 1e-9);  // 1.1 × 24 mm, to the next millimetre
-  EXPECT_NEAR(Nebp(experiment.aehp.image) * 0.01, 0.5 * 24 * 15, 0.01 * 180);  // [mm²]
-  for (std::size_t view = 0; view < 2; ++view) {
-    const MeasuredView& measured = experiment.runs[0].views[view];
-    const double sign = 1 - 2 * static_cast<double>(view);
-    EXPECT_NEAR(measured.plate.tilt, sign * 1.2 * std::numbers::pi / 180, 1e-3);
-    EXPECT_NEAR(measured.plate.center_x, 210 + 5.3 * static_cast<double>(view) + 10, 0.7);
-    const double angle = std::atan2(150, 120);  // [rad]
-    EXPECT_NEAR(measured.angles[1].left.value, angle, 0.01);
-    EXPECT_NEAR(measured.angles[1].right.value, angle, 0.01);
-  }
-  options.plate_diameter = 0.05;
-  EXPECT_EQ(MeasureExperiment(options).aehp.frame.plate_diameter, 0.05);
-}
-
-TEST(PhotoDoubt, WithoutPlateTheErrorSaysHowToScale) {
-  const fs::path folder = EmptyFolder("no_scale");
-  WritePng(folder / Name(1, 0), HeapOnTable(TableScene()));
-  EXPECT_THAT(ErrorOf(Options(folder)), HasSubstr("--scale \"104,310-884,312=30 mm\""));
-  ExperimentOptions options;
-  options.photos = folder;
-  for (const auto& [scale, why] :
-       {std::pair{"30,200-30", "no \",\" where"}, std::pair{"30,200-x,9=1 mm", "no number"},
-        std::pair{"30,200-30,100=10 s", "ends in no length"},
-        std::pair{"30,200-31,201=10 mm", "less than 10 px"}}) {
-    options.scale = scale;
-    EXPECT_THAT(ErrorOf(options), HasSubstr(why)) << scale;
-    EXPECT_THAT(ErrorOf(options), HasSubstr("write two points")) << scale;
-  }
-  options.scale = "30,200-30,100=10 mm";
-  options.frame = Frame{};
-  EXPECT_THAT(ErrorOf(options), HasSubstr("leave it out with a map or a frame"));
-}
-
-TEST(PhotoDoubt, ATableThatIsNoneIsNamed) {
-  const auto error_of = [](const GrayImage& photo) {
-    const fs::path folder = EmptyFolder("no_table");
-    WritePng(folder / Name(1, 0), photo);
-    ExperimentOptions options;
-    options.photos = folder;
-    options.scale = "30,200-30,100=10 mm";
-    return ErrorOf(options);
-  };
-  EXPECT_THAT(error_of(Triangle(SmallScene())), HasSubstr("lower border is not dark"));
-  EXPECT_THAT(error_of(PhotographOf(TableScene(), [](double) { return 0.0; })),
-              HasSubstr("nothing stands on the table"));
-  const auto saw = [](double x) { return 20 + 1.7 * std::abs(std::fmod(x + 600, 60) - 30); };
-  EXPECT_THAT(error_of(PhotographOf(TableScene(), saw)), HasSubstr("no straight, level top"));
-}
-
 std::vector<PhotoDoubt> DoubtsOf(const fs::path& folder) {
   std::vector<PhotoDoubt> doubts;
   for (const PhotoWarning& warning : MeasureExperiment(Options(folder)).warnings) {
@@ -272,6 +183,18 @@ TEST(PhotoDoubt, APhotographUnderLessLightIsNamed) {
   EXPECT_EQ(warnings[0].photo.filename(), Name(2, 1));
   EXPECT_NEAR(warnings[0].value, 2, 0.05);  // half a grey level of some 100 is cut off
   EXPECT_THAT(WarningText(warnings[0]), HasSubstr("2 times darker than most"));
+}
+
+// Three heaps of one photograph each, which differ by a grey level only: no files are equal.
+TEST(PhotoDoubt, HeapsThatAreAlikeAsNoTwoAreAreWarnedOf) {
+  const fs::path folder = EmptyFolder("alike");
+  const GrayImage photo = Triangle(SmallScene());
+  for (int run = 1; run <= 3; ++run) WritePng(folder / Name(run, 0), TakenAgain(photo, run));
+  const std::vector<PhotoWarning> warnings = MeasureExperiment(Options(folder)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].doubt, PhotoDoubt::kNoNoise);
+  EXPECT_EQ(warnings[0].value, 0);
+  EXPECT_THAT(WarningText(warnings[0]), HasSubstr("as no two heaps are"));
 }
 
 // Its runs would agree better than heaps do. The views of one run may be alike.

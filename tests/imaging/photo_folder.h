@@ -42,8 +42,8 @@ inline ExperimentOptions Options(const fs::path& folder) {
   return options;
 }
 
-inline GrayImage Triangle(const Scene& scene) {
-  return PhotographOf(scene, [&](double x) { return 0.5 * (150 - std::abs(x)); });
+inline GrayImage Triangle(const Scene& scene, double slope = 0.5) {
+  return PhotographOf(scene, [&](double x) { return slope * (150 - std::abs(x)); });
 }
 
 // As two photographs of one thing differ: in a grey level somewhere.
@@ -52,13 +52,13 @@ inline GrayImage TakenAgain(GrayImage photo, int times) {
   return photo;
 }
 
-// Two runs of two views, all good.
+// Two runs of two views, all good; no two heaps are alike.
 inline fs::path GoodFolder(const std::string& name) {
   const fs::path folder = EmptyFolder(name);
-  static const GrayImage photo = Triangle(SmallScene());
+  static const GrayImage photos[] = {Triangle(SmallScene()), Triangle(SmallScene(), 0.51)};
   for (int run = 1; run <= 2; ++run) {
     for (int view = 0; view < 2; ++view) {
-      WritePng(folder / Name(run, view), TakenAgain(photo, 2 * run + view));
+      WritePng(folder / Name(run, view), TakenAgain(photos[run - 1], 2 * run + view));
     }
   }
   return folder;

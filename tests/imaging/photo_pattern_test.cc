@@ -105,15 +105,45 @@ TEST(PhotoPattern, HiddenFilesAreNoPhotographsAndOtherFormatsAreNamed) {
   const PhotoSet set = FindPhotos(folder, RecognisePattern(folder));
   EXPECT_THAT(ReadingText(set), HasSubstr("2 heaps (heap 1, heap 2), 3 photographs"));
   EXPECT_THAT(UnreadText(folder, set),
-              HasSubstr("1 image not read: heap 2/IMG_4.HEIC; HEIC, WebP and raw files"));
+              HasSubstr("1 image not read: heap 2/IMG_4.HEIC; HEIC, WebP, GIF and raw files"));
   const fs::path only = EmptyFolder("heic");
   Touch(only / "IMG_1.HEIC");
   try {
     FindPhotos(only, RecognisePattern(only));
     FAIL() << "no error";
   } catch (const base::ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("convert them to JPEG or PNG"));
+    EXPECT_THAT(error.what(), HasSubstr("holds no image that is read: there are IMG_1.HEIC"));
+    EXPECT_THAT(error.what(), HasSubstr("convert them"));
   }
+}
+
+std::string ErrorOf(const fs::path& folder, const std::string& pattern) {
+  try {
+    FindPhotos(folder, pattern);
+  } catch (const base::ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// No file matched "*", which stands for anything.
+TEST(PhotoPattern, AFolderOfOtherKindsOfImagesIsSaidToHoldNoneThatIsRead) {
+  const fs::path folder = EmptyFolder("other_kinds");
+  for (const char* name : {"1.gif", "2.pdf"}) Touch(folder / name);
+  EXPECT_THAT(ErrorOf(folder, ""), HasSubstr("no image that is read: there are 1.gif, 2.pdf; "));
+  EXPECT_THAT(ErrorOf(folder, ""), HasSubstr("PNG, JPEG, TIFF, BMP or PGM"));
+  EXPECT_THAT(ErrorOf(EmptyFolder("nothing_there"), ""), HasSubstr("it is empty"));
+}
+
+// Only that no file matched was said.
+TEST(PhotoPattern, AWordInBracesThatIsUnknownOrStandsTwiceIsNamed) {
+  const fs::path folder = EmptyFolder("words");
+  Touch(folder / "a_1.jpg");
+  EXPECT_THAT(ErrorOf(folder, "{foo}.*"),
+              HasSubstr("has {foo}, which is unknown; write {run} and {view}"));
+  EXPECT_THAT(ErrorOf(folder, "{Run}_{view}.*"), HasSubstr("{Run}, which is unknown"));
+  EXPECT_THAT(ErrorOf(folder, "{run}_{run}.*"), HasSubstr("has {run} twice"));
+  EXPECT_THAT(ErrorOf(folder, "{run_*"), HasSubstr("no file matches"));
 }
 
 // Several heaps in one folder cannot be told from one heap by such names: never silently.

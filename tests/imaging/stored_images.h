@@ -31,7 +31,9 @@ inline std::filesystem::path TempFile(const std::string& name) {
   return std::filesystem::path(testing::TempDir()) / name;
 }
 
-inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = {}) {
+// `num_inks` 1 grey, 4 CMYK, all inks alike.
+inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = {},
+                              int num_inks = 1) {
   jpeg_compress_struct jpeg;
   jpeg_error_mgr errors;
   jpeg.err = jpeg_std_error(&errors);
@@ -41,8 +43,8 @@ inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = 
   jpeg_mem_dest(&jpeg, &buffer, &size);
   jpeg.image_width = static_cast<JDIMENSION>(image.width);
   jpeg.image_height = static_cast<JDIMENSION>(image.height);
-  jpeg.input_components = 1;
-  jpeg.in_color_space = JCS_GRAYSCALE;
+  jpeg.input_components = num_inks;
+  jpeg.in_color_space = num_inks == 1 ? JCS_GRAYSCALE : JCS_CMYK;
   jpeg_set_defaults(&jpeg);
   jpeg_set_quality(&jpeg, 95, TRUE);
   jpeg_start_compress(&jpeg, TRUE);
@@ -51,7 +53,11 @@ inline std::string EncodeJpeg(const GrayImage& image, const std::string& app1 = 
                       static_cast<unsigned>(app1.size()));
   }
   for (int y = 0; y < image.height; ++y) {
-    JSAMPLE* row = const_cast<JSAMPLE*>(&image.pixels[static_cast<std::size_t>(image.width * y)]);
+    std::vector<JSAMPLE> samples;
+    for (int x = 0; x < image.width; ++x) {
+      samples.insert(samples.end(), static_cast<std::size_t>(num_inks), image.at(x, y));
+    }
+    JSAMPLE* row = samples.data();
     jpeg_write_scanlines(&jpeg, &row, 1);
   }
   jpeg_finish_compress(&jpeg);

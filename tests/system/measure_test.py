@@ -83,6 +83,36 @@ class Measure(unittest.TestCase):
             self.assertFalse(out.exists(), arguments)
 
 
+    def test_overlays_are_those_of_the_last_call(self):
+        photos, out = self.folder / "few", self.folder / "again"
+        photos.mkdir()
+        for view in range(3):
+            shutil.copy(PHOTOS / f"run01_view{view:02}.jpg", photos)
+        self.assertEqual(run(photos, "--plate-diameter", "10mm", "--out", out).returncode, 0)
+        (photos / "run01_view02.jpg").unlink()
+        (out / "overlays/fault_few_other.png").touch()
+        self.assertEqual(run(photos, "--plate-diameter", "10mm", "--out", out).returncode, 0)
+        self.assertEqual({picture.name for picture in (out / "overlays").iterdir()},
+                         {"run_01_run01_view00.png", "run_01_run01_view01.png"})
+
+    def test_a_map_has_no_overlays_to_look_at(self):
+        out = self.folder / "map"
+        done = run(self.aehp / "aehp.png", "--map", "--plate-diameter", "10mm", "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("overlays", done.stdout)
+        self.assertFalse((out / "overlays").exists())
+
+    def test_pictures_of_faults_are_offered_where_there_are_some(self):
+        offer = "with --out DIR what was found in each is drawn"
+        absent = run(self.folder / "absent.jpg", "--plate-diameter", "10mm")
+        self.assertNotIn(offer, absent.stderr)
+        self.assertNotIn("most photographs", absent.stderr)
+        no_plate = self.folder / "no_plate"
+        no_plate.mkdir()
+        shutil.copy(self.aehp / "aehp.png", no_plate / "run1_view1.png")  # powder without its plate
+        self.assertIn(offer, run(no_plate, "--plate-diameter", "10mm").stderr)
+
+
 class Names(unittest.TestCase):
     """Photographs as people have them: three heaps with the names that a camera gives."""
     RUNS, VIEWS = 3, 6

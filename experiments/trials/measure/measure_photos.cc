@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -53,6 +54,12 @@ fs::path OverlayPath(const fs::path& out, const std::string& name) {
   return out / "overlays" / (name + ".png");
 }
 
+// Of photographs that are no longer measured, or were at fault.
+void RemoveFormerOverlays(const fs::path& out) {
+  base::RemoveFormerFiles(out / "overlays", "run_");
+  base::RemoveFormerFiles(out / "overlays", "fault_");
+}
+
 std::string OverlayName(const imaging::MeasuredRun& run, const imaging::MeasuredView& view) {
   return "run_" + run.name + "_" + view.photo.stem().string();
 }
@@ -79,10 +86,12 @@ void WriteOverlays(const MeasureRequest& request, const imaging::Experiment& exp
 void WriteFiles(const MeasureRequest& request, const imaging::Experiment& experiment) {
   const fs::path& out = request.out;
   base::ClaimOutputFolder(out, "measure", InputsOf(request));
-  fs::create_directories(out / "overlays");
+  RemoveFormerOverlays(out);
   fs::remove(out / "standard_deviation.png");     // may not be written anew
   base::RemoveFormerFiles(out / "runs", "run_");  // comparisons read all that there are
-  if (!experiment.runs.empty()) fs::create_directories(out / "runs");
+  for (const char* folder : {"runs", "overlays"}) {
+    if (!experiment.runs.empty()) fs::create_directories(out / folder);
+  }
   imaging::WriteProfile(out / "aehp.png", experiment.aehp);
   if (!experiment.standard_deviation.pixels.empty()) {
     imaging::WritePng(out / "standard_deviation.png", experiment.standard_deviation);
@@ -131,39 +140,51 @@ void PrintWarnings(const imaging::Experiment& experiment, const fs::path& out,
   }
 }
 
+// Where the pictures are, a line each, of many one line.
+std::string SeeText(const std::vector<std::pair<fs::path, fs::path>>& drawn, const fs::path& out) {
+  constexpr std::size_t kMostLines = 8;
+  if (drawn.size() > kMostLines) {
+    return "\nwhat was found in " + std::to_string(drawn.size()) + " photographs: see " +
+           OverlayPath(out, "fault_*").string();
+  }
+  std::string said;
+  for (const auto& [photo, picture] : drawn) {
+    said += "\n" + photo.string() + ": see " + picture.string();
+  }
+  return said;
+}
+
 // Draws what was found in the photographs that cannot be used, under names that keep photographs of
-// several folders apart. Says where the pictures are, a line each: one that is unreadable, black or
-// blank has none.
+// several folders apart, and says where. One that is unreadable, black or blank has no picture.
 std::string DrawUnusable(const MeasureRequest& request,
                          const std::vector<imaging::UnusablePhoto>& photos) {
-  std::string said;
+  std::vector<std::pair<fs::path, fs::path>> drawn;
   for (const imaging::UnusablePhoto& unusable : photos) {
+    if (!unusable.is_drawable) continue;  // the fault says why
     const std::string name = "fault_" + unusable.photo.parent_path().filename().string() + "_" +
                              unusable.photo.stem().string();
     const fs::path path = OverlayPath(request.out, name);
-    imaging::ColorImage picture;
-    try {
-      picture = imaging::FaultOf(unusable, request.experiment);
-    } catch (const base::ConfigError&) {
-      continue;  // the fault says why
+    if (drawn.empty()) {
+      base::ClaimOutputFolder(request.out, "measure", InputsOf(request));
+      base::RemoveFormerFiles(path.parent_path(), "fault_");
+      fs::create_directories(path.parent_path());
     }
-    if (said.empty()) base::ClaimOutputFolder(request.out, "measure", InputsOf(request));
-    fs::create_directories(path.parent_path());
-    imaging::WritePng(path, picture);
-    said += "\n" + unusable.photo.string() + ": see " + path.string();
+    imaging::WritePng(path, imaging::FaultOf(unusable, request.experiment));
+    drawn.emplace_back(unusable.photo, path);
   }
-  return said;
+  return SeeText(drawn, request.out);
 }
 
 imaging::Experiment MeasureOrDraw(const MeasureRequest& request) {
   try {
     return imaging::MeasureExperiment(request.experiment);
   } catch (const imaging::UnusablePhotosError& error) {
-    if (request.out.empty()) {
-      throw base::ConfigError(std::string(error.what()) +
-                              "\nwith --out DIR what was found in each is drawn");
+    if (!request.out.empty()) {
+      throw base::ConfigError(error.what() + DrawUnusable(request, error.photos()));
     }
-    throw base::ConfigError(error.what() + DrawUnusable(request, error.photos()));
+    if (std::ranges::none_of(error.photos(), &imaging::UnusablePhoto::is_drawable)) throw;
+    throw base::ConfigError(std::string(error.what()) +
+                            "\nwith --out DIR what was found in each is drawn");
   }
 }
 
@@ -199,7 +220,8 @@ void MeasurePhotos(const MeasureRequest& request, std::ostream& print) {
   WriteFiles(complete, experiment);
   const std::string drawn = DrawUnusable(complete, experiment.left_out);
   if (!drawn.empty()) print << "left out:" << drawn << '\n';
-  print << "written to " << request.out.string() << "/ (look at overlays/*.png)\n";
+  print << "written to " << request.out.string()
+        << (experiment.runs.empty() ? "/\n" : "/ (look at overlays/*.png)\n");
 }
 
 }  // namespace talus::trials

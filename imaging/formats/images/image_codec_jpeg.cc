@@ -58,6 +58,10 @@ RawImage DecodeJpeg(std::string_view bytes, const std::string& name) {
   jpeg_read_header(&jpeg, TRUE);
   CheckImageSize(
       {.width = jpeg.image_width, .height = jpeg.image_height, .num_bytes = bytes.size()}, name);
+  if (jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK) {
+    throw base::ConfigError(name +
+                            ": is a CMYK image, which is made for print; save it as RGB or grey");
+  }
   jpeg.out_color_space = JCS_GRAYSCALE;  // the luma channel as the camera stored it
   jpeg_start_decompress(&jpeg);
   RawImage image{.width = static_cast<int>(jpeg.output_width),
