@@ -1,5 +1,6 @@
 #include "engine/run/series.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/text/number_text.h"
@@ -9,12 +10,21 @@ namespace {
 
 void AppendField(std::string& text, double value) { text += "," + base::ExactNumber(value); }
 
+// "plate", or "plate_2" where that heads columns already: walls of one name are of one kind.
+std::string Unused(const std::string& name, const std::vector<std::string>& used) {
+  std::string unused = name;
+  for (int count = 2; std::ranges::find(used, unused) != used.end(); ++count) {
+    unused = name + "_" + std::to_string(count);
+  }
+  return unused;
+}
+
 }  // namespace
 
 Series::Series(const SceneSpec& spec) : outputs_(spec.outputs) {
   for (const WallSpec& wall : spec.walls) {
     const std::string number = std::to_string(wall_names_.size());
-    wall_names_.push_back(wall.name.empty() ? "wall" + number : wall.name);
+    wall_names_.push_back(Unused(wall.name.empty() ? "wall" + number : wall.name, wall_names_));
   }
   for (const NamedMaterial& material : spec.materials) materials_.push_back(material.material);
 }

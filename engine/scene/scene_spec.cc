@@ -210,6 +210,8 @@ void StopSpec::Validate(base::Problems& problems) const {
   if (steps) RequirePositive(problems, "steps", static_cast<double>(*steps));
   if (energy_fraction) RequirePositive(problems, "energy_fraction", *energy_fraction);
   RequirePositive(problems, "hold_time", hold_time);
+  problems.Require(energy_fraction || hold_time == StopSpec{}.hold_time, "hold_time",
+                   "is of energy_fraction, which is not given");
   problems.Require(time || steps, "", "must have time or steps, so that the run ends");
 }
 

@@ -95,7 +95,8 @@ void AddPredictCommand(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--budget", arguments->budget,
-                      "core time for the runs of one case, such as \"10 min\"; default: 150 s");
+                      "core time for the runs of one case, such as \"10 min\"; one run a draw and seed at the "
+                      "case's own scale factor is made whatever it takes; default: 150 s");
   CLI::Option* set = command->add_option(
       "--set", arguments->set, "NAME=VALUE of every calibrated parameter: by this set alone");
   set->excludes(draws);

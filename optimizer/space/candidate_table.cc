@@ -12,10 +12,17 @@
 namespace talus::optimizer {
 namespace {
 
-std::vector<std::string> Cells(const std::string& line) {
+// Spreadsheets of countries that write decimals with a comma separate by semicolons.
+char SeparatorOf(const std::string& head) {
+  const bool by_semicolons =
+      head.find(',') == std::string::npos && head.find(';') != std::string::npos;
+  return by_semicolons ? ';' : ',';
+}
+
+std::vector<std::string> Cells(const std::string& line, char separator) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
+  for (std::string cell; std::getline(stream, cell, separator);) {
     const auto first = cell.find_first_not_of(" \t\r\"");
     const auto last = cell.find_last_not_of(" \t\r\"");
     cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
@@ -54,10 +61,11 @@ std::vector<std::vector<double>> ReadCandidateTable(const std::filesystem::path&
   std::istringstream text{std::string(base::WithoutByteOrderMark(content))};
   std::string line;
   std::getline(text, line);
-  const std::vector<std::size_t> columns = Columns(Cells(line), names, path.string());
+  const char separator = SeparatorOf(line);
+  const std::vector<std::size_t> columns = Columns(Cells(line, separator), names, path.string());
   std::vector<std::vector<double>> rows;
   for (int number = 2; std::getline(text, line); ++number) {
-    const std::vector<std::string> cells = Cells(line);
+    const std::vector<std::string> cells = Cells(line, separator);
     if (cells.empty() || (cells.size() == 1 && cells.front().empty())) continue;
     const std::string place = path.string() + ":" + std::to_string(number);
     std::vector<double> row;

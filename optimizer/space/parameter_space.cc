@@ -37,7 +37,7 @@ void CheckConstraint(const LinearConstraint& constraint, const std::vector<Param
 }
 
 // The centre of the cube where no guess is given, nothing when there is none at all.
-std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
+std::optional<Eigen::VectorXd> GuessOf(const ParameterSpace& space) {
   const std::vector<int> free = space.Free();
   Eigen::VectorXd point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
   bool any = false;
@@ -47,8 +47,13 @@ std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
     point[static_cast<Eigen::Index>(i)] = parameter.ToUnit(*parameter.guess);
     any = true;
   }
-  if (!any || !space.Satisfies(space.ToNative(point))) return {};
-  return {point};
+  return any ? std::optional(point) : std::nullopt;
+}
+
+std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
+  const auto point = GuessOf(space);
+  if (!point || !space.Satisfies(space.ToNative(*point))) return {};
+  return {*point};
 }
 
 bool HasRoom(const ParameterSpace& space) {
@@ -152,6 +157,11 @@ void ParameterSpace::Validate(base::Problems& problems) const {
   const bool sound = problems.empty() && num_free >= 1 && num_free <= kMaxParameters;
   problems.Require(!sound || constraints.empty() || HasRoom(*this), "constraints",
                    "leave no room: none of 100000 points of the ranges meets them all");
+  if (!sound || !problems.empty() || constraints.empty()) return;
+  const auto guess = GuessOf(*this);
+  problems.Require(!guess || Satisfies(ToNative(*guess)), "constraints",
+                   "are not met by the guesses, with the middle of its range for a parameter that "
+                   "has none");
 }
 
 bool ParameterSpace::IsContinuous() const {

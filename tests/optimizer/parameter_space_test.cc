@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "base/json/json_reader.h"
+#include "optimizer/space/candidate_table.h"
 
 namespace talus::optimizer {
 namespace parameter_space_test {
@@ -65,6 +68,25 @@ TEST(ParameterSpace, ReportsEveryMistakeWithItsPlace) {
   EXPECT_THAT(error, HasSubstr("parameters[3].high"));
   EXPECT_THAT(error, HasSubstr("\"a\" is there twice"));
   EXPECT_THAT(error, HasSubstr("did you mean \"gamma\"?"));
+}
+
+TEST(ParameterSpace, AGuessMustMeetTheConstraints) {
+  const auto with_guess = [](double guess) {
+    return R"({"parameters": [{"name": "a", "low": 0, "high": 1, "guess": )" +
+           std::to_string(guess) + R"(}, {"name": "b", "low": 0, "high": 1}],
+      "constraints": [{"terms": [{"parameter": "a"}, {"parameter": "b"}], "at_most": 1}]})";
+  };
+  EXPECT_EQ(ErrorOf(with_guess(0.4)), "");
+  EXPECT_THAT(ErrorOf(with_guess(0.6)), HasSubstr("constraints: are not met by the guesses"));
+}
+
+TEST(CandidateTable, SemicolonsSeparateWhereThereAreNoCommas) {
+  const auto path = std::filesystem::path(::testing::TempDir()) / "semicolons.csv";
+  std::ofstream(path) << "b;a\n1.5;2\n3;4\n";
+  EXPECT_EQ(ReadCandidateTable(path, {"a", "b"}),
+            (std::vector<std::vector<double>>{{2, 1.5}, {4, 3}}));
+  std::ofstream(path) << "a;b\n1,5;2\n";
+  EXPECT_THROW(ReadCandidateTable(path, {"a", "b"}), base::ConfigError);
 }
 
 TEST(ParameterSpace, WantsOneToSixFreeParameters) {

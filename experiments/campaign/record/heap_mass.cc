@@ -1,5 +1,6 @@
 #include "experiments/campaign/record/heap_mass.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/file.h"
+#include "engine/run/series.h"
 #include "engine/scene/scene_json.h"
 
 namespace talus::engine {
@@ -38,6 +39,15 @@ TEST(SceneRun, ASphereThatLeavesTheDomainLeavesTheScene) {
   EXPECT_EQ(result["num_particles"], 1);
   EXPECT_EQ(result["num_left_domain"], 1);
   EXPECT_EQ(result["reason"], "time");
+}
+
+TEST(Series, WallsOfOneNameHaveColumnsOfTheirOwn) {
+  SceneSpec spec;
+  for (const char* name : {"side", "", "side", "wall1"}) spec.walls.push_back({.name = name});
+  const std::string head = Series(spec).Head();
+  for (const char* column : {",side_fx_N", ",wall1_fx_N", ",side_2_fx_N", ",wall1_2_fx_N"}) {
+    EXPECT_THAT(head, ::testing::HasSubstr(column));
+  }
 }
 
 TEST(SceneRun, WarnsOfATimeStepAboveAFifthOfTheRayleighTime) {

@@ -88,6 +88,8 @@ TEST(SceneJson, BadSphereFilesAreNamedWithTheLine) {
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,0\n"), HasSubstr("line 2: has 3 columns"));
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,nan,1\n"), HasSubstr("line 2: z_m is \"nan\""));
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,0,-1\n"), HasSubstr("must be positive"));
+  EXPECT_THAT(error("x_m,y_m,z_m,radius_m,diameter_m\n0,0,0,1e-3,1e-3\n"),
+              HasSubstr("line 2: diameter_m is not twice radius_m"));
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m,type\n0,0,0,1,1\n"), HasSubstr("line 2: type"));
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,5,0.1\n"), HasSubstr("outside the domain"));
 }
