@@ -159,10 +159,10 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
   problems.Require(std::abs(tilt) < 0.8, "tilt", tilt, "must be within ±0.8 rad");
-  problems.Require(
-      !pixel_size ||
-          (*pixel_size > 0 && (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
-      "pixel_size", pixel_size.value_or(0), "must be positive and below an eighth of the plate");
+  problems.Require(!pixel_size || (*pixel_size > 0 &&
+                                   (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
+                   "pixel_size", pixel_size.value_or(0),
+                   "must be positive and below an eighth of the plate; write \"30 um\" for 30 um");
   problems.Require(!pixel_size || *pixel_size >= plate_diameter / kMostPixels, "pixel_size",
                    pixel_size.value_or(0), "must be at least a 20000th of the plate");
   problems.Require(!threshold || (*threshold > 0 && *threshold < 1), "threshold",
