@@ -9,6 +9,8 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/joined.h"
+#include "base/text/shell_text.h"
 #include "base/version.h"
 #include "experiments/campaign/add_parameter.h"
 #include "experiments/campaign/earlier_posterior.h"
@@ -158,7 +160,7 @@ void RequireNewFolder(const CampaignFolder& folder, const std::filesystem::path&
   if (std::filesystem::exists(journal::JournalPath(folder.root)) ||
       std::filesystem::exists(folder.campaign())) {
     throw base::ConfigError(shown.string() + ": holds a campaign already; `talus resume " +
-                            shown.string() +
+                            base::ShellWord(shown.string()) +
                             "` goes on with it, or name another folder with --out");
   }
   if (base::HoldsOnly(folder.root, kMayBeThere)) return;
@@ -191,6 +193,21 @@ void WriteCampaign(const CampaignFolder& folder, const journal::CampaignRecord& 
   for (const std::string& message : messages) journal.AddEvent("reuse", 0, message);
 }
 
+// Photographs that cannot be used are named for all experiments at once.
+std::vector<journal::ExperimentRecord> MeasuredExperiments(const CampaignSpec& spec) {
+  std::vector<journal::ExperimentRecord> records;
+  std::vector<std::string> faults;
+  for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {
+    try {
+      records.push_back(MakeExperimentRecord(experiment));
+    } catch (const base::ConfigError& error) {
+      faults.emplace_back(error.what());
+    }
+  }
+  if (!faults.empty()) throw base::ConfigError(base::Joined(faults, "\n"));
+  return records;
+}
+
 }  // namespace
 
 std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
@@ -219,9 +236,7 @@ journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFil
   record.created_utc = journal::UtcNow();
   record.objective = base::NameOf(spec.objective);
   record.parameters = SearchedParameters(spec);
-  for (const ExperimentSpec& experiment : ExperimentsOf(spec)) {
-    record.experiments.push_back(MakeExperimentRecord(experiment));
-  }
+  record.experiments = MeasuredExperiments(spec);
   ReferencesOf(record, spec);  // throws where the experiment does not have what is to be met
   return record;
 }
