@@ -59,7 +59,7 @@ void RunPredict(const PredictArguments& arguments) {
     const analysis::Prediction prediction = analysis::Predict(
         view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
     if (prediction.runs.empty() && prediction.num_failed > 0) {
-      throw base::Error(file + ": every run failed, the last because it " + prediction.failure);
+      throw base::Error(file + ": every run failed, the last: " + prediction.failure);
     }
     if (arguments.json) {
       list.push_back(base::ToJson(prediction));
