@@ -7,6 +7,7 @@ import pathlib
 import pty
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -434,6 +435,22 @@ class Progress(unittest.TestCase):
         names = {version["name"] for version in data["versions"]}
         self.assertLessEqual({"its commit", "its compiler", "machine", "hash of the spec"}, names)
         watch.stdout.close()
+
+    # The hint is pasted into a shell, whatever the folder is called.
+    def test_an_interrupted_campaign_names_its_folder_as_a_shell_takes_it(self):
+        out = self.folder / "spec ä"
+        wait = "case $PWD in */0001) ;; *) sleep 3 ;; esac\nawk"
+        (self.folder / "deck/run.sh").write_text(PILE.replace("awk", wait, 1))
+        campaign = subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"],
+                                    stderr=subprocess.PIPE, text=True)
+        self.addCleanup(campaign.kill)
+        while not list(out.glob("trials/0002")):
+            self.assertIsNone(campaign.poll())
+            time.sleep(0.05)
+        campaign.send_signal(signal.SIGINT)
+        said = campaign.communicate(timeout=600)[1]
+        self.assertEqual(campaign.returncode, 130)
+        self.assertIn(f"`talus resume '{out}'` goes on", said)
 
     def test_a_campaign_outlives_the_reader_of_its_progress(self):
         reader, writer = os.pipe()
