@@ -1,13 +1,16 @@
 #include "base/units.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "base/error.h"
 #include "base/replaced.h"
+#include "base/trimmed.h"
 
 namespace talus::base {
 namespace {
@@ -81,13 +84,6 @@ std::span<const Unit> UnitsOf(Dimension dimension) {
   return {};
 }
 
-std::string_view Trim(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 // "µm" → "um", "kg/m³" and "kg/m3" → "kg/m^3", "mm/sec" → "mm/s": as people type them.
 std::string Canonical(std::string_view unit) {
   std::string name(unit);
@@ -118,19 +114,65 @@ std::string Canonical(std::string_view unit) {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
+bool AreDigits(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, IsDigit);
+}
+
+// "1,602" and "12,345,678" with a comma between the groups: one to three digits, no zero first,
+// then three each.
+bool IsGrouped(std::string_view whole, char separator) {
+  constexpr std::size_t kGroup = 3;
+  const std::size_t first = whole.find(separator);
+  if (first == std::string_view::npos || first > kGroup || !AreDigits(whole.substr(0, first)) ||
+      whole.front() == '0') {
+    return false;
+  }
+  for (std::size_t at = first; at < whole.size(); at += kGroup + 1) {
+    const std::string_view group = whole.substr(at + 1, kGroup);
+    if (whole[at] != separator || group.size() != kGroup || !AreDigits(group)) return false;
+  }
+  return true;
+}
+
+// "1,602.5" as "1602.5", and "1.602,5" so, too; none where the groups are not of thousands.
+std::optional<std::string> WithoutGroups(std::string_view number, char separator, char point) {
+  const std::size_t at = number.find(point);
+  const std::string_view whole = number.substr(0, at);
+  if (!IsGrouped(whole, separator)) return std::nullopt;
+  std::string plain(whole);
+  std::erase(plain, separator);
+  if (at == std::string_view::npos) return plain;
+  const std::string_view decimals = number.substr(at + 1);
+  if (!AreDigits(decimals)) return std::nullopt;
+  return plain + "." + std::string(decimals);
+}
+
+// What a number with a comma may be meant as: a decimal, or one with its thousands apart.
+std::string CommaAdvice(std::string_view sign, std::string_view number, std::string_view unit) {
+  const auto whole = [&](const std::string& plain) {
+    return "\"" + std::string(sign) + plain + std::string(unit) + "\"";
+  };
+  const std::size_t comma = number.find(',');
+  if (comma == std::string_view::npos) return "its exponent without one";
+  const auto by_commas = WithoutGroups(number, ',', '.');
+  if (AreDigits(number.substr(0, comma)) && AreDigits(number.substr(comma + 1))) {
+    const std::string decimal = Replaced(number, ",", ".");
+    return whole(decimal) + " with a point" +
+           (by_commas ? ", or " + whole(*by_commas) + " if the comma parts thousands" : "");
+  }
+  const auto plain = by_commas ? by_commas : WithoutGroups(number, '.', ',');
+  return plain ? whole(*plain) + " without" : "it with one point at most";
+}
+
 // "1,602 g" would be 1 with the unit ",602 g": the comma of a decimal, or of thousands.
-void RefuseComma(std::string_view text, std::string_view number, std::string_view rest) {
+void RefuseComma(std::string_view text, std::string_view trimmed, std::string_view rest) {
   if (rest.size() < 2 || rest.front() != ',' || !IsDigit(rest[1])) return;
-  const std::string whole(number);
-  const std::string after(rest.substr(1));
-  const bool of_thousands = after.find_first_of(",.") != std::string::npos;
-  std::string digits = after;
-  std::erase(digits, ',');
-  const std::string without = "\"" + whole + digits + "\"";
+  const std::string_view sign = trimmed.substr(0, trimmed.front() == '-' ? 1 : 0);
+  const std::string_view unsigned_text = trimmed.substr(sign.size());
+  const std::size_t end =
+      std::min(unsigned_text.find_first_not_of("0123456789.,"), unsigned_text.size());
   throw ConfigError("\"" + std::string(text) + "\" has a comma in its number; write " +
-                    (of_thousands ? without + " without"
-                                  : "\"" + whole + "." + after + "\" with a point, or " + without +
-                                        " if the comma parts thousands"));
+                    CommaAdvice(sign, unsigned_text.substr(0, end), unsigned_text.substr(end)));
 }
 
 }  // namespace
@@ -140,7 +182,7 @@ std::string_view SiUnit(Dimension dimension) {
 }
 
 double ParseQuantity(std::string_view text, Dimension dimension) {
-  const std::string_view trimmed = Trim(text);
+  const std::string_view trimmed = Trimmed(text);
   double value = 0;
   const auto [end, status] =
       std::from_chars(trimmed.data(), trimmed.data() + trimmed.size(), value);
@@ -148,8 +190,8 @@ double ParseQuantity(std::string_view text, Dimension dimension) {
     Refuse(text, dimension, "does not start with a number");
   }
   const std::string_view rest = trimmed.substr(static_cast<std::size_t>(end - trimmed.data()));
-  RefuseComma(text, trimmed.substr(0, trimmed.size() - rest.size()), rest);
-  const std::string_view name = Trim(rest);
+  RefuseComma(text, trimmed, rest);
+  const std::string_view name = Trimmed(rest);
   if (name.empty()) return value;
   const std::string canonical = Canonical(name);
   for (const Unit& unit : UnitsOf(dimension)) {

@@ -97,7 +97,8 @@ class Trace {
   void Look(optimizer::ScalarFitter& fitter) {
     const optimizer::History history = optimizer::MakeHistory(told_, D);
     const optimizer::Feasibility feasibility(history);
-    const optimizer::TransformedModel model(fitter.Fit(history, false).process);
+    const optimizer::TransformedModel model(
+        fitter.Fit(history, false, optimizer::FitFor::kSearch).process);
     const optimizer::ModelView view{.model = model,
                                     .feasibility = feasibility,
                                     .domain = domain_,

@@ -117,6 +117,7 @@ std::string Ask(const Question& question, const std::string& kept) {
 std::string WordsOf(const campaign::TestQuestion& question) {
   const std::string words = "  " + question.key + ", " + question.words;
   switch (question.part) {
+    case campaign::TestPart::kName:
     case campaign::TestPart::kMass:
       return words + " (Enter: the same)";
     case campaign::TestPart::kOption:
@@ -129,10 +130,21 @@ std::string WordsOf(const campaign::TestQuestion& question) {
          "; Enter: not measured)";
 }
 
+// An answer with the unit that the bench has, not the SI's: nobody reads 28 rad.
+std::string ExampleOf(const campaign::TestQuestion& question) {
+  if (!question.usual.empty()) return question.usual;
+  if (question.dimension == base::Dimension::kAngle) return "28 deg";
+  if (question.dimension == base::Dimension::kMass) return "1.5 g";
+  if (question.dimension == base::Dimension::kLength) return "12 mm";
+  if (question.dimension == base::Dimension::kMassRate) return "3 g/s";
+  if (question.dimension == base::Dimension::kDensity) return "1480 kg/m^3";
+  return "1 " + std::string(base::SiUnit(question.dimension));
+}
+
 std::string AskOf(const campaign::TestQuestion& question) {
   return AskUntil(WordsOf(question), "", true, [&](const std::string& answer) {
     campaign::CheckAnswer(question, answer);
-    RequireUnit(answer, question.dimension, "1 " + std::string(base::SiUnit(question.dimension)));
+    RequireUnit(answer, question.dimension, ExampleOf(question));
   });
 }
 
@@ -146,15 +158,31 @@ void AskTests(SpecAnswers& answers) {
     if (name.empty()) return;
     try {
       campaign::DraftTest test = campaign::ParseDraftTest(name);
-      for (const campaign::TestQuestion& question : campaign::QuestionsOf(test.kind)) {
+      for (const campaign::TestQuestion& question : campaign::QuestionsOf(test.kind, answers)) {
+        if (!question.is_asked || !test.Answer(question.key).empty()) continue;
         test.answers.emplace_back(question.key, AskOf(question));
       }
-      campaign::DraftTestText(test);
+      campaign::RequireNumber(test);
       answers.tests.push_back(std::move(test));
     } catch (const base::ConfigError& error) {
       std::cerr << error.what() << '\n';
     }
   }
+}
+
+// "--test drum: angle.value: …" of "experiments[1].angle.value: …", after a photographed heap.
+std::string WithTest(const std::string& line, const SpecAnswers& answers) {
+  const std::size_t num_heaps = answers.HasPhotographs() ? 1 : 0;
+  for (std::size_t i = 0; i < answers.tests.size(); ++i) {
+    const std::string place = "experiments[" + std::to_string(i + num_heaps) + "].";
+    if (!line.starts_with(place)) continue;
+    std::string_view key = std::string_view(line).substr(place.size());
+    for (const std::string_view section : {"rig.", "device."}) {
+      if (key.starts_with(section)) key.remove_prefix(section.size());
+    }
+    return "--test " + std::string(base::NameOf(answers.tests[i].kind)) + ": " + std::string(key);
+  }
+  return line;
 }
 
 }  // namespace
@@ -191,8 +219,9 @@ void Complete(SpecAnswers& answers) {
                                       question.example + "\"");
     }
   }
+  if (asks && problems.empty() && answers.tests.empty()) AskTests(answers);
+  campaign::RequireRead(answers, problems);
   problems.ThrowIfAny();
-  if (asks && answers.tests.empty()) AskTests(answers);
 }
 
 bool AskAgain(SpecAnswers& answers) {
@@ -208,7 +237,8 @@ bool AskAgain(SpecAnswers& answers) {
   return static_cast<bool>(std::cin);
 }
 
-std::string ProblemsByFlag(const std::string& problems, const std::string& out) {
+std::string ProblemsByFlag(const std::string& problems, const SpecAnswers& answers,
+                           const std::string& out) {
   std::istringstream lines(problems);
   std::string text;
   for (std::string line; std::getline(lines, line);) {
@@ -217,7 +247,7 @@ std::string ProblemsByFlag(const std::string& problems, const std::string& out) 
       const std::string key = std::string(question.key) + ":";
       if (line.starts_with(key)) line.replace(0, key.size(), std::string(question.flag) + ":");
     }
-    text += (text.empty() ? "" : "\n") + line;
+    text += (text.empty() ? "" : "\n") + WithTest(line, answers);
   }
   return text;
 }

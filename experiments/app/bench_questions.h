@@ -27,7 +27,8 @@ bool AskAgain(campaign::SpecAnswers& answers);
 
 // What is wrong with a spec of these answers, which is no file yet: without the lines of `out`, and
 // with the flag in place of the key that it is the answer of.
-std::string ProblemsByFlag(const std::string& problems, const std::string& out);
+std::string ProblemsByFlag(const std::string& problems, const campaign::SpecAnswers& answers,
+                           const std::string& out);
 
 // The answers as the flags that would give them again: " --mass '1.5 g' …".
 std::string AnswerFlags(const campaign::SpecAnswers& answers);

@@ -143,10 +143,11 @@ void GoOn(const std::filesystem::path& folder, const campaign::ResumeOptions& op
   const Ended ended = RunCampaign(folder, options, tell);
   switch (ended.end) {
     case campaign::CampaignEnd::kInterrupted:
-      throw base::Interrupted("interrupted; `talus resume " + folder.string() + "` goes on");
+      throw base::Interrupted("interrupted; `talus resume " + base::ShellWord(folder.string()) +
+                              "` goes on");
     case campaign::CampaignEnd::kFailed:
-      throw base::Error("the campaign has no result; `talus status " + folder.string() +
-                        "` says why");
+      throw base::Error("the campaign has no result; `talus status " +
+                        base::ShellWord(folder.string()) + "` says why");
     case campaign::CampaignEnd::kFinished:
       break;
   }

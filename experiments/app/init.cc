@@ -10,10 +10,12 @@
 #include "base/files/file.h"
 #include "base/json/json_file.h"
 #include "base/problems.h"
+#include "base/text/number_text.h"
 #include "experiments/app/bench_questions.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/spec/campaign_spec.h"
 #include "experiments/campaign/spec/spec_draft.h"
+#include "imaging/photos/experiment.h"
 #include "imaging/photos/photo_set.h"
 
 namespace talus::app {
@@ -80,6 +82,33 @@ void FindPhotographs(const InitArguments& arguments, campaign::SpecAnswers& answ
   answers.folder = SeenFrom(arguments.out, first);
 }
 
+// Without a plate the table counts as far as `measure` has it, which the simulated plate is as wide
+// as: a little farther than the heap reaches.
+void MeasureTable(const std::filesystem::path& out, campaign::SpecAnswers& answers) {
+  if (!answers.HasPhotographs() || answers.scale.empty() || !answers.plate_diameter.empty()) return;
+  const auto folder = std::filesystem::absolute(out).parent_path();
+  imaging::ExperimentOptions options;
+  options.pattern = answers.pattern;
+  options.scale = answers.scale;
+  if (!answers.folder.empty()) options.photos = folder / answers.folder;
+  options.runs = answers.runs;
+  for (imaging::PhotoRun& run : options.runs) {
+    for (auto& photo : run.photos) photo = folder / photo;
+  }
+  try {
+    const imaging::Experiment heap = imaging::MeasureExperiment(options);
+    answers.plate_diameter = base::ShortNumber(1e3 * heap.aehp.frame.plate_diameter) + " mm";
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError(std::string(error.what()) +
+                            "\n--plate-diameter: is missing, and these photographs do not give "
+                            "it; write how wide the part of the table is that counts, such as 1.1 "
+                            "times the heap");
+  }
+  std::cout << "the table counts over " << answers.plate_diameter
+            << ", 1.1 times the heap, and the simulated plate is as wide (another with "
+               "--plate-diameter)\n";
+}
+
 // A folder of photographs, if some were taken; there may be other tests only.
 void AskForPhotographs(InitArguments& arguments) {
   while (std::cin && arguments.photos.empty()) {
@@ -108,7 +137,7 @@ std::string CheckedSpec(const campaign::SpecAnswers& answers, const std::filesys
   try {
     campaign::ReadCampaignSpec(file);
   } catch (const base::ConfigError& error) {
-    throw base::ConfigError(ProblemsByFlag(error.what(), out.string()));
+    throw base::ConfigError(ProblemsByFlag(error.what(), answers, out.string()));
   }
   return text;
 }
@@ -143,6 +172,7 @@ void Init(InitArguments& arguments) {
         "more");
   }
   if (!arguments.photos.empty()) FindPhotographs(arguments, answers);
+  MeasureTable(arguments.out, answers);
   std::string text;
   try {
     Complete(answers);
@@ -178,7 +208,8 @@ void AddInitCommand(CLI::App& app) {
   verb->add_option(
       "--scale", arguments->answers.scale,
       "of a heap on a table without a plate: two points in pixels and the length between "
-      "them, such as \"104,310-884,312=30mm\"");
+      "them, such as \"104,310-884,312=30mm\"; --plate-diameter is then the part of the table "
+      "that counts, by default 1.1 times the heap");
   verb->add_flag("--cohesive", arguments->answers.cohesive,
                  "search the surface energy, too: fine or moist powder");
   verb->add_option("--test", arguments->tests,

@@ -59,7 +59,7 @@ void RunPredict(const PredictArguments& arguments) {
     const analysis::Prediction prediction = analysis::Predict(
         view, options, campaign::MakeParts(view.spec, analysis::PredictFolder(view.folder.root)));
     if (prediction.runs.empty() && prediction.num_failed > 0) {
-      throw base::Error(file + ": every run failed, the last because it " + prediction.failure);
+      throw base::Error(file + ": every run failed, the last: " + prediction.failure);
     }
     if (arguments.json) {
       list.push_back(base::ToJson(prediction));
@@ -94,9 +94,10 @@ void AddPredictCommand(CLI::App& app) {
                    "campaign's that --budget affords")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--budget", arguments->budget,
-                      "core time for the runs of one case, such as \"10 min\"; one run a draw and seed at the "
-                      "case's own scale factor is made whatever it takes; default: 150 s");
+  command->add_option(
+      "--budget", arguments->budget,
+      "core time for the runs of one case, such as \"10 min\"; one run a draw and seed at the "
+      "case's own scale factor is made whatever it takes; default: 150 s");
   CLI::Option* set = command->add_option(
       "--set", arguments->set, "NAME=VALUE of every calibrated parameter: by this set alone");
   set->excludes(draws);

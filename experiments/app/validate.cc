@@ -2,11 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "base/json/json_reader.h"
+#include "base/text/counted.h"
 #include "base/text/number_text.h"
 #include "engine/scene/scene_json.h"
 #include "experiments/analysis/design/design_spec.h"
@@ -51,6 +53,16 @@ bool IsNuisance(const campaign::CampaignSpec& spec, const std::string& name) {
                              [&](const auto& p) { return p.name == name && p.is_nuisance; });
 }
 
+// An objective is of images; numbers alone are met by their errors.
+std::string AimText(const campaign::CampaignSpec& spec) {
+  long long num_numbers = 0;
+  for (const campaign::ExperimentSpec& e : campaign::ExperimentsOf(spec)) {
+    if (e.images.HasImages()) return "minimising " + std::string(base::NameOf(spec.objective));
+    num_numbers += std::ssize(campaign::ScalarsOf(e));
+  }
+  return "meeting " + base::Counted(num_numbers, "number");
+}
+
 void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
                    const campaign::CampaignSpec& spec) {
   const std::map<std::string, std::string> priors = campaign::PriorTexts(*spec.parameters);
@@ -63,7 +75,7 @@ void PrintSearched(const std::vector<journal::ParameterRecord>& parameters,
     }
     std::cout << (IsNuisance(spec, p.name) ? " (nuisance);" : ";");
   }
-  std::cout << " minimising " << base::NameOf(spec.objective) << '\n';
+  std::cout << ' ' << AimText(spec) << '\n';
 }
 
 // Photographs that are not there yet need not keep the cost from being planned.

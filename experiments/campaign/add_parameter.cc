@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/problems.h"
+#include "base/text/joined.h"
 #include "base/text/number_text.h"
 #include "experiments/campaign/folder/repair.h"
 #include "experiments/campaign/start.h"
@@ -82,13 +83,19 @@ AddedParameter ParseAddedParameter(const std::string& text) {
   const std::vector<std::string> names = NamesOfAll();
   if (std::ranges::count(names, added.name) == 0) {
     throw base::ConfigError("--search: \"" + added.name + "\" is no parameter" +
-                            base::DidYouMean(added.name, names));
+                            base::DidYouMean(added.name, names) + "; there are " +
+                            base::Joined(names, ", "));
   }
   try {
     added.low = ParseProperty(added.name, text.substr(equals + 1, dots - equals - 1));
     added.high = ParseProperty(added.name, text.substr(dots + 2));
   } catch (const base::ConfigError& error) {
     throw base::ConfigError("--search: " + added.name + ": " + error.what());
+  }
+  if (!(added.low < added.high)) {
+    throw base::ConfigError("--search: " + text +
+                            ": the low end must be below the high one; write " + added.name +
+                            "=LOW..HIGH");
   }
   return added;
 }

@@ -3,6 +3,7 @@
 
 #include "base/files/file.h"
 #include "base/json/json_writer.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/answer/conclude.h"
 #include "experiments/campaign/answer/describe_posterior.h"
 #include "experiments/campaign/answer/remains.h"
@@ -21,8 +22,9 @@ bool Campaign::StayEnded() {
   }
   if (before.state != "finished" || before.result_json.empty()) return false;
   planner_.StopSearch(ParseAnswer(before.result_json).stop);
-  console_.Line("it has ended: " + before.stop_reason + "; `talus resume " + folder_.root.string() +
-                " --add-simulations " + std::to_string(kMoreSimulations) + "` goes on");
+  console_.Line("it has ended: " + before.stop_reason + "; `talus resume " +
+                base::ShellWord(folder_.root.string()) + " --add-simulations " +
+                std::to_string(kMoreSimulations) + "` goes on");
   return true;
 }
 

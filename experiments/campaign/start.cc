@@ -9,6 +9,8 @@
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/joined.h"
+#include "base/text/shell_text.h"
 #include "base/version.h"
 #include "experiments/campaign/add_parameter.h"
 #include "experiments/campaign/earlier_posterior.h"
@@ -181,7 +183,7 @@ constexpr std::string_view kMayBeThere[] = {"campaign.lock", kCopiesFolder};
 void RequireNewFolder(const CampaignFolder& folder, const fs::path& shown) {
   if (fs::exists(journal::JournalPath(folder.root)) || fs::exists(folder.campaign())) {
     throw base::ConfigError(shown.string() + ": holds a campaign already; `talus resume " +
-                            shown.string() +
+                            base::ShellWord(shown.string()) +
                             "` goes on with it, or name another folder with --out");
   }
   if (base::HoldsOnly(folder.root, kMayBeThere)) return;
@@ -214,6 +216,22 @@ void WriteCampaign(const CampaignFolder& folder, const journal::CampaignRecord& 
   for (const std::string& message : messages) journal.AddEvent("reuse", 0, message);
 }
 
+// Photographs that cannot be used are named for all experiments at once.
+std::vector<journal::ExperimentRecord> MeasuredExperiments(const CampaignSpec& spec) {
+  std::vector<journal::ExperimentRecord> records;
+  std::vector<std::string> faults;
+  const auto num_experiments = static_cast<int>(ExperimentsOf(spec).size());
+  for (int e = 0; e < num_experiments; ++e) {
+    try {
+      records.push_back(MakeExperimentRecord(spec, e));
+    } catch (const base::ConfigError& error) {
+      faults.emplace_back(error.what());
+    }
+  }
+  if (!faults.empty()) throw base::ConfigError(base::Joined(faults, "\n"));
+  return records;
+}
+
 }  // namespace
 
 std::vector<journal::ParameterRecord> SearchedParameters(const CampaignSpec& spec) {
@@ -243,10 +261,7 @@ journal::CampaignRecord MakeRecord(const CampaignSpec& spec, const base::JsonFil
   record.created_utc = journal::UtcNow();
   record.objective = base::NameOf(spec.objective);
   record.parameters = SearchedParameters(spec);
-  const auto num_experiments = static_cast<int>(ExperimentsOf(spec).size());
-  for (int e = 0; e < num_experiments; ++e) {
-    record.experiments.push_back(MakeExperimentRecord(spec, e));
-  }
+  record.experiments = MeasuredExperiments(spec);
   ReferencesOf(record, spec);  // throws where the experiment does not have what is to be met
   return record;
 }

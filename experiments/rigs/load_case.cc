@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "base/json/json_reader.h"
 #include "base/text/number_text.h"
@@ -78,6 +79,26 @@ void ValidateLastPicture(const Case& c, base::Problems& problems) {
                        " s at the latest (rules.heap.max_time); take it earlier");
 }
 
+// The key of the length that the grains must fit into.
+struct LengthFinder {
+  double length;
+  std::string key{};
+
+  void operator()(std::string_view name, double value, const base::FieldInfo& info = {}) {
+    if (info.dimension == base::Dimension::kLength && value == length) key = name;
+  }
+  template <class Other>
+  void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
+};
+
+// "rig.diameter", or the rig itself where its vessel is as wide as none of its keys.
+std::string PathOfWidth(const Case& c, double across) {
+  if (c.rig.kind == RigKind::kLiftedTube) return "device.tube_inner_diameter";
+  LengthFinder finder{.length = across};
+  RigOptions::Visit(c.rig, finder);
+  return finder.key.empty() ? "rig" : "rig." + finder.key;
+}
+
 void ValidateWithRig(const Case& c, base::Problems& problems) {
   const RigEntry& entry = EntryOf(c);
   const Vessel vessel = entry.vessel(c);
@@ -86,9 +107,10 @@ void ValidateWithRig(const Case& c, base::Problems& problems) {
   problems.Require(too_many.empty(), "powder.mass", too_many);
   problems.Require(size.num_grains >= 1, "powder.mass", c.powder.mass,
                    "is less than one grain; the coarse graining may be too strong");
-  problems.Require(3 * LargestDiameter(c) < vessel.across,
-                   c.rig.kind == RigKind::kLiftedTube ? "device.tube_inner_diameter" : "rig",
-                   vessel.across, "must be above three (scaled) grain diameters");
+  const double least = 3 * LargestDiameter(c);
+  problems.Require(
+      least < vessel.across, PathOfWidth(c, vessel.across), vessel.across,
+      "must be above three (scaled) grain diameters, " + base::ShortNumber(1e3 * least) + " mm");
   entry.validate(c, problems);
   ValidateLastPicture(c, problems);
   if (c.filling.taps) ValidateTaps(c, *c.filling.taps, "filling.taps", problems);

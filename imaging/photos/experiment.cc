@@ -185,10 +185,10 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
           " degrees, and must be within ±10: turn the photographs, or, as a bare number is in rad, "
           "write \"" +
           base::ShortNumber(tilt) + " deg\" for degrees");
-  problems.Require(
-      !pixel_size ||
-          (*pixel_size > 0 && (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
-      "pixel_size", pixel_size.value_or(0), "must be positive and below an eighth of the plate");
+  problems.Require(!pixel_size || (*pixel_size > 0 &&
+                                   (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
+                   "pixel_size", pixel_size.value_or(0),
+                   "must be positive and below an eighth of the plate; write \"30 um\" for 30 um");
   problems.Require(!pixel_size || *pixel_size >= plate_diameter / kMostPixels, "pixel_size",
                    pixel_size.value_or(0), "must be at least a 20000th of the plate");
   problems.Require(!threshold || (*threshold > 0 && *threshold < 1), "threshold",

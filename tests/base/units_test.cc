@@ -9,6 +9,7 @@ namespace talus::base {
 namespace units_test {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Units, QuantitiesAsPeopleWriteThem) {
   EXPECT_DOUBLE_EQ(ParseQuantity("45 um", Dimension::kLength), 45e-6);
@@ -46,6 +47,12 @@ TEST(Units, ACommaInANumberIsNamedWithWhatToWrite) {
             "\"1,602 g\" has a comma in its number; write \"1.602 g\" with a point, or \"1602 g\" "
             "if the comma parts thousands");
   EXPECT_THAT(ErrorOf("0,35", Dimension::kNone), HasSubstr("write \"0.35\" with a point"));
+  // Only what is a number is advised: a comma of thousands stands before three digits.
+  EXPECT_THAT(ErrorOf("0,5", Dimension::kNone), Not(HasSubstr("thousands")));
+  EXPECT_THAT(ErrorOf("-1.450,0 kg", Dimension::kMass), HasSubstr("write \"-1450.0 kg\" without"));
+  EXPECT_THAT(ErrorOf("1,450,000.5 g", Dimension::kMass), HasSubstr("write \"1450000.5 g\""));
+  EXPECT_THAT(ErrorOf("0.3,5", Dimension::kNone), HasSubstr("write it with one point at most"));
+  EXPECT_THAT(ErrorOf("1e3,5", Dimension::kNone), HasSubstr("write its exponent without one"));
   EXPECT_THAT(ErrorOf("4,386.5 kg/m3", Dimension::kDensity),
               HasSubstr("write \"4386.5 kg/m3\" without"));
   EXPECT_THAT(ErrorOf("3, g", Dimension::kMass), HasSubstr("does not fit here"));

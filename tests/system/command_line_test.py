@@ -7,6 +7,7 @@ import pathlib
 import pty
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -294,6 +295,77 @@ class Progress(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("numbers only", done.stdout)
 
+    # Only what is of photographs needs them: a lifted tube is made with the plate and tube of the flags.
+    def test_init_makes_a_lifted_tube_with_the_flags_of_plate_and_tube(self):
+        text = self.started("--plate-diameter", "20mm", "--tube-diameter", "15mm", "--lift-velocity", "5mm/s",
+                            "--test", "lifted_tube:angle_of_repose_triangle=28deg")
+        for entry in ('"plate_diameter": "20mm"', '"tube_inner_diameter": "15mm"', '"lift_velocity": "5mm/s"'):
+            self.assertIn(entry, text)
+
+    def test_init_takes_every_measurement_of_a_number(self):
+        text = self.started("--test", "drum: angle = 30 deg, angle = 31 deg")
+        self.assertIn('"angle": {"values": ["30 deg", "31 deg"]}', text)
+
+    # Once it took only what it asks for at a terminal.
+    def test_init_takes_every_number_and_option_of_a_rig(self):
+        tests = {"lifted_tube:angle_of_repose_1=30deg,angle_of_repose_2=31deg±1deg,bulk_density=1500kg/m^3":
+                 '"angle_of_repose_2": {"value": "31deg", "sd": "1deg"}',
+                 "tapped_density:poured_density=1400kg/m^3,taps.count=50": '"taps": {"count": 50}',
+                 "shear_cell:stresses=1kPa,stresses=2kPa,internal_friction_angle=30deg,travel=25mm":
+                 '"stresses": ["1kPa", "2kPa"]',
+                 "spreading:mass=50mg,spreader=comb,teeth=2,width=8mm,gap=4mm,length=20mm,packing_fraction=0.4": '"teeth": 2',
+                 "drum:angle=30deg,fill=0.3,start_turns=0.25,camera.frames=20,camera.interval=10ms":
+                 '"camera": {"frames": 20, "interval": "10ms"}',
+                 "funnel_heap:follows=true,height=4mm,angle_of_repose_3=30deg": '"follows": true'}
+        for test, entry in tests.items():
+            self.assertIn(entry, self.started("--test", test), test)
+
+    def test_init_fills_and_names_each_test_as_it_must_be(self):
+        text = self.started("--cohesive", "--test", "drum:angle=30deg", "--test", "drum:angle=33deg,speed=20rpm",
+                            "--test", "drum:angle=35deg,name=fast,speed=25rpm", "--test", "tilting_box:angle=33deg")
+        self.assertEqual(text.count('"filling": {"kind": "dense"}'), 3)  # a closed drum is not poured into
+        self.assertEqual(re.findall(r'{"name": "(.*?)"', text), ["drum", "drum 2", "fast", "tilting box"])
+
+    def test_init_takes_a_share_in_percent(self):
+        self.assertIn('"restitution": "90%"', self.started("--restitution", "90%", "--test", "drum:angle=30deg"))
+
+    # What nothing measures is no objective.
+    def test_numbers_alone_have_no_objective(self):
+        text = self.started("--test", "drum:angle=30deg,angle=31deg")
+        self.assertNotIn("objective", text)
+        spec = self.folder / "started.json"
+        done = talus("validate", str(spec))
+        self.assertIn("; meeting 1 number\n", done.stdout)
+        spec.write_text(text.replace('"seed": 1', '"seed": 1, "trial_time_cap": "1 s"'))
+        self.assertRegex(talus("validate", str(spec)).stdout,
+                         r"warning: drum at scale factor 1: a trial takes about .*, and fails at the trial_time_cap of 1 s")
+        spec.write_text(text.replace('"seed": 1', '"seed": 1, "objective": "aor2"'))
+        done = talus("validate", str(spec))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('objective: "aor2" is of an image', done.stderr)
+
+    # The spec that init writes of numbers alone, which it has read as any campaign would.
+    def started(self, *flags):
+        out = self.folder / "started.json"
+        out.unlink(missing_ok=True)
+        done = talus("init", "--out", str(out), "--mass", "5g", "--density", "2500kg/m^3", "--grain-diameter", "1mm", *flags)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), flags)
+        return out.read_text()
+
+    # Without a plate's width it is that of `measure`.
+    def test_a_heap_on_a_table_is_as_wide_as_it_is_measured(self):
+        grey = [[b"\xff" if y < 150 and abs(x - 200) > y - 60 else b"\0" for x in range(400)] for y in range(200)]
+        photo = self.folder / "table" / "run1_view1.pgm"
+        photo.parent.mkdir()
+        photo.write_bytes(b"P5 400 200 255\n" + b"".join(b"".join(row) for row in grey))
+        out = self.folder / "table.json"
+        flags = ["--tube-diameter", "10 mm", "--lift-velocity", "50 mm/s", "--mass", "1.6 g", "--density", "4386 kg/m^3",
+                 "--grain-diameter", "0.4 mm", "--scale", "0,190-100,190=10mm"]
+        done = talus("init", str(photo.parent), "--out", str(out), *flags)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("the table counts over 20 mm", done.stdout)  # 1.1 times the 18 mm of the heap
+        self.assertEqual(out.read_text().count('"plate_diameter": "20 mm"'), 2)
+
     def test_a_spec_for_a_heap_on_a_table_names_its_scale(self):
         out = self.folder / "table.json"
         flags = ["--plate-diameter", "40 mm", "--tube-diameter", "10 mm", "--lift-velocity", "50 mm/s",
@@ -363,6 +435,22 @@ class Progress(unittest.TestCase):
         names = {version["name"] for version in data["versions"]}
         self.assertLessEqual({"its commit", "its compiler", "machine", "hash of the spec"}, names)
         watch.stdout.close()
+
+    # The hint is pasted into a shell, whatever the folder is called.
+    def test_an_interrupted_campaign_names_its_folder_as_a_shell_takes_it(self):
+        out = self.folder / "spec ä"
+        wait = "case $PWD in */0001) ;; *) sleep 3 ;; esac\nawk"
+        (self.folder / "deck/run.sh").write_text(PILE.replace("awk", wait, 1))
+        campaign = subprocess.Popen([TALUS, "calibrate", self.spec, "--out", out, "--quiet"],
+                                    stderr=subprocess.PIPE, text=True)
+        self.addCleanup(campaign.kill)
+        while not list(out.glob("trials/0002")):
+            self.assertIsNone(campaign.poll())
+            time.sleep(0.05)
+        campaign.send_signal(signal.SIGINT)
+        said = campaign.communicate(timeout=600)[1]
+        self.assertEqual(campaign.returncode, 130)
+        self.assertIn(f"`talus resume '{out}'` goes on", said)
 
     def test_a_campaign_outlives_the_reader_of_its_progress(self):
         reader, writer = os.pipe()

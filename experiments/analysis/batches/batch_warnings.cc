@@ -5,6 +5,7 @@
 
 #include "base/text/number_text.h"
 #include "experiments/campaign/answer/standing_answer.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "experiments/rigs/case/case_text.h"
 
 namespace talus::analysis {
@@ -38,7 +39,8 @@ std::vector<std::string> AlarmsOf(const JointView& batch) {
   const auto answer = campaign::StandingAnswer(batch.folder.root);
   if (!answer) return texts;
   for (const campaign::Alarm& alarm : answer->warnings) {
-    texts.push_back(batch.folder.root.string() + ": " + campaign::AlarmText(alarm));
+    texts.push_back(batch.folder.root.string() + ": " +
+                    campaign::WithFolder(campaign::AlarmText(alarm), batch.folder.root));
   }
   return texts;
 }

@@ -57,13 +57,17 @@ std::string TimeText(double seconds) {
   return seconds < kFew ? ShortNumber(seconds, 2) + " s" : trials::DurationText(seconds);
 }
 
+std::string FillingText(rigs::FillingKind kind) {
+  return kind == rigs::FillingKind::kPour ? "poured" : "filled densely";
+}
+
 std::string TestText(const campaign::JointView& view, const TestCandidate& test,
                      const NextCandidate& judged) {
   const rigs::Case c =
       campaign::TypicalCase(SpecOf(view, test), 0, view.spec.coarse_graining.Levels().front());
   std::string text = "  " + test.name + "\n    " + base::Counted(test.runs, "run") + " of " +
-                     ShortNumber(1e3 * c.powder.mass) + " g, filled " +
-                     std::string(base::NameOf(c.filling.kind)) + "; " + rigs::DeviceText(c) + "\n";
+                     ShortNumber(1e3 * c.powder.mass) + " g, " + FillingText(c.filling.kind) +
+                     "; " + rigs::DeviceText(c) + "\n";
   if (FrameOf(view, test)) {
     text +=
         "    photograph every run from several sides by turning the plate, with light from "

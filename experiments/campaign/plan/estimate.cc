@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 #include "base/text/counted.h"
 #include "base/text/number_text.h"
@@ -129,6 +130,42 @@ std::string TimeText(const CampaignEstimate& e) {
          " trials, " + std::to_string(e.num_workers) + " at a time\n";
 }
 
+// Trials that would be stopped by their time cap.
+std::vector<std::string> TooLongTrials(const CampaignSpec& spec, const CampaignEstimate& e) {
+  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
+  std::vector<std::string> texts;
+  for (const TrialEstimate& trial : e.trials) {
+    const double takes = trial.core_seconds / spec.threads;  // [s]
+    if (takes <= spec.trial_time_cap) continue;
+    texts.push_back(experiments[static_cast<std::size_t>(trial.experiment)].name +
+                    " at scale factor " + base::ShortNumber(trial.scale_factor) +
+                    ": a trial takes about " + trials::DurationText(takes) +
+                    ", and fails at the trial_time_cap of " +
+                    trials::DurationText(spec.trial_time_cap) +
+                    ": raise it, or take coarser grains or more threads");
+  }
+  return texts;
+}
+
+// Where the core time buys few trials at the smallest scale factor.
+std::optional<std::string> FewFineTrials(const CampaignSpec& spec, const CampaignEstimate& e) {
+  // Ten heaps show their own scatter to a quarter: 1/√(2 · 9).
+  constexpr double kEnoughFineTrials = 10;
+  if (!spec.budget.core_time || spec.coarse_graining.Levels().size() < 2) return std::nullopt;
+  const double finest = std::ranges::min(spec.coarse_graining.Levels());
+  double each = 0;  // [s] of one trial of every experiment at the smallest scale factor
+  for (const TrialEstimate& trial : e.trials) {
+    if (trial.scale_factor == finest) each += trial.core_seconds;
+  }
+  const double num_fine = std::floor(*spec.budget.core_time / each);
+  if (num_fine >= kEnoughFineTrials) return std::nullopt;
+  return "even if all of it went there, the core time buys only " +
+         base::Counted(static_cast<long long>(num_fine), "simulation") +
+         " of each experiment at scale factor " + base::ShortNumber(finest) +
+         ", and the answer rests on coarser grains: give it " +
+         trials::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out";
+}
+
 }  // namespace
 
 CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
@@ -159,21 +196,9 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
 }
 
 std::vector<std::string> EstimateWarnings(const CampaignSpec& spec, const CampaignEstimate& e) {
-  // Ten heaps show their own scatter to a quarter: 1/√(2 · 9).
-  constexpr double kEnoughFineTrials = 10;
-  if (!spec.budget.core_time || spec.coarse_graining.Levels().size() < 2) return {};
-  const double finest = std::ranges::min(spec.coarse_graining.Levels());
-  double each = 0;  // [s] of one trial of every experiment at the smallest scale factor
-  for (const TrialEstimate& trial : e.trials) {
-    if (trial.scale_factor == finest) each += trial.core_seconds;
-  }
-  const double num_fine = std::floor(*spec.budget.core_time / each);
-  if (num_fine >= kEnoughFineTrials) return {};
-  return {"even if all of it went there, the core time buys only " +
-          base::Counted(static_cast<long long>(num_fine), "simulation") +
-          " of each experiment at scale factor " + base::ShortNumber(finest) +
-          ", and the answer rests on coarser grains: give it " +
-          trials::DurationText(2 * kEnoughFineTrials * each) + ", or leave that scale factor out"};
+  std::vector<std::string> warnings = TooLongTrials(spec, e);
+  if (const auto few = FewFineTrials(spec, e)) warnings.push_back(*few);
+  return warnings;
 }
 
 std::string EstimateText(const CampaignSpec& spec, const CampaignEstimate& e) {

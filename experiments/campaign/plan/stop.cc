@@ -18,7 +18,7 @@ std::string Stop::Text() const {
       return "the time budget of " + trials::DurationText(value) + " is used";
     case StopKind::kAllFailed:
       return "the first " + std::to_string(std::llround(value)) +
-             " trials all failed, the last because it " + cause;
+             " trials all failed, the last: " + cause;
     case StopKind::kUndefined:
       return "none of the first " + std::to_string(std::llround(value)) + " trials defines \"" +
              cause + "\", which was measured";

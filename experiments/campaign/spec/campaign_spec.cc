@@ -1,11 +1,13 @@
 #include "experiments/campaign/spec/campaign_spec.h"
 
-#include <set>
+#include <algorithm>
+#include <string_view>
 
 #include "base/json/json_changes.h"
 #include "base/json/json_reader.h"
 #include "base/json/json_text.h"
 #include "base/json/json_writer.h"
+#include "base/text/joined.h"
 #include "base/text/name.h"
 #include "experiments/campaign/spec/drum_images.h"
 #include "experiments/journal/record_json.h"
@@ -71,8 +73,6 @@ void CheckTemplates(const CampaignSpec& spec, base::Problems& problems) {
 
 namespace {
 
-constexpr double kFewestAcross = 10;  // grains across the plate
-
 bool IsGiven(const nlohmann::json& root, const char* section, const char* key) {
   return root.contains(section) && root[section].is_object() && root[section].contains(key);
 }
@@ -83,6 +83,41 @@ void CompleteDefaults(CampaignSpec& spec, const nlohmann::json& root) {
   if (spec.budget.core_time && !IsGiven(root, "budget", "simulations")) spec.budget.simulations = 0;
 }
 
+// What only an entry of the list may have beside its images.
+void PointToList(const nlohmann::json& root, base::Problems& problems) {
+  if (!root.contains("experiment") || !root["experiment"].is_object()) return;
+  const auto keys_of = [](const auto& options) {
+    std::vector<std::string> keys;
+    options.Visit(options, [&](std::string_view key, const auto&, const base::FieldInfo& = {}) {
+      keys.emplace_back(key);
+    });
+    return keys;
+  };
+  const std::vector<std::string> of_images = keys_of(imaging::ExperimentOptions{});
+  std::vector<std::string> of_list;
+  for (const std::string& key : keys_of(ExperimentSpec{})) {
+    const bool is_only_there = std::ranges::count(of_images, key) == 0 && key != "name";
+    if (is_only_there && root["experiment"].contains(key)) of_list.push_back(key);
+  }
+  problems.Require(of_list.empty(), "experiment",
+                   "has " + base::Listed(of_list) +
+                       ": numbers and what is a test's own stand in `experiments`, a list: "
+                       "\"experiments\": [{\"name\": \"heap\", …}] in place of \"experiment\"");
+}
+
+// The angles and grey levels of an image, which numbers alone have none of. SAD is every spec's
+// default, and harmless there.
+void RequireObjective(const CampaignSpec& spec, base::Problems& problems) {
+  const std::vector<ExperimentSpec> all = ExperimentsOf(spec);
+  const bool has_image =
+      std::ranges::any_of(all, [](const ExperimentSpec& e) { return e.images.HasImages(); });
+  problems.Require(has_image || all.empty() || spec.objective == journal::Objective::kSad,
+                   "objective",
+                   "\"" + std::string(base::NameOf(spec.objective)) +
+                       "\" is of an image, and no experiment has one: numbers are met by their "
+                       "errors, leave it out");
+}
+
 // Whether every trial has the same objective, as a plain minimiser needs it.
 bool HasOneObjective(const CampaignSpec& spec) {
   const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
@@ -90,65 +125,7 @@ bool HasOneObjective(const CampaignSpec& spec) {
          experiments.front().images.HasImages();
 }
 
-// Points of the cube whose cases are checked: the middle, and both ends of what decides whether the
-// powder fits into its vessel.
-std::vector<Eigen::VectorXd> CheckedPoints(const CampaignSpec& spec) {
-  const optimizer::ParameterSpace space = SpaceOf(spec);
-  const std::vector<int> free = space.Free();
-  const Eigen::VectorXd middle =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
-  std::vector<Eigen::VectorXd> points{middle};
-  for (std::size_t k = 0; k < free.size(); ++k) {
-    if (!IsOfBulk(space.parameters[static_cast<std::size_t>(free[k])].name)) continue;
-    for (const double end : {0.0, 1.0}) {
-      points.push_back(middle);
-      points.back()[static_cast<Eigen::Index>(k)] = end;
-    }
-  }
-  return points;
-}
-
-// A wall's parameter is without effect where no experiment has such a wall.
-void CheckBodies(const CampaignSpec& spec, std::size_t num_experiments, base::Problems& problems) {
-  if (spec.engine.kind != EngineKind::kTalus) return;  // a command may build what it likes
-  std::set<int> bodies{rigs::kPowder};
-  for (std::size_t e = 0; e < num_experiments; ++e) {
-    const rigs::Case rig_case =
-        TypicalCase(spec, static_cast<int>(e), spec.coarse_graining.Levels().front());
-    for (const engine::Wall& wall : rigs::EntryOf(rig_case).walls(rig_case, 0)) {
-      bodies.insert(wall.material);
-    }
-  }
-  for (const optimizer::Parameter& parameter : SpaceOf(spec).parameters) {
-    const int body = PlaceOf(parameter.name).body;
-    problems.Require(bodies.contains(body), "parameters." + parameter.name,
-                     "has no effect: no experiment's rig has a " +
-                         std::string(rigs::kBodyNames[body]) + "; leave it out");
-  }
-}
-
 }  // namespace
-
-void ValidateCases(const CampaignSpec& spec, base::Problems& problems) {
-  const std::vector<ExperimentSpec> experiments = ExperimentsOf(spec);
-  CheckBodies(spec, experiments.size(), problems);
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
-    for (const double factor : spec.coarse_graining.Levels()) {
-      for (const Eigen::VectorXd& point : CheckedPoints(spec)) {
-        rigs::ValidateCase(CaseAt(spec, point, static_cast<int>(e), factor), problems);
-        if (!problems.empty()) return;  // the same for every scale factor
-      }
-      const rigs::Case rig_case = TypicalCase(spec, static_cast<int>(e), factor);
-      if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) continue;
-      const double across = rigs::GrainsAcrossPlate(rig_case);
-      problems.Require(across >= kFewestAcross, "coarse_graining",
-                       "leaves " + std::to_string(across).substr(0, 4) +
-                           " grains across the plate of \"" + experiments[e].name +
-                           "\" at scale factor " + std::to_string(factor).substr(0, 4) +
-                           ", must be 10 or more: their heap says nothing of the powder");
-    }
-  }
-}
 
 void BudgetOptions::Validate(base::Problems& problems) const {
   problems.Require(
@@ -258,8 +235,10 @@ CampaignSpec ReadCampaignSpec(const base::JsonFile& file) {
   if (!spec.parameters) spec.parameters = UsualRanges(spec.models.adhesion);
   CompleteDefaults(spec, file.root);
   SetDrumDiameters(spec);
+  PointToList(file.root, problems);
   base::TreeValidator(problems).Check(spec);
   if (problems.empty()) {
+    RequireObjective(spec, problems);
     const optimizer::ParameterSpace space = SpaceOf(spec);
     space.Validate(problems);
     problems.Within("strategy", [&] {

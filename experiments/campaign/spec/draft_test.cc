@@ -7,132 +7,171 @@
 #include "base/error.h"
 #include "base/json/json_text.h"
 #include "base/text/joined.h"
-#include "base/text/number_text.h"
-#include "experiments/rigs/case/device_text.h"
-#include "experiments/rigs/rig_list.h"
+#include "base/trimmed.h"
 
 namespace talus::campaign {
 namespace {
-
-// What has a dimension among a rig's options: sizes, speeds, angles.
-struct OptionCollector {
-  std::vector<TestQuestion> questions{};
-
-  void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
-    if (info.dimension == base::Dimension::kNone) return;
-    questions.push_back({.key = std::string(key),
-                         .words = info.doc,
-                         .dimension = info.dimension,
-                         .usual = rigs::QuantityText(value, info.dimension)});
-  }
-  template <class Other>
-  void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
-};
-
-rigs::Case CaseOfKind(rigs::RigKind kind) {
-  rigs::Case rig_case;
-  rig_case.rig.kind = kind;
-  return rig_case;
-}
-
-std::string UsualError(const rigs::ObservableInfo& info) {
-  if (info.usual_error.relative > 0)
-    return base::ShortNumber(100 * info.usual_error.relative) + " %";
-  if (info.usual_error.absolute > 0) {
-    const std::string unit = info.dimension == base::Dimension::kAngle ? " deg" : "";
-    return base::ShortNumber(info.usual_error.absolute) + unit;
-  }
-  return "";
-}
-
-// The lifted tube's own keys stand under `device`.
-void CollectOptions(const rigs::Case& rig_case, OptionCollector& collector) {
-  if (rig_case.rig.kind == rigs::RigKind::kLiftedTube) {
-    rigs::LiftedTubeOptions::Visit(rig_case.rig.lifted_tube, collector);
-    std::erase_if(collector.questions,
-                  [](const TestQuestion& question) { return question.key == "plate_height"; });
-  } else {
-    rigs::RigOptions::Visit(rig_case.rig, collector);
-  }
-}
-
-// A heap without photographs has its angle by hand.
-bool IsAsked(rigs::RigKind kind, const rigs::RigObservable& measured) {
-  return measured.usual || (kind == rigs::RigKind::kLiftedTube &&
-                            measured.observable == rigs::Observable::kReposeTriangle);
-}
 
 std::string Listed(const std::vector<TestQuestion>& questions) {
   return base::Joined(questions, ", ", &TestQuestion::key);
 }
 
-// The standard error of a value: as given after ±, or the usual one of it.
-struct MeasuredText {
-  std::string value;
-  std::string error;
-};
-
-MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) {
-  for (const std::string_view sign : {"±", "+-"}) {
-    const std::size_t at = text.find(sign);
-    if (at == std::string::npos) continue;
-    return {text.substr(0, at), text.substr(at + sign.size())};
-  }
-  if (question.usual_error.empty()) {
-    throw base::ConfigError(question.key + ": give its standard error, too: \"" + text + " ± …\"");
-  }
-  if (!question.usual_error.ends_with('%')) return {text, question.usual_error};
-  // A share of the value, in the value's own unit.
-  const std::size_t number_end = text.find_first_not_of("0123456789.eE+-");
-  const double value = base::ParseQuantity(text.substr(0, number_end), base::Dimension::kNone);
-  const double share = base::ParseQuantity(question.usual_error, base::Dimension::kNone);
-  return {text, base::ShortNumber(share * value) +
-                    (number_end == std::string::npos ? "" : text.substr(number_end))};
+std::string FlagOf(const DraftTest& test) {
+  return "--test " + std::string(base::NameOf(test.kind));
 }
 
 std::string InQuotes(const std::string& text) { return base::JsonText(nlohmann::json(text)); }
 
-// Lines after a test's keys; each comma stands before its line's comment.
-std::string NumberLines(const std::vector<std::string>& numbers) {
-  std::string lines = ",";
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    lines += "\n      " + numbers[i] + (i + 1 < numbers.size() ? "," : "") +
-             " // standard error of the mean";
-  }
-  return lines;
+// Numbers, true and false as they are, all else as a text.
+std::string JsonValue(const std::string& text) {
+  const auto value = nlohmann::json::parse(text, nullptr, false);
+  return value.is_number() || value.is_boolean() ? text : InQuotes(text);
 }
 
-std::string Spaced(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
+// Every answer to a question that says something.
+std::vector<std::string> AnswersTo(const TestQuestion& question, const DraftTest& test) {
+  std::vector<std::string> found;
+  for (const auto& [key, answer] : test.answers) {
+    if (key == question.key && !answer.empty()) found.push_back(answer);
+  }
+  return found;
+}
+
+// "taps" of "taps.count".
+std::string GroupOf(const std::string& key) {
+  const std::size_t dot = key.find('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
+bool HasGroup(const DraftTest& test, const std::string& group) {
+  return std::ranges::any_of(test.answers, [&](const auto& answer) {
+    return GroupOf(answer.first) == group && !answer.second.empty();
+  });
+}
+
+// The value of an option, "" where the rig's own holds without being named.
+std::string OptionValue(const TestQuestion& question, const DraftTest& test) {
+  const std::vector<std::string> given = AnswersTo(question, test);
+  if (question.is_list && !given.empty()) return "[" + base::Joined(given, ", ", JsonValue) + "]";
+  if (!given.empty()) return JsonValue(given.front());
+  const std::string group = GroupOf(question.key);
+  const bool is_open = group.empty() || HasGroup(test, group);
+  return is_open && !question.usual.empty() ? JsonValue(question.usual) : "";
+}
+
+// The rig's options with commas, those of an object within it, such as its taps, in braces.
+std::string OptionsText(const DraftTest& test, const std::vector<TestQuestion>& questions) {
+  std::vector<std::string> options;
+  std::string open;  // group
+  for (const TestQuestion& question : questions) {
+    if (question.part != TestPart::kOption) continue;
+    const std::string value = OptionValue(question, test);
+    if (value.empty()) continue;
+    const std::string group = GroupOf(question.key);
+    const std::string key = group.empty() ? question.key : question.key.substr(group.size() + 1);
+    const std::string entry = InQuotes(key) + ": " + value;
+    if (group.empty()) {
+      options.push_back(entry);
+    } else if (group == open) {
+      options.back().insert(options.back().size() - 1, ", " + entry);
+    } else {
+      options.push_back(InQuotes(group) + ": {" + entry + "}");
+    }
+    open = group;
+  }
+  return base::Joined(options, ", ");
+}
+
+// One value with its error, or every value that was measured.
+std::string NumberText(const TestQuestion& question, const std::vector<std::string>& given) {
+  if (given.size() == 1) {
+    const MeasuredText measured = SplitNumber(question, given.front());
+    return InQuotes(question.key) + ": {\"value\": " + InQuotes(measured.value) +
+           ", \"sd\": " + InQuotes(measured.error) + "}";
+  }
+  for (const std::string& one : given) {
+    if (HasError(one)) {
+      throw base::ConfigError(question.key + ": \"" + one +
+                              "\" stands beside other values, whose scatter gives the error; leave "
+                              "the error away, or give the mean alone with its own");
+    }
+    base::ParseQuantity(one, question.dimension);
+  }
+  return InQuotes(question.key) + ": {\"values\": [" + base::Joined(given, ", ", InQuotes) + "]}";
+}
+
+// Lines after a test's keys; each comma stands before its line's comment.
+std::string NumberLines(const DraftTest& test, const std::vector<TestQuestion>& questions) {
+  std::vector<std::string> lines;
+  std::vector<bool> are_several;
+  for (const TestQuestion& question : questions) {
+    if (question.part != TestPart::kNumber) continue;
+    const std::vector<std::string> given = AnswersTo(question, test);
+    if (given.empty()) continue;
+    try {
+      lines.push_back(NumberText(question, given));
+    } catch (const base::ConfigError& error) {
+      throw base::ConfigError(FlagOf(test) + ": " + error.what());
+    }
+    are_several.push_back(given.size() > 1);
+  }
+  std::string text = ",";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += "\n      " + lines[i] + (i + 1 < lines.size() ? "," : "") +
+            (are_several[i] ? " // their mean and its standard error count"
+                            : " // standard error of the mean");
+  }
+  return text;
+}
+
+// Only what a rig asks for where the campaign's filling does not serve it: a closed drum is not
+// poured into.
+std::string FillingText(rigs::RigKind kind, bool pours) {
+  const bool must_pour =
+      kind == rigs::RigKind::kTappedDensity || kind == rigs::RigKind::kFunnelHeap;
+  if (must_pour) return ",\n      \"filling\": {\"kind\": \"pour\"}";
+  if (kind == rigs::RigKind::kDrum && pours) {
+    return ",\n      \"filling\": {\"kind\": \"dense\"}";
+  }
+  return "";
+}
+
+// "diameter=12 mm" of a test, its key being one of the rig's and given once.
+std::pair<std::string, std::string> ParseAnswer(const std::string& part, const DraftTest& test,
+                                                const std::vector<TestQuestion>& questions) {
+  const std::size_t equals = part.find('=');
+  const std::string key(base::Trimmed(part.substr(0, equals)));
+  const auto question = std::ranges::find(questions, key, &TestQuestion::key);
+  if (equals == std::string::npos && !key.empty() && key.front() >= '0' && key.front() <= '9') {
+    throw base::ConfigError("--test: \"" + key +
+                            "\" stands after a comma, which parts the answers; write a decimal "
+                            "with a point, and a key before each number");
+  }
+  if (equals == std::string::npos || question == questions.end()) {
+    throw base::ConfigError("--test: \"" + std::string(base::Trimmed(part)) +
+                            "\" is no KEY=VALUE of " + std::string(base::NameOf(test.kind)) +
+                            "; its keys are " + Listed(questions));
+  }
+  if (!question->is_list && !test.Answer(key).empty()) {
+    throw base::ConfigError(FlagOf(test) + ": " + key +
+                            " stands there twice; give it once, or --test once more for a further "
+                            "test");
+  }
+  return {key, std::string(base::Trimmed(part.substr(equals + 1)))};
 }
 
 }  // namespace
 
-std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
-  const rigs::Case rig_case = CaseOfKind(kind);
-  OptionCollector collector{.questions = {{.key = "mass",
-                                           .words = "filled in, where it is another one",
-                                           .part = TestPart::kMass,
-                                           .dimension = base::Dimension::kMass}}};
-  CollectOptions(rig_case, collector);
-  for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
-    if (!IsAsked(kind, measured)) continue;
-    const rigs::ObservableInfo& info = rigs::InfoOf(measured.observable);
-    collector.questions.push_back({.key = info.key,
-                                   .words = std::string(info.title) + ", " + info.doc,
-                                   .part = TestPart::kNumber,
-                                   .dimension = info.dimension,
-                                   .usual_error = UsualError(info)});
-  }
-  return collector.questions;
+std::string DraftTest::Answer(const std::string& key) const {
+  const auto found = std::ranges::find(answers, key, &std::pair<std::string, std::string>::first);
+  return found == answers.end() ? "" : found->second;
 }
 
 std::string TestNames() { return base::Joined(base::NamesOf<rigs::RigKind>(), ", "); }
 
 DraftTest ParseDraftTest(const std::string& text) {
   const std::size_t colon = text.find(':');
-  const std::string name = text.substr(0, colon);
+  const std::string name(base::Trimmed(text.substr(0, colon)));
   const auto kind = base::EnumNamed<rigs::RigKind>(name);
   if (!kind) {
     throw base::ConfigError("--test: \"" + name + "\" is no test that can be added; write one of " +
@@ -143,29 +182,11 @@ DraftTest ParseDraftTest(const std::string& text) {
   std::size_t at = colon;
   while (at != std::string::npos) {
     const std::size_t next = text.find(',', at + 1);
-    const std::string part = text.substr(at + 1, next == std::string::npos ? next : next - at - 1);
-    const std::size_t equals = part.find('=');
-    const std::string key = part.substr(0, equals);
-    if (equals == std::string::npos ||
-        std::ranges::find(questions, key, &TestQuestion::key) == questions.end()) {
-      throw base::ConfigError("--test: \"" + part + "\" is no KEY=VALUE of " + name +
-                              "; its keys are " + Listed(questions));
-    }
-    test.answers.emplace_back(key, part.substr(equals + 1));
+    const std::size_t length = next == std::string::npos ? next : next - at - 1;
+    test.answers.push_back(ParseAnswer(text.substr(at + 1, length), test, questions));
     at = next;
   }
   return test;
-}
-
-void CheckAnswer(const TestQuestion& question, const std::string& answer) {
-  if (answer.empty()) return;
-  if (question.part != TestPart::kNumber) {
-    base::ParseQuantity(answer, question.dimension);
-    return;
-  }
-  const MeasuredText measured = SplitNumber(question, answer);
-  base::ParseQuantity(measured.value, question.dimension);
-  base::ParseQuantity(measured.error, question.dimension);
 }
 
 std::string FlagText(const DraftTest& test) {
@@ -179,41 +200,27 @@ std::string FlagText(const DraftTest& test) {
   return text;
 }
 
-std::string DraftTestText(const DraftTest& test) {
-  const std::string kind(base::NameOf(test.kind));
-  std::string options;
-  std::string mass;
-  std::vector<std::string> numbers;
-  for (const TestQuestion& question : QuestionsOf(test.kind)) {
-    const auto given =
-        std::ranges::find(test.answers, question.key, &std::pair<std::string, std::string>::first);
-    const bool is_given = given != test.answers.end() && !given->second.empty();
-    if (question.part == TestPart::kOption) {
-      options += ", " + InQuotes(question.key) + ": " +
-                 InQuotes(is_given ? given->second : question.usual);
-    } else if (is_given && question.part == TestPart::kMass) {
-      mass = ",\n      \"mass\": " + InQuotes(given->second);
-    } else if (is_given) {
-      const MeasuredText measured = SplitNumber(question, given->second);
-      numbers.push_back(InQuotes(question.key) + ": {\"value\": " + InQuotes(measured.value) +
-                        ", \"sd\": " + InQuotes(measured.error) + "}");
-    }
-  }
-  if (numbers.empty()) {
-    std::vector<TestQuestion> asked = QuestionsOf(test.kind);
-    std::erase_if(asked, [](const TestQuestion& q) { return q.part != TestPart::kNumber; });
-    throw base::ConfigError("--test " + kind +
-                            ": needs a number that it has measured: " + Listed(asked));
-  }
+void RequireNumber(const DraftTest& test) {
+  std::vector<TestQuestion> numbers = QuestionsOf(test.kind);
+  std::erase_if(numbers, [](const TestQuestion& q) { return q.part != TestPart::kNumber; });
+  const bool has_one = std::ranges::any_of(
+      numbers, [&](const TestQuestion& number) { return !AnswersTo(number, test).empty(); });
+  if (has_one) return;
+  throw base::ConfigError(FlagOf(test) +
+                          ": needs a number that it has measured: " + Listed(numbers));
+}
+
+std::string DraftTestText(const DraftTest& test, const DraftSurroundings& around) {
+  RequireNumber(test);
   const bool is_tube = test.kind == rigs::RigKind::kLiftedTube;
-  const std::string device =
-      is_tube ? "},\n      \"device\": {\"plate\": \"disc\"" + options + "}" : options + "}";
-  const bool pours =
-      test.kind == rigs::RigKind::kTappedDensity || test.kind == rigs::RigKind::kFunnelHeap;
-  return "    {\"name\": " + InQuotes(Spaced(kind)) +
-         ", // docs/rigs.md has every key\n      \"rig\": {\"kind\": " + InQuotes(kind) + device +
-         mass + (pours ? ",\n      \"filling\": {\"kind\": \"pour\"}" : "") + NumberLines(numbers) +
-         "\n    }";
+  const std::string kind = InQuotes(std::string(base::NameOf(test.kind)));
+  const std::string options = OptionsText(test, around.questions);
+  const std::string mass = test.Answer("mass");
+  return "    {\"name\": " + InQuotes(around.name) +
+         ", // docs/rigs.md has every key\n      \"rig\": {\"kind\": " + kind +
+         (is_tube ? "},\n      \"device\": {" : ", ") + options + "}" +
+         (mass.empty() ? "" : ",\n      \"mass\": " + InQuotes(mass)) +
+         FillingText(test.kind, around.pours) + NumberLines(test, around.questions) + "\n    }";
 }
 
 }  // namespace talus::campaign

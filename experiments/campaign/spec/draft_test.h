@@ -1,40 +1,24 @@
-// A further bulk test for the first spec: any rig, in the words that the bench knows it by.
+// A bulk test for the first spec, as a flag has it: KIND:KEY=VALUE,…
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "base/units.h"
+#include "experiments/campaign/spec/test_questions.h"
+#include "experiments/rigs/options/filling_rule.h"
 #include "experiments/rigs/options/rig_options.h"
 
 namespace talus::campaign {
 
-enum class TestPart {
-  kMass,    // filled in, where it is another one than the campaign's
-  kOption,  // a size or speed of its rig
-  kNumber   // what it has measured
-};
-
-// What is to be known of a test.
-struct TestQuestion {
-  std::string key;    // in the spec: "diameter", "tapped_density"
-  std::string words;  // what it is
-  TestPart part = TestPart::kOption;
-  base::Dimension dimension = base::Dimension::kNone;
-  std::string usual{};        // of the rig's own, with its unit
-  std::string usual_error{};  // of a number, as the bench states it: "0.5 %", "1 deg"
-};
-
-// All of a rig's: its filling and what it is made with, then what it usually measures.
-std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind);
-
-// Throws ConfigError that says what is wrong with an answer and what to write; an empty one is
-// none.
-void CheckAnswer(const TestQuestion& question, const std::string& answer);
-
 struct DraftTest {
   rigs::RigKind kind = rigs::RigKind::kTappedDensity;
-  std::vector<std::pair<std::string, std::string>> answers{};  // by key; with their units
+  // By key, with their units, in the order given; what is a list may stand there several times.
+  std::vector<std::pair<std::string, std::string>> answers{};
+
+  // The first answer; "" where there is none.
+  std::string Answer(const std::string& key) const;
 };
 
 // "tapped_density:diameter=12mm,tapped_density=1480kg/m^3". Throws ConfigError that names the rigs,
@@ -47,7 +31,17 @@ std::string FlagText(const DraftTest& test);
 // The rigs by name, with commas.
 std::string TestNames();
 
+// Throws ConfigError where no number is given.
+void RequireNumber(const DraftTest& test);
+
+// What the spec around a test says of it.
+struct DraftSurroundings {
+  std::string name;                     // of the experiment
+  std::vector<TestQuestion> questions;  // of its rig, whose usual answers count where none is given
+  bool pours = false;                   // the campaign's filling
+};
+
 // Its entry of a spec's `experiments`. Throws ConfigError where no number is given.
-std::string DraftTestText(const DraftTest& test);
+std::string DraftTestText(const DraftTest& test, const DraftSurroundings& around);
 
 }  // namespace talus::campaign

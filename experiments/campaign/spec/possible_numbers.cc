@@ -1,7 +1,10 @@
 #include "experiments/campaign/spec/possible_numbers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 #include "base/text/number_text.h"
 
@@ -10,6 +13,12 @@ namespace {
 
 constexpr double kSteepest = std::numbers::pi / 2;  // [rad]
 constexpr double kLargestAngleError = 0.5;          // [rad]
+constexpr double kDegree = std::numbers::pi / 180;  // [rad]
+
+// Written with three decimals at most, as people write numbers.
+bool IsShort(double number) {
+  return std::abs(1e3 * number - std::round(1e3 * number)) < 1e-6 * (1 + std::abs(number));
+}
 
 // Walks the table of observables.
 struct Checker {
@@ -21,24 +30,56 @@ struct Checker {
                   const base::FieldInfo& = {}) {
     if (!number) return;
     const std::string place = prefix + std::string(key) + ".";
-    const std::string value = place + (number->values ? "values" : "value");
     if constexpr (D == base::Dimension::kAngle) {
-      RequireAngle(value, number->Value(), kSteepest);
-      RequireAngle(number->values ? value : place + "sd", number->StandardError(),
-                   kLargestAngleError);
+      ForEach(*number, place,
+              [&](const std::string& one, double value) { RequireAngle(one, value, kSteepest); });
+      RequireErrorOfAngle(*number, place);
     } else if constexpr (D == base::Dimension::kNone) {
       const double most = rigs::BoundsOf(key).high;  // without a unit key and metric are the same
-      problems.Require(number->Value() <= most, value, number->Value(),
-                       "must be at most 1: it is a share; write \"" +
-                           base::ShortNumber(number->Value()) + " %\" for percent");
+      ForEach(*number, place, [&](const std::string& one, double value) {
+        problems.Require(value <= most, one, value,
+                         "must be at most 1: it is a share; write \"" + base::ShortNumber(value) +
+                             " %\" for percent");
+      });
     }
   }
 
+  // Calls `body` with the place of each number that is written there, and the number.
+  template <class Number, class Body>
+  static void ForEach(const Number& number, const std::string& place, Body&& body) {
+    if (number.value) body(place + "value", *number.value);
+    const std::vector<double> values = number.values.value_or(std::vector<double>{});
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      body(place + "values[" + std::to_string(i) + "]", values[i]);
+    }
+  }
+
+  // What is short in degrees and not in radians was given in degrees.
   void RequireAngle(const std::string& place, double value, double most) {
+    const double degrees = value / kDegree;
+    if (IsShort(degrees) && !IsShort(value)) {
+      problems.Require(value <= most, place,
+                       "is " + base::ShortNumber(degrees) + " deg, must be at most " +
+                           base::ShortNumber(most / kDegree, 2) + " deg");
+      return;
+    }
     problems.Require(value <= most, place, value,
-                     "in rad, which is " + base::ShortNumber(value * 180 / std::numbers::pi) +
+                     "in rad, which is " + base::ShortNumber(degrees) +
                          " degrees; a bare number is in rad: write \"" + base::ShortNumber(value) +
                          " deg\" for degrees");
+  }
+
+  // The scatter of values that are each possible tells of one in another unit.
+  template <class Number>
+  void RequireErrorOfAngle(const Number& number, const std::string& place) {
+    if (!number.values)
+      return RequireAngle(place + "sd", number.StandardError(), kLargestAngleError);
+    const bool possible =
+        std::ranges::all_of(*number.values, [](double value) { return value <= kSteepest; });
+    const double error = number.StandardError();
+    problems.Require(!possible || error <= kLargestAngleError, place + "values",
+                     "have a standard error of " + base::ShortNumber(error / kDegree, 2) +
+                         " deg; is one of them without its unit? a bare number is in rad");
   }
 };
 

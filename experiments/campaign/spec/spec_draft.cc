@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/json/json_text.h"
@@ -19,6 +21,8 @@ namespace {
 constexpr double kFineAcross = rigs::kAdvisedAcross;
 constexpr double kCoarseAcross = 12.5;
 
+constexpr const char* kHeapName = "heap";  // the photographed one's
+
 double Read(const std::string& name, const std::string& text, base::Dimension dimension,
             base::Problems& problems) {
   try {
@@ -32,6 +36,11 @@ double Read(const std::string& name, const std::string& text, base::Dimension di
 }
 
 std::string Quoted(const std::string& text) { return base::JsonText(nlohmann::json(text)); }
+
+// 0.9 as it is, "90 %" as the text that it is.
+std::string NumberOrText(const std::string& text) {
+  return nlohmann::json::parse(text, nullptr, false).is_number() ? text : Quoted(text);
+}
 
 // Halves are fine enough a step.
 double Rounded(double factor) { return std::max(1.0, std::floor(2 * factor) / 2); }
@@ -157,7 +166,7 @@ std::string Searched(const SpecAnswers& answers, const Cohesion& cohesion) {
 }
 
 struct Lengths {
-  double plate = 0;  // diameter [m]; 0 without photographs
+  double plate = 0;  // diameter [m]; 0 where none is given
   double grain = 0;  // median diameter [m]
 };
 
@@ -165,11 +174,13 @@ Lengths LengthsOf(const SpecAnswers& answers) {
   using base::Dimension;
   base::Problems problems;
   Lengths lengths;
-  if (answers.HasPhotographs()) {
-    lengths.plate = Read("--plate-diameter", answers.plate_diameter, Dimension::kLength, problems);
-    Read("--tube-diameter", answers.tube_diameter, Dimension::kLength, problems);
-    Read("--lift-velocity", answers.lift_velocity, Dimension::kVelocity, problems);
-  }
+  const auto read_device = [&](const std::string& flag, const std::string& text, Dimension d) {
+    const bool must_be = answers.HasPhotographs();
+    return must_be || !text.empty() ? Read(flag, text, d, problems) : 0;
+  };
+  lengths.plate = read_device("--plate-diameter", answers.plate_diameter, Dimension::kLength);
+  read_device("--tube-diameter", answers.tube_diameter, Dimension::kLength);
+  read_device("--lift-velocity", answers.lift_velocity, Dimension::kVelocity);
   Read("--mass", answers.mass, Dimension::kMass, problems);
   Read("--density", answers.density, Dimension::kDensity, problems);
   lengths.grain = Read("--grain-diameter", answers.grain_diameter, Dimension::kLength, problems);
@@ -192,6 +203,30 @@ std::string ScaleOf(const SpecAnswers& answers) {
          " // two points in pixels, and their distance\n";
 }
 
+std::string Spaced(std::string_view kind) {
+  std::string name(kind);
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+// Their own, or those of their rigs: "drum", "drum 2", as results tell them apart by name.
+std::vector<std::string> NamesOfTests(const SpecAnswers& answers) {
+  std::set<std::string> taken;
+  if (answers.HasPhotographs()) taken.insert(kHeapName);
+  for (const DraftTest& test : answers.tests) taken.insert(test.Answer("name"));
+  std::vector<std::string> names;
+  for (const DraftTest& test : answers.tests) {
+    names.push_back(test.Answer("name"));
+    if (!names.back().empty()) continue;
+    const std::string usual = Spaced(base::NameOf(test.kind));
+    names.back() = usual;
+    for (int i = 2; !taken.insert(names.back()).second; ++i) {
+      names.back() = usual + " " + std::to_string(i);
+    }
+  }
+  return names;
+}
+
 // The heap alone, or with the other tests of the powder, which one parameter set is to meet; or
 // these alone.
 std::string Experiments(const SpecAnswers& answers) {
@@ -201,11 +236,15 @@ std::string Experiments(const SpecAnswers& answers) {
   std::string text = "  \"experiments\": [\n";
   const char* separator = "";
   if (has_heap) {
-    text += "    {\"name\": \"heap\",\n" + heap + "    }";
+    text += "    {\"name\": " + Quoted(std::string(kHeapName)) + ",\n" + heap + "    }";
     separator = ",\n";
   }
-  for (const DraftTest& test : answers.tests) {
-    text += separator + DraftTestText(test);
+  const std::vector<std::string> names = NamesOfTests(answers);
+  for (std::size_t i = 0; i < answers.tests.size(); ++i) {
+    const DraftTest& test = answers.tests[i];
+    text += separator + DraftTestText(test, {.name = names[i],
+                                             .questions = QuestionsOf(test.kind, answers),
+                                             .pours = answers.cohesive});
     separator = ",\n";
   }
   return text + "\n  ],\n";
@@ -218,10 +257,12 @@ std::string Powder(const SpecAnswers& answers) {
          "heap "
          "notices: docs/validation.md, Softness\n"
          "      \"poisson_ratio\": 0.3" +
-         (answers.restitution.empty() ? "" : ",\n      \"restitution\": " + answers.restitution) +
+         (answers.restitution.empty()
+              ? ""
+              : ",\n      \"restitution\": " + NumberOrText(answers.restitution)) +
          (answers.rolling_damping.empty()
               ? ""
-              : ",\n      \"rolling_damping\": " + answers.rolling_damping) +
+              : ",\n      \"rolling_damping\": " + NumberOrText(answers.rolling_damping)) +
          "\n    },\n"
          "    // a measured distribution makes a better powder: size tables in docs/scene.md\n"
          "    \"sizes\": {\"kind\": \"mono\", \"diameter\": " +
@@ -246,8 +287,8 @@ std::string FactorForNumbers(const SpecAnswers& answers, const Lengths& lengths)
   double mass = base::ParseQuantity(answers.mass, base::Dimension::kMass);
   for (const DraftTest& test : answers.tests) {
     for (const auto& [key, answer] : test.answers) {
-      if (key != "mass" || answer.empty()) continue;
-      mass = std::max(mass, base::ParseQuantity(answer, base::Dimension::kMass));
+      if (key == "mass" && !answer.empty())
+        mass = std::max(mass, base::ParseQuantity(answer, base::Dimension::kMass));
     }
   }
   const double density = base::ParseQuantity(answers.density, base::Dimension::kDensity);
@@ -283,7 +324,7 @@ std::string DraftSpec(const SpecAnswers& answers) {
          Quoted(answers.name) + ",\n" + Experiments(answers) + Powder(answers) + Device(answers) +
          Models(answers.cohesive, cohesion) + CoarseGraining(answers, lengths) +
          Searched(answers, cohesion) +
-         "  \"objective\": \"sad\",\n"
+         (answers.HasPhotographs() ? "  \"objective\": \"sad\",\n" : "") +
          "  // at most; add \"core_time\": \"4 h\" for an evening\n"
          "  \"budget\": {\"simulations\": 60},\n"
          "  \"confirm\": {\"candidates\": 1, \"replicates\": 3},\n  \"seed\": 1\n}\n";

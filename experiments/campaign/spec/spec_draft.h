@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "base/problems.h"
 #include "experiments/campaign/spec/draft_test.h"
 #include "imaging/photos/experiment.h"
 
 namespace talus::campaign {
 
 // Quantities as the user wrote them, with their units. Without photographs the tests alone are what
-// is calibrated on, and the keys of plate and tube are empty.
+// is calibrated on, and the keys of plate and tube are of a lifted tube among them.
 struct SpecAnswers {
   std::string name;
   std::filesystem::path folder;         // of the photographs, or
@@ -31,6 +32,12 @@ struct SpecAnswers {
 
   bool HasPhotographs() const { return !folder.empty() || !runs.empty(); }
 };
+
+// The questions of a test, a lifted tube's with the flags of plate and tube as usual answers.
+std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind, const SpecAnswers& answers);
+
+// Adds a problem for each flag that nothing of this spec would read.
+void RequireRead(const SpecAnswers& answers, base::Problems& problems);
 
 // The text of a spec that `talus validate` accepts: comments say what each part is for and what to
 // change. Throws ConfigError with every answer that cannot be.

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/random.h"
+#include "experiments/campaign/folder/folder_in_text.h"
 #include "tests/experiments/campaign_fixture.h"
 
 namespace talus::analysis {
@@ -207,11 +208,13 @@ TEST_F(BatchesTest, WhatSpeaksAgainstAComparisonIsSaid) {
   std::size_t num_alarms = 0;
   for (const fs::path& folder : {first, slow}) {
     for (const campaign::Alarm& alarm : Result(folder).warnings) {
-      EXPECT_THAT(BatchesText(c), HasSubstr(campaign::AlarmText(alarm)));
+      EXPECT_THAT(BatchesText(c),
+                  HasSubstr(campaign::WithFolder(campaign::AlarmText(alarm), folder)));
       ++num_alarms;
     }
   }
   EXPECT_GT(num_alarms, 0u);
+  EXPECT_THAT(BatchesText(c), testing::Not(HasSubstr(" DIR")));  // commands name the folder
 }
 
 TEST_F(BatchesTest, OtherParametersAreRefused) {

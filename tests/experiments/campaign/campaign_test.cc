@@ -166,7 +166,7 @@ TEST_F(CampaignTest, WhereEveryTrialFailsItEndsEarlyWithTheReason) {
   const std::string marker = (folder / "trials").string();
   EXPECT_EQ(RunFake(folder, {.fail_once = true}), CampaignEnd::kFailed);
   EXPECT_EQ(Trials(folder).size(), 8u);
-  EXPECT_THAT(StatusText(folder), HasSubstr("the first 8 trials all failed"));
+  EXPECT_THAT(StatusText(folder), HasSubstr("the first 8 trials all failed, the last: "));
 }
 
 // The set-up has been mended since: else the campaign could never go on, or its search would keep

@@ -1,0 +1,176 @@
+#include "experiments/campaign/spec/test_questions.h"
+
+#include <optional>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/field.h"
+#include "base/text/number_text.h"
+#include "base/trimmed.h"
+#include "experiments/rigs/case/device_text.h"
+#include "experiments/rigs/rig_list.h"
+
+namespace talus::campaign {
+namespace {
+
+// Walks the options of a rig; those of an object within are "taps.count".
+struct OptionCollector {
+  std::vector<TestQuestion>& questions;
+  std::string prefix{};
+
+  void operator()(std::string_view key, double value, const base::FieldInfo& info = {}) {
+    TestQuestion& question = Add(key, info);
+    question.is_asked = prefix.empty() && info.dimension != base::Dimension::kNone;
+    if (question.is_asked || info.required) {
+      question.usual = rigs::QuantityText(value, info.dimension);
+    }
+  }
+  void operator()(std::string_view key, int value, const base::FieldInfo& info = {}) {
+    TestQuestion& question = Add(key, info);
+    if (info.required) question.usual = std::to_string(value);
+  }
+  void operator()(std::string_view key, bool, const base::FieldInfo& info = {}) { Add(key, info); }
+  void operator()(std::string_view key, const std::vector<double>&,
+                  const base::FieldInfo& info = {}) {
+    Add(key, info).is_list = true;
+  }
+  template <base::NamedEnum T>
+  void operator()(std::string_view key, T, const base::FieldInfo& info = {}) {
+    if (key != "kind") Add(key, info);  // it stands before the colon
+  }
+  template <base::Visitable T>
+  void operator()(std::string_view key, const T& part, const base::FieldInfo& = {}) {
+    T::Visit(part, OptionCollector{questions, prefix + std::string(key) + "."});
+  }
+  // What may be left out is.
+  template <class T>
+  void operator()(std::string_view key, const std::optional<T>& value,
+                  const base::FieldInfo& info = {}) {
+    const std::size_t first = questions.size();
+    (*this)(key, value.value_or(T{}), info);
+    for (std::size_t i = first; i < questions.size(); ++i) {
+      questions[i].usual.clear();
+      questions[i].is_asked = false;
+    }
+  }
+
+ private:
+  TestQuestion& Add(std::string_view key, const base::FieldInfo& info) {
+    return questions.emplace_back(TestQuestion{
+        .key = prefix + std::string(key), .words = info.doc, .dimension = info.dimension});
+  }
+};
+
+rigs::Case CaseOfKind(rigs::RigKind kind) {
+  rigs::Case rig_case;
+  rig_case.rig.kind = kind;
+  return rig_case;
+}
+
+// The lifted tube's own keys stand under `device`. Its heap stands on a disc: no height is asked.
+void CollectOptions(const rigs::Case& rig_case, std::vector<TestQuestion>& questions) {
+  OptionCollector collector{questions};
+  if (rig_case.rig.kind != rigs::RigKind::kLiftedTube) {
+    return rigs::RigOptions::Visit(rig_case.rig, collector);
+  }
+  rigs::LiftedTubeOptions::Visit(rig_case.rig.lifted_tube, collector);
+  for (TestQuestion& question : questions) {
+    if (question.key == "plate") question.usual = base::NameOf(rigs::PlateKind::kDisc);
+    if (question.key != "plate_height") continue;
+    question.usual.clear();
+    question.is_asked = false;
+  }
+}
+
+// A rig without a camera, whose powder is at rest, has no question of one.
+void DropCamera(rigs::RigKind kind, std::vector<TestQuestion>& questions) {
+  if (rigs::IsFilmed(kind)) return;
+  std::erase_if(questions, [](const TestQuestion& q) { return q.key.starts_with("camera."); });
+}
+
+std::string UsualError(const rigs::ObservableInfo& info) {
+  if (info.usual_error.relative > 0)
+    return base::ShortNumber(100 * info.usual_error.relative) + " %";
+  if (info.usual_error.absolute > 0) {
+    const std::string unit = info.dimension == base::Dimension::kAngle ? " deg" : "";
+    return base::ShortNumber(info.usual_error.absolute) + unit;
+  }
+  return "";
+}
+
+// A heap without photographs has its angle by hand.
+bool IsAsked(rigs::RigKind kind, const rigs::RigObservable& measured) {
+  return measured.usual || (kind == rigs::RigKind::kLiftedTube &&
+                            measured.observable == rigs::Observable::kReposeTriangle);
+}
+
+constexpr std::string_view kErrorSigns[] = {"±", "+-"};
+
+}  // namespace
+
+std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
+  const rigs::Case rig_case = CaseOfKind(kind);
+  std::vector<TestQuestion> questions{
+      {.key = "name", .words = "what tables and messages call it", .part = TestPart::kName},
+      {.key = "mass",
+       .words = "filled in, where it is another one",
+       .part = TestPart::kMass,
+       .dimension = base::Dimension::kMass,
+       .is_asked = true}};
+  CollectOptions(rig_case, questions);
+  DropCamera(kind, questions);
+  for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
+    const rigs::ObservableInfo& info = rigs::InfoOf(measured.observable);
+    questions.push_back({.key = info.key,
+                         .words = std::string(info.title) + ", " + info.doc,
+                         .part = TestPart::kNumber,
+                         .dimension = info.dimension,
+                         .usual_error = UsualError(info),
+                         .is_asked = IsAsked(kind, measured),
+                         .is_list = true});
+  }
+  return questions;
+}
+
+bool HasError(const std::string& text) {
+  for (const std::string_view sign : kErrorSigns) {
+    if (text.find(sign) != std::string::npos) return true;
+  }
+  return false;
+}
+
+MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) {
+  for (const std::string_view sign : kErrorSigns) {
+    const std::size_t at = text.find(sign);
+    if (at == std::string::npos) continue;
+    const MeasuredText measured{std::string(base::Trimmed(text.substr(0, at))),
+                                std::string(base::Trimmed(text.substr(at + sign.size())))};
+    base::ParseQuantity(measured.value, question.dimension);
+    base::ParseQuantity(measured.error, question.dimension);
+    return measured;
+  }
+  base::ParseQuantity(text, question.dimension);
+  if (question.usual_error.empty()) {
+    throw base::ConfigError(question.key + ": give its standard error, too: \"" + text +
+                            " ± …\", or every measurement: " + question.key + "=…," + question.key +
+                            "=…");
+  }
+  if (!question.usual_error.ends_with('%')) return {text, question.usual_error};
+  // A share of the value, in the value's own unit.
+  const std::size_t number_end = text.find_first_not_of("0123456789.eE+-");
+  const double value = base::ParseQuantity(text.substr(0, number_end), base::Dimension::kNone);
+  const double share = base::ParseQuantity(question.usual_error, base::Dimension::kNone);
+  return {text, base::ShortNumber(share * value) +
+                    (number_end == std::string::npos ? "" : text.substr(number_end))};
+}
+
+void CheckAnswer(const TestQuestion& question, const std::string& answer) {
+  if (answer.empty()) return;
+  if (question.part == TestPart::kNumber) {
+    SplitNumber(question, answer);
+  } else {
+    base::ParseQuantity(answer, question.dimension);
+  }
+}
+
+}  // namespace talus::campaign
