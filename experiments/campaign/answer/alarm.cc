@@ -90,6 +90,10 @@ std::string AlarmText(const Alarm& a) {
       return "no set fits " + experiment + ": the recommended one is " + value +
              " standard deviations off; " + PriorOf(a) +
              "the contact law, the plate material or the set-up is wrong";
+    case AlarmKind::kAllAlike:
+      return "all " + base::ShortNumber(a.value.value_or(0)) + " simulations of " + experiment +
+             " gave exactly the same, whatever was searched and whatever the seed: does the engine "
+             "read them, or does the test tell nothing here?";
     case AlarmKind::kDisagree:
       return "the experiments disagree: each is met by sets that the others rule out (tension " +
              value + " standard deviations, " + experiment +

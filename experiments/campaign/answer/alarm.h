@@ -16,6 +16,7 @@ enum class AlarmKind {
   kImplausible,  // no set fits `experiment`: the best is `value` standard deviations off; the prior
                  // of `parameter`, where there is one, may keep it away
   kDisagree,     // the experiments pull apart by `value`, `experiment` most
+  kAllAlike,     // all `value` simulations of `experiment` gave the same
   kMisses,       // the recommended set misses `experiment`'s image by `value` noise floors and
                  // `share` of its powder's area, or its `number` by `value` standard errors;
                  // `scale_factor`, where grains are coarser than true ones; `parameter` as above

@@ -22,6 +22,14 @@ constexpr int kFewestLeftOut = 10;       // evaluations that a coverage is judge
 constexpr double kLeastCoverage = 0.75;  // of nominal 90 % regions
 constexpr int kEnoughAtFinest = 12;  // simulations of each experiment (bench/twins/dem_twins.py)
 
+bool GaveTheSame(const journal::TrialRecord& a, const journal::TrialRecord& b) {
+  const auto same = [](const journal::MetricRecord& one, const journal::MetricRecord& other) {
+    const bool both_undefined = std::isnan(one.value) && std::isnan(other.value);
+    return one.name == other.name && (one.value == other.value || both_undefined);
+  };
+  return std::ranges::equal(a.metrics, b.metrics, same);
+}
+
 // The set without the scatter of its simulations, which is what a model of mean heaps predicts.
 double WithoutScatter(const ResultConfirmed& confirmed) {
   if (!confirmed.profile_sad_mm2 || confirmed.num_trials < 2) return confirmed.mean;
@@ -204,6 +212,28 @@ std::vector<Alarm> SearchAlarms(const Answer& answer,
            .value = excess}};
 }
 
+std::vector<Alarm> AlikeAlarms(const std::vector<journal::TrialRecord>& trials,
+                               const std::vector<ResultExperiment>& experiments) {
+  constexpr int kFewest = 6;
+  std::vector<Alarm> alarms;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const journal::TrialRecord* first = nullptr;
+    int count = 0;
+    const bool alike = std::ranges::all_of(trials, [&](const journal::TrialRecord& trial) {
+      if (trial.experiment != static_cast<int>(e) || trial.status != journal::TrialStatus::kOk) {
+        return true;
+      }
+      ++count;
+      if (first == nullptr) first = &trial;
+      return GaveTheSame(*first, trial);
+    });
+    if (!alike || count < kFewest || first->metrics.empty()) continue;
+    alarms.push_back(
+        {.kind = AlarmKind::kAllAlike, .experiment = experiments[e].name, .value = 1.0 * count});
+  }
+  return alarms;
+}
+
 std::vector<Alarm> PosteriorAlarms(const Answer& answer) {
   std::vector<Alarm> alarms;
   if (!answer.posterior) return alarms;
@@ -288,6 +318,7 @@ std::vector<Alarm> BudgetAlarms(const Answer& answer) {
 
 void AddAlarms(const AlarmBasis& basis, Answer& answer) {
   std::vector<Alarm>& alarms = answer.warnings;
+  Append(AlikeAlarms(basis.trials, answer.experiments), alarms);
   Append(MissAlarms(answer), alarms);
   Append(PredictionAlarms(answer), alarms);
   Append(SearchAlarms(answer, basis.trials, basis.references), alarms);

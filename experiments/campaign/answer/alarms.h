@@ -25,6 +25,10 @@ void AddAlarms(const AlarmBasis& basis, Answer& answer);
 // posterior's alarm says so.
 std::vector<Alarm> MissAlarms(const Answer& answer);
 
+// Experiments whose simulations are not told apart by any number.
+std::vector<Alarm> AlikeAlarms(const std::vector<journal::TrialRecord>& trials,
+                               const std::vector<ResultExperiment>& experiments);
+
 // Whether the posterior fits at all, and what it stands on.
 std::vector<Alarm> PosteriorAlarms(const Answer& answer);
 

@@ -20,6 +20,8 @@ constexpr double kMostDiameters = 50;   // height of the filling / tube diameter
 constexpr double kFewestGrains = 20;    // that could make a heap
 constexpr double kLooseFill = 1.02;     // of the mass filled: a balance is that good
 constexpr double kLargestHausner = 3;
+constexpr double kLoosest = 0.02;      // solid fraction; aerogels apart nothing lies as loose
+constexpr double kFastestFlow = 0.02;  // in which all that was filled runs out [s]
 
 // One experiment's keys, to name them in problems.
 class Place {
@@ -38,6 +40,10 @@ void CheckDensity(const std::optional<MeasuredNumber<base::Dimension::kDensity>>
   problems.Require(!bulk || bulk->Value() < grains, place, bulk ? bulk->Value() : 0,
                    "in kg/m^3, must be below the grains' " + base::ShortNumber(grains) +
                        " (powder.material.density): they leave gaps; is one in g/cm^3?");
+  problems.Require(!bulk || bulk->Value() >= kLoosest * grains, place, bulk ? bulk->Value() : 0,
+                   "in kg/m^3, is less than a fiftieth of the grains' " +
+                       base::ShortNumber(grains) + " (powder.material.density); write \"" +
+                       base::ShortNumber(bulk ? bulk->Value() : 0) + " g/cm^3\" for g/cm^3");
 }
 
 void CheckDensities(const MeasuredNumbers& numbers, double grains, const Place& place,
@@ -68,6 +74,13 @@ void CheckMasses(const MeasuredNumbers& numbers, double filled, const Place& pla
   check("mass_on_plate", numbers.Of<Observable::kMassOnPlate>());
   check("mass_fallen", numbers.Of<Observable::kMassFallen>());
   check("mass_left", numbers.Of<Observable::kMassLeft>());
+  const auto& rate = numbers.Of<Observable::kDischargeRate>();
+  problems.Require(!rate || rate->Value() * kFastestFlow <= filled, place("discharge_rate"),
+                   rate ? rate->Value() : 0,
+                   "in kg/s, would empty the " + base::ShortNumber(filled) +
+                       " kg filled in (powder.mass) within " +
+                       base::ShortNumber(rate ? filled / rate->Value() : 0, 2) +
+                       " s; write \"5 g/s\" for grams");
 }
 
 void RequirePlausible(BenchQuantity quantity, double value, const std::string& path,

@@ -43,7 +43,7 @@ TEST(SceneRun, ASphereThatLeavesTheDomainLeavesTheScene) {
 
 TEST(Series, WallsOfOneNameHaveColumnsOfTheirOwn) {
   SceneSpec spec;
-  for (const char* name : {"side", "", "side", "wall1"}) spec.walls.push_back({.name = name});
+  for (const char* name : {"side", "", "side", "wall1"}) spec.walls.emplace_back().name = name;
   const std::string head = Series(spec).Head();
   for (const char* column : {",side_fx_N", ",wall1_fx_N", ",side_2_fx_N", ",wall1_2_fx_N"}) {
     EXPECT_THAT(head, ::testing::HasSubstr(column));

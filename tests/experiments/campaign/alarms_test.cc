@@ -92,6 +92,25 @@ TEST(Alarms, ATrialThatCameOutBetterIsNamed) {
   EXPECT_THAT(SearchAlarms(answer, trials, {EmptyReference(), EmptyReference()}), IsEmpty());
 }
 
+TEST(Alarms, SimulationsThatAreAllAlikeAreNamed) {
+  const auto trials = [](int count, double last) {
+    std::vector<journal::TrialRecord> all(static_cast<std::size_t>(count));
+    for (journal::TrialRecord& trial : all) {
+      trial.status = journal::TrialStatus::kOk;
+      trial.metrics = {{.name = "a", .value = 28, .unit = "deg", .undefined = ""},
+                       {.name = "b", .value = NAN, .unit = "deg", .undefined = "empty"}};
+    }
+    all.back().metrics[0].value = last;
+    return all;
+  };
+  const std::vector<ResultExperiment> heap{{.name = "heap"}};
+  EXPECT_THAT(AlikeAlarms(trials(5, 28), heap), IsEmpty());
+  EXPECT_THAT(AlikeAlarms(trials(8, 28.000001), heap), IsEmpty());
+  const auto alarms = AlikeAlarms(trials(8, 28), heap);
+  ASSERT_THAT(alarms, SizeIs(1));
+  EXPECT_THAT(AlarmText(alarms[0]), HasSubstr("all 8 simulations of \"heap\" gave exactly"));
+}
+
 TEST(Alarms, UnconfirmedPredictionIsHeldAgainstTheTrials) {
   Answer answer = ConfirmedAt(0);
   answer.confirmed.clear();
