@@ -26,11 +26,11 @@ struct BoundWarning {
 struct Answer {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-  Eigen::VectorXd point;               // minimiser of the posterior mean, unit cube
+  Eigen::VectorXd point;  // minimiser of the posterior mean, unit cube
   // NaN where there is no model that knows it.
-  double predicted_value = kUnknown;  // posterior mean there
-  double predicted_sd = kUnknown;     // posterior standard deviation of that mean
-  double noise_sd = kUnknown;         // noise sd of one evaluation there; 0 when deterministic
+  double predicted_value = kUnknown;   // posterior mean there
+  double predicted_sd = kUnknown;      // posterior standard deviation of that mean
+  double noise_sd = kUnknown;          // noise sd of one evaluation there; 0 when deterministic
   std::vector<Range> credible;         // one a parameter, 90 % for all of them together
   Eigen::MatrixXd correlation;         // between parameters, of the posterior of the minimiser
   std::vector<Eigen::VectorXd> tied;   // points that tie with `point` within the noise

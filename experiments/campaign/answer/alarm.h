@@ -33,8 +33,9 @@ enum class AlarmKind {
   kCorrelated,           // `parameter` and `other_parameter` are known together only: `value`
   kBound,                // `parameter` of the recommended set lies on its `side`
   kFewGrains,            // `value` grains across the plate of `experiment` at `scale_factor`
-  kMoreThanFilled,       // `experiment`'s photographs show a heap of `value` times the mass filled
-  kLeftOut,              // from here on photographs of `experiment`, one of them or all
+  kMoreThanFilled,       // from here on the words are those of who measured the photographs: they
+                         // show a heap of `value` times the mass filled in
+  kLeftOut,              // … of `experiment`, one photograph or all
   kUnread,
   kSeveralHeaps,
   kRunDisagrees,
