@@ -189,9 +189,13 @@ CampaignEstimate EstimateCampaign(const CampaignSpec& spec) {
   const double search = spec.budget.simulations > 0 ? dearest * spec.budget.simulations
                                                     : spec.budget.core_time.value_or(0);
   e.proposal_time = ProposalTime(NumSearchTrials(spec.budget, e.trials));
+  // More workers than this machine has cores wait for one another (CoresWarning).
+  const bool is_here = spec.runner.kind == RunnerKind::kLocal;
+  const int at_once =
+      is_here ? std::clamp(NumCores() / CoresOfTrial(spec), 1, e.num_workers) : e.num_workers;
   e.campaign_time = (std::min(search, spec.budget.core_time.value_or(search)) +
                      e.confirm_time * num_confirming + e.proposal_time) /
-                    e.num_workers;
+                    at_once;
   return e;
 }
 
