@@ -128,9 +128,9 @@ endfunction()
 # talus_add_test(folder/name_test libraries... [ALONE] [LABELS slow|slowest] [TIMEOUT seconds] [DEPENDS target])
 # One CTest test from one file. Where CMAKE_UNITY_BUILD is on, the files of a folder are one program, since reading
 # the headers is most of what a test costs to compile: so each file has a namespace and suites of its own. ALONE: a
-# program of its own all the same. Label "slow", for what takes a core more than 8 s, keeps it out of the quick part
-# of the suite, "slowest" out of what the address sanitizer's preset runs, too; label "threads" puts it into what the
-# thread sanitizer's preset builds and runs.
+# program of its own all the same. Label "slow" keeps it out of the quick part of the suite, which is to take two
+# minutes, "slowest" out of what the address sanitizer's preset runs, too; label "threads" puts it into what the thread
+# sanitizer's preset builds and runs.
 function(talus_add_test path)
   cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "LABELS;DEPENDS" ${ARGN})
   set(source ${PROJECT_SOURCE_DIR}/tests/${path}.cc)

@@ -8,6 +8,7 @@
 #include "base/json/json_reader.h"
 #include "base/problems.h"
 #include "base/text/number_text.h"
+#include "experiments/campaign/plan/stop.h"
 #include "optimizer/space/point_rows.h"
 
 namespace talus::python {
@@ -33,14 +34,13 @@ void RequireInside(const optimizer::Parameter& parameter, double native, double 
 // A fixed value, or one of the levels: the strategy has no other.
 void RequireKnown(const optimizer::Parameter& parameter, double native, double nearest) {
   if (!parameter.fixed && parameter.levels.empty()) return;
-  if (std::abs(native - nearest) <= 1e-9 * std::max(std::abs(native), std::abs(nearest))) return;
+  const double range = parameter.fixed ? 1 : parameter.highest() - parameter.lowest();
+  if (std::abs(native - nearest) <= 1e-9 * std::max(std::abs(nearest), range)) return;
   throw base::ConfigError(parameter.name + ": " + base::ShortNumber(native) +
                           (parameter.fixed ? " is not what it is fixed at, "
                                            : " is none of its levels; the nearest is ") +
                           base::ShortNumber(nearest));
 }
-
-constexpr int kFailuresToGiveUp = 8;  // as the first of all: what is evaluated does not work
 
 constexpr double kLargestPixel = 1e12;  // in whatever unit of area the user has
 
@@ -175,7 +175,7 @@ void Strategy::Learn(optimizer::Observation observation) {
 
 std::optional<std::string> Strategy::StopReason() {
   return Asleep([&]() -> std::optional<std::string> {
-    if (num_succeeded_ == 0 && num_failed_ >= kFailuresToGiveUp) {
+    if (num_succeeded_ == 0 && num_failed_ >= static_cast<int>(campaign::kFailuresToGiveUp)) {
       return "the first " + std::to_string(num_failed_) + " evaluations all failed";
     }
     if (is_exhausted_) return "the strategy has no more points";

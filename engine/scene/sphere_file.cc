@@ -96,7 +96,7 @@ class SphereTable {
         .angular_velocity = {Number("wx_rad_per_s"), Number("wy_rad_per_s"),
                              Number("wz_rad_per_s")}};
     if (!by_radius && Find("radius_m") &&
-        std::abs(2 * Number("radius_m") - sphere.diameter) > 1e-6 * sphere.diameter) {
+        std::abs(2 * Number("radius_m") - sphere.diameter) > 1e-3 * sphere.diameter) {
       RefuseLine("diameter_m is not twice radius_m; leave one of them out");
     }
     if (!(sphere.diameter > 0)) RefuseLine("a sphere's diameter must be positive");

@@ -11,6 +11,7 @@
 #include "base/json/json_file.h"
 #include "base/problems.h"
 #include "base/text/number_text.h"
+#include "base/text/shell_text.h"
 #include "experiments/app/bench_questions.h"
 #include "experiments/app/commands.h"
 #include "experiments/campaign/spec/campaign_spec.h"
@@ -98,11 +99,13 @@ void MeasureTable(const std::filesystem::path& out, campaign::SpecAnswers& answe
   try {
     const imaging::Experiment heap = imaging::MeasureExperiment(options);
     answers.plate_diameter = base::ShortNumber(1e3 * heap.aehp.frame.plate_diameter) + " mm";
-  } catch (const base::ConfigError& error) {
+  } catch (const imaging::UnusablePhotosError& error) {
     throw base::ConfigError(std::string(error.what()) +
                             "\n--plate-diameter: is missing, and these photographs do not give "
                             "it; write how wide the part of the table is that counts, such as 1.1 "
                             "times the heap");
+  } catch (const base::ConfigError& error) {
+    throw base::ConfigError("--scale: " + std::string(error.what()));
   }
   std::cout << "the table counts over " << answers.plate_diameter
             << ", 1.1 times the heap, and the simulated plate is as wide (another with "
@@ -186,7 +189,7 @@ void Init(InitArguments& arguments) {
   }
   base::WriteFileAtomically(arguments.out, text);
   std::cout << arguments.out.string() << ": written; read its comments, then `talus validate "
-            << arguments.out.string() << "` says what it will cost\n";
+            << base::ShellWord(arguments.out.string()) << "` says what it will cost\n";
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "experiments/campaign/record/stored.h"
 #include "experiments/campaign/reuse.h"
 #include "experiments/campaign/spec/drum_images.h"
+#include "experiments/campaign/spec/plausible.h"
 #include "experiments/journal/record_json.h"
 #include "imaging/formats/images/image_file.h"
 
@@ -28,7 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kOfAddedParameter = 16;  // simulations of each experiment, where nobody says
+constexpr const char* kMoved = "moved";  // an event: only where its files lie has changed
+constexpr int kOfAddedParameter = 16;    // simulations of each experiment, where nobody says
 
 std::vector<journal::ParameterRecord> ParametersOf(const optimizer::ParameterSpace& space) {
   std::vector<journal::ParameterRecord> records;
@@ -104,17 +106,19 @@ struct SpecChange {
 };
 
 // Templates that are not where they were, as after the whole project has been moved: they are
-// looked for beside the spec, or beside the campaign's folder, as they lay beside the spec.
+// looked for beside the spec that is named, or beside the campaign's folder, by the path that the
+// spec's text has.
 void FollowTemplates(const journal::CampaignRecord& record, const fs::path& root,
                      const fs::path& named, SpecChange& change) {
   auto& templates = change.spec.engine.command.templates;
   if (!templates || fs::is_directory(*templates)) return;
-  const fs::path from = fs::path(record.spec_path).parent_path();
-  const fs::path to = named.empty() ? root.parent_path() : fs::absolute(named).parent_path();
-  const fs::path moved = (to / templates->lexically_relative(from)).lexically_normal();
+  const nlohmann::json written = base::ParseJson(record.spec_text, record.spec_path).root;
+  const fs::path beside = named.empty() ? root.parent_path() : fs::absolute(named).parent_path();
+  const fs::path moved =
+      (beside / written.at("engine").at("templates").get<std::string>()).lexically_normal();
   if (!fs::is_directory(moved)) return;
   templates = moved;
-  change.event = "spec";
+  change.event = kMoved;
   change.words = "its templates lie in " + moved.string() + " now";
 }
 
@@ -242,7 +246,11 @@ journal::ExperimentRecord MakeExperimentRecord(const CampaignSpec& campaign, int
   const ExperimentSpec spec = ExperimentsOf(campaign)[static_cast<std::size_t>(experiment)];
   journal::ExperimentRecord record;
   record.name = spec.name;
-  if (spec.images.HasImages()) AddImages(spec, TypicalCase(campaign, experiment, 1), record);
+  if (spec.images.HasImages()) {
+    rigs::Case rig_case = TypicalCase(campaign, experiment, 1);
+    rig_case.powder.mass = MostMass(campaign, spec);
+    AddImages(spec, rig_case, record);
+  }
   for (const ScalarSpec& scalar : ScalarsOf(spec)) {
     record.scalars.push_back(
         {.name = scalar.metric, .value = scalar.value, .standard_error = scalar.standard_error});
@@ -323,7 +331,8 @@ OpenedCampaign OpenCampaign(const fs::path& root, const ResumeOptions& options, 
   ReferencesOf(record, spec);  // throws for an objective that the experiment does not have
   MakeEngine(spec);            // and for templates that are not those it began with
   // First: a search that stayed ended beside its changed spec would never go on.
-  if (!change.event.empty() || options.objective) Reopen(journal);
+  const bool searches_on = !change.event.empty() && change.event != kMoved;
+  if (searches_on || options.objective) Reopen(journal);
   if (!options.search.empty()) {
     WriteAddedParameters(folder, change.spec, change.text, journal);
   } else if (!change.event.empty()) {

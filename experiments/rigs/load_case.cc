@@ -79,24 +79,24 @@ void ValidateLastPicture(const Case& c, base::Problems& problems) {
                        " s at the latest (rules.heap.max_time); take it earlier");
 }
 
-// The key of the length that the grains must fit into.
+// The keys of the length that the grains must fit into.
 struct LengthFinder {
   double length;
-  std::string key{};
+  std::vector<std::string> keys{};
 
   void operator()(std::string_view name, double value, const base::FieldInfo& info = {}) {
-    if (info.dimension == base::Dimension::kLength && value == length) key = name;
+    if (info.dimension == base::Dimension::kLength && value == length) keys.emplace_back(name);
   }
   template <class Other>
   void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
 };
 
-// "rig.diameter", or the rig itself where its vessel is as wide as none of its keys.
+// "rig.diameter", or the rig itself where its vessel is as wide as none of its keys, or as several.
 std::string PathOfWidth(const Case& c, double across) {
   if (c.rig.kind == RigKind::kLiftedTube) return "device.tube_inner_diameter";
   LengthFinder finder{.length = across};
   RigOptions::Visit(c.rig, finder);
-  return finder.key.empty() ? "rig" : "rig." + finder.key;
+  return finder.keys.size() == 1 ? "rig." + finder.keys.front() : "rig";
 }
 
 void ValidateWithRig(const Case& c, base::Problems& problems) {

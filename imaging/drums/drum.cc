@@ -184,10 +184,28 @@ double MomentAboveAxis(const DrumMap& map) {
   return moment / (map.inner_radius * pixels);
 }
 
-// Gravity holds the powder below the axis, on average; a centrifuging one lies evenly around it.
+// Share of powder along the rim within 30 degrees of its lowest point.
+double ShareAtLowestRim(const DrumMap& map) {
+  double powder = 0, pixels = 0;
+  for (int y = 0; y < map.image.height; ++y) {
+    for (int x = 0; x < map.image.width; ++x) {
+      const double radius = Radius(map.circle, x, y);
+      const double down = y + 0.5 - map.circle.center_y;
+      if (down < std::cos(std::numbers::pi / 6) * radius || radius > map.inner_radius ||
+          radius < 0.85 * map.inner_radius)
+        continue;
+      pixels += 1;
+      powder += (255 - map.image.at(x, y)) / 255.0;
+    }
+  }
+  return pixels > 0 ? powder / pixels : 0;
+}
+
+// Gravity holds the powder below the axis, on average. A centrifuging one covers the whole rim, the
+// lowest part, too, however thick it is at the top.
 void RequirePowderBelow(const DrumMap& map, const std::string& name) {
   constexpr double kMostAbove = 0.03;  // one full to 5 % and upside down has 0.036 at 35 degrees
-  if (!(MomentAboveAxis(map) > kMostAbove)) return;
+  if (!(MomentAboveAxis(map) > kMostAbove) || ShareAtLowestRim(map) > 0.9) return;
   throw base::ConfigError(name +
                           ": the powder lies at the top of the drum: the picture is upside down, "
                           "or lit from the front, so that powder is bright; turn it, or take it "

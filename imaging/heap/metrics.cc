@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -55,6 +56,36 @@ Measured Iou(const GrayImage& a, const GrayImage& b) {
                     : Measured{.not_defined = "both heaps are empty"};
 }
 
+// On a table the heap without the grains beside it: what is connected with its middle. Elsewhere
+// the profile itself.
+Profile HeapAlone(const Profile& profile) {
+  if (!profile.frame.on_table()) return profile;
+  const cv::Mat image(profile.image.height, profile.image.width, CV_8U,
+                      const_cast<std::uint8_t*>(profile.image.pixels.data()));
+  cv::Mat labels, stats, centers;
+  const int count = cv::connectedComponentsWithStats(image < 255, labels, stats, centers, 8);
+  int heap = 0, nearest = profile.image.width;
+  for (int label = 1; label < count; ++label) {
+    const int left = stats.at<int>(label, cv::CC_STAT_LEFT);
+    const int right = left + stats.at<int>(label, cv::CC_STAT_WIDTH);
+    const int middle = static_cast<int>(profile.frame.center_x);
+    const int away = std::max({0, left - middle, middle - right});
+    const bool is_larger =
+        heap == 0 || stats.at<int>(label, cv::CC_STAT_AREA) > stats.at<int>(heap, cv::CC_STAT_AREA);
+    if (away > nearest || (away == nearest && !is_larger)) continue;
+    nearest = away;
+    heap = label;
+  }
+  Profile alone = profile;
+  for (std::size_t i = 0; i < alone.image.pixels.size(); ++i) {
+    const auto at = static_cast<int>(i);
+    if (labels.at<int>(at / alone.image.width, at % alone.image.width) != heap) {
+      alone.image.pixels[i] = 255;
+    }
+  }
+  return alone;
+}
+
 // What the triangle stands on [px] from the left edge of the image.
 struct Base {
   double middle = 0;
@@ -73,8 +104,9 @@ Base BaseOf(const Profile& profile, const Outline& outline) {
           .width = shape.left.foot + shape.right.foot};
 }
 
-Measured TriangleAngle(const Profile& profile) {
-  if (profile.frame.num_pictures() > 1) return {.not_defined = kFilm};
+Measured TriangleAngle(const Profile& whole) {
+  if (whole.frame.num_pictures() > 1) return {.not_defined = kFilm};
+  const Profile profile = HeapAlone(whole);
   const double area = Nebp(profile.image);
   const Outline outline = FindOutline(profile.image, profile.frame);
   if (!(area > 0) || (profile.frame.on_table() && outline.empty())) {
@@ -84,8 +116,9 @@ Measured TriangleAngle(const Profile& profile) {
   return {.value = std::atan(4 * area / (base * base))};
 }
 
-Measured CohesiveIndex(const Profile& profile) {
-  if (profile.frame.num_pictures() > 1) return {.not_defined = kFilm};
+Measured CohesiveIndex(const Profile& whole) {
+  if (whole.frame.num_pictures() > 1) return {.not_defined = kFilm};
+  const Profile profile = HeapAlone(whole);
   const Outline outline = FindOutline(profile.image, profile.frame);
   if (outline.empty()) return {.not_defined = "the heap is empty"};
   double area = 0;

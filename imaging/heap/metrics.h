@@ -9,8 +9,9 @@
 //   triangle  angle of the isosceles triangle on the plate of the same area, tan θ = 4 A / D²
 //   cohesive  ∫|h − h_triangle| dx / A, how far the outline is from that triangle
 //
-// On a table, which has no diameter D, the triangle stands on the heap's own base, foot to foot;
-// and the angles of repose (repose_angle.h). Angles and indices of a film strip are not defined.
+// and the angles of repose (repose_angle.h). On a table, which has no diameter D, the triangle
+// stands on the base of the heap alone, foot to foot. Angles and indices of a film strip are not
+// defined.
 #pragma once
 
 #include <optional>

@@ -84,13 +84,25 @@ NoiseFloor LeaveOneOut(const std::vector<GrayImage>& images, const Profile& aehp
   return floor;
 }
 
+// Columns that show powder.
+double NumColumns(const GrayImage& image) {
+  double count = 0;
+  for (int x = 0; x < image.width; ++x) {
+    for (int y = 0; y < image.height; ++y) {
+      if (image.at(x, y) > 127) continue;
+      count += 1;
+      break;
+    }
+  }
+  return count;
+}
+
 // The same camera sees the same heap again to some hundredths of a pixel. Copies are warned of
 // by themselves.
 void WarnOfNoNoise(Experiment& result) {
-  constexpr double kLeast = 0.01;  // of the outline's place [px]
-  const Frame& frame = result.aehp.frame;
-  const double plate = frame.plate_diameter / frame.pixel_size;  // no outline is shorter [px]
-  const double noise = result.noise_floor->mean_sad_px / plate / frame.num_pictures();
+  constexpr double kLeast = 0.01;                        // of the outline's place [px]
+  const double outline = NumColumns(result.aehp.image);  // none is shorter [px]
+  const double noise = result.noise_floor->mean_sad_px / std::max(outline, 1.0);
   const bool has_copies =
       std::ranges::count(result.warnings, PhotoDoubt::kCopied, &PhotoWarning::doubt) > 0;
   if (noise >= kLeast || has_copies || Nebp(result.aehp.image) == 0) return;
@@ -179,12 +191,11 @@ void ExperimentOptions::Validate(base::Problems& problems) const {
   problems.Require(tilt == 0 || frame.has_value(), "tilt", tilt,
                    "is of a plate that \"frame\" gives; else it is found");
   problems.Require(map_heaps >= 1, "map_heaps", map_heaps, "must be 1 or more");
-  problems.Require(
-      std::abs(tilt) <= kMostPlateTilt, "tilt", tilt,
-      "in rad, which is " + base::ShortNumber(tilt / kRadPerDegree) +
-          " degrees, and must be within ±10: turn the photographs, or, as a bare number is in rad, "
-          "write \"" +
-          base::ShortNumber(tilt) + " deg\" for degrees");
+  problems.Require(std::abs(tilt) <= kMostPlateTilt, "tilt", tilt,
+                   "in rad, which is " + base::ShortNumber(tilt / kRadPerDegree) +
+                       " degrees, and must be within ±10: turn the photographs, or, if " +
+                       base::ShortNumber(tilt) + " degrees are meant, write \"" +
+                       base::ShortNumber(tilt) + " deg\"");
   problems.Require(!pixel_size || (*pixel_size > 0 &&
                                    (!(plate_diameter > 0) || *pixel_size < plate_diameter / 8)),
                    "pixel_size", pixel_size.value_or(0),

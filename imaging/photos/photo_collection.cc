@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/median.h"
+#include "base/text/counted.h"
 
 namespace talus::imaging {
 namespace {
@@ -84,7 +85,8 @@ std::string AlsoOf(const std::vector<Fault>& alike) {
     text += (i == 1 ? "" : ", ") + alike[i].name;
   }
   const std::size_t rest = alike.size() - std::min(alike.size(), kMostNames + 1);
-  return rest == 0 ? text : text + " and " + std::to_string(rest) + " more photographs";
+  return rest == 0 ? text
+                   : text + " and " + base::Counted(static_cast<int>(rest), "more photograph");
 }
 
 // A line each; what more than a few photographs have alike is one line.

@@ -44,8 +44,8 @@ bool EndsLike(const std::filesystem::path& file, std::span<const std::string_vie
 }
 
 bool IsImage(const std::filesystem::path& file) {
-  static constexpr std::string_view kEndings[] = {".png",  ".jpg", ".jpeg", ".tif",
-                                                  ".tiff", ".bmp", ".pgm"};
+  static constexpr std::string_view kEndings[] = {".png", ".jpg",  ".jpeg", ".jfif", ".jpe",
+                                                  ".tif", ".tiff", ".bmp",  ".pgm"};
   return EndsLike(file, kEndings);
 }
 
@@ -241,7 +241,9 @@ std::string Listed(const std::filesystem::path& folder) {
 
 // Where no pattern could help.
 void RequireAnImage(const std::filesystem::path& folder) {
-  if (std::ranges::any_of(UnreadImages(folder, {}), IsImage)) return;
+  for (const int depth : {0, 1, 2}) {
+    if (!ImagesBelow(folder, depth).empty()) return;
+  }
   throw base::ConfigError(folder.string() + ": holds no image that is read: " + Listed(folder) +
                           "; give photographs as PNG, JPEG, TIFF, BMP or PGM, or convert them to "
                           "one of these (a telephone takes JPEG where its camera is set to the "

@@ -18,7 +18,7 @@ enum class PhotoDoubt {
   kSeveralHeaps,   // in one run; value: how many, `photo`: the first of the second, `reason`: the
                    // sign
   kRunDisagrees,   // `reason`: the run; value: its difference from the others / the usual one [-]
-  kNoNoise,        // heaps are alike as no two are; value: noise floor / plate's width [px]
+  kNoNoise,        // heaps are alike as no two are; value: noise floor / heap's width [px]
   kFrontLit,       // powder is brighter than its background; value: number of such photographs
   kMixedLight,     // it is in some only; value: their number; `photo`: the first of the rarer kind
   kHiddenTop,      // powder hides the plate's top in every photograph

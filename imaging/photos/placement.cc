@@ -47,17 +47,19 @@ Placement PlaceByFrame(const ExperimentOptions& options, const PhotoCollection& 
                           .center_x = given.center_x / block,
                           .baseline = given.baseline / block,
                           .tilt = options.tilt});
-  if (options.pixel_size || block > 1) placement.frame = FrameFor(options, collection, placement);
+  if (options.pixel_size || block > 1) {
+    placement.frame = FrameFor(options, collection, placement);
+    placement.frame.table = given.table;
+  }
   return placement;
 }
 
-// A length outside of the picture was read off another one, of another scale.
+// A length that no such picture holds was read off another one, of another scale. Its points may
+// lie beyond one that was cropped.
 void RequireInPicture(const ScaleMark& mark, const PhotoCollection& collection) {
-  const auto is_in = [&](double x, double y) {
-    return x >= 0 && y >= 0 && x <= collection.width && y <= collection.height;
-  };
-  if (is_in(mark.x1, mark.y1) && is_in(mark.x2, mark.y2)) return;
-  throw base::ConfigError("scale: has a point outside of the photographs, which are " +
+  const double length = std::hypot(mark.x2 - mark.x1, mark.y2 - mark.y1);
+  if (length <= std::hypot(collection.width, collection.height)) return;
+  throw base::ConfigError("scale: is longer than the photographs, which are " +
                           PixelSizeText(collection.width, collection.height) +
                           "; give two points of one of them, or of a photograph that the same "
                           "camera took of a ruler, in pixels from its upper left corner");
@@ -80,7 +82,8 @@ Placement PlaceByScale(ExperimentOptions options, const PhotoCollection& collect
   Placement placement{.frame = {}, .photo_pixel = photo_pixel, .poses = {}};
   double reach = 0;  // [px]
   for (const Photo& photo : collection.photos) reach = std::max(reach, photo.table.reach);
-  if (options.plate_diameter == 0) {
+  const bool is_given = options.plate_diameter > 0;
+  if (!is_given) {
     options.plate_diameter = 1e-3 * std::ceil(1e3 * 2 * kBeyondHeap * reach * photo_pixel);
   }
   for (const Photo& photo : collection.photos) {
@@ -88,6 +91,7 @@ Placement PlaceByScale(ExperimentOptions options, const PhotoCollection& collect
                                .center_x = photo.table.center_x,
                                .baseline = photo.table.baseline,
                                .tilt = photo.table.tilt});
+    if (!is_given) continue;
     placement.unseen = std::max(
         placement.unseen, ShareUnseen(placement.poses.back(), collection.width / collection.block));
   }

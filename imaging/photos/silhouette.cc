@@ -12,9 +12,9 @@ constexpr double kOntoPlate =
     2.0;  // powder whose lower end is nearer the baseline stands on it [px]
 constexpr double kBesidePlate = 0.02;  // how far beside the plate powder counts / its diameter
 // What stands apart from a heap on a table is a grain if it is lower and smaller than these shares
-// of the heap: a grain a fifth as high as a heap of 30 degrees has 2 % of its area.
-constexpr double kGrainHeight = 0.2;
-constexpr double kGrainArea = 0.02;
+// of the heap: a grain a third as high as a heap of 30 degrees has 5 % of its area.
+constexpr double kGrainHeight = 1.0 / 3;
+constexpr double kGrainArea = 0.05;
 
 // From pixel indices of the frame to pixel indices of the photograph (OpenCV counts from pixel
 // centres, hence the halves).
@@ -60,19 +60,34 @@ std::vector<std::uint8_t> Standing(const cv::Mat& labels, int num_labels, const 
   return stands;
 }
 
-// Only powder lies on a plate. On a table a ruler or a hand may stand, too: of what stands there,
-// the largest area is the heap, and what is no grain beside it goes.
-void DropThings(const cv::Mat& stats, std::vector<std::uint8_t>& stands) {
+// The area that stands in the frame's middle, where the table's heap was found to be; 0: none.
+std::size_t LabelInTheMiddle(const cv::Mat& labels, const std::vector<std::uint8_t>& stands,
+                             const Frame& frame) {
+  constexpr int kAbout = 3;  // [px]
+  const int middle = static_cast<int>(frame.center_x);
+  std::vector<int> count(stands.size(), 0);
+  for (int y = std::max(0, labels.rows - static_cast<int>(kOntoPlate)); y < labels.rows; ++y) {
+    for (int x = std::max(0, middle - kAbout); x <= std::min(labels.cols - 1, middle + kAbout);
+         ++x) {
+      const auto label = static_cast<std::size_t>(labels.at<int>(y, x));
+      if (stands[label] != 0) ++count[label];
+    }
+  }
+  const auto most = std::max_element(count.begin(), count.end());
+  return *most > 0 ? static_cast<std::size_t>(most - count.begin()) : 0;
+}
+
+// Only powder lies on a plate. On a table a ruler, a stand or a hand may be, too: what is neither
+// the heap nor a grain beside it goes.
+void DropThings(const cv::Mat& labels, const cv::Mat& stats, const Frame& frame,
+                std::vector<std::uint8_t>& stands) {
   const auto area = [&](std::size_t label) {
     return stats.at<int>(static_cast<int>(label), cv::CC_STAT_AREA);
   };
   const auto height = [&](std::size_t label) {
     return stats.at<int>(static_cast<int>(label), cv::CC_STAT_HEIGHT);
   };
-  std::size_t heap = 0;
-  for (std::size_t label = 1; label < stands.size(); ++label) {
-    if (stands[label] != 0 && (heap == 0 || area(label) > area(heap))) heap = label;
-  }
+  const std::size_t heap = LabelInTheMiddle(labels, stands, frame);
   if (heap == 0) return;
   for (std::size_t label = 1; label < stands.size(); ++label) {
     const bool is_grain =
@@ -86,7 +101,7 @@ cv::Mat StandingOnPlate(const cv::Mat& powder, const Frame& frame) {
   cv::Mat labels, stats, centers;
   const int count = cv::connectedComponentsWithStats(powder, labels, stats, centers, 8);
   std::vector<std::uint8_t> stands = Standing(labels, count, frame);
-  if (frame.on_table()) DropThings(stats, stands);
+  if (frame.on_table()) DropThings(labels, stats, frame, stands);
   cv::Mat heap(powder.size(), CV_8U);
   for (int y = 0; y < powder.rows; ++y) {
     for (int x = 0; x < powder.cols; ++x) {

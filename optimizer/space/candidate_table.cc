@@ -26,6 +26,7 @@ std::vector<std::string> Cells(const std::string& line, char separator) {
     const auto first = cell.find_first_not_of(" \t\r\"");
     const auto last = cell.find_last_not_of(" \t\r\"");
     cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+    if (separator == ';') std::ranges::replace(cells.back(), ',', '.');
   }
   return cells;
 }

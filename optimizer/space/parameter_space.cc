@@ -56,6 +56,20 @@ std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
   return {*point};
 }
 
+// Whether values that are all guessed or fixed break it, by more than rounding.
+bool GuessesBreak(const LinearConstraint& constraint, const std::vector<Parameter>& parameters) {
+  double sum = 0, largest = std::abs(constraint.at_most);
+  for (const LinearConstraint::Term& term : constraint.terms) {
+    const Parameter& parameter =
+        parameters[static_cast<std::size_t>(IndexOf(parameters, term.parameter))];
+    const std::optional<double> value = parameter.fixed ? parameter.fixed : parameter.guess;
+    if (!value) return false;
+    sum += term.factor * *value;
+    largest = std::max(largest, std::abs(term.factor * *value));
+  }
+  return sum > constraint.at_most + 1e-9 * largest;
+}
+
 bool HasRoom(const ParameterSpace& space) {
   constexpr int kPoints = 100000;
   Eigen::VectorXd point(static_cast<Eigen::Index>(space.Free().size()));
@@ -157,11 +171,11 @@ void ParameterSpace::Validate(base::Problems& problems) const {
   const bool sound = problems.empty() && num_free >= 1 && num_free <= kMaxParameters;
   problems.Require(!sound || constraints.empty() || HasRoom(*this), "constraints",
                    "leave no room: none of 100000 points of the ranges meets them all");
-  if (!sound || !problems.empty() || constraints.empty()) return;
-  const auto guess = GuessOf(*this);
-  problems.Require(!guess || Satisfies(ToNative(*guess)), "constraints",
-                   "are not met by the guesses, with the middle of its range for a parameter that "
-                   "has none");
+  if (!sound || !problems.empty()) return;
+  for (std::size_t c = 0; c < constraints.size(); ++c) {
+    problems.Require(!GuessesBreak(constraints[c], parameters),
+                     "constraints[" + std::to_string(c) + "]", "is not met by the guesses");
+  }
 }
 
 bool ParameterSpace::IsContinuous() const {

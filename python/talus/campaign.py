@@ -3,6 +3,7 @@ import fcntl
 import html
 import json
 import numbers
+import operator
 import os
 import pathlib
 import sqlite3
@@ -22,7 +23,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     if isinstance(spec, dict):
         if out is None:
             raise ConfigError("out: is needed for a spec that is no file")
-        folder = pathlib.Path(out)
+        folder = pathlib.Path(os.path.abspath(out))
         file = folder.with_name(folder.name + ".json")
         is_new = _write_spec(spec, file)
     else:
@@ -32,7 +33,7 @@ def calibrate(spec, out=None, hold_out=None, progress=True):
     try:
         program.run(["calibrate", program.path(file), "--out", program.path(folder)] +
                     (["--hold-out", hold_out] if hold_out is not None else []), progress)
-    except ConfigError:
+    except BaseException:
         if is_new and not (folder / "journal.sqlite").exists():
             file.unlink()  # nothing has begun: it must not stand in the way of one that is in order
         raise
@@ -74,18 +75,24 @@ class Campaign:
     @property
     def state(self):
         """"running", "finished" or "interrupted"."""
-        state = self._query("select state from campaign")[0][0]
-        return "interrupted" if state == "running" and not self._is_worked_on() else state
+        def said():
+            return self._query("select state from campaign")[0][0]
+
+        state = said()
+        if state != "running" or self._is_worked_on():
+            return state
+        state = said()  # it may have ended meanwhile
+        return "interrupted" if state == "running" else state
 
     def _is_worked_on(self):
         """Whether a program has the campaign's lock: one that was killed has not."""
         try:
             with open(self.folder / "campaign.lock", "rb") as file:
                 fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except FileNotFoundError:
-            return False
         except BlockingIOError:
             return True
+        except OSError:  # no such file, or no locks there
+            return False
         return False
 
     @property
@@ -218,7 +225,7 @@ class Campaign:
 
     def profile(self, trial):
         """A trial's average numerical heap profile [array of bytes, rows and columns]."""
-        found = self._query("select png from profiles where trial = ?", int(trial))
+        found = self._query("select png from profiles where trial = ?", operator.index(trial))
         if not found:
             raise FileNotFoundError(f"trial {trial} of {self.folder}: has no profile")
         return decode_image(found[0][0])

@@ -13,7 +13,7 @@ def plain(value, name):
     if isinstance(value, Mapping):
         return {str(key): plain(item, f"{name}.{key}") for key, item in value.items()}
     if hasattr(value, "tolist"):  # numpy's and pandas' own
-        value = value.tolist()
+        return plain(value.tolist(), name)
     if isinstance(value, (list, tuple)):
         return [plain(item, f"{name}[{place}]") for place, item in enumerate(value)]
     if isinstance(value, numbers.Integral):

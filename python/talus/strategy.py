@@ -43,7 +43,8 @@ class Strategy:
         self._names = [parameter["name"] for parameter in named]
 
     def ask(self, count=1):
-        """Up to `count` (1 to 8) sets to evaluate; fewer, or none, when there are no more."""
+        """Up to `count` (1 to 8) sets to evaluate; fewer, or none, when there are no more. Each is to be told, if only
+        that it failed: the search waits for it."""
         return self._core.ask(count)
 
     def tell(self, values, value=None, image=None, failed=False):

@@ -189,6 +189,20 @@ TEST(Drum, CentrifugingPowderIsNotTakenForUpsideDown) {
   EXPECT_EQ(ErrorOf({.photos = {file}, .diameter = 0.084}), "");
 }
 
+// Far thicker at the top, and still all around.
+TEST(Drum, CentrifugingPowderThatIsThickerAtTheTopIsNotTakenForUpsideDown) {
+  GrayImage photo = Draw({.depth = 2});
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double right = x + 0.5 - kCenterX, up = kCenterY - y - 0.5;
+      if (std::hypot(right, up) < kRadius && std::hypot(right, up + 15) > 0.7 * kRadius) {
+        photo.at(x, y) = 25;
+      }
+    }
+  }
+  EXPECT_EQ(ErrorOf({.photos = {Write("thick_top", photo)}, .diameter = 0.084}), "");
+}
+
 // Its fill would be that of what is seen.
 TEST(Drum, OneThatIsCutOffIsRefused) {
   const GrayImage whole = Draw({.angle = 0.5});

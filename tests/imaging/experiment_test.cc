@@ -268,7 +268,7 @@ TEST(ExperimentOptionsTest, ATiltInRadThatIsMeantInDegreesIsRefused) {
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].path, "tilt");
   EXPECT_THAT(list[0].message, HasSubstr("is 0.5, in rad, which is 28.65 degrees"));
-  EXPECT_THAT(list[0].message, HasSubstr("write \"0.5 deg\" for degrees"));
+  EXPECT_THAT(list[0].message, HasSubstr("if 0.5 degrees are meant, write \"0.5 deg\""));
 }
 
 // The frame that was found, given by hand with the tilt, leads to the same profile: both rest on

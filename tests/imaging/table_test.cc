@@ -119,9 +119,28 @@ TEST(TableTest, AGrainBesideTheHeapIsKept) {
   EXPECT_EQ(experiment.aehp.image.at(static_cast<int>(frame.center_x + 130),
                                      static_cast<int>(frame.baseline - 8)),
             0);
+  // The triangle stands on the heap alone.
+  const double angle = std::atan2(150, 120) * 180 / std::numbers::pi;
+  EXPECT_NEAR(FindMetric(experiment.metrics, "triangle_angle_deg").value.value, angle, 0.7);
 }
 
 // The picture shows 220 of 250 px left of the heap and 200 right of it: 80 of 500 are not seen.
+// A funnel on a stand has more area than the heap that it has poured.
+TEST(TableTest, AThingLargerThanTheHeapIsNotTakenForIt) {
+  const fs::path folder = EmptyFolder("stand_on_table");
+  const auto dark = [](double x, double up) {
+    const bool heap = up > 0 && up < 60 * (1 - std::abs(x - 10) / 100);
+    const bool stand = up > 0 && std::abs(x - 150) < 6;
+    return heap || stand || (up > 120 && std::abs(x - 60) < 120);
+  };
+  const Scene scene = TableScene();
+  WritePng(folder / Name(1, 0), Expose(scene, Cover(scene, dark)));
+  ExperimentOptions options = OnTable(folder);
+  options.plate_diameter = 0.03;
+  const Experiment experiment = MeasureExperiment(options);
+  EXPECT_NEAR(Nebp(experiment.aehp.image), 60 * 100, 150);  // within a pixel along its sides
+}
+
 TEST(TableTest, APartThatReachesBeyondThePictureIsWarnedOf) {
   const fs::path folder = EmptyFolder("beyond");
   WritePng(folder / Name(1, 0), HeapOnTable(TableScene()));
@@ -134,14 +153,14 @@ TEST(TableTest, APartThatReachesBeyondThePictureIsWarnedOf) {
   EXPECT_THAT(WarningText(warnings[0]), HasSubstr("16 % of the part of the table that counts"));
 }
 
-TEST(TableTest, AMarkOutsideOfThePictureIsRefused) {
+TEST(TableTest, AMarkLongerThanThePictureIsRefused) {
   const fs::path folder = EmptyFolder("far_mark");
   WritePng(folder / Name(1, 0), HeapOnTable(TableScene()));
   ExperimentOptions options = OnTable(folder);
   options.scale = "30,200 - 4000,200 = 10 mm";
   EXPECT_THAT(ErrorOf(options),
-              HasSubstr("scale: has a point outside of the photographs, which are 420 x 220 px"));
-  options.scale = "0,220 - 420,220 = 42 mm";  // corners are in it
+              HasSubstr("scale: is longer than the photographs, which are 420 x 220 px"));
+  options.scale = "30,400 - 30,300 = 10 mm";  // read off before the picture was cropped
   EXPECT_EQ(ErrorOf(options), "no error");
 }
 

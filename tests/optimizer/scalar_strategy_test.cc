@@ -95,8 +95,6 @@ TEST(ScalarStrategy, FindsTheBottomWithAndWithoutNoise) {
   EXPECT_NEAR(answer.predicted_value, Bowl(kBottom), 0.03);
 }
 
-// The journal is the state: proposals are the same bit for bit, whatever was asked for in between
-// and however many threads do the same at once.
 // A quadratic bowl is what the process has as its trend: once the bottom is found, little else is
 // possible, however many decades lie between the bottom's values and the others.
 // Of an additive bowl the first-order indices add up to 1, as far as 512 points tell.
@@ -119,6 +117,8 @@ TEST(ScalarStrategy, RangesOfAnExactBowlAreNarrowOnceItsBottomIsFound) {
   }
 }
 
+// The journal is the state: proposals are the same bit for bit, whatever was asked for in between
+// and however many threads do the same at once.
 TEST(ScalarStrategy, RetellingGivesTheSameProposalWithOneAndTwoThreads) {
   for (const bool noisy : {false, true}) {
     ScalarStrategy lived = Fresh();

@@ -139,6 +139,19 @@ class Progress(unittest.TestCase):
         both = talus("resume", str(self.folder / "out"), "--quiet", "--json")
         self.assertEqual(both.returncode, 2)
 
+    def test_a_project_that_is_moved_goes_on_with_its_templates(self):
+        home = self.folder / "one"
+        home.mkdir()
+        self.spec = write_campaign(home)
+        self.assertEqual(talus("calibrate", str(self.spec), "--out", str(home / "out"), "--quiet").returncode, 0)
+        for place, more in (("two", ()), ("three/four", ("--add-simulations", "1"))):
+            moved = self.folder / place
+            moved.parent.mkdir(exist_ok=True)
+            home = home.rename(moved)
+            done = talus("resume", str(home / "out"), *more)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), place)
+            self.assertEqual("it has ended" in done.stdout, not more, done.stdout)  # moving searches no further
+
     def test_the_cost_is_known_before_the_photographs_are_taken(self):
         spec = json.loads(self.spec.read_text())
         spec["experiment"]["photos"] = str(self.folder / "not taken yet")
@@ -319,6 +332,9 @@ class Progress(unittest.TestCase):
                  "funnel_heap:follows=true,height=4mm,angle_of_repose_3=30deg": '"follows": true'}
         for test, entry in tests.items():
             self.assertIn(entry, self.started("--test", test), test)
+        # Of two keys of a name it is the funnel's, not its heap's.
+        text = self.started("--test", "funnel_heap:height=40mm,angle_of_repose_3=30deg")
+        self.assertEqual(text.count('"height"'), 1)
 
     def test_init_fills_and_names_each_test_as_it_must_be(self):
         text = self.started("--cohesive", "--test", "drum:angle=30deg", "--test", "drum:angle=33deg,speed=20rpm",

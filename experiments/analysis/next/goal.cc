@@ -74,11 +74,10 @@ Goal SimulateGoal(const campaign::JointView& view, const GoalRequest& request,
   if (!surrogate) {
     const std::string& why =
         number == prediction.numbers.end() ? prediction.failure : number->undefined;
-    throw base::Error(request.file.string() + ": fewer than " +
-                      std::to_string(NumberSurrogate::kFewest) + " of " +
-                      std::to_string(prediction.draws.size()) + " draws give \"" + name + "\"" +
-                      (why.empty() ? "" : ", the last without because it " + why) +
-                      "; what it goes with is not known");
+    throw base::Error(
+        request.file.string() + ": fewer than " + std::to_string(NumberSurrogate::kFewest) +
+        " of " + std::to_string(prediction.draws.size()) + " draws give \"" + name + "\"" +
+        (why.empty() ? "" : ", the last without: " + why) + "; what it goes with is not known");
   }
   return {.process = prediction.name,
           .number = name,

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "base/problems.h"
+#include "base/text/shell_text.h"
 #include "experiments/campaign/spec/spec_draft.h"
 
 namespace talus::campaign {
@@ -26,7 +27,7 @@ std::string OwnOption(const DeviceFlag& flag, const SpecAnswers& answers) {
     if (std::ranges::find(questions, flag.option, &TestQuestion::key) == questions.end()) continue;
     const std::string kind(base::NameOf(test.kind));
     return "; that of " + kind + " is given by --test " + kind + ":" + flag.option + "=" +
-           answers.*flag.answer;
+           base::ShellWord(answers.*flag.answer);
   }
   return "";
 }

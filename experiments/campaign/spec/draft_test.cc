@@ -157,7 +157,15 @@ std::pair<std::string, std::string> ParseAnswer(const std::string& part, const D
                             " stands there twice; give it once, or --test once more for a further "
                             "test");
   }
-  return {key, std::string(base::Trimmed(part.substr(equals + 1)))};
+  const std::string answer(base::Trimmed(part.substr(equals + 1)));
+  if (question->part == TestPart::kMass || question->part == TestPart::kNumber) {
+    try {
+      base::ParseQuantity(MeanOf(answer), question->dimension);
+    } catch (const base::ConfigError& error) {
+      throw base::ConfigError(FlagOf(test) + ": " + key + ": " + error.what());
+    }
+  }
+  return {key, answer};
 }
 
 }  // namespace

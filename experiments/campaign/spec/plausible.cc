@@ -20,7 +20,6 @@ constexpr double kMostDiameters = 50;   // height of the filling / tube diameter
 constexpr double kFewestGrains = 20;    // that could make a heap
 constexpr double kLooseFill = 1.02;     // of the mass filled: a balance is that good
 constexpr double kLargestHausner = 3;
-constexpr double kLoosest = 0.02;      // solid fraction; aerogels apart nothing lies as loose
 constexpr double kFastestFlow = 0.02;  // in which all that was filled runs out [s]
 
 // One experiment's keys, to name them in problems.
@@ -40,9 +39,9 @@ void CheckDensity(const std::optional<MeasuredNumber<base::Dimension::kDensity>>
   problems.Require(!bulk || bulk->Value() < grains, place, bulk ? bulk->Value() : 0,
                    "in kg/m^3, must be below the grains' " + base::ShortNumber(grains) +
                        " (powder.material.density): they leave gaps; is one in g/cm^3?");
-  problems.Require(!bulk || bulk->Value() >= kLoosest * grains, place, bulk ? bulk->Value() : 0,
-                   "in kg/m^3, is less than a fiftieth of the grains' " +
-                       base::ShortNumber(grains) + " (powder.material.density); write \"" +
+  // As g/cm^3 it would be one, and hardly any powder lies at a few kilograms in a cubic metre.
+  problems.Require(!bulk || 1000 * bulk->Value() >= grains, place, bulk ? bulk->Value() : 0,
+                   "in kg/m^3, is next to nothing; write \"" +
                        base::ShortNumber(bulk ? bulk->Value() : 0) + " g/cm^3\" for g/cm^3");
 }
 
@@ -63,13 +62,14 @@ void CheckDensities(const MeasuredNumbers& numbers, double grains, const Place& 
                    "tapped, or Carr's index");
 }
 
-void CheckMasses(const MeasuredNumbers& numbers, double filled, const Place& place,
-                 base::Problems& problems) {
+// `filled_by`: the key of the mass.
+void CheckMasses(const MeasuredNumbers& numbers, double filled, const std::string& filled_by,
+                 const Place& place, base::Problems& problems) {
   const auto check = [&](std::string_view key, const auto& mass) {
     problems.Require(!mass || mass->Value() <= kLooseFill * filled, place(key),
                      mass ? mass->Value() : 0,
-                     "in kg, is more than the " + base::ShortNumber(filled) +
-                         " filled in (powder.mass); write \"21 mg\" for milligrams");
+                     "in kg, is more than the " + base::ShortNumber(filled) + " filled in (" +
+                         filled_by + "); write \"21 mg\" for milligrams");
   };
   check("mass_on_plate", numbers.Of<Observable::kMassOnPlate>());
   check("mass_fallen", numbers.Of<Observable::kMassFallen>());
@@ -77,10 +77,10 @@ void CheckMasses(const MeasuredNumbers& numbers, double filled, const Place& pla
   const auto& rate = numbers.Of<Observable::kDischargeRate>();
   problems.Require(!rate || rate->Value() * kFastestFlow <= filled, place("discharge_rate"),
                    rate ? rate->Value() : 0,
-                   "in kg/s, would empty the " + base::ShortNumber(filled) +
-                       " kg filled in (powder.mass) within " +
+                   "in kg/s, would empty the " + base::ShortNumber(filled) + " kg filled in (" +
+                       filled_by + ") within " +
                        base::ShortNumber(rate ? filled / rate->Value() : 0, 2) +
-                       " s; write \"5 g/s\" for grams");
+                       " s; is it in grams a second (\"g/s\")?");
 }
 
 void RequirePlausible(BenchQuantity quantity, double value, const std::string& path,
@@ -174,7 +174,8 @@ struct RigChecker {
   void operator()(std::string_view, const Other&, const base::FieldInfo& = {}) {}
 };
 
-// What may be filled in at most [kg]: a searched mass is tried up to its largest.
+}  // namespace
+
 double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
   if (spec.parameters && spec.parameters->mass) {
     const auto& mass = *spec.parameters->mass;
@@ -182,8 +183,6 @@ double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment) {
   }
   return experiment.mass.value_or(0);
 }
-
-}  // namespace
 
 void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>& experiments,
                     base::Problems& problems) {
@@ -194,12 +193,12 @@ void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>&
     const Place place(spec.experiments ? "experiments[" + std::to_string(i) + "]" : "");
     RequirePossible(e.numbers, place(""), problems);
     CheckDensities(e.numbers, spec.powder.material.density, place, problems);
-    // One that could not be read is 0.
-    if (e.mass && *e.mass > 0) CheckMasses(e.numbers, *e.mass, place, problems);
     rigs::Powder powder = spec.powder;
     powder.mass = MostMass(spec, e);
     const bool own_mass = spec.experiments && (*spec.experiments)[i].mass;
     const std::string mass = own_mass ? place("mass") : "powder.mass";
+    // One that could not be read is 0.
+    if (powder.mass > 0) CheckMasses(e.numbers, powder.mass, mass, place, problems);
     const bool is_tube = !e.rig || e.rig->kind == rigs::RigKind::kLiftedTube;
     const bool own_device = spec.experiments && (*spec.experiments)[i].device;
     if (is_tube) CheckTube(*e.device, own_device ? place : Place(""), problems);

@@ -8,6 +8,10 @@
 
 namespace talus::campaign {
 
+// Filled in, at most: the largest that is searched, or the experiment's; 0 where that is not known
+// [kg].
+double MostMass(const CampaignSpec& spec, const ExperimentSpec& experiment);
+
 // Adds a problem for every quantity that cannot be, with the slip that is likely behind it.
 void CheckPlausible(const CampaignSpec& spec, const std::vector<ExperimentSpec>& experiments,
                     base::Problems& problems);

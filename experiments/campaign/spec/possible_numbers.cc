@@ -60,7 +60,7 @@ struct Checker {
     if (IsShort(degrees) && !IsShort(value)) {
       problems.Require(value <= most, place,
                        "is " + base::ShortNumber(degrees) + " deg, must be at most " +
-                           base::ShortNumber(most / kDegree, 2) + " deg");
+                           base::ShortNumber(most / kDegree, 4) + " deg");
       return;
     }
     problems.Require(value <= most, place, value,
@@ -72,8 +72,10 @@ struct Checker {
   // The scatter of values that are each possible tells of one in another unit.
   template <class Number>
   void RequireErrorOfAngle(const Number& number, const std::string& place) {
-    if (!number.values)
+    const bool has_scatter = number.values && number.values->size() > 1;
+    if (!has_scatter) {
       return RequireAngle(place + "sd", number.StandardError(), kLargestAngleError);
+    }
     const bool possible =
         std::ranges::all_of(*number.values, [](double value) { return value <= kSteepest; });
     const double error = number.StandardError();

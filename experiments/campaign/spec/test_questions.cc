@@ -121,6 +121,9 @@ std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
   DropCamera(kind, questions);
   for (const rigs::RigObservable& measured : rigs::EntryOf(rig_case).observables) {
     const rigs::ObservableInfo& info = rigs::InfoOf(measured.observable);
+    // A funnel's height is an option, that of its heap a number: a spec tells them apart.
+    const std::string key = info.key;
+    if (std::ranges::find(questions, key, &TestQuestion::key) != questions.end()) continue;
     questions.push_back({.key = info.key,
                          .words = std::string(info.title) + ", " + info.doc,
                          .part = TestPart::kNumber,
@@ -132,12 +135,16 @@ std::vector<TestQuestion> QuestionsOf(rigs::RigKind kind) {
   return questions;
 }
 
-bool HasError(const std::string& text) {
+std::string MeanOf(const std::string& text) {
   for (const std::string_view sign : kErrorSigns) {
-    if (text.find(sign) != std::string::npos) return true;
+    if (const std::size_t at = text.find(sign); at != std::string::npos) {
+      return std::string(base::Trimmed(text.substr(0, at)));
+    }
   }
-  return false;
+  return text;
 }
+
+bool HasError(const std::string& text) { return MeanOf(text) != text; }
 
 MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) {
   for (const std::string_view sign : kErrorSigns) {
@@ -145,8 +152,13 @@ MeasuredText SplitNumber(const TestQuestion& question, const std::string& text) 
     if (at == std::string::npos) continue;
     const MeasuredText measured{std::string(base::Trimmed(text.substr(0, at))),
                                 std::string(base::Trimmed(text.substr(at + sign.size())))};
-    base::ParseQuantity(measured.value, question.dimension);
-    base::ParseQuantity(measured.error, question.dimension);
+    for (const std::string& part : {measured.value, measured.error}) {
+      try {
+        base::ParseQuantity(part, question.dimension);
+      } catch (const base::ConfigError& error) {
+        throw base::ConfigError(question.key + ": " + error.what());
+      }
+    }
     return measured;
   }
   base::ParseQuantity(text, question.dimension);

@@ -39,6 +39,9 @@ struct MeasuredText {
 };
 MeasuredText SplitNumber(const TestQuestion& question, const std::string& text);
 
+// The answer without its error.
+std::string MeanOf(const std::string& text);
+
 // Whether an answer states its own error.
 bool HasError(const std::string& text);
 

@@ -94,6 +94,14 @@ TEST(SceneJson, BadSphereFilesAreNamedWithTheLine) {
   EXPECT_THAT(error("x_m,y_m,z_m,radius_m\n0,0,5,0.1\n"), HasSubstr("outside the domain"));
 }
 
+TEST(SceneJson, ATimeToHoldWithoutWhatIsHeldIsRefused) {
+  EXPECT_THAT(
+      ErrorOf(
+          R"({"materials": [{"name": "sand"}], "domain": {"low": [-1, -1, -1], "high": [1, 1, 1]},
+                  "stop": {"time": 1, "hold_time": "20 ms"}})"),
+      HasSubstr("stop.hold_time: is of energy_fraction"));
+}
+
 TEST(SceneJson, ReadsSpheresWallsAndUnits) {
   const Scene scene = LoadScene(Write(kPair)).scene;
   ASSERT_EQ(scene.particles.size(), 2u);
