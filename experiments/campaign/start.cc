@@ -166,7 +166,7 @@ void AddSimulations(journal::Journal& journal, int num_more, SpecChange& change)
   budget.simulations = from + num_more;
   budget.min_simulations = budget.simulations;
   budget.core_time.reset();  // it is counted in simulations from now on
-  change.event = change.event.empty() ? "extend" : change.event;
+  if (change.event.empty() || change.event == kMoved) change.event = "extend";
   change.words +=
       (change.words.empty() ? "by " : ", by ") + std::to_string(num_more) + " simulations";
 }

@@ -184,28 +184,31 @@ double MomentAboveAxis(const DrumMap& map) {
   return moment / (map.inner_radius * pixels);
 }
 
-// Share of powder along the rim within 30 degrees of its lowest point.
-double ShareAtLowestRim(const DrumMap& map) {
-  double powder = 0, pixels = 0;
-  for (int y = 0; y < map.image.height; ++y) {
-    for (int x = 0; x < map.image.width; ++x) {
+// Share of the photograph that is dark beyond the map's inner radius, within 30 degrees of the
+// lowest point; the ring itself is left out.
+double DarkBelow(const GrayImage& photo, const DrumMap& map, double middle) {
+  double dark = 0, pixels = 0;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
       const double radius = Radius(map.circle, x, y);
       const double down = y + 0.5 - map.circle.center_y;
-      if (down < std::cos(std::numbers::pi / 6) * radius || radius > map.inner_radius ||
-          radius < 0.85 * map.inner_radius)
+      if (radius < map.inner_radius || radius > 0.95 * map.circle.radius ||
+          down < std::cos(std::numbers::pi / 6) * radius) {
         continue;
+      }
       pixels += 1;
-      powder += (255 - map.image.at(x, y)) / 255.0;
+      if (photo.at(x, y) < middle) dark += 1;
     }
   }
-  return pixels > 0 ? powder / pixels : 0;
+  return pixels > 0 ? dark / pixels : 0;
 }
 
-// Gravity holds the powder below the axis, on average. A centrifuging one covers the whole rim, the
-// lowest part, too, however thick it is at the top.
-void RequirePowderBelow(const DrumMap& map, const std::string& name) {
+// Gravity holds the powder below the axis, on average. A centrifuging one covers the whole rim,
+// where it passes for a broad ring, and may be thicker at the top.
+void RequirePowderBelow(const GrayImage& photo, const DrumMap& map, const std::string& name) {
   constexpr double kMostAbove = 0.03;  // one full to 5 % and upside down has 0.036 at 35 degrees
-  if (!(MomentAboveAxis(map) > kMostAbove) || ShareAtLowestRim(map) > 0.9) return;
+  if (!(MomentAboveAxis(map) > kMostAbove)) return;
+  if (DarkBelow(photo, map, Levels(photo, map.circle, name).middle()) > 0.9) return;
   throw base::ConfigError(name +
                           ": the powder lies at the top of the drum: the picture is upside down, "
                           "or lit from the front, so that powder is bright; turn it, or take it "
@@ -246,7 +249,7 @@ MeasuredDrum MeasureDrum(const DrumPhotos& options) {
   const GrayImage mean = MeanImage(photos.images);
   const DrumCircle circle = FindDrumCircle(mean, name);
   drum.map = MapOf(mean, circle, name);
-  RequirePowderBelow(drum.map, name);
+  RequirePowderBelow(mean, drum.map, name);
   drum.pixel_size = options.diameter / (2 * circle.radius);
   drum.surface = MeasureSurface(drum.map);
   ReadTurning(options, drum);
