@@ -1,6 +1,8 @@
 // Folders of drawn photographs, and their experiments.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
