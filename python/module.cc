@@ -1,9 +1,11 @@
 // The C++ part of the Python module `talus`; python/talus/__init__.py is what users see.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "base/error.h"
 #include "base/version.h"
+#include "experiments/campaign/folder/campaign_folder.h"
 #include "experiments/trials/simulate/run_folder.h"
 #include "experiments/trials/simulate/simulate.h"
 #include "imaging/formats/images/image_file.h"
@@ -81,6 +83,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("__version__") = talus::base::Version();
   module.def("simulate", &talus::python::Simulate, py::arg("file"), py::arg("folder"),
              py::arg("fresh") = false);
+  module.def("is_worked_on", &talus::campaign::IsWorkedOn, py::arg("folder"));
   module.def("read_image", &talus::python::ReadImage, py::arg("file"));
   module.def("decode_image", &talus::python::DecodeImage, py::arg("bytes"));
   module.def("project", &talus::python::Project, py::arg("spheres"), py::arg("frame"),

@@ -11,6 +11,7 @@
 #include "base/files/file.h"
 #include "base/text/byte_order_mark.h"
 #include "base/text/printable.h"
+#include "base/trimmed.h"
 #include "engine/scene/scene_spec.h"
 
 namespace talus::engine {
@@ -28,11 +29,7 @@ std::vector<std::string_view> Parts(std::string_view text, char separator) {
   return parts;
 }
 
-std::string_view Trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\"") + 1 - first);
-}
+std::string_view Unquoted(std::string_view text) { return base::Trimmed(text, " \t\r\""); }
 
 class SphereTable {
  public:
@@ -44,7 +41,7 @@ class SphereTable {
     ReadTitles(lines.front());
     std::vector<SphereSpec> spheres;
     for (line_ = 1; line_ < lines.size(); ++line_) {
-      if (Trimmed(lines[line_]).empty()) continue;
+      if (Unquoted(lines[line_]).empty()) continue;
       spheres.push_back(Sphere(lines[line_]));
     }
     if (spheres.empty()) Refuse("has no spheres");
@@ -61,7 +58,7 @@ class SphereTable {
   }
 
   void ReadTitles(std::string_view line) {
-    for (const std::string_view title : Parts(line, ',')) titles_.emplace_back(Trimmed(title));
+    for (const std::string_view title : Parts(line, ',')) titles_.emplace_back(Unquoted(title));
     for (const std::string& title : titles_) {
       if (!title.empty() && std::count(titles_.begin(), titles_.end(), title) > 1) {
         Refuse("has the column " + base::Printable(title) + " twice");
@@ -115,7 +112,7 @@ class SphereTable {
   double Number(std::string_view title) const {
     const std::optional<std::size_t> column = Find(title);
     if (!column) return 0;
-    const std::string_view cell = Trimmed(cells_[*column]);
+    const std::string_view cell = Unquoted(cells_[*column]);
     double value = 0;
     const auto read = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (cell.empty() || read.ec != std::errc() || read.ptr != cell.data() + cell.size() ||

@@ -46,6 +46,11 @@ class ScalarFitter {
   // At least one evaluation.
   ScalarFit Fit(const History& history, bool deterministic, FitFor purpose);
 
+  // Whether the last fit is that of both purposes, as it always is under noise.
+  bool ServesBoth() const {
+    return milestone_.choices[0].delta_share == milestone_.choices[1].delta_share;
+  }
+
  private:
   struct Choice {
     double delta_share = 0;  // ValueTransform::delta / (median - least)

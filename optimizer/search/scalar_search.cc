@@ -145,7 +145,10 @@ Answer ScalarSearch::Recommend(const SearchRecord& record) {
   if (record.history().size() < 2) {
     return BestObserved(record.told(), record.domain(), "too few evaluations for a model");
   }
-  const ScalarFit fit = fitter_.Fit(record.history(), record.noise_free(), FitFor::kAnswer);
+  const ScalarFit& searched = Fit(record);
+  const ScalarFit fit = fitter_.ServesBoth()
+                            ? searched
+                            : fitter_.Fit(record.history(), record.noise_free(), FitFor::kAnswer);
   Answer answer = DescribeMinimum(ScalarModel(fit, kAnswerInflation), record.domain(), Best(record),
                                   {.seed = record.options().seed});
   const surrogate::Predictions left_out = fit.process.LeaveOneOut();

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/text/byte_order_mark.h"
+#include "base/trimmed.h"
 
 namespace talus::optimizer {
 namespace {
@@ -23,9 +24,7 @@ std::vector<std::string> Cells(const std::string& line, char separator) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
   for (std::string cell; std::getline(stream, cell, separator);) {
-    const auto first = cell.find_first_not_of(" \t\r\"");
-    const auto last = cell.find_last_not_of(" \t\r\"");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+    cells.emplace_back(base::Trimmed(cell, " \t\r\""));
     if (separator == ';') std::ranges::replace(cells.back(), ',', '.');
   }
   return cells;

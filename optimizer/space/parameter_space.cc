@@ -37,7 +37,7 @@ void CheckConstraint(const LinearConstraint& constraint, const std::vector<Param
 }
 
 // The centre of the cube where no guess is given, nothing when there is none at all.
-std::optional<Eigen::VectorXd> GuessOf(const ParameterSpace& space) {
+std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
   const std::vector<int> free = space.Free();
   Eigen::VectorXd point = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(free.size()), 0.5);
   bool any = false;
@@ -47,13 +47,8 @@ std::optional<Eigen::VectorXd> GuessOf(const ParameterSpace& space) {
     point[static_cast<Eigen::Index>(i)] = parameter.ToUnit(*parameter.guess);
     any = true;
   }
-  return any ? std::optional(point) : std::nullopt;
-}
-
-std::vector<Eigen::VectorXd> Guesses(const ParameterSpace& space) {
-  const auto point = GuessOf(space);
-  if (!point || !space.Satisfies(space.ToNative(*point))) return {};
-  return {*point};
+  if (!any || !space.Satisfies(space.ToNative(point))) return {};
+  return {point};
 }
 
 // Whether values that are all guessed or fixed break it, by more than rounding.

@@ -1,5 +1,4 @@
 """A campaign's folder as tables and arrays, and what can be asked of it."""
-import fcntl
 import html
 import json
 import numbers
@@ -9,7 +8,7 @@ import pathlib
 import sqlite3
 
 from . import program
-from ._core import ConfigError, decode_image
+from ._core import ConfigError, decode_image, is_worked_on
 from .plain import plain
 
 
@@ -79,21 +78,10 @@ class Campaign:
             return self._query("select state from campaign")[0][0]
 
         state = said()
-        if state != "running" or self._is_worked_on():
+        if state != "running" or is_worked_on(self.folder):
             return state
         state = said()  # it may have ended meanwhile
         return "interrupted" if state == "running" else state
-
-    def _is_worked_on(self):
-        """Whether a program has the campaign's lock: one that was killed has not."""
-        try:
-            with open(self.folder / "campaign.lock", "rb") as file:
-                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-        except OSError:  # no such file, or no locks there
-            return False
-        return False
 
     @property
     def spec(self):

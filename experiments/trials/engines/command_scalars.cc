@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/text/number_text.h"
+#include "base/trimmed.h"
 #include "experiments/rigs/observables/observable.h"
 
 namespace talus::trials {
@@ -47,9 +48,7 @@ void RequirePossible(const std::string& file, const std::vector<journal::MetricR
 }
 
 std::string Unquoted(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+  return std::string(base::Trimmed(text, " \t\r\""));
 }
 
 // Nobody can tell which of the two values is meant.

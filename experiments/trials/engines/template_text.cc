@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/trimmed.h"
 
 namespace talus::trials {
 namespace {
@@ -11,12 +12,6 @@ namespace {
 constexpr std::string_view kOpening = "{{";
 constexpr std::string_view kClosing = "}}";
 constexpr std::string_view kBlank = " \t\r";
-
-std::string_view Trim(std::string_view text) {
-  const std::size_t start = text.find_first_not_of(kBlank);
-  if (start == std::string_view::npos) return {};
-  return text.substr(start, text.find_last_not_of(kBlank) - start + 1);
-}
 
 bool IsName(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
@@ -45,7 +40,7 @@ TextTemplate::TextTemplate(std::string_view text, std::string file) : file_(std:
     if (end == std::string_view::npos) {
       throw base::ConfigError(file_ + ":" + std::to_string(line) + ": \"{{\" has no \"}}\"");
     }
-    AddTag(Trim(text.substr(kOpening.size(), end - kOpening.size())), line);
+    AddTag(base::Trimmed(text.substr(kOpening.size(), end - kOpening.size()), kBlank), line);
     text.remove_prefix(end + kClosing.size());
   }
   DropLinesOfLoneTags();
@@ -56,7 +51,7 @@ void TextTemplate::AddTag(std::string_view inner, int line) {
   Part tag{.kind = Kind::kValue, .text = {}, .line = line};
   if (inner.starts_with('#') || inner.starts_with('/')) {
     tag.kind = inner.front() == '#' ? Kind::kOpen : Kind::kClose;
-    inner = Trim(inner.substr(1));
+    inner = base::Trimmed(inner.substr(1), kBlank);
   }
   tag.text = inner;
   if (!IsName(inner)) {
@@ -75,9 +70,10 @@ void TextTemplate::DropLinesOfLoneTags() {
     const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 = 0
     const std::size_t line_end = after.find('\n');
     const bool first_of_line = line_start > 0 || i == 1;
-    if (!first_of_line || !Trim(std::string_view(before).substr(line_start)).empty() ||
+    if (!first_of_line ||
+        !base::Trimmed(std::string_view(before).substr(line_start), kBlank).empty() ||
         line_end == std::string::npos ||
-        !Trim(std::string_view(after).substr(0, line_end)).empty()) {
+        !base::Trimmed(std::string_view(after).substr(0, line_end), kBlank).empty()) {
       continue;
     }
     before.resize(line_start);

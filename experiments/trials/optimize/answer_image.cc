@@ -7,22 +7,19 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/text/number_text.h"
+#include "base/trimmed.h"
 #include "imaging/formats/images/image_file.h"
 
 namespace talus::trials {
 namespace {
 
-std::string_view Trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+constexpr std::string_view kBlanks = " \t\r";
 
 std::vector<double> Row(std::string_view line, const std::string& place) {
   std::vector<double> row;
   for (std::size_t start = 0; start <= line.size();) {
     const std::size_t end = std::min(line.find(',', start), line.size());
-    const std::string_view cell = Trimmed(line.substr(start, end - start));
+    const std::string_view cell = base::Trimmed(line.substr(start, end - start), kBlanks);
     double value = 0;
     const auto [last, code] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (code != std::errc() || last != cell.data() + cell.size()) {
@@ -41,7 +38,7 @@ AnswerImage FromCsv(const std::filesystem::path& path) {
   int number = 0;
   for (std::string line; std::getline(text, line);) {
     ++number;
-    if (Trimmed(line).empty()) continue;
+    if (base::Trimmed(line, kBlanks).empty()) continue;
     rows.push_back(Row(line, path.string() + ":" + std::to_string(number)));
   }
   return FromRows(rows, path.string());

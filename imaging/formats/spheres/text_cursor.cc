@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/trimmed.h"
 
 namespace talus::imaging {
 namespace {
@@ -105,10 +106,6 @@ std::vector<std::string_view> Words(std::string_view line) {
   return words;
 }
 
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t start = text.find_first_not_of(kSpace);
-  if (start == std::string_view::npos) return {};
-  return text.substr(start, text.find_last_not_of(kSpace) - start + 1);
-}
+std::string_view Trimmed(std::string_view text) { return base::Trimmed(text, kSpace); }
 
 }  // namespace talus::imaging
