@@ -127,7 +127,7 @@ MotionCheck SimulationState::Sweep() {
   const ForcesFunction forces = Forces();
   std::vector<Chunk>& chunks = list.chunks();
   team->Run([&](int member) {
-    const auto [begin, end] = team->ShareOf(member, static_cast<std::int64_t>(chunks.size()));
+    const auto [begin, end] = list.shares().Of(member);
     const std::int64_t moves_from = member == 0 ? 0 : std::min(begin + list.reach(), end);
     const Panel* last = begin < end ? &chunks[end - 1].panels.back() : nullptr;
     for (std::int64_t c = begin; c < end; ++c) {

@@ -18,6 +18,7 @@
 #include "engine/kernel/kernel.h"
 #include "engine/neighbor/pair_search.h"
 #include "engine/threads/team.h"
+#include "engine/threads/work_shares.h"
 
 namespace talus::engine {
 
@@ -69,6 +70,9 @@ class ContactList {
   const std::vector<Chunk>& chunks() const { return chunks_; }
   ListCounts counts() const { return counts_; }
 
+  // Which chunks each member of the team has.
+  const WorkShares& shares() const { return shares_; }
+
   // How many chunks after its own a chunk's pairs reach into, at most.
   std::int64_t reach() const { return reach_; }
   void SetCounts(const ListCounts& counts) { counts_ = counts; }
@@ -100,6 +104,7 @@ class ContactList {
   void SaveContacts(std::span<const std::int32_t> order, std::int64_t old_num, Team& team);
   static void CutPanels(Chunk& chunk);
   void CutChunks(std::int64_t num_particles);
+  void ShareChunks(const Team& team);
   void FindAll(const RebuildInput& input);
   void Find(const RebuildInput& input, Chunk& chunk, Scratch& scratch);
   void FindSpheres(const RebuildInput& input, const Panel& panel, Scratch& scratch);
@@ -110,6 +115,8 @@ class ContactList {
 
   PairSearch search_;
   std::vector<Chunk> chunks_;
+  std::vector<std::int64_t> work_;  // of each chunk, see WorkOf
+  WorkShares shares_;
   ListCounts counts_;
   std::vector<std::int32_t> new_of_old_;
   std::vector<std::int64_t> old_start_;  // of each particle's contacts in old_

@@ -45,6 +45,11 @@ class Milestone {
   std::condition_variable raised_;
 };
 
+// What a member does of things in a row.
+struct Share {
+  std::int64_t begin, end;
+};
+
 class Team {
  public:
   explicit Team(int size);
@@ -63,9 +68,6 @@ class Team {
   }
 
   // The member's part of `count` things in a row: the first member has the first ones.
-  struct Share {
-    std::int64_t begin, end;
-  };
   Share ShareOf(int member, std::int64_t count) const {
     return {count * member / size(), count * (member + 1) / size()};
   }
@@ -81,20 +83,6 @@ class Team {
       const Share share = ShareOf(member, num_units);
       const std::int64_t begin = unit * share.begin, end = std::min(unit * share.end, count);
       if (begin < end) part(begin, end);
-    });
-  }
-
-  // Calls visit(c) of the chunks 0 … num_chunks − 1, each member its own.
-  template <class Visit>
-  void ForChunks(std::int64_t num_chunks, const Visit& visit) {
-    constexpr std::int64_t kWorthSharing = 24;
-    const auto visit_all = [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t c = begin; c < end; ++c) visit(c);
-    };
-    if (num_chunks < kWorthSharing) return visit_all(0, num_chunks);
-    Run([&](int member) {
-      const Share share = ShareOf(member, num_chunks);
-      visit_all(share.begin, share.end);
     });
   }
 

@@ -5,6 +5,10 @@
 
 #include <chrono>
 #include <numeric>
+#include <random>
+#include <vector>
+
+#include "engine/threads/work_shares.h"
 
 namespace talus::engine {
 namespace team_test {
@@ -59,13 +63,38 @@ TEST_P(TeamOf, SharesFollowEachOtherAndDifferByOneAtMost) {
   for (const std::int64_t count : {0, 1, 4, 7, 24}) {
     std::int64_t end = 0;
     for (int member = 0; member < team.size(); ++member) {
-      const Team::Share share = team.ShareOf(member, count);
+      const Share share = team.ShareOf(member, count);
       EXPECT_EQ(share.begin, end);
       EXPECT_GE(share.end - share.begin, count / team.size());
       EXPECT_LE(share.end - share.begin, count / team.size() + 1);
       end = share.end;
     }
     EXPECT_EQ(end, count);
+  }
+}
+
+// No share is further from an equal part than half a chunk at each of its ends.
+TEST(WorkShares, FollowEachOtherAndHoldAboutAsMuchWork) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int64_t> any(1, 100);
+  WorkShares shares;
+  for (const int num_chunks : {0, 1, 5, 28, 128}) {
+    std::vector<std::int64_t> work(num_chunks);
+    for (std::int64_t& one : work) one = any(random);
+    const std::int64_t total = std::accumulate(work.begin(), work.end(), std::int64_t{0});
+    for (const int num_members : {1, 2, 3, 16}) {
+      shares.Cut(work, num_members);
+      std::int64_t end = 0;
+      for (int member = 0; member < num_members; ++member) {
+        const Share share = shares.Of(member);
+        EXPECT_EQ(share.begin, end);
+        end = share.end;
+        const auto held =
+            std::accumulate(work.begin() + share.begin, work.begin() + share.end, 0.0);
+        EXPECT_NEAR(held, static_cast<double>(total) / num_members, 100);
+      }
+      EXPECT_EQ(end, num_chunks);
+    }
   }
 }
 
